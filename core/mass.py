@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mass properties, derived from moments.
+
+Inertia is a tensor with entries I_xx = ∫(y²+z²)dm and I_xy = -∫xy dm. Principal moments are sums of covariance
+eigenvalues, I_1 = m(λ_2+λ_3), so that no moment exceeds the sum of the other two, by construction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .moments import SECOND, U, Moments, sum_moments
+from .pose import PrincipalFrame, principal_frame
+
+
+@dataclass(frozen=True, eq=False)
+class MassProperties:
+    """One body, or several as one.
+
+    mass; center (3,); inertia (3, 3) about the center; principal: the principal frame. All in one frame and unit.
+    error, input: {"mass", "center", "inertia"} absolute bounds, Euclidean for the center and Frobenius for the tensor
+        (so they hold for each entry and each principal moment): of rounding, and of float32 coordinates.
+    """
+
+    mass: float
+    center: NDArray[np.float64]
+    inertia: NDArray[np.float64]
+    principal: PrincipalFrame
+    error: dict[str, float]
+    input: dict[str, float]
+
+    @classmethod
+    def from_moments(cls, moments: Moments, density: float = 1.0, prefer: NDArray | None = None,
+                     refine: Callable[[], Moments] | None = None) -> MassProperties:
+        """From moments to order 3 of a body with constant density.
+
+        prefer, refine: as for `principal_frame`. ValueError where the body has no mass.
+        """
+        total = moments.raw[0]
+        if not total > moments.error[0]:
+            raise ValueError("the body has no volume")
+        frame = principal_frame(moments, prefer, refine)
+        shift = moments.raw[1:4] / total
+        second = density * (moments.raw[SECOND] - np.outer(moments.raw[1:4], shift))
+        inertia = np.trace(second) * np.eye(3) - second
+        return cls(
+            mass=float(density * total), center=moments.about + shift, inertia=inertia,
+            principal=replace(frame, moments=density * frame.moments),
+            error=_bounds(moments, density, moments.error, rounded=True),
+            input=_bounds(moments, density, moments.input, rounded=False))
+
+    def inertia_about(self, point: ArrayLike) -> NDArray[np.float64]:
+        """(3, 3) the tensor about another point, by the parallel-axis theorem."""
+        arm = np.asarray(point, np.float64) - self.center
+        return self.inertia + self.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+
+    @property
+    def radii_of_gyration(self) -> NDArray[np.float64]:
+        """(3,) sqrt(I/m) about the principal axes."""
+        return np.sqrt(self.principal.moments / self.mass)
+
+    def in_frame(self, rotation: NDArray, origin: NDArray) -> MassProperties:
+        """The same body in the frame whose axes are the columns of `rotation` and whose origin is `origin`."""
+        return replace(self, center=rotation.T @ (self.center - origin), inertia=rotation.T @ self.inertia @ rotation,
+                       principal=self.principal.turned(rotation.T))
+
+
+def combined(bodies: Sequence[tuple[Moments, float]], prefer: NDArray | None = None) -> MassProperties:
+    """Several bodies, (moments, density) each, as one."""
+    weighed = [replace(moments, of="mass") * density for moments, density in bodies]
+    return MassProperties.from_moments(sum_moments(weighed), prefer=prefer)
+
+
+def _bounds(moments: Moments, density: float, delta: NDArray, rounded: bool) -> dict[str, float]:
+    """First-order propagation with the divisor at its smallest: bounds of what moments off by `delta` change."""
+    total = moments.raw[0]
+    least = max(total - delta[0], np.finfo(float).tiny)
+    first, shift = np.abs(moments.raw[1:4]), np.abs(moments.raw[1:4]) / total
+    center = np.linalg.norm((delta[1:4] + shift * delta[0]) / least)
+    cross = np.outer(delta[1:4], shift)
+    second = delta[SECOND] + (cross + cross.T) * (total / least) + np.outer(shift, shift) * delta[0]
+    second = second + np.outer(delta[1:4], delta[1:4]) / least
+    if rounded:
+        center += 2.0 * U * np.linalg.norm(np.abs(moments.about) + 2.0 * shift)
+        second = second + 6.0 * U * (np.abs(moments.raw[SECOND]) + np.outer(first, shift))
+    inertia = np.linalg.norm(np.trace(second) * np.eye(3) + second)
+    return {"mass": float(abs(density) * (delta[0] + (U * total if rounded else 0.0))), "center": float(center),
+            "inertia": float(abs(density) * inertia)}

@@ -1,0 +1,58 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What one measured object is told as: the numbers, how they came about and how far they hold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .mass import MassProperties
+from .moments import Moments
+from .solid import Health
+
+
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """One object in SI units and world axes.
+
+    kind: "solid" or "shell"; method: "exact", "capped", "reoriented", "open", "shell" or "union".
+    density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area in m².
+    volume_moments: None for a shell; area_moments: to order 3 for a shell, else order 0.
+    rotation, location: (3, 3) and (3,) the object frame, its unit scale.
+    error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"
+        for what storing coordinates as float32 may have moved.
+    warnings: one sentence for each decision taken on the way.
+    fingerprint: of what the numbers were computed from.
+    """
+
+    name: str
+    type: str
+    kind: str
+    method: str
+    density: float
+    thickness: float
+    volume: float
+    area: float
+    mass_properties: MassProperties
+    volume_moments: Moments | None
+    area_moments: Moments
+    health: Health
+    warnings: tuple[str, ...]
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    error_bound: dict
+    fingerprint: str
+
+    def in_object_frame(self) -> MassProperties:
+        """The mass properties in the object's own frame."""
+        return self.mass_properties.in_frame(self.rotation, self.location)
+
+    @property
+    def mass_moments(self) -> tuple[Moments, float]:
+        """The moments that carry the mass, and the mass per unit of them."""
+        if self.volume_moments is None:
+            return self.area_moments, self.density * self.thickness
+        return self.volume_moments, self.density

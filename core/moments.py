@@ -1,0 +1,286 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Raw moments about a stated point: the one thing that every body becomes.
+
+raw[p,q,r] = ∫ (x-ox)^p (y-oy)^q (z-oz)^r d(of), positive integrals, p+q+r ≤ order. They add, they scale by a density
+and they map linearly under an affine map, so a sum of objects is a sum and an instance is a map. Two bounds go with
+every number and add and map as it does: `error`, what rounding (or a stated truncation) may have changed, and `input`,
+what storing coordinates as float32 may have changed.
+
+The affine law is Horner's scheme on the functional F[p,q,r] = ∫ x^p y^q z^r: multiplying the integrand by the linear
+form l(x) = t + a·x sends F to (lF)[α] = t F[α] + Σ_i a_i F[α+e_i], one order shorter; the moments of the image are
+(l0^p l1^q l2^r F)[0,0,0]. It works for any order and for many maps at once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+U = np.finfo(np.float64).eps / 2.0  # unit roundoff
+BLOCK = 1024  # maps at a time: their functionals stay in the cache
+SIMILARITY = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
+
+
+def monomial_count(order: int) -> int:
+    """The number of monomials in x, y, z of degree at most `order`."""
+    return (order + 1) * (order + 2) * (order + 3) // 6
+
+
+def index(p: int, q: int, r: int) -> int:
+    """Where raw[p,q,r] stands: graded by degree, within a degree by (q+r, r)."""
+    s = q + r
+    return monomial_count(p + s - 1) + s * (s + 1) // 2 + r
+
+
+@lru_cache
+def monomials(order: int) -> NDArray[np.int64]:
+    """(K, 3) the exponents (p, q, r) in storage order; read-only."""
+    rows = [(n - s, s - r, r) for n in range(order + 1) for s in range(n + 1) for r in range(s + 1)]
+    table = np.array(rows, np.int64)
+    table.flags.writeable = False
+    return table
+
+
+@lru_cache
+def _raised(order: int) -> tuple[NDArray[np.int64], ...]:
+    """For each monomial below `order`, where its product with x, with y and with z stands."""
+    lower = monomials(order - 1)
+    return tuple(np.array([index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int))
+
+
+SECOND = np.array([[index(*(np.eye(3, dtype=int)[[i, j]].sum(axis=0))) for j in range(3)] for i in range(3)])
+THIRD = np.array([[[index(*(np.eye(3, dtype=int)[[i, j, k]].sum(axis=0))) for k in range(3)]
+                   for j in range(3)] for i in range(3)])
+
+
+@dataclass(frozen=True, eq=False)
+class Moments:
+    """Moments of one body to some order.
+
+    raw: (K,) float64 in the order of `monomials`, unit^(dimension of `of` + degree).
+    about: (3,) the point they are taken about, in the same coordinates.
+    of: what they measure: "volume", "area" or "mass".
+    error: (K,) bound of |raw - exact| for the coordinates as given: rounding, and truncation where a source says so.
+    input: (K,) bound of the change when every coordinate moves by its float32 half ulp; zero for float64 sources.
+    """
+
+    raw: NDArray[np.float64]
+    about: NDArray[np.float64]
+    of: str = "volume"
+    error: NDArray[np.float64] = field(default=None)
+    input: NDArray[np.float64] = field(default=None)
+
+    def __post_init__(self) -> None:
+        if self.error is None:
+            object.__setattr__(self, "error", np.zeros_like(self.raw))
+        if self.input is None:
+            object.__setattr__(self, "input", np.zeros_like(self.raw))
+
+    @property
+    def order(self) -> int:
+        count, order = 1, 0
+        while count < len(self.raw):
+            order += 1
+            count = monomial_count(order)
+        return order
+
+    def __getitem__(self, exponents: tuple[int, int, int]) -> float:
+        return float(self.raw[index(*exponents)])
+
+    @property
+    def total(self) -> float:
+        """The volume, area or mass itself."""
+        return float(self.raw[0])
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """(3,) the centroid, in the coordinates of `about`. The total must not be zero."""
+        return self.about + self.raw[1:4] / self.raw[0]
+
+    def second(self) -> NDArray[np.float64]:
+        """(3, 3) the second moments about `about`."""
+        return self.raw[SECOND]
+
+    def third(self) -> NDArray[np.float64]:
+        """(3, 3, 3) the third moments about `about`."""
+        return self.raw[THIRD]
+
+    def truncated(self, order: int) -> Moments:
+        """The same moments to a lower order."""
+        k = monomial_count(order)
+        return replace(self, raw=self.raw[:k], error=self.error[:k], input=self.input[:k])
+
+    def __mul__(self, factor: float) -> Moments:
+        """Scaled by a constant: a density, a thickness, a sign."""
+        size = abs(factor)
+        return replace(self, raw=self.raw * factor, error=self.error * size + 2 * U * np.abs(self.raw) * size,
+                       input=self.input * size)
+
+    __rmul__ = __mul__
+
+    def __add__(self, other: Moments) -> Moments:
+        """Both bodies together, about the first one's point, to the lower of the two orders."""
+        return sum_moments([self, other.shifted(self.about)])
+
+    def shifted(self, point: ArrayLike) -> Moments:
+        """The same body about another point."""
+        point = np.asarray(point, np.float64)
+        if np.array_equal(point, self.about):
+            return self
+        body = replace(self, of="mass")  # nothing is stretched, whatever the body measures
+        return replace(map_sum(body, np.eye(4)[None], point), of=self.of)
+
+    def about_center(self) -> Moments:
+        """The central moments."""
+        return self.shifted(self.center)
+
+    def mapped(self, matrix: ArrayLike) -> Moments:
+        """The moments of the body's image under an affine map.
+
+        matrix: (4, 4), new = matrix[:3, :3] @ old + matrix[:3, 3]. The new `about` is the image of the old one.
+        Volume and mass follow any map, mass unchanged and volume by |det|. Areas follow a similarity only: ValueError
+        otherwise; what a float32 rotation lacks of a similarity goes into `input`.
+        """
+        matrix = np.asarray(matrix, np.float64)
+        return map_sum(self, matrix[None], matrix[:3, :3] @ self.about + matrix[:3, 3])
+
+
+def sum_moments(parts: Sequence[Moments]) -> Moments:
+    """Several bodies as one, about the first one's point and to the lowest of their orders. What they measure must
+    be the same."""
+    first = parts[0]
+    if any(part.of != first.of for part in parts):
+        raise ValueError("moments of different measures cannot be added")
+    order = min(part.order for part in parts)
+    parts = [part.truncated(order).shifted(first.about) for part in parts]
+    raws = np.array([part.raw for part in parts])
+    return Moments(
+        raw=raws.sum(axis=0), about=first.about, of=first.of,
+        error=sum(part.error for part in parts) + len(parts) * U * np.abs(raws).sum(axis=0),
+        input=sum(part.input for part in parts),
+    )
+
+
+def is_similarity(linear: NDArray) -> bool:
+    """Whether a 3x3 map is a rotation, reflection and uniform scale, as far as float32 matrices can be."""
+    return _stretch_deviation(np.asarray(linear, np.float64)[None])[0] <= SIMILARITY
+
+
+def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None) -> Moments:
+    """The images of one body under k affine maps, as one body: instances.
+
+    matrices: (k, 4, 4), as for `Moments.mapped`. about: (3,), by default the mean of the images of `moments.about`.
+    """
+    matrices = np.asarray(matrices, np.float64)
+    linear = matrices[:, :3, :3]
+    origins = np.einsum("kij,j->ki", linear, moments.about) + matrices[:, :3, 3]
+    about = origins.mean(axis=0) if about is None else np.asarray(about, np.float64)
+    raw, error, extra = np.zeros((3, len(moments.raw)))
+    for start in range(0, len(matrices), BLOCK):
+        part = slice(start, start + BLOCK)
+        weight, weight_error, deviation = _weights(moments.of, linear[part])
+        offset = origins[part] - about
+        raw += (_horner(moments.raw, moments.order, linear[part], offset) * weight).sum(axis=1)
+        # The images of the reference point are rounded, and the body moves with them.
+        stretch = np.abs(linear[part]).sum(axis=2).max(axis=1)
+        reach = np.abs(offset).max(axis=1)
+        slack = 6 * U * (np.abs(matrices[part, :3, 3]).max(axis=1) + np.abs(about).max()
+                         + stretch * np.abs(moments.about).max())
+        weight_error = weight_error + (len(matrices) + 6 * moments.order + 8) * U * weight
+        bounds = _bounds(moments, stretch, reach, slack, weight, weight_error, deviation)
+        error += bounds[0]
+        extra += bounds[1]
+    return Moments(raw, about, moments.of, error, extra)
+
+
+def _bounds(moments: Moments, stretch: NDArray, reach: NDArray, slack: NDArray, weight: NDArray,
+            weight_error: NDArray, deviation: NDArray) -> tuple[NDArray, NDArray]:
+    """(K,) and (K,) what `error`, with the rounding of the maps, and `input` become under k maps together.
+
+    By degree: where the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product
+    of n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest
+    of its degree. An offset that may be off by `slack` changes it by at most n slack times n-1 forms.
+    """
+    order = moments.order
+    degree = monomials(order).sum(axis=1)
+    starts = [monomial_count(n - 1) for n in range(order + 1)]
+    error, inputs = np.maximum.reduceat(moments.error, starts), np.maximum.reduceat(moments.input, starts)
+    size = np.maximum.reduceat(np.abs(moments.raw), starts) + error
+
+    def carried(factor: NDArray, reach: NDArray, *largest: NDArray) -> list[NDArray]:
+        powers = [[factor]]
+        for n in range(order):
+            powers.append([power * reach for power in powers[-1]] + [powers[-1][-1] * stretch])
+        sums = [[math.comb(n, j) * power.sum() for j, power in enumerate(row)] for n, row in enumerate(powers)]
+        return [np.array([np.dot(row, top[:len(row)]) for row in sums]) for top in largest]
+
+    rounding, mapped_input = carried(weight, reach, error, inputs)
+    rounding += carried(weight_error, reach, size)[0]
+    rounding[1:] += np.arange(1, order + 1) * carried(weight * slack, reach + slack, size)[0][:-1]
+    if deviation.any():
+        mapped_input += carried(weight * deviation, reach, size + inputs)[0]
+    return rounding[degree], mapped_input[degree]
+
+
+def _weights(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """(k,) the factor by which each map changes the measure, its rounding bound, and by how much the map fails to
+    have one factor."""
+    exact = np.zeros(len(linear))
+    if of == "mass":
+        return np.ones(len(linear)), exact, exact
+    a, b, c = linear[:, :, 0], linear[:, :, 1], linear[:, :, 2]
+    terms = [(a[:, i] * b[:, j] * c[:, k], a[:, i] * b[:, k] * c[:, j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
+    det = np.abs(sum(plus - minus for plus, minus in terms))
+    permanent = sum(np.abs(plus) + np.abs(minus) for plus, minus in terms)
+    if of == "volume":
+        return det, 8 * U * permanent, exact
+    deviation = _stretch_deviation(linear)
+    if np.any(deviation > SIMILARITY):
+        raise ValueError("areas change unevenly under a map that shears or scales unevenly: measure the mapped surface")
+    return np.cbrt(det) ** 2, 8 * U * np.cbrt(permanent) ** 2, deviation
+
+
+def _stretch_deviation(linear: NDArray) -> NDArray[np.float64]:
+    """(k,) by how much, relatively, each map stretches one direction more than another; infinite for a flat map."""
+    gram = np.einsum("kia,kib->kab", linear, linear)
+    mean = np.trace(gram, axis1=1, axis2=2) / 3.0
+    with np.errstate(invalid="ignore", divide="ignore"):
+        off = np.abs(gram / mean[:, None, None] - np.eye(3)).sum(axis=2).max(axis=1)
+    return np.where(np.isfinite(off), off, np.inf)
+
+
+def _horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
+    """(K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the (K,) functional, l_i the k linear forms."""
+    forms = [(offset[:, i], linear[:, i, 0], linear[:, i, 1], linear[:, i, 2]) for i in range(3)]
+    out = np.zeros((len(values), len(linear)))
+    by_p = np.broadcast_to(values[:, None], out.shape)
+    for p in range(order + 1):
+        by_q = by_p
+        for q in range(order - p + 1):
+            by_r = by_q
+            for r in range(order - p - q + 1):
+                out[index(p, q, r)] = by_r[0]
+                by_r = _times(forms[2], by_r, order - p - q - r)
+            by_q = _times(forms[1], by_q, order - p - q)
+        by_p = _times(forms[0], by_p, order - p)
+    return out
+
+
+def _times(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.float64]:
+    """The functional multiplied by a linear form, one order shorter; nothing is left below order 0."""
+    if not order:
+        return values[:0]
+    t, a, b, c = form
+    x, y, z = _raised(order)
+    image = t * values[:monomial_count(order - 1)]
+    for factor, raised in ((a, x), (b, y), (c, z)):
+        term = values.take(raised, axis=0)
+        term *= factor
+        image += term
+    return image

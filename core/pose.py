@@ -1,0 +1,187 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The principal frame of a body, made unique where the body allows it.
+
+The axes are the eigenvectors of the central second moments, largest first, so that axis 1 is the long axis (least
+inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third moments positive. Their rule fails on
+every body with a mirror plane, where M_300 is noise, so it is made robust: an axis is scored by its skewness, or where
+that is noise by the other third moments odd in that axis only; the two axes with the clearest scores turn positive and
+the third completes a right-handed frame. What is still free (equal moments, 180-degree symmetries) is the body's own
+freedom: there the frame nearest to the axes that the caller prefers is taken, and `note` says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .moments import SECOND, THIRD, Moments
+
+EQUAL = 1e-6  # moments closer than this, relatively, are equal
+SKEWED = 1e-6  # a normalised third moment below this is noise
+RANKED = 1e-4  # scores closer than this, relatively, are equally clear
+
+NOTES = {
+    "isotropic": "Every axis through the center is a principal axis; the object's own axes are used",
+    "prolate": "Axes 2 and 3 have equal moments; the directions nearest to the object's axes are used",
+    "oblate": "Axes 1 and 2 have equal moments; the directions nearest to the object's axes are used",
+    "asymmetric": "The body looks the same after half a turn; the directions nearest to the object's axes are used",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class PrincipalFrame:
+    """moments: (3,) principal moments of inertia, ascending. axes: (3, 3), the axes as columns, det +1.
+    symmetry: "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1 and 2 equal) or "isotropic".
+    unique: whether the body alone fixes the frame; otherwise `note` says what was chosen."""
+
+    moments: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    symmetry: str
+    unique: bool
+    note: str
+
+    @property
+    def quaternion(self) -> NDArray[np.float64]:
+        """(4,) w, x, y, z with w ≥ 0: the rotation whose matrix is `axes`, in double precision."""
+        m = self.axes
+        # Shepperd's method: 4 q qᵀ has no cancellation in the column of its largest diagonal entry.
+        outer = np.array([
+            [1 + m[0, 0] + m[1, 1] + m[2, 2], m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
+            [m[2, 1] - m[1, 2], 1 + m[0, 0] - m[1, 1] - m[2, 2], m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
+            [m[0, 2] - m[2, 0], m[0, 1] + m[1, 0], 1 - m[0, 0] + m[1, 1] - m[2, 2], m[1, 2] + m[2, 1]],
+            [m[1, 0] - m[0, 1], m[0, 2] + m[2, 0], m[1, 2] + m[2, 1], 1 - m[0, 0] - m[1, 1] + m[2, 2]]])
+        column = outer[:, np.argmax(np.diag(outer))]
+        column = column / np.linalg.norm(column)
+        return (column if column[0] >= 0.0 else -column) + 0.0
+
+    def turned(self, rotation: NDArray) -> PrincipalFrame:
+        """The same frame in coordinates new = rotation @ old."""
+        return replace(self, axes=rotation @ self.axes)
+
+
+def principal_frame(moments: Moments, prefer: NDArray | None = None,
+                    refine: Callable[[], Moments] | None = None) -> PrincipalFrame:
+    """The principal frame of a body with positive total.
+
+    moments: to order 3. prefer: (3, 3) rotation whose columns are the axes to stay near to, by default the
+    coordinate axes. refine: gives the moments with exact third order; called where their bounds do not decide.
+    """
+    prefer = np.eye(3) if prefer is None else np.asarray(prefer, np.float64)
+    total = moments.raw[0]
+    shift = moments.raw[1:4] / total
+    second = moments.raw[SECOND] / total - np.outer(shift, shift)
+    scale = np.trace(second) or 1.0  # keeps eigh clear of overflow and denormals
+    spread, vectors = np.linalg.eigh(second / scale)
+    spread, axes = np.maximum(spread[::-1], 0.0), vectors[:, ::-1]  # covariances are never negative
+
+    # What the float32 coordinates leave undecided is no more than the body's thinness lets them move the volume.
+    relative_input = moments.input[0] / total
+    rounding = 4.0 * moments.error[SECOND].max() / (total * scale) + 8.0 * np.finfo(float).eps
+    gaps = np.array([spread[0] - spread[1], spread[1] - spread[2]])
+    equal = gaps <= (EQUAL + 2.0 * relative_input) * spread[:2] + rounding
+    symmetry = ("isotropic" if equal.all() else "oblate" if equal[0] else "prolate" if equal[1] else "asymmetric")
+
+    free = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}[symmetry]
+    scores = np.zeros(3)
+    if len(free) < 3:
+        scores = _scores(moments, shift, spread * scale, axes, free, SKEWED + 4.0 * relative_input, refine)
+    axes, decided = _oriented(axes, scores, free, prefer)
+    unique = not free and decided
+    return PrincipalFrame(
+        moments=(spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total), axes=axes, symmetry=symmetry,
+        unique=unique, note="" if unique else NOTES[symmetry])
+
+
+def _scores(moments: Moments, shift: NDArray, spread: NDArray, axes: NDArray, free: tuple[int, ...],
+            noise: float, refine: Callable[[], Moments] | None) -> NDArray[np.float64]:
+    """(3,) how clearly third moments point along each axis, signed; zero where they do not, and for free axes."""
+    scores, doubt = _third_scores(moments, shift, spread, axes)
+    fixed = [i for i in range(3) if i not in free]
+    if refine is not None and not _decided(np.abs(scores[fixed]), doubt[fixed], noise):
+        scores, doubt = _third_scores(refine(), shift, spread, axes)
+    result = np.zeros(3)
+    for i in fixed:
+        usable = [value for value, error in zip(scores[i], doubt[i]) if abs(value) > noise + error]
+        result[i] = usable[0] if usable else 0.0
+    return result
+
+
+def _decided(size: NDArray, doubt: NDArray, noise: float) -> bool:
+    """Whether better third moments could neither change which scores count, nor their signs, nor their order."""
+    clear = (size - doubt > noise) & (doubt < 1e-3 * size)
+    below = size + doubt <= noise
+    if not (clear[:, 0] | (clear | below).all(axis=1)).all():
+        return False
+    last = np.argsort(size[:, 0])[:2]  # only which of three scores is the last one matters
+    return len(size) < 3 or size[last[1], 0] - size[last[0], 0] > 2.0 * doubt[last, 0].sum()
+
+
+def _third_scores(moments: Moments, shift: NDArray, spread: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
+    """(3, 3) for each axis i its skewness and the two normalised third moments odd in i and even in another axis,
+    M_iii, M_ijj and M_ikk; and the bounds of their errors."""
+    total = moments.raw[0]
+    second, third = moments.raw[SECOND] / total, moments.raw[THIRD] / total
+    outer = np.outer(shift, shift)
+    cross = shift[:, None, None] * second
+    third = third - cross - cross.transpose(1, 0, 2) - cross.transpose(1, 2, 0) + 2.0 * shift[:, None, None] * outer
+    turned = np.einsum("abc,ai->ibc", third, axes)
+    size = np.sqrt(np.maximum(spread, np.finfo(float).tiny))
+    scores, doubt = np.zeros((2, 3, 3))
+    error = 3.0 * (moments.error[THIRD].max() / total + np.abs(shift).max() * moments.error[SECOND].max() / total)
+    for i in range(3):
+        for column, j in enumerate((i, (i + 1) % 3, (i + 2) % 3)):
+            unit = size[i] * size[j] ** 2
+            scores[i, column] = axes[:, j] @ turned[i] @ axes[:, j] / unit
+            doubt[i, column] = 3.0 * np.sqrt(3.0) * error / unit
+    return scores, doubt
+
+
+def _oriented(axes: NDArray, scores: NDArray, free: tuple[int, ...], prefer: NDArray) -> tuple[NDArray, bool]:
+    """The right-handed frame that the scores fix, and whether they fix all of its signs."""
+    if len(free) == 3:
+        return prefer.copy(), False
+    size = np.abs(scores)
+    fixed = [i for i in range(3) if scores[i]]
+    if len(fixed) == 3:  # the weakest gives way; of equal ones the last
+        fixed.remove(max(i for i in fixed if size[i] <= size.min() * (1.0 + RANKED)))
+    parity = np.sign(np.linalg.det(axes))
+    candidates = [_settled(axes * signs, free, prefer) for signs in product((1.0, -1.0), repeat=3)
+                  if parity * np.prod(signs) > 0.0 and all(scores[i] * signs[i] > 0.0 for i in fixed)]
+    return _nearest(candidates, prefer), len(fixed) == 2
+
+
+def _settled(frame: NDArray, free: tuple[int, ...], prefer: NDArray) -> NDArray[np.float64]:
+    """The frame with its two free axes, if any, turned nearest to the preferred ones."""
+    if not free:
+        return frame
+    first, second = free
+    fixed = frame[:, 3 - first - second]
+    # (first, second, fixed) is right-handed for both pairs: maximise first·p1 + (fixed x first)·p2 over the plane.
+    wish = prefer[:, first] + np.cross(prefer[:, second], fixed)
+    wish = wish - fixed * (fixed @ wish)
+    if np.linalg.norm(wish) < 1e-6:  # half a turn away: any direction is as near; take the one along a preferred axis
+        wish = prefer[:, np.argmin(np.abs(fixed @ prefer))]
+        wish = wish - fixed * (fixed @ wish)
+    settled = frame.copy()
+    settled[:, first] = wish / np.linalg.norm(wish)
+    settled[:, second] = np.cross(fixed, settled[:, first])
+    return settled
+
+
+def _nearest(candidates: list[NDArray], prefer: NDArray) -> NDArray[np.float64]:
+    """The frame with the smallest turn from the preferred one. Where several are as near, the one whose axes, in
+    order, point along rather than against their preferred axes, so that noise cannot flip it."""
+    local = [prefer.T @ frame for frame in candidates]
+    best = max(np.trace(frame) for frame in local)
+    near = [i for i, frame in enumerate(local) if np.trace(frame) > best - 1e-6]
+
+    def along(i: int) -> list[bool]:
+        columns = np.abs(local[i]) > np.abs(local[i]).max(axis=0) - 1e-6
+        return [bool(local[i][np.argmax(columns[:, axis]), axis] > 0.0) for axis in range(3)]
+
+    return candidates[max(near, key=along)] + 0.0  # no negative zeros

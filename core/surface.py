@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The polygons of one body as arrays: what every reader makes and every measurement starts from.
+
+Quads stay quads, because two triangles that share a diagonal cost less than two loose ones. They are cut along
+the diagonal that Blender draws, so that the body measured is the body seen.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+NO_TRIANGLES = np.empty((0, 3), np.int32)
+NO_QUADS = np.empty((0, 4), np.int32)
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Triangles and quads over shared points, outward faces counter-clockwise.
+
+    points: (n, 3) float32 or float64, in the surface's own coordinates and unit.
+    triangles: (m, 3) vertex indices, the triangular faces and Blender's tessellation of n-gons.
+    quads: (q, 4) vertex indices in corner order; cut as `flipped_quads` says.
+    triangle_faces, quad_faces: the mesh face each one belongs to; None where face i is simply row i.
+    corner_vertices, corner_edges, edges: (c,), (c,), (e, 2), the mesh's own corners and edges. They prove closedness
+        without sorting; None where the source has none.
+    """
+
+    points: NDArray[np.floating]
+    triangles: NDArray[np.integer] = NO_TRIANGLES
+    quads: NDArray[np.integer] = NO_QUADS
+    triangle_faces: NDArray[np.integer] | None = None
+    quad_faces: NDArray[np.integer] | None = None
+    corner_vertices: NDArray[np.integer] | None = None
+    corner_edges: NDArray[np.integer] | None = None
+    edges: NDArray[np.integer] | None = None
+
+    @property
+    def coordinate_error(self) -> NDArray[np.float64]:
+        """(3,) half an ulp of the largest float32 coordinate on each axis: what storing the points may have moved
+        them by. Zero for float64 points."""
+        if self.points.dtype != np.float32 or not len(self.points):
+            return np.zeros(3)
+        largest = np.maximum(self.points.max(axis=0), -self.points.min(axis=0))
+        return np.spacing(largest).astype(np.float64) / 2.0
+
+    def mapped(self, linear: NDArray, offset: NDArray = np.zeros(3)) -> Surface:
+        """The surface with points `linear @ x + offset` in float64. A mirroring map turns the faces' winding, so
+        that outward stays outward; the diagonals stay where Blender drew them."""
+        linear = np.asarray(linear, np.float64)
+        x, y, z = self.points.T.astype(np.float64)
+        points = np.stack([a[0] * x + a[1] * y + a[2] * z + t for a, t in zip(linear, offset)], axis=1)
+        triangles, faces = self.all_triangles()
+        if np.linalg.det(linear) < 0.0:
+            triangles = triangles[:, ::-1]
+        return replace(self, points=points, triangles=triangles, triangle_faces=faces, quads=NO_QUADS, quad_faces=None)
+
+    def all_triangles(self) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+        """(m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of each."""
+        faces = np.arange(len(self.triangles)) if self.triangle_faces is None else self.triangle_faces
+        if not len(self.quads):
+            return self.triangles, faces
+        quads = np.where(flipped_quads(self.points, self.quads)[:, None], np.roll(self.quads, -1, axis=1), self.quads)
+        cut = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+        quad_faces = np.arange(len(quads)) if self.quad_faces is None else self.quad_faces
+        return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
+
+
+def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
+    """(q,) whether Blender cuts the quad from its second corner to its fourth instead of first to third.
+
+    Blender's own rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast):
+    it flips where the normals of the two triangles at the first diagonal face away from each other.
+    """
+    a, b, c, d = (points.astype(np.float32, copy=False)[quads[:, i]] for i in range(4))
+    first, second, diagonal = b - a, d - a, c - a
+    with np.errstate(over="ignore", invalid="ignore"):
+        return _dot(_cross(first, diagonal), _cross(second, diagonal)) > 0.0
+
+
+def _cross(u: NDArray, v: NDArray) -> NDArray:
+    return np.stack([
+        u[:, 1] * v[:, 2] - u[:, 2] * v[:, 1],
+        u[:, 2] * v[:, 0] - u[:, 0] * v[:, 2],
+        u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0],
+    ], axis=1)
+
+
+def _dot(u: NDArray, v: NDArray) -> NDArray:
+    return u[:, 0] * v[:, 0] + u[:, 1] * v[:, 1] + u[:, 2] * v[:, 2]

@@ -1,0 +1,100 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mass properties against closed forms and rational arithmetic."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from body_moments.core.mass import MassProperties, combined
+from body_moments.core.moments import Moments, monomials, sum_moments
+
+
+def box(low, high):
+    raw = [np.prod([(high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1) for i, n in enumerate(row)])
+           for row in monomials(3).tolist()]
+    return Moments(np.array(raw), np.zeros(3))
+
+
+L_PRISM = sum_moments([box((0, 0, 0), (3, 1, 1)), box((0, 1, 0), (1, 3, 1))])
+
+
+def test_an_l_prism_has_the_closed_form_and_the_sign_of_its_product():
+    body = MassProperties.from_moments(L_PRISM, 1.0)
+    assert body.mass == pytest.approx(5.0, rel=1e-15)
+    assert np.allclose(body.center, (1.1, 1.1, 0.5), rtol=1e-15)
+    assert np.allclose(body.inertia, [[121 / 30, 1.8, 0], [1.8, 121 / 30, 0], [0, 0, 217 / 30]], rtol=1e-14, atol=1e-14)
+    assert np.allclose(body.principal.moments, (67 / 30, 175 / 30, 217 / 30), rtol=1e-14)
+
+
+def test_density_scales_mass_and_inertia_and_leaves_the_center():
+    light, heavy = MassProperties.from_moments(L_PRISM, 1.0), MassProperties.from_moments(L_PRISM, 7850.0)
+    assert heavy.mass == pytest.approx(7850 * light.mass)
+    assert np.allclose(heavy.inertia, 7850 * light.inertia)
+    assert np.allclose(heavy.center, light.center)
+    assert np.allclose(heavy.radii_of_gyration, light.radii_of_gyration)
+    assert heavy.error["inertia"] == pytest.approx(7850 * light.error["inertia"])
+
+
+def test_the_parallel_axis_theorem_holds():
+    body = MassProperties.from_moments(box((0, 0, 0), (1, 2, 3)), 2.0)
+    # About its corner: I_xx = m (b² + c²) / 3, I_xy = -m a b / 4.
+    assert np.allclose(body.inertia_about((0, 0, 0)),
+                       12 * np.array([[13 / 3, -2 / 4, -3 / 4], [-2 / 4, 10 / 3, -6 / 4], [-3 / 4, -6 / 4, 5 / 3]]))
+
+
+def test_a_frame_turns_center_tensor_and_axes_together():
+    rotation = np.array([[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]])
+    body = MassProperties.from_moments(L_PRISM)
+    local = body.in_frame(rotation, np.array([1.0, 2.0, 3.0]))
+    assert np.allclose(rotation @ local.center + (1, 2, 3), body.center)
+    assert np.allclose(rotation @ local.inertia @ rotation.T, body.inertia)
+    assert np.allclose(rotation @ local.principal.axes, body.principal.axes)
+    axes = local.principal.axes
+    assert np.allclose(axes.T @ local.inertia @ axes, np.diag(local.principal.moments), atol=1e-14)
+
+
+def test_two_halves_are_the_whole():
+    whole = MassProperties.from_moments(box((0, 0, 0), (2, 1, 3)), 500.0)
+    halves = combined([(box((0, 0, 0), (1, 1, 3)), 500.0), (box((1, 0, 0), (2, 1, 3)), 500.0)])
+    assert halves.mass == pytest.approx(whole.mass, rel=1e-15)
+    assert np.allclose(halves.center, whole.center, rtol=1e-15)
+    assert np.allclose(halves.inertia, whole.inertia, rtol=1e-14)
+
+
+def test_different_densities_combine_by_mass():
+    total = combined([(box((0, 0, 0), (1, 1, 1)), 1000.0), (box((1, 0, 0), (2, 1, 1)), 3000.0)])
+    assert total.mass == pytest.approx(4000.0)
+    assert np.allclose(total.center, (1.25, 0.5, 0.5))
+
+
+@pytest.mark.parametrize("shape", [(1, 2, 3), (1, 1, 1e-9), (1e-9, 2e-9, 3e-9), (1e6, 1e6, 2e6)])
+def test_a_body_without_volume_is_refused_and_a_thin_or_tiny_one_is_not(shape):
+    assert MassProperties.from_moments(box((0, 0, 0), shape)).mass == pytest.approx(np.prod(shape))
+    with pytest.raises(ValueError, match="no volume"):
+        MassProperties.from_moments(Moments(np.zeros(20), np.zeros(3)))
+
+
+def test_the_bounds_hold_against_rationals_for_perturbed_moments():
+    rng = np.random.default_rng(0)
+    low, high = (0.5, -1.0, 2.0), (1.5, 1.0, 4.0)
+    exact = [Fraction(1)] * 20
+    for k, row in enumerate(monomials(3).tolist()):
+        for i, n in enumerate(row):
+            exact[k] *= (Fraction(high[i]) ** (n + 1) - Fraction(low[i]) ** (n + 1)) / (n + 1)
+    mass = exact[0]
+    center = [x / mass for x in exact[1:4]]
+    second = {(0, 0): 4, (0, 1): 5, (0, 2): 6, (1, 1): 7, (1, 2): 8, (2, 2): 9}
+    central = {key: exact[k] - center[key[0]] * center[key[1]] * mass for key, k in second.items()}
+    inertia = {(i, j): (sum(central[k, k] for k in range(3)) - central[i, i]) if i == j else -central[i, j]
+               for i, j in central}
+    for _ in range(200):
+        delta = np.array([float(x) for x in exact]) * rng.uniform(0, 1e-6, 20)
+        off = delta * rng.uniform(-1, 1, 20)
+        body = MassProperties.from_moments(
+            Moments(np.array([float(x) for x in exact]) + off, np.zeros(3), error=np.abs(delta)))
+        assert abs(body.mass - float(mass)) <= body.error["mass"]
+        assert np.linalg.norm(body.center - [float(x) for x in center]) <= body.error["center"]
+        assert all(abs(body.inertia[key] - float(value)) <= body.error["inertia"] for key, value in inertia.items())
+        assert body.error["inertia"] < 1e-3 * np.trace(body.inertia)

@@ -1,0 +1,181 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments add, scale and map exactly; their bounds hold. The oracle is rational arithmetic on boxes and simplices."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from body_moments.core.moments import (
+    Moments,
+    index,
+    is_similarity,
+    map_sum,
+    monomial_count,
+    monomials,
+    sum_moments,
+)
+
+ORDER = 4
+
+
+def box_moments(low, high, order=ORDER, about=(0, 0, 0)):
+    """Exact: the product of one-dimensional integrals."""
+    def one(i, n):
+        a, b = Fraction(low[i]) - Fraction(about[i]), Fraction(high[i]) - Fraction(about[i])
+        return (b ** (n + 1) - a ** (n + 1)) / (n + 1)
+    return [one(0, p) * one(1, q) * one(2, r) for p, q, r in monomials(order).tolist()]
+
+
+def simplex_moments(order=ORDER):
+    """Exact: p! q! r! / (p+q+r+3)! over the unit simplex."""
+    f = math.factorial
+    return [Fraction(f(p) * f(q) * f(r), f(p + q + r + 3)) for p, q, r in monomials(order).tolist()]
+
+
+def mapped_exactly(exact, matrix, about, order=ORDER):
+    """The image of exact moments (about 0) under an affine map, by expanding the polynomials term by term."""
+    linear = [[Fraction(float(x)) for x in row] for row in np.asarray(matrix)[:3, :3]]
+    offset = [Fraction(float(t)) - Fraction(float(o)) for t, o in zip(np.asarray(matrix)[:3, 3], about)]
+    det = sum(linear[0][i] * (linear[1][(i + 1) % 3] * linear[2][(i + 2) % 3]
+                              - linear[1][(i + 2) % 3] * linear[2][(i + 1) % 3]) for i in range(3))
+
+    def times(polynomial, i):
+        out = {}
+        for key, value in polynomial.items():
+            for axis in range(4):
+                factor = offset[i] if axis == 3 else linear[i][axis]
+                new = tuple(k + (a == axis) for a, k in enumerate(key))
+                out[new] = out.get(new, 0) + value * factor
+        return out
+
+    image = []
+    for powers in monomials(order).tolist():
+        polynomial = {(0, 0, 0): Fraction(1)}
+        for i, n in enumerate(powers):
+            for _ in range(n):
+                polynomial = times(polynomial, i)
+        image.append(abs(det) * sum(value * exact[index(*key)] for key, value in polynomial.items()))
+    return image
+
+
+def floats(exact, about=(0, 0, 0), of="volume"):
+    return Moments(np.array([float(x) for x in exact]), np.array(about, float), of,
+                   error=np.array([float(abs(Fraction(float(x)) - x)) for x in exact]))
+
+
+def assert_within_bound(moments, exact):
+    off = [abs(Fraction(float(value)) - true) for value, true in zip(moments.raw, exact)]
+    assert all(delta <= Fraction(float(bound)) for delta, bound in zip(off, moments.error))
+
+
+def test_monomials_are_stored_where_index_says():
+    table = monomials(6)
+    assert len(table) == monomial_count(6) == 84
+    assert [index(*row) for row in table.tolist()] == list(range(84))
+    assert table[:10].tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [2, 0, 0], [1, 1, 0], [1, 0, 1],
+                                   [0, 2, 0], [0, 1, 1], [0, 0, 2]]
+
+
+def test_tensors_are_symmetric_and_hold_each_moment():
+    body = floats(simplex_moments())
+    assert body.second()[0, 1] == body.second()[1, 0] == body[1, 1, 0]
+    assert body.third()[0, 1, 2] == body.third()[2, 1, 0] == body[1, 1, 1]
+    assert body.third()[2, 2, 0] == body[1, 0, 2]
+
+
+MAPS = {
+    "rotation": [[0.6, -0.8, 0, 3], [0.8, 0.6, 0, -2], [0, 0, 1, 1]],
+    "mirror": [[-1, 0, 0, 0.5], [0, 1, 0, 0], [0, 0, 1, 0]],
+    "shear": [[1, 0.75, 0, 0], [0, 1, -0.3, 0], [0, 0, 1, 2]],
+    "uneven": [[2, 0, 0, 0], [0, 0.1, 0, 0], [0, 0, 30, 0]],
+    "flat": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0]],
+    "far": [[1, 0, 0, 1e6], [0, 1, 0, -2e6], [0, 0, 1, 3e6]],
+    "tiny": [[1e-9, 0, 0, 1e-9], [0, 1e-9, 0, 0], [0, 0, 1e-9, 0]],
+    "random": np.random.default_rng(5).normal(size=(3, 4)).tolist(),
+}
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_an_affine_map_is_exact_within_its_bound(name):
+    matrix = np.vstack([MAPS[name], [0, 0, 0, 1]])
+    exact = simplex_moments()
+    image = floats(exact).mapped(matrix)
+    assert np.array_equal(image.about, matrix[:3, 3])
+    true = mapped_exactly(exact, matrix, image.about)
+    assert_within_bound(image, true)
+    # Not vacuous: what a few roundings of the positions and of the largest moment amount to.
+    assert image.error.max() <= 1e-14 * (np.abs(matrix).max() + 1.0) * max(np.abs(image.raw).max(), 1e-40)
+
+
+def test_a_shift_follows_the_binomial_theorem_and_comes_back():
+    exact = box_moments((0, 0, 0), (1, 2, 3))
+    body = floats(exact).shifted((0.5, 1, 1.5))
+    assert_within_bound(body, box_moments((0, 0, 0), (1, 2, 3), about=(0.5, 1, 1.5)))
+    assert_within_bound(body.shifted((0, 0, 0)), exact)
+    assert np.allclose(body.about_center().raw[1:4], 0, atol=1e-15)
+
+
+def test_bodies_add_whatever_points_they_are_about():
+    left = floats(box_moments((0, 0, 0), (1, 1, 1), about=(5, 5, 5)), about=(5, 5, 5))
+    right = floats(box_moments((1, 0, 0), (2, 1, 1)))
+    whole = box_moments((0, 0, 0), (2, 1, 1), about=(5, 5, 5))
+    assert_within_bound(left + right, whole)
+    assert_within_bound(sum_moments([left, right]), whole)
+    assert np.array_equal((left + right).about, (5, 5, 5))
+
+
+def test_instances_are_the_sum_of_their_maps():
+    rng = np.random.default_rng(1)
+    matrices = np.tile(np.eye(4), (1500, 1, 1))  # more than one block of maps
+    matrices[:, :3] += rng.normal(size=(1500, 3, 4))
+    exact = simplex_moments(3)
+    total = map_sum(floats(exact), matrices)
+    true = [sum(column) for column in zip(*(mapped_exactly(exact, m, total.about, 3) for m in matrices))]
+    total = total.truncated(3)
+    assert_within_bound(total, true)
+    assert np.allclose(total.raw, [float(x) for x in true], rtol=1e-13, atol=1e-9 * abs(total.raw).max())
+
+
+def test_scaling_by_a_density_scales_the_bounds():
+    body = floats(simplex_moments())
+    heavy = body * 7850.0
+    assert_within_bound(heavy, [7850 * x for x in simplex_moments()])
+    assert (3.0 * body)[0, 0, 0] == (body * 3.0)[0, 0, 0]
+
+
+def test_areas_follow_similarities_only():
+    area = Moments(np.ones(10), np.zeros(3), "area")
+    doubled = area.mapped(np.diag([2.0, -2.0, 2.0, 1.0]))
+    assert doubled.total == pytest.approx(4.0, rel=1e-15)
+    with pytest.raises(ValueError, match="unevenly"):
+        area.mapped(np.diag([2.0, 1.0, 1.0, 1.0]))
+    assert is_similarity(np.diag([3.0, 3.0, -3.0])) and not is_similarity(np.diag([1.0, 1.0, 1.001]))
+    assert not is_similarity(np.zeros((3, 3)))
+
+
+def test_what_a_float32_rotation_lacks_of_a_similarity_is_in_the_input_bound():
+    c, s = np.float32(0.6), np.float32(0.8)
+    matrix = np.diag([1.0, 1.0, 1.0, 1.0])
+    matrix[:2, :2] = [[c, -s], [s, c]]
+    image = Moments(np.array([1.0, 0, 0, 0]), np.zeros(3), "area").mapped(matrix)
+    assert 1e-9 < image.input[0] < 1e-6
+
+
+def test_input_bounds_map_with_the_body():
+    body = Moments(np.array([1.0, 0, 0, 0]), np.zeros(3), input=np.array([1e-7, 2e-7, 2e-7, 2e-7]))
+    image = body.mapped([[2, 0, 0, 10], [0, 2, 0, 0], [0, 0, 2, 0], [0, 0, 0, 1]])
+    assert image.input[0] == pytest.approx(8e-7)
+    assert image.shifted((0, 0, 0)).input[1] >= 10 * 8e-7
+
+
+def test_different_measures_do_not_add():
+    with pytest.raises(ValueError, match="different measures"):
+        sum_moments([Moments(np.ones(1), np.zeros(3)), Moments(np.ones(1), np.zeros(3), "area")])
+
+
+@pytest.mark.parametrize("order", range(6))
+def test_the_order_follows_from_the_number_of_moments(order):
+    assert Moments(np.zeros(monomial_count(order)), np.zeros(3)).order == order

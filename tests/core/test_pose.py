@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The principal frame is right-handed, ordered, and the same however the body lies; what a symmetry leaves free is
+taken nearest to the preferred axes and said."""
+
+import numpy as np
+import pytest
+
+from body_moments.core.moments import Moments, monomials, sum_moments
+from body_moments.core.pose import principal_frame
+
+
+def box(low, high):
+    """Moments to order 3 of a box, about the origin."""
+    raw = [np.prod([(high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1) for i, n in enumerate(row)])
+           for row in monomials(3).tolist()]
+    return Moments(np.array(raw), np.zeros(3))
+
+
+def random_motion(rng, mirrored=False):
+    rotation, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    if (np.linalg.det(rotation) < 0) != mirrored:
+        rotation[:, 0] *= -1
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation
+    matrix[:3, 3] = rng.normal(size=3) * 10
+    return matrix
+
+
+def tetrahedron():
+    """A generic tetrahedron: the unit simplex under a shear, all products of inertia different (Tonon 2004's kind)."""
+    import math
+    f = math.factorial
+    raw = [f(p) * f(q) * f(r) / f(p + q + r + 3) for p, q, r in monomials(3).tolist()]
+    return Moments(np.array(raw), np.zeros(3)).mapped([[1, 0.3, -0.2, 0], [0.1, 2, 0.5, 0], [0.4, 0, 3, 0], [0, 0, 0, 1]])
+
+
+UNIQUE = {
+    "tetrahedron": tetrahedron(),
+    "three boxes": sum_moments([box((0, 0, 0), (4, 1, 1)), box((0, 1, 0), (1, 3, 1)), box((0, 0, 1), (1, 1, 2.5))]),
+    "unequal L prism": sum_moments([box((0, 0, 0), (3, 1, 1)), box((0, 1, 0), (1, 4, 1))]),
+}
+
+
+@pytest.mark.parametrize("name", UNIQUE)
+def test_the_frame_turns_with_the_body(name):
+    body = UNIQUE[name]
+    rng = np.random.default_rng(3)
+    first = principal_frame(body)
+    assert first.unique and not first.note and first.symmetry == "asymmetric"
+    for _ in range(100):
+        motion = random_motion(rng)
+        frame = principal_frame(body.mapped(motion), prefer=random_motion(rng)[:3, :3])
+        assert np.allclose(motion[:3, :3].T @ frame.axes, first.axes, atol=1e-9)
+        assert np.allclose(frame.moments, first.moments, rtol=1e-12)
+
+
+def test_the_frame_is_right_handed_ascending_and_diagonalises_the_tensor():
+    rng = np.random.default_rng(4)
+    for body in UNIQUE.values():
+        image = body.mapped(random_motion(rng, mirrored=True))
+        frame = principal_frame(image)
+        assert np.linalg.det(frame.axes) == pytest.approx(1.0, abs=1e-12)
+        assert (np.diff(frame.moments) > 0).all()
+        central = image.about_center().second()
+        tensor = np.trace(central) * np.eye(3) - central
+        assert np.allclose(frame.axes.T @ tensor @ frame.axes, np.diag(frame.moments), atol=1e-12 * frame.moments.max())
+
+
+def test_two_mirror_images_have_mirrored_frames_but_both_are_right_handed():
+    body = UNIQUE["tetrahedron"]
+    frame, mirrored = principal_frame(body), principal_frame(body.mapped(np.diag([-1.0, 1.0, 1.0, 1.0])))
+    reflected = np.diag([-1.0, 1.0, 1.0]) @ frame.axes
+    same = [np.allclose(mirrored.axes[:, i], reflected[:, i], atol=1e-9) for i in range(3)]
+    assert sum(same) == 2  # the weakest axis gives way to handedness
+
+
+def test_the_two_clearest_axes_have_positive_third_moments():
+    for body in UNIQUE.values():
+        frame = principal_frame(body)
+        third = np.einsum("abc,ai,bi,ci->i", body.about_center().third(), *[frame.axes] * 3)
+        scores = third / (body.total * np.diag(frame.axes.T @ body.about_center().second() @ frame.axes / body.total) ** 1.5)
+        clearest = np.argsort(np.abs(scores))[1:]
+        assert (scores[clearest] > 0).all() or np.abs(scores[clearest]).min() < 1e-6
+
+
+def test_a_cube_takes_the_preferred_axes():
+    rng = np.random.default_rng(0)
+    prefer = random_motion(rng)[:3, :3]
+    frame = principal_frame(box((0, 0, 0), (1, 1, 1)), prefer)
+    assert frame.symmetry == "isotropic" and not frame.unique and "object's own axes" in frame.note
+    assert np.allclose(frame.axes, prefer)
+    assert np.allclose(frame.moments, 1 / 6)
+
+
+@pytest.mark.parametrize("size, symmetry, distinct", [((1, 1, 2), "prolate", 0), ((2, 2, 1), "oblate", 2)])
+def test_free_axes_stay_nearest_to_the_preferred_ones(size, symmetry, distinct):
+    rng = np.random.default_rng(0)
+    for _ in range(20):
+        prefer = random_motion(rng)[:3, :3]
+        frame = principal_frame(box((0, 0, 0), size), prefer)
+        assert frame.symmetry == symmetry and not frame.unique
+        assert abs(frame.axes[2, distinct]) == pytest.approx(1.0, abs=1e-12)
+        nearest = np.trace(prefer.T @ frame.axes)
+        for angle in rng.uniform(0, 2 * np.pi, 50):  # no other allowed frame is nearer
+            c, s = np.cos(angle), np.sin(angle)
+            turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+            for flip in (np.eye(3), np.diag([1.0, -1.0, -1.0])):
+                assert np.trace(prefer.T @ turn @ flip @ frame.axes) <= nearest + 1e-9
+
+
+def test_a_box_has_four_equal_poses_and_takes_the_nearest():
+    body = box((0, 0, 0), (3, 2, 1))
+    frame = principal_frame(body)
+    assert frame.symmetry == "asymmetric" and not frame.unique and "half a turn" in frame.note
+    assert np.allclose(frame.axes, np.eye(3))
+    turned = principal_frame(body, prefer=np.diag([-1.0, -1.0, 1.0]))
+    assert np.allclose(turned.axes, np.diag([-1.0, -1.0, 1.0]))
+
+
+def test_noise_does_not_flip_the_frame_of_a_symmetric_body():
+    rng = np.random.default_rng(0)
+    body = box((0, 0, 0), (1, 2, 3))  # the long axis is z: no candidate is nearest by trace alone
+    first = principal_frame(body).axes
+    for _ in range(50):
+        noisy = Moments(body.raw * (1 + rng.normal(size=20) * 1e-13), body.about)
+        assert np.allclose(principal_frame(noisy).axes, first, atol=1e-6)
+
+
+def test_a_thin_needle_keeps_its_cross_section_apart():
+    assert principal_frame(box((0, 0, 0), (1, 1e-3, 2e-3))).symmetry == "asymmetric"
+    assert principal_frame(box((0, 0, 0), (1, 1e-3, 1e-3))).symmetry == "prolate"
+
+
+def test_a_lamina_keeps_the_triangle_inequality():
+    frame = principal_frame(box((0, 0, 0), (1, 2, 1e-12)))
+    a, b, c = frame.moments
+    assert a + b >= c > 0
+
+
+def test_doubtful_third_moments_are_refined_and_only_then():
+    body = UNIQUE["tetrahedron"]
+    doubt = np.zeros(20)
+    doubt[10:] = np.abs(body.raw[10:]).max()
+    asked = []
+
+    def refine():
+        asked.append(True)
+        return body
+
+    rough = Moments(body.raw * np.where(doubt > 0, -1.0, 1.0), body.about, error=doubt)
+    assert np.allclose(principal_frame(rough, refine=refine).axes, principal_frame(body).axes)
+    assert asked
+    asked.clear()
+    principal_frame(body, refine=refine)
+    cube = box((0, 0, 0), (1, 1, 1))
+    principal_frame(Moments(cube.raw, cube.about, error=np.where(np.arange(20) > 9, 1.0, 0.0)), refine=refine)
+    assert not asked
+
+
+def test_the_quaternion_is_the_rotation():
+    rng = np.random.default_rng(1)
+    body = UNIQUE["tetrahedron"]
+    for _ in range(50):
+        frame = principal_frame(body.mapped(random_motion(rng)))
+        w, x, y, z = frame.quaternion
+        rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                             [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+        assert w >= 0 and np.allclose(rotation, frame.axes, atol=1e-14)
