@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Registering adds everything, unregistering removes it all, a failure leaves nothing."""
+
+import sys
+
+import bpy
+import pytest
+
+body_moments = sys.modules["body_moments"]
+
+
+def footprint() -> dict[str, set]:
+    """Everything that an add-on can leave in Blender and that Blender lets us list."""
+    types = {
+        name: kind for name in dir(bpy.types) if isinstance(kind := getattr(bpy.types, name), type)
+    }
+    properties, menus = set(), set()
+    for type_name, kind in types.items():
+        if rna := getattr(kind, "bl_rna", None):
+            properties |= {(type_name, key) for key in rna.properties.keys()}  # noqa: SIM118
+        for function in getattr(getattr(kind, "draw", None), "_draw_funcs", ()):
+            menus.add((type_name, f"{function.__module__}.{function.__qualname__}"))
+    handlers = {
+        (name, function.__module__, function.__qualname__)
+        for name in dir(bpy.app.handlers)
+        if isinstance(functions := getattr(bpy.app.handlers, name), list)
+        for function in functions
+    }
+    keymaps = {
+        (keymap.name, item.idname)
+        for config in bpy.context.window_manager.keyconfigs
+        for keymap in config.keymaps
+        for item in keymap.keymap_items
+    }
+    return {
+        "types": set(types),
+        "properties": properties,
+        "menus": menus,
+        "handlers": handlers,
+        "keymaps": keymaps,
+    }
+
+
+def ours(before: dict[str, set]) -> set:
+    return footprint()["types"] - before["types"]
+
+
+@pytest.fixture
+def before():
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    return footprint()
+
+
+def test_unregistering_removes_everything_and_registering_again_works(before):
+    body_moments.register()
+    first = footprint()
+    body_moments.unregister()
+    assert footprint() == before
+    body_moments.register()
+    assert footprint() == first
+    body_moments.unregister()
+    assert footprint() == before
+
+
+def test_registering_adds_the_operators_and_the_settings(before):
+    body_moments.register()
+    try:
+        assert "OBJECT_OT_body_moments_measure" in ours(before)
+        assert bpy.types.Object.bl_rna.properties["body_moments"].type == "POINTER"
+        assert bpy.types.Scene.bl_rna.properties["body_moments"].type == "POINTER"
+    finally:
+        body_moments.unregister()
+
+
+def test_classes_are_unregistered_in_reverse(before, monkeypatch):
+    added, removed = [], []
+    register, unregister = bpy.utils.register_class, bpy.utils.unregister_class
+    monkeypatch.setattr(bpy.utils, "register_class", lambda cls: (added.append(cls), register(cls)))
+    monkeypatch.setattr(
+        bpy.utils, "unregister_class", lambda cls: (removed.append(cls), unregister(cls))
+    )
+    body_moments.register()
+    body_moments.unregister()
+    assert removed == added[::-1]
+
+
+def test_a_failure_half_way_rises_and_leaves_nothing_registered(before, monkeypatch):
+    from body_moments import panels
+
+    def fail():
+        raise RuntimeError("no panels today")
+
+    monkeypatch.setattr(panels, "register", fail)
+    with pytest.raises(RuntimeError, match="no panels today"):
+        body_moments.register()
+    assert footprint() == before
+
+
+def test_every_operator_says_what_it_does(before):
+    body_moments.register()
+    try:
+        operators = [
+            getattr(bpy.types, name)
+            for name in ours(before)
+            if issubclass(getattr(bpy.types, name), bpy.types.Operator)
+        ]
+        assert operators
+        for operator in operators:
+            assert "body_moments" in operator.bl_idname
+            assert operator.bl_label
+            tooltip = getattr(operator, "bl_description", "") or operator.__doc__
+            assert tooltip, operator.bl_idname
+            assert not tooltip.endswith("."), operator.bl_idname
+    finally:
+        body_moments.unregister()
+
+
+def test_every_property_says_what_it_is(before):
+    body_moments.register()
+    try:
+        for name in ours(before):
+            kind = getattr(bpy.types, name)
+            if issubclass(kind, bpy.types.Operator):
+                module, _, function = kind.bl_idname.partition(".")
+                rna = getattr(getattr(bpy.ops, module), function).get_rna_type()
+            elif issubclass(kind, bpy.types.PropertyGroup):
+                rna = kind.bl_rna
+            else:
+                continue
+            for key in kind.__annotations__:
+                property = rna.properties[key]
+                assert property.description or property.is_hidden, f"{name}.{key}"
+    finally:
+        body_moments.unregister()

@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A real Blender into which the built zip is installed; without one the tests are skipped."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.package import extension
+from tests.window import harness
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+CUBE = """\
+import bpy, sys
+bpy.ops.wm.read_homefile(use_factory_startup=True)
+cube = bpy.data.objects["Cube"]
+cube.location = (1.0, 2.0, 3.0)
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
+"""
+
+
+@pytest.fixture(scope="session")
+def blender() -> str:
+    """The command of a real Blender."""
+    command = harness.blender_command()
+    if command is None:
+        pytest.skip("no real Blender: put one on the PATH or name it with the variable BLENDER")
+    return command
+
+
+@pytest.fixture(scope="session")
+def run_blender(blender, tmp_path_factory):
+    """Runs Blender without a window, in a user folder into which the built zip was installed."""
+    user = tmp_path_factory.mktemp("user")
+
+    def run(*arguments, check: bool = True) -> subprocess.CompletedProcess:
+        done = subprocess.run(
+            [blender, *map(str, arguments)],
+            env={**os.environ, "BLENDER_USER_RESOURCES": str(user)},
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            encoding="utf-8",
+            errors="replace",
+            timeout=300,
+        )
+        assert not check or done.returncode == 0, f"{done.stdout}\n{done.stderr}"
+        return done
+
+    archive = extension.build(ROOT, tmp_path_factory.mktemp("dist"))
+    install = ("--command", "extension", "install-file", "--repo", "user_default", "--enable")
+    run("--background", *install, archive)
+    run.blender, run.user = blender, user
+    return run
+
+
+@pytest.fixture(scope="session")
+def cube_file(run_blender, tmp_path_factory) -> Path:
+    """A file with Blender's cube, edges of 2 m, away from the origin."""
+    folder = tmp_path_factory.mktemp("files")
+    script, file = folder / "cube.py", folder / "cube.blend"
+    script.write_text(CUBE, encoding="utf-8")
+    run_blender("--background", "--python-exit-code", "1", "--python", script, "--", file)
+    return file
+
+
+@pytest.fixture(scope="module")
+def window(run_blender, cube_file, tmp_path_factory):
+    """Blender's window with the cube in it."""
+    if missing := harness.missing_tools():
+        pytest.skip("no screen for Blender's window: {} not found".format(", ".join(missing)))
+    artefacts = ROOT / "tests" / "window" / "artefacts"
+    artefacts.mkdir(exist_ok=True)
+    log = tmp_path_factory.mktemp("log") / "blender.log"
+    with harness.Window(run_blender.blender, run_blender.user, cube_file, log, artefacts) as opened:
+        yield opened

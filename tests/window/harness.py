@@ -1,0 +1,239 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A real Blender with its window on a screen of its own, hands to use it and eyes to see it.
+
+`Window` starts Xvfb, Blender on it, and presses keys and buttons with xdotool, as a person does;
+what came of it is asked from inside Blender (inside.py), and scrot takes pictures. Nothing waits
+for a fixed time: drawing in software is slow, so everything polls until what it waits for is so.
+"""
+
+import contextlib
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+WIDTH, HEIGHT = 1600, 1000
+START_LIMIT = 120.0  # seconds until Blender's window answers
+STEP_LIMIT = 30.0  # seconds until what was pressed has happened
+PAGES = 3  # how far down the sidebar a button is looked for
+TOOLS = ("Xvfb", "xdotool", "scrot")
+
+
+def blender_command() -> str | None:
+    """The real Blender: the variable BLENDER, else the one on the PATH."""
+    return os.environ.get("BLENDER") or shutil.which("blender")
+
+
+def missing_tools() -> list[str]:
+    return [tool for tool in TOOLS if shutil.which(tool) is None]
+
+
+class Window:
+    """A running Blender with its window; use it in a `with`.
+
+    Positions are pixels from the lower left corner of the window, as Blender counts them.
+    """
+
+    def __init__(self, blender: str, user: Path, file: Path, log: Path, artefacts: Path):
+        self.blender, self.file, self.log, self.artefacts = blender, file, log, artefacts
+        self.environment = {**os.environ, "BLENDER_USER_RESOURCES": str(user)}
+        self.environment["LIBGL_ALWAYS_SOFTWARE"] = "1"
+        self.questions = 0
+        self.buttons: dict[str, tuple[float, float]] = {}  # where they were found last
+
+    def __enter__(self):
+        with contextlib.ExitStack() as stack:
+            self.mailbox = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+            self._start_screen(stack)
+            self._start_blender(stack)
+            self.closing = stack.pop_all()
+        return self
+
+    def __exit__(self, *_):
+        self.closing.close()
+
+    def _start_screen(self, stack: contextlib.ExitStack) -> None:
+        reading, writing = os.pipe()
+        screen = ["Xvfb", "-displayfd", str(writing), "-nolisten", "tcp"]
+        screen += ["-screen", "0", f"{WIDTH}x{HEIGHT}x24"]
+        server = subprocess.Popen(screen, pass_fds=[writing], stderr=subprocess.DEVNULL)
+        stack.callback(_end, server)
+        os.close(writing)
+        with os.fdopen(reading) as pipe:  # Xvfb writes the number when it is ready
+            self.environment["DISPLAY"] = f":{pipe.readline().strip()}"
+
+    def _start_blender(self, stack: contextlib.ExitStack) -> None:
+        script = Path(__file__).with_name("inside.py")
+        command = [self.blender, "-p", "0", "0", str(WIDTH), str(HEIGHT), str(self.file)]
+        command += ["--python", str(script), "--", str(self.mailbox)]
+        output = stack.enter_context(self.log.open("w", encoding="utf-8"))
+        self.process = subprocess.Popen(
+            command,
+            env=self.environment,
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+        )
+        stack.callback(_end, self.process)
+        self.ask("pass", limit=START_LIMIT)
+
+    def output(self) -> str:
+        """What Blender has printed so far; an error in a panel's draw is told nowhere else."""
+        return self.log.read_text(encoding="utf-8", errors="replace")
+
+    # questions
+
+    def ask(self, source: str, limit: float = STEP_LIMIT):
+        """Run source inside Blender and return what it leaves in `result`."""
+        self.questions += 1
+        request = self.mailbox / f"{self.questions:06d}.request"
+        partial = request.with_suffix(".writing")
+        partial.write_text(source, encoding="utf-8")
+        partial.rename(request)
+        reply = request.with_suffix(".reply")
+        end = time.monotonic() + limit
+        while not reply.exists():
+            if self.process.poll() is not None:
+                raise RuntimeError(f"Blender ended ({self.process.returncode})\n{self.output()}")
+            if time.monotonic() > end:
+                raise TimeoutError(f"no answer in {limit} s to:\n{source}\n{self.output()}")
+            time.sleep(0.02)
+        answer = json.loads(reply.read_text(encoding="utf-8"))
+        if "error" in answer:
+            raise RuntimeError(f"{source}\n{answer['error']}")
+        return answer["result"]
+
+    def get(self, expression: str):
+        return self.ask(f"result = {expression}")
+
+    def wait(self, expression: str, limit: float = STEP_LIMIT):
+        """Poll an expression inside Blender until it is true, and return it."""
+        end = time.monotonic() + limit
+        while not (value := self.get(expression)):
+            if time.monotonic() > end:
+                self.picture("timeout")
+                raise TimeoutError(f"not true after {limit} s: {expression}\n{self.output()}")
+            time.sleep(0.1)
+        return value
+
+    # hands
+
+    def _xdotool(self, *words) -> None:
+        subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, timeout=60)
+
+    def move(self, x: float, y: float) -> None:
+        """Put the pointer there; the small step before lets Blender notice where it is."""
+        top = HEIGHT - 1 - y
+        self._xdotool("mousemove", round(x) - 2, round(top), "mousemove", round(x), round(top))
+
+    def click(self, x: float, y: float) -> None:
+        self.move(x, y)
+        self.get("True")  # an answer comes after the move was handled
+        self._xdotool("click", 1)
+
+    def key(self, keys: str) -> None:
+        self._xdotool("key", keys)
+
+    def type(self, *keys: str) -> None:
+        """Press keys one after the other, each after the one before was handled."""
+        for keys_together in keys:
+            self.key(keys_together)
+            self.get("True")
+
+    def redraw(self) -> None:
+        """Return after everything on the screen has been drawn anew."""
+        self.ask("bpy.ops.wm.redraw_timer(type='DRAW_WIN_SWAP', iterations=1)")
+
+    # places
+
+    def region(self, kind: str) -> tuple[int, int, int, int]:
+        """x, y, width and height of a region of the 3D View."""
+        source = "r = regions[{!r}]\nresult = [r.x, r.y, r.width, r.height]".format(kind)
+        return tuple(self.ask(source))
+
+    def point_at_view(self) -> None:
+        """Put the pointer where nothing is but the 3D View."""
+        x, y, width, height = self.region("WINDOW")
+        self.move(x + width * 0.3, y + height * 0.2)
+
+    def open_tab(self, name: str) -> None:
+        """Open the sidebar with the key for it and bring a tab to the front."""
+        if not self.get("area.spaces.active.show_region_ui"):
+            self.point_at_view()
+            self.key("n")
+            self.wait("area.spaces.active.show_region_ui")
+        self.wait("regions['UI'].width > 100")
+        # a tab is known only once it has been drawn, and setting one that is not known raises
+        change = (
+            f"try:\n    regions['UI'].active_panel_category = {name!r}\nexcept TypeError:\n    pass"
+        )
+        end = time.monotonic() + STEP_LIMIT
+        while self.get("regions['UI'].active_panel_category") != name:
+            if time.monotonic() > end:
+                self.picture("no-tab")
+                raise TimeoutError(f"the sidebar has no tab {name}\n{self.output()}")
+            self.ask(change + "\nregions['UI'].tag_redraw()")
+            time.sleep(0.1)
+
+    def press(self, operator: str) -> None:
+        """Click the button of an operator in the sidebar, after scrolling to it if need be."""
+        place = self.buttons.get(operator)
+        if place is None or self._button_at(*place) != operator:
+            place = self._find_button(operator)
+        self.click(*place)
+
+    def _button_at(self, x: float, y: float) -> str | None:
+        """The operator of the button there.
+
+        Blender tells no positions of buttons, but Ctrl C over one copies its command.
+        """
+        self.ask("bpy.context.window_manager.clipboard = '-'")
+        self.move(x, y)
+        self.get("True")
+        self.key("ctrl+c")
+        for _ in range(4):
+            copied = self.get("bpy.context.window_manager.clipboard")
+            if copied.startswith("bpy.ops."):
+                return copied.removeprefix("bpy.ops.").partition("(")[0]
+        return None
+
+    def _find_button(self, operator: str) -> tuple[float, float]:
+        """Go down the sidebar in steps smaller than a button, then a page further, and so on."""
+        x, y, width, height = self.region("UI")
+        column = width - 20  # the tabs' labels are on the right
+        self.buttons.clear()
+        for page in range(PAGES):
+            for down in range(30 if page == 0 else 8, height, 14):
+                for share in (0.25, 0.75):
+                    place = (x + column * share, y + height - down)
+                    found = self._button_at(*place)
+                    if found == operator:
+                        self.buttons[operator] = place
+                        return place
+            self.move(x + column / 2, y + height / 2)
+            for _ in range(8):
+                self._xdotool("click", 5)  # the wheel
+            self.get("True")
+        self.picture("no-button")
+        raise LookupError(f"no button for {operator} in the sidebar\n{self.output()}")
+
+    # eyes
+
+    def picture(self, name: str) -> Path:
+        """A picture of the screen, kept in the folder of artefacts."""
+        path = self.artefacts / f"{name}.png"
+        subprocess.run(["scrot", "-o", str(path)], env=self.environment, check=True, timeout=60)
+        return path
+
+
+def _end(process: subprocess.Popen) -> None:
+    process.terminate()
+    try:
+        process.wait(10)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()

@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a person does first: open the tab, press Measure, look, change their mind.
+
+The tests run in the order of the file and go on from one another, as the person does.
+"""
+
+import pytest
+
+CUBE = "bpy.data.objects['Cube']"
+PLACE = f"list({CUBE}.location)"
+PACKAGE = "bl_ext.user_default.body_moments"
+STALE = f"sys.modules['{PACKAGE}.operators.staleness'].reason({CUBE}, bpy.context.scene)"
+
+
+def test_the_sidebar_has_the_tab(window):
+    window.open_tab("Moments")
+    window.picture("1-tab")
+
+
+def test_the_measure_button_measures_what_is_selected(window):
+    assert window.get(f"'body_volume' in {CUBE}") is False
+    window.press("object.body_moments_measure")
+    window.wait(f"'body_volume' in {CUBE}")
+    window.picture("2-measured")
+    assert window.get(f"{CUBE}['body_volume']") == pytest.approx(8.0, rel=1e-12)
+    assert window.get(f"{CUBE}['body_mass']") == pytest.approx(8000.0, rel=1e-12)
+    assert window.get(f"{CUBE}['body_method']") == "exact"
+    assert window.get(f"list({CUBE}['body_center_of_mass'])") == pytest.approx([0.0] * 3, abs=1e-12)
+
+
+def test_fresh_numbers_are_not_called_out_of_date(window):
+    window.point_at_view()
+    window.redraw()
+    assert window.ask(f"import sys\nresult = {STALE}") == ""
+
+
+def test_undo_takes_the_numbers_away_and_redo_brings_them_back(window):
+    window.point_at_view()
+    window.key("ctrl+z")
+    window.wait(f"'body_volume' not in {CUBE}")
+    window.picture("3-undone")
+    window.key("ctrl+shift+z")
+    window.wait(f"'body_volume' in {CUBE}")
+
+
+def test_the_report_is_copied(window):
+    window.press("object.body_moments_copy_report")
+    window.wait("'Cube' in bpy.context.window_manager.clipboard")
+    assert "8000" in window.get("bpy.context.window_manager.clipboard")
+
+
+def test_moving_the_object_puts_its_numbers_out_of_date(window):
+    window.point_at_view()
+    window.type("g", "x", "1", "Return")
+    window.wait(f"{PLACE} == [2.0, 2.0, 3.0]")
+    window.redraw()
+    window.picture("4-moved")
+    assert window.ask(f"import sys\nresult = {STALE}") == "Transform Changed"
+
+
+def test_the_origin_goes_to_the_center_of_mass_and_the_body_stays(window):
+    corners = f"sorted(list({CUBE}.matrix_world @ v.co) for v in {CUBE}.data.vertices)"
+    window.ask(
+        "from mathutils import Matrix\n"
+        f"{CUBE}.data.transform(Matrix.Translation((0.5, 0.25, 0.0)))\n"
+        f"{CUBE}.data.update()"
+    )
+    before = window.get(corners)
+    window.press("object.body_moments_origin_to_center")
+    window.wait(f"{PLACE} == [2.5, 2.25, 3.0]")
+    window.picture("5-origin")
+    for corner, moved in zip(window.get(corners), before, strict=True):
+        assert corner == pytest.approx(moved, abs=1e-6)
+    window.point_at_view()
+    window.key("ctrl+z")
+    window.wait(f"{PLACE} == [2.0, 2.0, 3.0]")
+
+
+def test_nothing_went_wrong_while_the_panel_was_drawn(window):
+    assert "Traceback" not in window.output()
+    assert "Error" not in window.output()
