@@ -8,7 +8,7 @@ the diagonal that Blender draws, so that the body measured is the body seen.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,8 +30,8 @@ class Surface:
     """
 
     points: NDArray[np.floating]
-    triangles: NDArray[np.integer] = NO_TRIANGLES
-    quads: NDArray[np.integer] = NO_QUADS
+    triangles: NDArray[np.integer] = field(default_factory=lambda: NO_TRIANGLES)
+    quads: NDArray[np.integer] = field(default_factory=lambda: NO_QUADS)
     triangle_faces: NDArray[np.integer] | None = None
     quad_faces: NDArray[np.integer] | None = None
     corner_vertices: NDArray[np.integer] | None = None
@@ -57,6 +57,14 @@ class Surface:
         if np.linalg.det(linear) < 0.0:
             triangles = triangles[:, ::-1]
         return replace(self, points=points, triangles=triangles, triangle_faces=faces, quads=NO_QUADS, quad_faces=None)
+
+    @classmethod
+    def from_triangles(cls, points: NDArray, triangles: NDArray) -> Surface:
+        """A surface of (m, 3) triangles over (n, 3) points. ValueError where an index has no point."""
+        points, triangles = np.asarray(points), np.asarray(triangles)
+        if triangles.size and not (0 <= triangles.min() and triangles.max() < len(points)):
+            raise ValueError("a triangle names a point that is not there")
+        return cls(points, triangles)
 
     def all_triangles(self) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
         """(m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of each."""

@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The words for what reading an object decided, and for why there was nothing to read.
+
+The viewport is what is read. Where the render would show another body, by Blender's settings as far
+as they tell, that is said; a node tree that asks where it runs is beyond them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from .instances import Gathered, shows_itself
+from .visibility import edit_modifiers, hidden_reason, instanced_by_parent, metaball_families
+
+
+def why_empty(obj, gathered: Gathered, depsgraph) -> str:
+    """Why nothing of the object has a face, and what to do about it."""
+    vertices, edges = gathered.faceless
+    if obj.type == "META":
+        mother = _family(obj, depsgraph)[0]
+        if mother != obj:
+            return "“{:s}” holds the polygons of this metaball's family; measure that.".format(
+                mother.name
+            )
+    if gathered.vanished:
+        return "All that it instances is scaled to zero; give the instances a scale."
+    if obj.type == "CURVE" and not obj.modifiers:
+        return "It is a line without a surface; give the curve a bevel or an extrusion, or fill it."
+    if gathered.left_out:
+        return "It has no surface, only {:s}; give it one, by a modifier for example.".format(
+            _listing(gathered.left_out)
+        )
+    if vertices:
+        return (
+            "It has no faces, only {:d} vertices and {:d} edges; fill the faces, or give it "
+            "thickness by a modifier."
+        ).format(vertices, edges)
+    if obj.instance_type == "COLLECTION":
+        return (
+            "The collection that it instances shows no surface; add or show an object with faces."
+        )
+    if obj.type in {"CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}:
+        return "It has no surface; give it one, by a modifier for example."
+    if not shows_itself(obj, False):
+        return "Its own geometry is not shown; turn on Show Instancer, Viewport in its properties."
+    return "It has no geometry; add faces, or see whether a modifier removes them."
+
+
+def decisions(obj, gathered: Gathered, depsgraph) -> Iterator[str]:
+    """One sentence for each thing that was decided while reading."""
+    hidden = hidden_reason(obj, depsgraph)
+    if hidden:
+        yield "Measured although it is not shown. {:s}".format(hidden)
+    if instanced_by_parent(obj):
+        yield "Shown only as instances of “{:s}”; measured once, where it stands.".format(
+            obj.parent.name
+        )
+    if obj.type == "SURFACE":
+        yield "Display mesh instead of the surface, as fine as the viewport's resolution."
+    if obj.type == "META":
+        others = _family(obj, depsgraph)[1:]
+        if others:
+            yield "Holds the polygons of its metaball family: {:s}.".format(_names(others))
+    yield from _mode(obj)
+    differences = list(_render_differences(obj, depsgraph.scene))
+    if differences:
+        yield "Read as the viewport shows it; the render differs: {:s}.".format(
+            "; ".join(differences)
+        )
+    for source in gathered.sources:
+        differences = list(_render_differences(source, depsgraph.scene)) if source != obj else []
+        if differences:
+            yield (
+                "The instanced “{:s}” is read as the viewport shows it; the render differs: {:s}."
+            ).format(source.name, "; ".join(differences))
+    for modifier in obj.modifiers:
+        for warning in getattr(modifier, "node_warnings", ()):
+            if warning.type == "ERROR":
+                yield "Its modifier “{:s}” reports an error: {:s}".format(
+                    modifier.name, warning.message
+                )
+    if gathered.vanished:
+        yield "Left out: {:d} instances scaled to zero.".format(gathered.vanished)
+    if gathered.left_out:
+        yield "Left out, as they have no surface: {:s}.".format(_listing(gathered.left_out))
+
+
+def _family(obj, depsgraph) -> list:
+    families = metaball_families(depsgraph.view_layer)
+    return next((family for family in families if obj in family), [obj])
+
+
+def _mode(obj) -> Iterator[str]:
+    if obj.type == "MESH" and obj.data.is_editmode:
+        acting = edit_modifiers(obj)
+        if acting:
+            yield "Read in Edit Mode, with the modifiers that act there: {:s}.".format(
+                _names(acting)
+            )
+        else:
+            yield "Read from the mesh being edited."
+        idle = [
+            modifier
+            for modifier in obj.modifiers
+            if modifier.show_viewport and not modifier.show_in_editmode
+        ]
+        if idle:
+            yield "Left out, as they are off in Edit Mode: {:s}.".format(_names(idle))
+    elif obj.mode == "SCULPT" and obj.modifiers:
+        yield "Read in Sculpt Mode, with the modifiers that act there."
+
+
+def _render_differences(obj, scene) -> Iterator[str]:
+    for modifier in obj.modifiers:
+        shown, rendered = modifier.show_viewport, modifier.show_render
+        if shown != rendered:
+            yield ("“{:s}” is not rendered" if shown else "“{:s}” is rendered only").format(
+                modifier.name
+            )
+        elif shown:
+            here, there = _levels(modifier, scene.render)
+            if here != there:
+                yield "“{:s}” has {:d} in the viewport, {:d} in the render".format(
+                    modifier.name, here, there
+                )
+            system = getattr(modifier, "particle_system", None)
+            if system is not None and system.settings.display_percentage < 100:
+                yield "“{:s}” shows {:d} % of its particles".format(
+                    modifier.name, system.settings.display_percentage
+                )
+    data = obj.data
+    for axis in ("u", "v"):
+        rendered = getattr(data, "render_resolution_" + axis, 0)
+        shown = getattr(data, "resolution_" + axis, 0)
+        if rendered and rendered != shown and (axis == "u" or obj.type == "SURFACE"):
+            yield "the resolution {:s} is {:d} in the viewport, {:d} in the render".format(
+                axis, shown, rendered
+            )
+    if obj.type == "META" and data.resolution != data.render_resolution:
+        yield "the resolution is {:.3g} in the viewport, {:.3g} in the render".format(
+            data.resolution, data.render_resolution
+        )
+
+
+def _levels(modifier, render) -> tuple[int, int]:
+    """The modifier's number in the viewport and in the render, the same where it has but one."""
+    if modifier.type in {"SUBSURF", "MULTIRES"}:
+        here, there = modifier.levels, modifier.render_levels
+        if render.use_simplify:
+            here = min(here, render.simplify_subdivision)
+            there = min(there, render.simplify_subdivision_render)
+        return here, there
+    if modifier.type == "SCREW":
+        return modifier.steps, modifier.render_steps
+    if modifier.type == "OCEAN":
+        return modifier.viewport_resolution, modifier.resolution
+    return 0, 0
+
+
+def _names(items) -> str:
+    return ", ".join("“{:s}”".format(item.name) for item in items)
+
+
+def _listing(counts) -> str:
+    return ", ".join("{:d} {:s}".format(count, kind) for kind, count in counts.items())

@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An object as a Reading: what the viewport shows of it, and in words every decision taken.
+
+Reading changes nothing: no mode, no selection, no mesh. An object that Blender has not evaluated is
+refused with the reason, never read without its modifiers (visibility.py). The object frame is
+`matrix_world.decompose()`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .decisions import decisions, why_empty
+from .instances import Gathered
+from .reading import Reading, Unreadable, float64_matrix, float64_rotation
+from .visibility import NOT_EVALUATED, hidden_reason, require_kind
+
+
+def read_object(obj, depsgraph) -> Reading:
+    """Read one object, original or evaluated, as the up-to-date viewport `depsgraph` has it.
+
+    Raises Unreadable with the reason and the remedy: of a kind without surface, not evaluated,
+    nothing with a face, coordinates or transforms that are not finite.
+    """
+    obj = obj.original
+    require_kind(obj)
+    _require_readable_mode(obj)
+    evaluated = obj.evaluated_get(depsgraph)
+    if not evaluated.is_evaluated:
+        raise Unreadable(obj.name, hidden_reason(obj, depsgraph) or NOT_EVALUATED)
+    matrix = float64_matrix(evaluated.matrix_world)
+    if not np.isfinite(matrix).all():
+        raise Unreadable(
+            obj.name,
+            "Its transform is not finite; reset its location, rotation and scale, or its parent's.",
+        )
+
+    gathered = Gathered(evaluated, depsgraph)
+    gathered.gather()
+    parts = gathered.parts()
+    if not parts:
+        raise Unreadable(obj.name, why_empty(obj, gathered, depsgraph))
+    for part in parts:
+        _require_finite(obj.name, part.surface.points)
+    location, rotation, _scale = evaluated.matrix_world.decompose()
+    return Reading(
+        name=obj.name,
+        type=obj.type,
+        matrix=matrix,
+        rotation=float64_rotation(rotation),
+        location=np.array(location[:], np.float64),
+        parts=parts,
+        warnings=list(decisions(obj, gathered, depsgraph)),
+    )
+
+
+def _require_readable_mode(obj) -> None:
+    if obj.mode == "SCULPT" and obj.use_dynamic_topology_sculpting:
+        raise Unreadable(
+            obj.name, "Dynamic topology keeps its sculpted mesh to itself; leave Sculpt Mode first."
+        )
+
+
+def _require_finite(name: str, points: np.ndarray) -> None:
+    # A NaN comes through both, an infinity through one; no array of truth values for the good case.
+    if np.isfinite(points.min()) and np.isfinite(points.max()):
+        return
+    count = int((~np.isfinite(points).all(axis=1)).sum())
+    raise Unreadable(
+        name,
+        "{:d} of its {:d} vertices have coordinates that are not finite; delete them, or mend the "
+        "modifier, driver or import that made them.".format(count, len(points)),
+    )

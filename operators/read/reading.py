@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What reading an object gives: surfaces, their places in the world, every decision taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.surface import Surface
+
+# Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
+# float32 entries alone may have made it: such a matrix cannot be told from one that flattens.
+FLAT = 4.0 * float(np.finfo(np.float32).eps)
+
+
+class Unreadable(Exception):
+    """The object cannot be read rightly.
+
+    name: the object's. reason: one sentence or two, without the name, that say why and what to do
+    about it.
+    """
+
+    def __init__(self, name: str, reason: str):
+        super().__init__("{:s}: {:s}".format(name, reason))
+        self.name = name
+        self.reason = reason
+
+
+@dataclass
+class Part:
+    """One surface and the places where it stands.
+
+    matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column
+    vectors.
+    """
+
+    surface: Surface
+    matrices: NDArray[np.float64]
+
+
+@dataclass
+class Reading:
+    """An object as arrays.
+
+    type: Blender's object type.
+    matrix: (4, 4) float64, the object's `matrix_world`.
+    rotation: (3, 3), orthonormal to float64, and location: (3,), Blender units, as
+        `matrix_world.decompose()` gives them: the object frame.
+    flattened: how many of the places have a matrix that flattens the surface, so that it encloses nothing.
+    singular: all of them have.
+    warnings: sentences without the object's name, one for each decision that was taken.
+    """
+
+    name: str
+    type: str
+    matrix: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    parts: list[Part] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+
+    @property
+    def flattened(self) -> int:
+        return sum(int(flattens(part.matrices).sum()) for part in self.parts)
+
+    @property
+    def singular(self) -> bool:
+        return self.flattened == sum(len(part.matrices) for part in self.parts)
+
+
+def flattens(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(k,) whether each of the (k, 4, 4) maps is singular, as far as entries that were float32 can
+    tell."""
+    columns = matrices[:, :3, :3].transpose(1, 2, 0).copy()
+    # By the largest entry first, so that no square of a very small or large scale leaves the range
+    # of float64.
+    columns /= _or_one(np.abs(columns).max(axis=0))
+    columns /= _or_one(np.sqrt((columns * columns).sum(axis=0)))
+    x, y, z = columns
+    volume = (
+        x[0] * (y[1] * z[2] - z[1] * y[2])
+        + y[0] * (z[1] * x[2] - x[1] * z[2])
+        + z[0] * (x[1] * y[2] - y[1] * x[2])
+    )
+    return np.abs(volume) <= FLAT
+
+
+def _or_one(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.where(lengths > 0.0, lengths, 1.0)
+
+
+def float64_matrix(matrix) -> NDArray[np.float64]:
+    """(4, 4) float64 of a `mathutils.Matrix`, to the bit."""
+    return np.array([row[:] for row in matrix], np.float64)
+
+
+def float64_rotation(quaternion) -> NDArray[np.float64]:
+    """(3, 3) rotation of a `mathutils.Quaternion`, orthonormal to float64 although the quaternion
+    is float32."""
+    w, x, y, z = (np.array(quaternion[:], np.float64) / np.linalg.norm(quaternion[:])).tolist()
+    return np.array(
+        [
+            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+        ]
+    )

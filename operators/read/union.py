@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The union of overlapping shells, by Blender's own exact boolean.
+
+The boolean is a modifier, and a modifier needs an object in a scene. It gets both for the moment, in a scene of its
+own that nobody sees, and all of it is gone when the call returns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+
+from ...core.surface import Surface
+from .mesh import mesh_surface
+
+
+def union_surface(surfaces: Sequence[Surface]) -> Surface:
+    """One surface around the union of all shells of `surfaces`, in float32 coordinates as Blender computes it.
+
+    The shells are taken about the middle of their common bounding box, so that nothing is lost far from the origin.
+    """
+    triangles = [surface.all_triangles()[0] for surface in surfaces]
+    starts = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
+    points = np.concatenate([surface.points for surface in surfaces]).astype(np.float64)
+    faces = np.concatenate([part + start for part, start in zip(triangles, starts)])
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+
+    made = []
+    try:
+        mesh = _mesh(points - middle, faces)
+        made.append(mesh)
+        body = bpy.data.objects.new(mesh.name, mesh)
+        made.append(body)
+        nothing = bpy.data.collections.new("")  # with no operand the solver still unites the object with itself
+        made.append(nothing)
+        scene = bpy.data.scenes.new("")
+        made.append(scene)
+        scene.collection.objects.link(body)
+        boolean = body.modifiers.new("", "BOOLEAN")
+        boolean.operation, boolean.solver, boolean.use_self = "UNION", "EXACT", True
+        boolean.operand_type, boolean.collection = "COLLECTION", nothing
+        scene.view_layers[0].update()
+        depsgraph = scene.view_layers[0].depsgraph
+        evaluated = body.evaluated_get(depsgraph)
+        united = mesh_surface(evaluated.to_mesh())
+        evaluated.to_mesh_clear()
+    finally:
+        for data in reversed(made):
+            _remove(data)
+    return united.mapped(np.eye(3), middle)
+
+
+def _mesh(points: np.ndarray, triangles: np.ndarray) -> bpy.types.Mesh:
+    mesh = bpy.data.meshes.new("")
+    mesh.vertices.add(len(points))
+    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    mesh.loops.add(triangles.size)
+    mesh.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
+    mesh.polygons.add(len(triangles))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
+    mesh.update(calc_edges=True)
+    return mesh
+
+
+def _remove(data: bpy.types.ID) -> None:
+    collection = {"Mesh": bpy.data.meshes, "Object": bpy.data.objects, "Collection": bpy.data.collections,
+                  "Scene": bpy.data.scenes}[data.bl_rna.identifier]
+    collection.remove(data)

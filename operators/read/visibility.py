@@ -1,0 +1,198 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What can be read, and whether Blender has evaluated it.
+
+Blender does not evaluate what is disabled in viewports, excluded from the view layer or in another
+scene, and then hands out the object without its modifiers and at its last place as if nothing were
+wrong. `evaluated_geometry()` is the one test: it refuses such an object, also where only the
+object's transform was evaluated for another's sake. What is merely hidden (the eye), or is
+evaluated because something shown needs it, is read rightly and said.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from .reading import Unreadable
+
+GEOMETRY_TYPES = {
+    "MESH",
+    "CURVE",
+    "SURFACE",
+    "META",
+    "FONT",
+    "CURVES",
+    "POINTCLOUD",
+    "VOLUME",
+    "GREASEPENCIL",
+}
+SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
+
+NOT_EVALUATED = "Blender has not evaluated it; update the view layer."
+
+
+def measurable(obj) -> bool:
+    """Whether the object is of a kind that may show a surface: cheap enough for a poll, so it
+    promises nothing more."""
+    if obj.instance_type == "COLLECTION":
+        return obj.instance_collection is not None
+    if obj.type == "CURVE":
+        return _curve_has_surface(obj)
+    return obj.type in SURFACE_TYPES or (obj.type in GEOMETRY_TYPES and _has_nodes(obj))
+
+
+def measurable_objects(view_layer, selected_only: bool = False) -> list:
+    """The measurable objects of a view layer by name, hidden ones included: reading them tells what
+    can be done.
+
+    Without those that only others show, and so are in their records: children of objects that
+    instance on vertices or faces, hidden members of instanced collections, and metaballs but the
+    one that holds its family's polygons.
+    """
+    # A view layer that has not been updated knows neither its new objects nor what of them is
+    # shown.
+    view_layer.update()
+    objects = [
+        obj for obj in view_layer.objects if measurable(obj) and not instanced_by_parent(obj)
+    ]
+    if selected_only:
+        objects = [obj for obj in objects if obj.select_get(view_layer=view_layer)]
+    mothers = {family[0] for family in metaball_families(view_layer)}
+    objects = [obj for obj in objects if obj.type != "META" or obj in mothers]
+    hidden = {obj for obj in objects if not obj.visible_get(view_layer=view_layer)}
+    if hidden:
+        instanced = {
+            obj.instance_collection
+            for obj in view_layer.objects
+            if obj.instance_type == "COLLECTION"
+        } - {None}
+        hidden &= {member for collection in instanced for member in collection.all_objects}
+        objects = [obj for obj in objects if obj not in hidden]
+    return sorted(objects, key=lambda obj: (obj.name, obj.library.filepath if obj.library else ""))
+
+
+def instanced_by_parent(obj) -> bool:
+    """Whether the viewport shows the object only as the instances of its parent."""
+    return obj.parent is not None and obj.parent.instance_type in {"VERTS", "FACES"}
+
+
+def metaball_families(view_layer) -> list[list]:
+    """The metaball objects by family, in each the one first that holds the polygons of all.
+
+    A family shares the name before its number, and the lowest number holds
+    (BKE_mball_basis_find)."""
+    families: dict[str, list] = {}
+    for obj in view_layer.objects:
+        if obj.type == "META":
+            families.setdefault(_split_name(obj.name)[0], []).append(obj)
+    return [
+        sorted(family, key=lambda obj: _split_name(obj.name)[1]) for family in families.values()
+    ]
+
+
+def require_kind(obj) -> None:
+    """Raise Unreadable for an object of a kind that shows no surface."""
+    if obj.type in GEOMETRY_TYPES or obj.instance_type == "COLLECTION":
+        return
+    if obj.type == "EMPTY":
+        raise Unreadable(
+            obj.name, "It is an empty that instances nothing; give it a collection to instance."
+        )
+    kind = obj.bl_rna.properties["type"].enum_items[obj.type].name
+    raise Unreadable(
+        obj.name,
+        "It is of the kind “{:s}”, which has no geometry; select an object with a surface.".format(
+            kind
+        ),
+    )
+
+
+def evaluated_geometry(obj, depsgraph, reader):
+    """The object's `GeometrySet`, which owns the meshes that it hands out.
+
+    Raises Unreadable in the name of `reader`, the object for which `obj` is read, where Blender has
+    not evaluated `obj` in full.
+    """
+    try:
+        return obj.evaluated_get(depsgraph).evaluated_geometry()
+    except (TypeError, RuntimeError):
+        reason = hidden_reason(obj, depsgraph) or NOT_EVALUATED
+        if obj != reader:
+            reason = "It instances “{:s}”, which cannot be read: {:s}".format(obj.name, reason)
+        raise Unreadable(reader.name, reason) from None
+
+
+def hidden_reason(obj, depsgraph) -> str | None:
+    """Why the view layer does not show the object, with the remedy; None if it does or has yet to
+    be updated."""
+    if obj.visible_get(view_layer=depsgraph.view_layer):
+        return None
+    homes = set(obj.users_collection)
+    branches = [
+        path
+        for path in _branches(depsgraph.view_layer.layer_collection)
+        if path[-1].collection in homes
+    ]
+    if not branches:
+        return "It is not in the scene “{:s}”; link it to one of the scene's collections.".format(
+            depsgraph.scene.name
+        )
+    if obj.hide_viewport:
+        return "It is disabled in viewports; turn on its monitor icon in the Outliner."
+    for blocks, reason in (
+        (
+            lambda layer: layer.exclude,
+            "Its collection “{:s}” is excluded from the view layer; tick it in the Outliner.",
+        ),
+        (
+            lambda layer: layer.collection.hide_viewport,
+            "Its collection “{:s}” is disabled in viewports; turn on its monitor icon.",
+        ),
+        (
+            lambda layer: layer.hide_viewport,
+            "Its collection “{:s}” is hidden; turn on its eye icon in the Outliner.",
+        ),
+    ):
+        blocking = [next(filter(blocks, path), None) for path in branches]
+        if all(blocking):
+            return reason.format(blocking[0].collection.name)
+    if obj.hide_get(view_layer=depsgraph.view_layer):
+        return "It is hidden; turn on its eye icon in the Outliner."
+    return None
+
+
+def edit_modifiers(obj) -> list:
+    """The modifiers that act while the object's mesh is in Edit Mode."""
+    return [
+        modifier
+        for modifier in obj.modifiers
+        if modifier.show_viewport and modifier.show_in_editmode
+    ]
+
+
+def _has_nodes(obj) -> bool:
+    return any(modifier.type == "NODES" for modifier in obj.modifiers)
+
+
+def _curve_has_surface(obj) -> bool:
+    curve = obj.data
+    filled = curve.dimensions == "2D" and curve.fill_mode != "NONE"
+    thick = (
+        curve.extrude != 0.0
+        or curve.bevel_depth != 0.0
+        or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
+    )
+    return bool(filled or thick or obj.modifiers)
+
+
+def _split_name(name: str) -> tuple[str, int]:
+    stem, dot, tail = name.rpartition(".")
+    return (stem, int(tail)) if dot and tail.isdecimal() else (name, 0)
+
+
+def _branches(layer, path: tuple = ()) -> Iterator[tuple]:
+    """Every layer collection with those above it, the outermost first."""
+    path += (layer,)
+    yield path
+    for child in layer.children:
+        yield from _branches(child, path)

@@ -1,0 +1,372 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Instances are read as one surface with many places, exactly those that Blender draws."""
+
+import math
+
+import numpy as np
+import pytest
+
+bpy = pytest.importorskip("bpy")
+
+import bmesh  # noqa: E402
+from body_moments.operators.read import Unreadable, measurable_objects, read_object  # noqa: E402
+
+from tests.blender.read_bodies import (  # noqa: E402
+    collection,
+    cube,
+    depsgraph,
+    join,
+    layer_of,
+    link,
+    mesh,
+    node,
+    nodes,
+    places,
+    shown,
+)
+
+pytestmark = pytest.mark.usefixtures("bare_scene")
+
+
+def placed(obj, location=(1.0, 2.0, 3.0), turn=(0.3, 0.4, 0.5), scale=(1.0, 2.0, -0.5)):
+    obj.location, obj.rotation_euler, obj.scale = location, turn, scale
+    return obj
+
+
+def check(obj, count):
+    """The reading has `count` places, each where Blender draws it."""
+    reading = read_object(obj, depsgraph())
+    mine, drawn = places(reading), shown(obj)
+    assert mine.shape == drawn.shape == (count, 17)
+    assert np.array_equal(mine[:, 0], drawn[:, 0])
+    # Blender multiplies in float32.
+    assert np.allclose(mine[:, 1:], drawn[:, 1:], rtol=0.0, atol=2e-6 * np.abs(drawn).max())
+    return reading
+
+
+def empty(name, instances=None):
+    obj = link(name)
+    if instances is not None:
+        obj.instance_type = "COLLECTION"
+        obj.instance_collection = instances
+    return obj
+
+
+def grid(tree, side):
+    return node(tree, "GeometryNodeMeshGrid", {"Vertices X": side, "Vertices Y": side}).outputs[
+        "Mesh"
+    ]
+
+
+def on_points(tree, points, instance, scale=(1.0, 1.0, 1.0)):
+    turned = {"Rotation": (0.1, 0.2, 0.3), "Scale": scale}
+    made = node(tree, "GeometryNodeInstanceOnPoints", turned, Points=points, Instance=instance)
+    return made.outputs[0]
+
+
+def test_instances_of_geometry_nodes_are_one_surface_with_its_places():
+    host = placed(cube("Host"))
+    nodes(host, lambda tree, source: on_points(tree, grid(tree, 5), source, (1.0, 2.0, 3.0)))
+    reading = check(host, 25)
+    assert [len(part.matrices) for part in reading.parts] == [25]
+
+
+def test_an_objects_own_mesh_counts_beside_its_instances():
+    host = placed(cube("Host"))
+    nodes(host, lambda tree, source: join(tree, on_points(tree, grid(tree, 3), source), source))
+    check(host, 10)
+
+
+def test_instances_of_instances_are_flattened():
+    host = placed(cube("Host"))
+
+    def build(tree, source):
+        inner = join(tree, on_points(tree, grid(tree, 3), source, (0.5, 0.5, 0.5)), grid(tree, 2))
+        return on_points(tree, grid(tree, 4), inner)
+
+    nodes(host, build)
+    reading = check(host, 16 * 10)
+    assert sorted(len(part.matrices) for part in reading.parts) == [16, 144]
+
+
+def test_instances_may_be_objects_collections_and_geometry():
+    source = placed(cube("Source"), (5.0, 0.0, 0.0))
+    members = collection("Members")
+    placed(cube("First", members), (0.0, 1.0, 0.0))
+    link("Second", source.data, members).location = (0.0, 0.0, 4.0)
+    subdivided = cube("Subdivided", members)
+    subdivided.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    members.instance_offset = (1.0, 0.5, 0.25)
+    host = placed(cube("Host"))
+
+    def build(tree, _source):
+        one = node(tree, "GeometryNodeObjectInfo", {"Object": source, "As Instance": True}).outputs[
+            "Geometry"
+        ]
+        real = node(
+            tree, "GeometryNodeObjectInfo", {"Object": source, "As Instance": False}
+        ).outputs["Geometry"]
+        whole = node(tree, "GeometryNodeCollectionInfo", {"Collection": members}).outputs[0]
+        each = node(
+            tree, "GeometryNodeCollectionInfo", {"Collection": members, "Separate Children": True}
+        ).outputs[0]
+        moved = node(
+            tree, "GeometryNodeTransform", {"Translation": (3.0, 3.0, 3.0)}, Geometry=whole
+        ).outputs[0]
+        return on_points(tree, grid(tree, 2), join(tree, one, real, whole, each, moved))
+
+    nodes(host, build)
+    check(host, 4 * (1 + 1 + 3 + 3 + 3))
+
+
+def test_objects_that_share_a_mesh_share_a_part():
+    members = collection("Members")
+    first = cube("First", members)
+    for index in range(9):
+        link("Copy", first.data, members).location = (0.0, 0.0, 3.0 * index)
+    cube("Other", members)
+    reading = check(empty("Instancer", members), 11)
+    assert sorted(len(part.matrices) for part in reading.parts) == [1, 10]
+
+
+def test_a_collection_instance_shows_what_the_collection_shows():
+    members, inner, off = (
+        collection("Members"),
+        collection("Inner", False),
+        collection("Off", False),
+    )
+    members.children.link(inner)
+    members.children.link(off)
+    placed(cube("Shown", members))
+    cube("Inside", inner).location = (4.0, 0.0, 0.0)
+    cube("Disabled", members).hide_viewport = True
+    cube("In Disabled", off)
+    both = cube("Both", off)
+    inner.objects.link(both)
+    off.hide_viewport = True
+    members.instance_offset = (0.0, 1.0, 0.0)
+    bpy.context.scene.collection.children.unlink(members)
+    check(placed(empty("Instancer", members)), 3)
+
+
+def test_collection_instances_nest():
+    low, high = collection("Low", False), collection("High", False)
+    placed(cube("Body", low))
+    low.instance_offset = (1.0, 0.0, 0.0)
+    for index in range(3):
+        inner = bpy.data.objects.new("Inner", None)
+        inner.instance_type, inner.instance_collection = "COLLECTION", low
+        inner.location, inner.rotation_euler = (0.0, 3.0 * index, 0.0), (0.0, 0.2 * index, 0.0)
+        high.objects.link(inner)
+    host = placed(cube("Host", high), (0.0, 0.0, 9.0))
+    nodes(host, lambda tree, source: on_points(tree, grid(tree, 2), source))
+    check(placed(empty("Instancer", high)), 3 + 4)
+
+
+def test_a_collection_whose_nodes_instance_it_again_ends():
+    members = collection("Members")
+    cube("Body", members)
+    host = cube("Host", members)
+
+    def build(tree, source):
+        return join(
+            tree,
+            source,
+            node(tree, "GeometryNodeCollectionInfo", {"Collection": members}).outputs[0],
+        )
+
+    nodes(host, build)
+    check(host, 1)
+
+
+@pytest.mark.parametrize("kind", ["VERTS", "FACES"])
+def test_instances_on_vertices_and_faces_are_the_parents_record(kind):
+    parent = placed(cube("Parent"), scale=(2.0, 2.0, 2.0))
+    parent.instance_type = kind
+    parent.use_instance_vertices_rotation = parent.use_instance_faces_scale = True
+    child = placed(cube("Child"), (0.5, 0.0, 0.0), scale=(0.2, 0.3, 0.4))
+    child.parent = parent
+    child.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    count = 8 if kind == "VERTS" else 6
+    check(parent, count + 1)
+    parent.show_instancer_for_viewport = False
+    reading = check(parent, count)
+    assert reading.parts[0].surface.quads.shape == (96, 4)
+    assert measurable_objects(bpy.context.view_layer) == [parent]
+    assert any("“Parent”" in warning for warning in read_object(child, depsgraph()).warnings)
+
+
+def test_a_curve_instanced_on_vertices_has_its_bevel():
+    parent = cube("Parent")
+    parent.instance_type = "VERTS"
+    bpy.ops.curve.primitive_bezier_circle_add(radius=0.2)
+    bpy.context.object.data.bevel_depth = 0.05
+    bpy.context.object.parent = parent
+    check(parent, 9)
+
+
+def test_instances_on_vertices_inside_a_collection_instance():
+    members = collection("Members", False)
+    parent = placed(cube("Parent", members))
+    parent.instance_type = "VERTS"
+    cube("Child", members).parent = parent
+    check(placed(empty("Instancer", members)), 9)
+
+
+def test_a_hidden_instancer_on_vertices_is_refused_not_halved():
+    parent = cube("Parent")
+    parent.instance_type = "VERTS"
+    cube("Child").parent = parent
+    parent.hide_set(True)
+    with pytest.raises(Unreadable, match="show it"):
+        read_object(parent, depsgraph())
+
+
+def test_particles_drawn_as_objects_are_the_emitters_record():
+    source = cube("Source")
+    emitter = placed(link("Emitter", mesh("Emitter")))
+    settings = emitter.modifiers.new("Particles", "PARTICLE_SYSTEM").particle_system.settings
+    settings.type, settings.count = "HAIR", 12
+    settings.render_type, settings.instance_object = "OBJECT", source
+    check(emitter, 13)
+    emitter.show_instancer_for_viewport = False
+    check(emitter, 12)
+
+
+def test_an_instancer_that_hides_itself_shows_its_instances_only():
+    host = cube("Host")
+    nodes(host, lambda tree, source: join(tree, on_points(tree, grid(tree, 3), source), source))
+    host.show_instancer_for_viewport = False
+    check(host, 9)
+
+
+def test_a_nested_instancer_may_hide_itself_too():
+    members = collection("Members", False)
+    host = placed(cube("Host", members))
+    nodes(host, lambda tree, source: join(tree, on_points(tree, grid(tree, 3), source), source))
+    host.show_instancer_for_viewport = False
+    check(placed(empty("Instancer", members)), 9)
+
+
+@pytest.mark.parametrize("own", [True, False])
+def test_instances_of_an_object_in_edit_mode_are_read(own):
+    host = placed(cube("Host"))
+    body = mesh("Body")
+    source = link("Source", body)
+
+    def build(tree, mine):
+        points = on_points(
+            tree,
+            grid(tree, 3),
+            node(tree, "GeometryNodeObjectInfo", {"Object": source}).outputs["Geometry"],
+        )
+        return join(tree, points, mine) if own else points
+
+    nodes(host, build)
+    bpy.context.view_layer.objects.active = host
+    bpy.ops.object.mode_set(mode="EDIT")
+    check(host, 10 if own else 9)
+
+
+def test_an_instanced_object_in_edit_mode_is_read_as_it_is_edited():
+    members = collection("Members")
+    source = cube("Source", members)
+    instancer = empty("Instancer", members)
+    bpy.context.view_layer.objects.active = source
+    bpy.ops.object.mode_set(mode="EDIT")
+    bm = bmesh.from_edit_mesh(source.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[0].co = (-7.0, -1.0, -1.0)
+    bmesh.update_edit_mesh(source.data)
+    (part,) = read_object(instancer, depsgraph()).parts
+    assert part.surface.points[0].tolist() == [-7.0, -1.0, -1.0]
+
+
+def test_the_places_are_products_in_float64():
+    host = cube("Host")
+    host.location, host.rotation_euler = (1.0e6, 0.0, 0.0), (0.1, 0.2, 0.3)
+    nodes(host, lambda tree, source: on_points(tree, grid(tree, 2), source))
+    (part,) = read_object(host, depsgraph()).parts
+    geometry = host.evaluated_get(depsgraph()).evaluated_geometry()
+    cloud = geometry.instances_pointcloud()
+    for matrix, item in zip(
+        part.matrices, cloud.attributes["instance_transform"].data, strict=True
+    ):
+        exact = [
+            [
+                sum(float(a) * float(b) for a, b in zip(row, column, strict=True))
+                for column in zip(*item.value, strict=True)
+            ]
+            for row in host.matrix_world
+        ]
+        assert np.allclose(matrix, exact, rtol=1e-15, atol=1e-9)
+        assert matrix.dtype == np.float64
+
+
+def test_places_that_are_not_finite_are_counted_and_refused():
+    host = cube("Host")
+
+    def build(tree, source):
+        index = tree.nodes.new("GeometryNodeInputIndex").outputs[0]
+        divided = tree.nodes.new("ShaderNodeMath")
+        divided.operation = "POWER"
+        divided.inputs[0].default_value = 1.0e30
+        tree.links.new(index, divided.inputs[1])
+        made = node(tree, "GeometryNodeInstanceOnPoints", Points=grid(tree, 2), Instance=source)
+        tree.links.new(divided.outputs[0], made.inputs["Scale"])
+        return made.outputs[0]
+
+    nodes(host, build)
+    with pytest.raises(Unreadable, match="2 of 4 instances"):
+        read_object(host, depsgraph())
+
+
+def test_instances_scaled_to_nothing_are_left_out_and_said():
+    host = cube("Host")
+
+    def build(tree, source):
+        index = tree.nodes.new("GeometryNodeInputIndex").outputs[0]
+        made = node(tree, "GeometryNodeInstanceOnPoints", Points=grid(tree, 2), Instance=source)
+        tree.links.new(index, made.inputs["Scale"])
+        return made.outputs[0]
+
+    nodes(host, build)
+    reading = read_object(host, depsgraph())
+    assert [len(part.matrices) for part in reading.parts] == [3]
+    assert "Left out: 1 instances scaled to zero." in reading.warnings
+    assert not reading.singular
+
+
+def test_points_and_strands_beside_a_body_are_said():
+    host = cube("Host")
+
+    def build(tree, source):
+        points = node(tree, "GeometryNodePoints", {"Count": 7}).outputs[0]
+        line = node(tree, "GeometryNodeCurvePrimitiveLine").outputs[0]
+        return join(tree, source, points, line)
+
+    nodes(host, build)
+    (said,) = read_object(host, depsgraph()).warnings
+    assert "7 points" in said and "1 curves" in said
+
+
+def test_an_instanced_object_that_is_not_evaluated_is_never_read_unmodified():
+    source = cube("Source")
+    source.modifiers.new("Array", "ARRAY").count = 2
+    members = collection("Members")
+    members.objects.link(source)
+    bpy.context.scene.collection.objects.unlink(source)
+    layer_of(members).exclude = True
+    reading = check(empty("Instancer", members), 1)
+    assert len(reading.parts[0].surface.quads) == 12
+
+
+def test_ten_thousand_instances_have_ten_thousand_matrices():
+    host = cube("Host")
+    nodes(host, lambda tree, source: on_points(tree, grid(tree, 100), source))
+    reading = read_object(host, depsgraph())
+    (part,) = reading.parts
+    assert part.matrices.shape == (10_000, 4, 4)
+    total = part.matrices[:, :3, 3].sum(axis=0)
+    assert math.isclose(float(np.abs(total).max()), 0.0, abs_tol=1e-2)

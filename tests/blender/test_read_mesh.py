@@ -1,0 +1,206 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh read by arrays is the mesh that Blender tessellates, triangle by triangle."""
+
+import numpy as np
+import pytest
+
+bpy = pytest.importorskip("bpy")
+
+import bmesh  # noqa: E402
+from body_moments.operators.read import read_object  # noqa: E402
+from body_moments.operators.read.mesh import mesh_surface  # noqa: E402
+
+from tests.blender.read_bodies import (  # noqa: E402
+    CUBE,
+    CUBE_FACES,
+    activate,
+    bmesh_triangles,
+    cube,
+    depsgraph,
+    link,
+    loop_triangles,
+    mesh,
+    surface_triangles,
+)
+
+pytestmark = pytest.mark.usefixtures("bare_scene")
+RNG = np.random.default_rng(7)
+
+
+def prism(sides, wobble=0.0):
+    angle = np.arange(sides) * 2.0 * np.pi / sides
+    ring = (
+        np.stack([np.cos(angle), np.sin(angle)], 1) * (1.0 + 0.6 * (np.arange(sides) % 2))[:, None]
+    )
+    points = np.concatenate([np.c_[ring, np.zeros(sides)], np.c_[ring, np.ones(sides)]])
+    points += RNG.uniform(-wobble, wobble, points.shape)
+    i = np.arange(sides)
+    sides_ = np.stack([i, (i + 1) % sides, (i + 1) % sides + sides, i + sides], 1).tolist()
+    return points, [i[::-1].tolist(), (i + sides).tolist(), *sides_]
+
+
+def mixed():
+    points, faces = prism(7, 0.2)
+    points = np.concatenate([points, RNG.uniform(-1, 1, (9, 3)) + [5, 0, 0]])
+    loose = [[14, 15, 16], [16, 17, 18, 19], [19, 20, 21], [22, 21, 20, 14, 15]]
+    return points, loose[:2] + faces + loose[2:]
+
+
+def soup(count):
+    """Quads of every kind: non-planar, concave, folded, degenerate, far from the origin, on a
+    coarse lattice."""
+    wild = RNG.uniform(-1, 1, (count, 4, 3))
+    flat = np.concatenate([RNG.uniform(-1, 1, (count, 4, 2)), np.zeros((count, 4, 1))], axis=2)
+    far = wild + [1.0e4, -3.0e3, 50.0]
+    lattice = RNG.integers(-1, 2, (count, 4, 3)).astype(float)
+    thin = wild * [1.0, 1.0e-6, 1.0e-3]
+    points = np.concatenate([wild, flat, far, lattice, thin]).reshape(-1, 3)
+    return points, np.arange(len(points)).reshape(-1, 4)
+
+
+BODIES = {
+    "triangles": (
+        [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+        [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
+    ),
+    "quads": (CUBE, CUBE_FACES),
+    "one big n-gon and quads": prism(40),
+    "n-gons that are not planar": prism(9, 0.3),
+    "few n-gons": prism(400),
+    "triangles, quads and n-gons in any order": mixed(),
+    "triangles and quads": (
+        [*CUBE, (3, 0, 0)],
+        [*CUBE_FACES[:3], (4, 6, 8), *CUBE_FACES[3:], (6, 7, 8)],
+    ),
+    "quads of all shapes": soup(2000),
+    "one triangle and a pentagon, four corners on average": (
+        [(0, 0, 0), (1, 0, 0), (0, 1, 0), (2, 0, 0), (3, 0, 0), (3, 1, 0), (2.5, 2, 0), (2, 1, 0)],
+        [(0, 1, 2), (3, 4, 5, 6, 7)],
+    ),
+}
+
+
+@pytest.mark.parametrize("points, faces", BODIES.values(), ids=BODIES.keys())
+def test_a_surface_has_the_triangles_that_blender_draws(points, faces):
+    obj = link("Body", mesh("Body", points, faces))
+    surface = read_object(obj, depsgraph()).parts[0].surface
+    drawn = loop_triangles(obj.data)
+    assert len(drawn) > 0
+    assert surface_triangles(surface) == drawn
+    assert surface_triangles(surface) == bmesh_triangles(obj)
+
+
+@pytest.mark.parametrize("points, faces", BODIES.values(), ids=BODIES.keys())
+def test_a_surface_holds_the_mesh_as_it_is(points, faces):
+    obj = link("Body", mesh("Body", points, faces))
+    surface = read_object(obj, depsgraph()).parts[0].surface
+    assert surface.points.dtype == np.float32
+    assert np.array_equal(surface.points, [v.co[:] for v in obj.data.vertices])
+    assert np.array_equal(surface.corner_vertices, [loop.vertex_index for loop in obj.data.loops])
+    assert np.array_equal(surface.corner_edges, [loop.edge_index for loop in obj.data.loops])
+    assert np.array_equal(surface.edges, [edge.vertices[:] for edge in obj.data.edges])
+    for indices in (surface.triangles, surface.quads, surface.corner_vertices, surface.edges):
+        assert indices.dtype == np.int32
+
+
+def test_quads_alone_and_triangles_alone_need_no_face_indices():
+    quads = mesh_surface(mesh("Quads", CUBE, CUBE_FACES))
+    assert (len(quads.quads), len(quads.triangles), quads.quad_faces) == (6, 0, None)
+    triangles = mesh_surface(mesh("Triangles", *BODIES["triangles"]))
+    assert (len(triangles.quads), len(triangles.triangles), triangles.triangle_faces) == (
+        0,
+        4,
+        None,
+    )
+
+
+def test_a_modified_mesh_is_read_as_evaluated():
+    obj = link("Body", mesh("Body", *mixed()))
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    obj.modifiers.new("Triangulate", "TRIANGULATE").min_vertices = 4
+    plain = link("Subdivided", mesh("Body", *mixed()))
+    plain.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    for each in (obj, plain):
+        assert surface_triangles(
+            read_object(each, depsgraph()).parts[0].surface
+        ) == bmesh_triangles(each)
+
+
+def test_reading_leaves_no_data_block_and_no_byte_changed():
+    obj = link("Body", mesh("Body", *mixed()))
+    obj.modifiers.new("Subdivision", "SUBSURF")
+    before = [v.co[:] for v in obj.data.vertices], [tuple(p.vertices) for p in obj.data.polygons]
+    blocks = {(type(block).__name__, block.name) for block in bpy.data.user_map()}
+    read_object(obj, depsgraph())
+    assert (
+        [v.co[:] for v in obj.data.vertices],
+        [tuple(p.vertices) for p in obj.data.polygons],
+    ) == before
+    assert {(type(block).__name__, block.name) for block in bpy.data.user_map()} == blocks
+
+
+def test_the_arrays_are_copies_that_outlive_the_mesh():
+    obj = cube()
+    surface = read_object(obj, depsgraph()).parts[0].surface
+    points = surface.points.copy()
+    for vertex in obj.data.vertices:
+        vertex.co = (9.0, 9.0, 9.0)
+    obj.data.update()
+    read_object(obj, depsgraph())
+    bpy.data.meshes.remove(obj.data)
+    assert np.array_equal(surface.points, points)
+    assert surface.points.flags.owndata or surface.points.base.flags.owndata
+
+
+def test_edit_mode_reads_edits_that_nothing_has_told_blender_of():
+    obj = cube()
+    activate(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    depsgraph()
+    blocks = set(bpy.data.meshes)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[0].co = (-7.0, -1.0, -1.0)
+    bmesh.ops.triangulate(bm, faces=list(bm.faces)[:1])
+    reading = read_object(obj, depsgraph())
+    surface = reading.parts[0].surface
+    assert surface.points[0].tolist() == [-7.0, -1.0, -1.0]
+    assert (len(surface.triangles), len(surface.quads)) == (2, 5)
+    assert any("being edited" in warning for warning in reading.warnings)
+    assert set(bpy.data.meshes) == blocks
+    assert obj.mode == "EDIT"
+    assert bm.is_valid
+    assert obj.data.vertices[0].co[:] == (-1.0, -1.0, -1.0)
+
+
+def test_edit_mode_reads_the_modifiers_that_act_there():
+    obj = cube()
+    obj.modifiers.new("Array", "ARRAY").count = 3
+    idle = obj.modifiers.new("Idle", "SUBSURF")
+    idle.show_in_editmode = False
+    activate(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[0].co = (-7.0, -1.0, -1.0)
+    bmesh.update_edit_mesh(obj.data)
+    reading = read_object(obj, depsgraph())
+    (part,) = reading.parts
+    assert len(part.surface.quads) == 18
+    assert part.surface.points.min() == -7.0
+    said = " ".join(reading.warnings)
+    assert "“Array”" in said and "Left out, as they are off in Edit Mode: “Idle”" in said
+
+
+def test_another_user_of_a_mesh_in_edit_mode_reads_the_same_edits():
+    obj = cube()
+    other = link("Other", obj.data)
+    activate(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[0].co = (-7.0, -1.0, -1.0)
+    bmesh.update_edit_mesh(obj.data)
+    surface = read_object(other, depsgraph()).parts[0].surface
+    assert surface.points[0].tolist() == [-7.0, -1.0, -1.0]

@@ -1,0 +1,505 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an object gives when it is read, what is said about it, and what is refused with a
+reason."""
+
+import math
+
+import numpy as np
+import pytest
+
+bpy = pytest.importorskip("bpy")
+
+from body_moments.operators.read import Unreadable, measurable, measurable_objects, read_object  # noqa: E402
+from mathutils import Matrix  # noqa: E402
+
+from tests.blender.read_bodies import (  # noqa: E402
+    activate,
+    collection,
+    cube,
+    depsgraph,
+    join,
+    layer_of,
+    link,
+    loop_triangles,
+    mesh,
+    node,
+    nodes,
+    surface_triangles,
+)
+
+pytestmark = pytest.mark.usefixtures("bare_scene")
+
+
+def read(obj):
+    return read_object(obj, depsgraph())
+
+
+def refused(obj):
+    with pytest.raises(Unreadable) as caught:
+        read(obj)
+    assert caught.value.name == obj.name
+    return caught.value.reason
+
+
+def metaball(name, x=0.0, collection=None):
+    data = bpy.data.metaballs.new(name)
+    data.elements.new().co = (0.0, 0.0, 0.0)
+    obj = link(name, data, collection)
+    obj.location.x = x
+    return obj
+
+
+def bevelled():
+    bpy.ops.curve.primitive_bezier_circle_add()
+    bpy.context.object.data.bevel_depth = 0.1
+    return bpy.context.object
+
+
+def text():
+    bpy.ops.object.text_add()
+    bpy.context.object.data.extrude = 0.1
+    return bpy.context.object
+
+
+def nurbs():
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add()
+    return bpy.context.object
+
+
+def shaped():
+    obj = cube("Shaped")
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Big")
+    for point in key.data:
+        point.co *= 2.0
+    key.value = 1.0
+    return obj
+
+
+def ball():
+    return metaball("Ball")
+
+
+@pytest.mark.parametrize(
+    "make", [cube, bevelled, text, nurbs, shaped, ball], ids=lambda make: make.__name__
+)
+def test_every_kind_that_shows_a_surface_is_read(make):
+    obj = make()
+    reading = read(obj)
+    (part,) = reading.parts
+    assert (reading.name, reading.type) == (obj.name, obj.type)
+    evaluated = obj.evaluated_get(depsgraph())
+    drawn = loop_triangles(evaluated.to_mesh())
+    evaluated.to_mesh_clear()
+    assert len(drawn) > 6
+    assert surface_triangles(part.surface) == drawn
+    assert np.array_equal(part.matrices, [[row[:] for row in obj.matrix_world]])
+    assert measurable(obj)
+
+
+def test_shape_keys_are_in_the_reading():
+    assert np.abs(read(shaped()).parts[0].surface.points).max() == 2.0
+
+
+def test_a_nurbs_surface_says_that_its_display_mesh_is_read():
+    assert any(
+        "Display mesh instead of the surface" in warning for warning in read(nurbs()).warnings
+    )
+
+
+@pytest.mark.parametrize("make", [cube, bevelled, text, shaped], ids=lambda make: make.__name__)
+def test_what_is_read_as_it_is_needs_no_words(make):
+    assert read(make()).warnings == []
+
+
+def test_the_metaball_with_the_lowest_number_holds_its_familys_polygons():
+    last, mother, other = metaball("Ball.010", 1.0), metaball("Ball.002"), metaball("Bowl", 9.0)
+    assert "“Ball.002” holds the polygons" in refused(last)
+    assert any("metaball family: “Ball.010”" in warning for warning in read(mother).warnings)
+    assert not any("family" in warning for warning in read(other).warnings)
+    assert measurable_objects(bpy.context.view_layer) == [mother, other]
+
+
+@pytest.mark.parametrize(
+    "kind", ["LIGHT", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"]
+)
+def test_kinds_without_geometry_are_refused_by_name(kind):
+    adders = {
+        "LIGHT": lambda: bpy.ops.object.light_add(type="SUN"),
+        "CAMERA": bpy.ops.object.camera_add,
+        "ARMATURE": bpy.ops.object.armature_add,
+        "LATTICE": lambda: bpy.ops.object.add(type="LATTICE"),
+        "SPEAKER": bpy.ops.object.speaker_add,
+        "LIGHT_PROBE": bpy.ops.object.lightprobe_add,
+    }
+    adders[kind]()
+    obj = bpy.context.object
+    assert "has no geometry" in refused(obj)
+    assert not measurable(obj)
+
+
+def test_an_empty_without_instances_is_refused():
+    obj = link("Empty")
+    assert "instances nothing" in refused(obj)
+    assert not measurable(obj)
+    obj.instance_type, obj.instance_collection = "COLLECTION", collection("Hollow")
+    assert "shows no surface" in refused(obj)
+
+
+def test_what_has_no_faces_is_refused_with_what_it_has():
+    wire = link("Wire", mesh("Wire", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1), (1, 2)]))
+    assert "only 3 vertices and 2 edges" in refused(wire)
+    assert "has no geometry" in refused(link("Nothing", mesh("Nothing", [], [])))
+    bpy.ops.curve.primitive_bezier_circle_add()
+    assert "bevel" in refused(bpy.context.object)
+    assert not measurable(bpy.context.object)
+    cloud = link("Cloud", bpy.data.pointclouds.new("Cloud"))
+    strands = link("Strands", bpy.data.hair_curves.new("Strands"))
+    volume = link("Volume", bpy.data.volumes.new("Volume"))
+    for obj in (cloud, strands, volume):
+        assert "no surface" in refused(obj)
+        assert not measurable(obj)
+
+
+def test_a_point_cloud_with_a_surface_from_nodes_is_read():
+    obj = link("Cloud", bpy.data.pointclouds.new("Cloud"))
+    nodes(
+        obj, lambda tree, source: join(tree, source, node(tree, "GeometryNodeMeshCube").outputs[0])
+    )
+    assert measurable(obj)
+    assert len(read(obj).parts[0].surface.quads) == 6
+
+
+# Hidden, excluded, elsewhere: Blender drops the modifiers of these without a word.
+
+
+def doubled(name, where=None):
+    obj = cube(name, where)
+    obj.modifiers.new("Array", "ARRAY").count = 2
+    return obj
+
+
+def test_an_object_hidden_by_its_eye_is_read_with_its_modifiers_and_said():
+    obj = doubled("Eye")
+    obj.hide_set(True)
+    obj.location.x = 5.0
+    reading = read(obj)
+    assert len(reading.parts[0].surface.quads) == 12
+    assert reading.matrix[0, 3] == 5.0
+    assert any("not shown" in warning and "eye icon" in warning for warning in reading.warnings)
+    obj.modifiers["Array"].count = 3
+    assert len(read(obj).parts[0].surface.quads) == 18
+
+
+def test_an_object_in_a_collection_hidden_by_its_eye_is_read_and_said():
+    home = collection("Home")
+    obj = doubled("Body", home)
+    layer_of(home).hide_viewport = True
+    reading = read(obj)
+    assert len(reading.parts[0].surface.quads) == 12
+    assert any("collection “Home” is hidden" in warning for warning in reading.warnings)
+
+
+def test_an_object_disabled_in_viewports_is_refused():
+    obj = doubled("Monitor")
+    obj.hide_viewport = True
+    assert "monitor icon" in refused(obj)
+
+
+def test_an_object_in_an_excluded_collection_is_refused():
+    home = collection("Home")
+    obj = doubled("Body", home)
+    layer_of(home).exclude = True
+    assert "collection “Home” is excluded" in refused(obj)
+
+
+def test_an_object_in_a_collection_disabled_in_viewports_is_refused():
+    home, inner = collection("Home"), collection("Inner", False)
+    home.children.link(inner)
+    obj = doubled("Body", inner)
+    home.hide_viewport = True
+    assert "collection “Home” is disabled" in refused(obj)
+
+
+def test_an_object_of_another_scene_or_of_none_is_refused():
+    obj = doubled("Body")
+    bpy.context.scene.collection.objects.unlink(obj)
+    assert "not in the scene “Scene”" in refused(obj)
+    bpy.data.scenes.new("Other").collection.objects.link(obj)
+    assert "not in the scene “Scene”" in refused(obj)
+
+
+def test_an_object_that_blender_has_not_met_yet_is_refused():
+    stale = depsgraph()
+    with pytest.raises(Unreadable, match="update the view layer"):
+        read_object(doubled("New"), stale)
+
+
+def test_an_instancer_disabled_in_viewports_is_refused():
+    obj = link("Instancer")
+    obj.instance_type, obj.instance_collection = "COLLECTION", collection("Members")
+    cube("Member", obj.instance_collection)
+    obj.hide_viewport = True
+    assert "monitor icon" in refused(obj)
+
+
+def test_of_a_constraints_disabled_target_the_transform_alone_is_evaluated_and_so_refused():
+    target = doubled("Target")
+    target.hide_viewport = True
+    cube("Follower").constraints.new("COPY_LOCATION").target = target
+    depsgraph()
+    assert target.evaluated_get(depsgraph()).is_evaluated
+    assert "monitor icon" in refused(target)
+
+
+def test_a_disabled_operand_of_something_shown_is_read_rightly_and_said():
+    operand = doubled("Operand")
+    operand.hide_viewport = True
+    cube("Body").modifiers.new("Boolean", "BOOLEAN").object = operand
+    operand.location.x = 0.5
+    reading = read(operand)
+    assert len(reading.parts[0].surface.quads) == 12
+    assert reading.matrix[0, 3] == 0.5
+    assert any("monitor icon" in warning for warning in reading.warnings)
+
+
+def test_a_saved_hidden_object_is_read_with_its_modifiers(tmp_path):
+    obj = doubled("Eye")
+    obj.hide_set(True)
+    path = str(tmp_path / "hidden.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
+    assert len(read(bpy.data.objects["Eye"]).parts[0].surface.quads) == 12
+
+
+# What the render would show is not what is read.
+
+
+def test_different_levels_for_the_render_are_said():
+    obj = cube()
+    modifier = obj.modifiers.new("Smooth", "SUBSURF")
+    modifier.levels, modifier.render_levels = 1, 3
+    reading = read(obj)
+    assert len(reading.parts[0].surface.quads) == 24
+    assert reading.warnings == [
+        "Read as the viewport shows it; the render differs: "
+        "“Smooth” has 1 in the viewport, 3 in the render."
+    ]
+    bpy.context.scene.render.use_simplify = True
+    bpy.context.scene.render.simplify_subdivision = (
+        bpy.context.scene.render.simplify_subdivision_render
+    ) = 1
+    assert read(obj).warnings == []
+
+
+def test_modifiers_of_the_viewport_or_of_the_render_alone_are_said():
+    obj = doubled("Body")
+    obj.modifiers["Array"].show_viewport = False
+    assert any("“Array” is rendered only" in warning for warning in read(obj).warnings)
+    obj.modifiers["Array"].show_render = False
+    assert read(obj).warnings == []
+    obj.modifiers["Array"].show_viewport = True
+    assert any("“Array” is not rendered" in warning for warning in read(obj).warnings)
+
+
+def test_the_levels_of_an_instanced_object_are_said():
+    members = collection("Members")
+    source = cube("Source", members)
+    modifier = source.modifiers.new("Smooth", "SUBSURF")
+    modifier.levels, modifier.render_levels = 1, 2
+    obj = link("Instancer")
+    obj.instance_type, obj.instance_collection = "COLLECTION", members
+    assert any("instanced “Source”" in warning for warning in read(obj).warnings)
+
+
+def test_errors_of_nodes_are_said():
+    obj = cube()
+
+    def build(tree, source):
+        warning = node(tree, "GeometryNodeWarning", {"Show": True, "Message": "no good"})
+        warning.warning_type = "ERROR"
+        gone = node(
+            tree, "GeometryNodeDeleteGeometry", {}, Geometry=source, Selection=warning.outputs[0]
+        )
+        return join(tree, source, gone.outputs[0])
+
+    nodes(obj, build)
+    assert any("“Nodes” reports an error: no good" in warning for warning in read(obj).warnings)
+
+
+# Transforms.
+
+
+def test_a_sheared_and_mirrored_transform_is_the_matrix_as_it_is():
+    parent = link("Parent")
+    parent.scale = (1.0, 3.0, -1.0)
+    obj = cube()
+    obj.parent = parent
+    obj.rotation_euler = (0.4, 0.5, 0.6)
+    reading = read(obj)
+    assert np.array_equal(reading.parts[0].matrices[0], [row[:] for row in obj.matrix_world])
+    linear = reading.matrix[:3, :3]
+    assert np.linalg.det(linear) < 0.0
+    assert abs(linear[:, 0] @ linear[:, 1]) > 0.1
+    assert not reading.singular
+
+
+def test_the_rotation_is_decomposed_and_orthonormal_to_the_last_digits():
+    obj = cube()
+    obj.rotation_euler, obj.scale, obj.location = (
+        (0.4, 0.5, 0.6),
+        (2.0, -3.0, 1e-3),
+        (1.0, 2.0, 3.0),
+    )
+    reading = read(obj)
+    location, rotation, _scale = obj.matrix_world.decompose()
+    assert np.allclose(reading.rotation, rotation.to_matrix(), rtol=0.0, atol=3e-7)
+    assert np.allclose(reading.rotation @ reading.rotation.T, np.eye(3), rtol=0.0, atol=1e-15)
+    assert np.linalg.det(reading.rotation) > 0.0
+    assert np.array_equal(reading.location, location[:])
+
+
+@pytest.mark.parametrize(
+    "scale, singular",
+    [
+        ((1, 1, 0), True),
+        ((0, 0, 0), True),
+        ((1e-9, 1e-9, 1e-9), False),
+        ((1e-9, 1.0, 1e9), False),
+        ((-1, 1, 1), False),
+    ],
+)
+def test_a_transform_that_flattens_is_told_from_one_that_is_small(scale, singular):
+    obj = cube()
+    obj.scale, obj.rotation_euler = scale, (0.4, 0.5, 0.6)
+    assert read(obj).singular == singular
+
+
+def test_a_shear_that_flattens_is_singular():
+    obj = cube()
+    matrix = Matrix.Identity(4)
+    matrix[0][:3], matrix[1][:3] = (0.1, 0.2, 0.3), (0.2, 0.4, 0.6)
+    parent = link("Parent")
+    obj.parent, obj.matrix_parent_inverse = parent, matrix
+    assert read(obj).singular
+
+
+def test_a_transform_that_is_not_finite_is_refused():
+    obj = cube()
+    obj.location.x = math.nan
+    assert "transform is not finite" in refused(obj)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_coordinates_that_are_not_finite_are_counted_and_refused(value):
+    obj = cube()
+    points = np.array([vertex.co[:] for vertex in obj.data.vertices], np.float32)
+    points[2, 1] = points[5, 0] = value
+    obj.data.attributes["position"].data.foreach_set("vector", points.ravel())
+    obj.data.update()
+    assert "2 of its 8 vertices" in refused(obj)
+
+
+# Data of others, modes, and nothing changed.
+
+
+def test_two_users_of_a_mesh_are_read_each_in_its_place():
+    first = cube("First")
+    second = link("Second", first.data)
+    second.location.x = 4.0
+    second.modifiers.new("Array", "ARRAY").count = 2
+    assert len(read(first).parts[0].surface.quads) == 6
+    reading = read(second)
+    assert len(reading.parts[0].surface.quads) == 12
+    assert reading.matrix[0, 3] == 4.0
+
+
+def test_linked_objects_and_collections_are_read(tmp_path):
+    home = collection("Library")
+    doubled("Linked", home)
+    path = str(tmp_path / "library.blend")
+    bpy.data.libraries.write(path, {home})
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    cube("Linked").location.x = 9.0
+    with bpy.data.libraries.load(path, link=True) as (_there, here):
+        here.collections = ["Library"]
+    (linked,) = here.collections
+    bpy.context.scene.collection.children.link(linked)
+    (obj,) = linked.objects
+    assert obj.library is not None
+    reading = read(obj)
+    assert len(reading.parts[0].surface.quads) == 12
+    assert reading.matrix[0, 3] == 0.0
+    instancer = link("Instancer")
+    instancer.instance_type, instancer.instance_collection = "COLLECTION", linked
+    assert len(read(instancer).parts[0].surface.quads) == 12
+    assert len(measurable_objects(bpy.context.view_layer)) == 3
+
+
+@pytest.mark.parametrize(
+    "mode", ["SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "EDIT", "OBJECT"]
+)
+def test_reading_keeps_mode_selection_and_active_object(mode):
+    obj, other = doubled("Body"), cube("Other")
+    activate(obj)
+    bpy.ops.object.mode_set(mode=mode)
+    reading = read(obj)
+    assert len(reading.parts[0].surface.quads) == 12
+    read(other)
+    assert obj.mode == mode
+    assert bpy.context.view_layer.objects.active == obj
+    assert bpy.context.selected_objects == [obj]
+    assert ("Sculpt Mode" in " ".join(reading.warnings)) == (mode == "SCULPT")
+
+
+def test_dynamic_topology_is_refused_as_its_mesh_cannot_be_seen():
+    obj = cube()
+    activate(obj)
+    bpy.ops.object.mode_set(mode="SCULPT")
+    bpy.ops.sculpt.dynamic_topology_toggle()
+    if not obj.use_dynamic_topology_sculpting:
+        pytest.skip("Dynamic topology cannot be turned on without a window")
+    assert "leave Sculpt Mode" in refused(obj)
+
+
+def test_a_curve_in_edit_mode_is_read():
+    obj = bevelled()
+    bpy.ops.object.mode_set(mode="EDIT")
+    before = len(read(obj).parts[0].surface.points)
+    bpy.ops.curve.subdivide()
+    assert len(read(obj).parts[0].surface.points) > before
+
+
+def test_an_evaluated_object_may_be_given():
+    obj = doubled("Body")
+    reading = read_object(obj.evaluated_get(depsgraph()), depsgraph())
+    assert reading.name == "Body"
+    assert len(reading.parts[0].surface.quads) == 12
+
+
+def test_measurable_objects_come_by_name_and_by_selection():
+    for name in ("c", "a", "b"):
+        cube(name)
+    link("empty")
+    bpy.ops.object.light_add(type="SUN")
+    bpy.ops.object.select_all(action="DESELECT")
+    layer = bpy.context.view_layer
+    assert [obj.name for obj in measurable_objects(layer)] == ["a", "b", "c"]
+    bpy.data.objects["c"].select_set(True)
+    assert [obj.name for obj in measurable_objects(layer, selected_only=True)] == ["c"]
+
+
+def test_members_of_an_instanced_collection_are_listed_only_where_they_are_shown():
+    members = collection("Members")
+    member = cube("Member", members)
+    instancer = link("Instancer")
+    instancer.instance_type, instancer.instance_collection = "COLLECTION", members
+    layer = bpy.context.view_layer
+    assert measurable_objects(layer) == [instancer, member]
+    layer_of(members).hide_viewport = True
+    assert measurable_objects(layer) == [instancer]
+    layer_of(members).exclude = True
+    assert measurable_objects(layer) == [instancer]
+    assert len(read(member).parts) == 1
