@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .moments import SECOND, U, Moments, sum_moments
+from .moments import SECOND, Moments, U, monomial_count, sum_moments
 from .pose import PrincipalFrame, principal_frame
 
 
@@ -43,7 +43,7 @@ class MassProperties:
         """
         total = moments.raw[0]
         if not total > moments.error[0]:
-            raise ValueError("the body has no volume")
+            raise ValueError("The body has no volume.")
         frame = principal_frame(moments, prefer, refine)
         shift = moments.raw[1:4] / total
         second = density * (moments.raw[SECOND] - np.outer(moments.raw[1:4], shift))
@@ -58,6 +58,13 @@ class MassProperties:
         """(3, 3) the tensor about another point, by the parallel-axis theorem."""
         arm = np.asarray(point, np.float64) - self.center
         return self.inertia + self.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+
+    def as_moments(self) -> Moments:
+        """Its mass moments about the center; the third ones are not known any more and left zero."""
+        raw = np.zeros(monomial_count(3))
+        raw[0] = self.mass
+        raw[SECOND] = np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia
+        return Moments(raw, self.center, "mass")
 
     @property
     def radii_of_gyration(self) -> NDArray[np.float64]:

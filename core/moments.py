@@ -215,7 +215,7 @@ def _bounds(moments: Moments, stretch: NDArray, reach: NDArray, slack: NDArray, 
 
     def carried(factor: NDArray, reach: NDArray, *largest: NDArray) -> list[NDArray]:
         powers = [[factor]]
-        for n in range(order):
+        for _ in range(order):
             powers.append([power * reach for power in powers[-1]] + [powers[-1][-1] * stretch])
         sums = [[math.comb(n, j) * power.sum() for j, power in enumerate(row)] for n, row in enumerate(powers)]
         return [np.array([np.dot(row, top[:len(row)]) for row in sums]) for top in largest]
@@ -235,7 +235,8 @@ def _weights(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     if of == "mass":
         return np.ones(len(linear)), exact, exact
     a, b, c = linear[:, :, 0], linear[:, :, 1], linear[:, :, 2]
-    terms = [(a[:, i] * b[:, j] * c[:, k], a[:, i] * b[:, k] * c[:, j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
+    terms = [(a[:, i] * b[:, j] * c[:, k], a[:, i] * b[:, k] * c[:, j])
+             for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
     det = np.abs(sum(plus - minus for plus, minus in terms))
     permanent = sum(np.abs(plus) + np.abs(minus) for plus, minus in terms)
     if of == "volume":

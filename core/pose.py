@@ -45,20 +45,6 @@ class PrincipalFrame:
     unique: bool
     note: str
 
-    @property
-    def quaternion(self) -> NDArray[np.float64]:
-        """(4,) w, x, y, z with w ≥ 0: the rotation whose matrix is `axes`, in double precision."""
-        m = self.axes
-        # Shepperd's method: 4 q qᵀ has no cancellation in the column of its largest diagonal entry.
-        outer = np.array([
-            [1 + m[0, 0] + m[1, 1] + m[2, 2], m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
-            [m[2, 1] - m[1, 2], 1 + m[0, 0] - m[1, 1] - m[2, 2], m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
-            [m[0, 2] - m[2, 0], m[0, 1] + m[1, 0], 1 - m[0, 0] + m[1, 1] - m[2, 2], m[1, 2] + m[2, 1]],
-            [m[1, 0] - m[0, 1], m[0, 2] + m[2, 0], m[1, 2] + m[2, 1], 1 - m[0, 0] - m[1, 1] + m[2, 2]]])
-        column = outer[:, np.argmax(np.diag(outer))]
-        column = column / np.linalg.norm(column)
-        return (column if column[0] >= 0.0 else -column) + 0.0
-
     def turned(self, rotation: NDArray) -> PrincipalFrame:
         """The same frame in coordinates new = rotation @ old."""
         return replace(self, axes=rotation @ self.axes)
@@ -130,7 +116,7 @@ def _third_scores(moments: Moments, shift: NDArray, spread: NDArray, axes: NDArr
     cross = shift[:, None, None] * second
     third = third - cross - cross.transpose(1, 0, 2) - cross.transpose(1, 2, 0) + 2.0 * shift[:, None, None] * outer
     turned = np.einsum("abc,ai->ibc", third, axes)
-    size = np.sqrt(np.maximum(spread, np.finfo(float).tiny))
+    size = np.sqrt(np.maximum(spread, 1e-30 * spread[0]))  # a lamina has no extent along an axis, and no skewness
     scores, doubt = np.zeros((2, 3, 3))
     error = 3.0 * (moments.error[THIRD].max() / total + np.abs(shift).max() * moments.error[SECOND].max() / total)
     for i in range(3):

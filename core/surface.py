@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
@@ -47,7 +47,7 @@ class Surface:
         largest = np.maximum(self.points.max(axis=0), -self.points.min(axis=0))
         return np.spacing(largest).astype(np.float64) / 2.0
 
-    def mapped(self, linear: NDArray, offset: NDArray = np.zeros(3)) -> Surface:
+    def mapped(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
         """The surface with points `linear @ x + offset` in float64. A mirroring map turns the faces' winding, so
         that outward stays outward; the diagonals stay where Blender drew them."""
         linear = np.asarray(linear, np.float64)
@@ -62,7 +62,7 @@ class Surface:
     def from_triangles(cls, points: NDArray, triangles: NDArray) -> Surface:
         """A surface of (m, 3) triangles over (n, 3) points. ValueError where an index has no point."""
         points, triangles = np.asarray(points), np.asarray(triangles)
-        if triangles.size and not (0 <= triangles.min() and triangles.max() < len(points)):
+        if triangles.size and not (triangles.min() >= 0 and triangles.max() < len(points)):
             raise ValueError("a triangle names a point that is not there")
         return cls(points, triangles)
 

@@ -156,15 +156,3 @@ def test_doubtful_third_moments_are_refined_and_only_then():
     cube = box((0, 0, 0), (1, 1, 1))
     principal_frame(Moments(cube.raw, cube.about, error=np.where(np.arange(20) > 9, 1.0, 0.0)), refine=refine)
     assert not asked
-
-
-def test_the_quaternion_is_the_rotation():
-    rng = np.random.default_rng(1)
-    body = UNIQUE["tetrahedron"]
-    for _ in range(50):
-        frame = principal_frame(body.mapped(random_motion(rng)))
-        w, x, y, z = frame.quaternion
-        rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                             [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
-        assert w >= 0 and np.allclose(rotation, frame.axes, atol=1e-14)

@@ -1,0 +1,12 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers that Blender stores as float32 and a person typed as decimals."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def decimal(value: float) -> float:
+    """The shortest decimal that is stored as the float32 `value`: 0.001 where float32 has 0.0010000000474974513."""
+    return float(str(np.float32(value)))

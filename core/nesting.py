@@ -1,0 +1,413 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How the closed shells of one body lie to each other: apart, one in another, or through one another.
+
+Pairs whose boxes overlap are found by a sweep. Each pair is then asked twice. Points just under the skin of the smaller
+shell are located in the larger one by its winding number, counted along a ray that is parallel to no axis; the
+crossings are counted in the plane across the ray with signs that neighbouring triangles share, so that no ray slips
+through between two of them (half-open edges, the watertight rule of rasterizers). Then edges of one that
+pierce triangles of the other are looked for. Both walk down one bounding-volume tree for each shell, all pairs and
+points at once, in bounded pieces of work. What touches within the tolerance does not cross.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .caps import ramp
+
+RAY = (0.08173, 0.05311)  # the ray is (0.08173, 0.05311, 1)
+LEAF = 4  # triangles
+PIECE = 1 << 17  # pairs looked at together
+BLOCK = 1 << 14  # triangles whose scratch stays in the cache
+MOST_PAIRS = 200_000  # of shells
+MOST_WORK = 10_000_000  # pairs of boxes looked at
+SAMPLES = 256, 8, 50_000  # points under the skin for one pair: at most, at least; and for all pairs together
+
+
+@dataclass(frozen=True, eq=False)
+class Relations:
+    """inside: (k, 2) pairs (inner shell, outer shell). crossing: (k, 2) pairs of shells that share a part of
+    their interiors without one containing the other, or that are the same. unchecked: pairs that would have been too
+    much work."""
+
+    inside: NDArray[np.intp]
+    crossing: NDArray[np.intp]
+    unchecked: int
+
+
+@dataclass(frozen=True, eq=False)
+class Shells:
+    """Triangles sorted by shell, and the measures of each shell.
+
+    triangles: (m, 3); shell: (m,) ascending; start: (c + 1,) where each shell begins; order: (m,) what was sorted.
+    low, high: (c, 3) boxes; volume: (c,) signed; area: (c,).
+    """
+
+    triangles: NDArray[np.integer]
+    shell: NDArray[np.intp]
+    start: NDArray[np.intp]
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    volume: NDArray[np.float64]
+    area: NDArray[np.float64]
+
+
+def sort_shells(points: NDArray[np.floating], triangles: NDArray[np.integer], shell: NDArray[np.intp],
+                number: int) -> Shells:
+    """Sort triangles by shell and measure each shell about a point of its own."""
+    if np.any(shell[1:] < shell[:-1]):
+        order = _radix_order(shell)
+        triangles, shell = triangles[order], shell[order]
+    start = np.searchsorted(shell, np.arange(number + 1))
+    columns = np.ascontiguousarray(points.T, np.float64)
+    home = columns[:, triangles[start[:-1], 0]]
+    low, high = np.full((3, number), np.inf), np.full((3, number), -np.inf)
+    volume, area = np.zeros((2, number))
+    for begin in range(0, len(triangles), BLOCK):
+        own = shell[begin:begin + BLOCK]
+        first = np.flatnonzero(np.concatenate([[True], own[1:] != own[:-1]]))
+        at = own[first]
+        index = triangles[begin:begin + BLOCK].T.astype(np.intp, order="C")
+        corner = [column.take(index) for column in columns]
+        for k, (a, b, c) in enumerate(corner):
+            low[k, at] = np.minimum(low[k, at], np.minimum.reduceat(np.minimum(np.minimum(a, b), c), first))
+            high[k, at] = np.maximum(high[k, at], np.maximum.reduceat(np.maximum(np.maximum(a, b), c), first))
+        b, c = ([x[k] - x[0] for x in corner] for k in (1, 2))
+        normal = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]]
+        height = sum(n * (x[0] - h[own]) for n, x, h in zip(normal, corner, home))
+        volume[at] += np.add.reduceat(height, first)
+        area[at] += np.add.reduceat(np.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2), first)
+    return Shells(triangles, shell, start, low.T, high.T, volume / 6.0, area / 2.0)
+
+
+def _radix_order(values: NDArray[np.integer]) -> NDArray[np.intp]:
+    """The stable order of integers from 0 to 2^32 - 1, 16 bits at a time: numpy sorts such short ones by counting."""
+    order = np.argsort(values.astype(np.uint16), kind="stable")
+    if values.max() > 0xFFFF:
+        order = order[np.argsort((values >> 16).astype(np.uint16)[order], kind="stable")]
+    return order
+
+
+def overlapping_boxes(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
+    """Pairs of boxes that overlap by more than `margin` along every axis, at most about `most`, and the number of
+    candidates that were left out."""
+    best = None
+    for axis in range(3):
+        order = np.argsort(low[:, axis], kind="stable")
+        last = np.searchsorted(low[order, axis], high[order, axis] - margin)
+        count = np.maximum(last - np.arange(1, len(order) + 1), 0)
+        if best is None or count.sum() < best[1].sum():
+            best = order, count
+    order, count = best
+    total = np.cumsum(count)
+    left, right, found, looked = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0
+    begin = 0
+    while begin < len(order) and found < most and looked < 100 * most:
+        done = total[begin - 1] if begin else 0
+        end = max(int(np.searchsorted(total, done + PIECE)), begin + 1)
+        rows = np.repeat(np.arange(begin, end), count[begin:end])
+        looked += len(rows)
+        if len(rows):
+            i, j = order[rows], order[rows + 1 + ramp(count[begin:end])]
+            both = np.all(np.minimum(high[i], high[j]) - np.maximum(low[i], low[j]) > margin, axis=1)
+            left.append(i[both])
+            right.append(j[both])
+            found += int(both.sum())
+        begin = end
+    skipped = int(total[-1] - (total[begin - 1] if begin else 0)) if len(total) else 0
+    return np.concatenate(left), np.concatenate(right), skipped
+
+
+def relate(points: NDArray[np.floating], shells: Shells, ask: NDArray[np.bool_], tolerance: float) -> Relations:
+    """How the shells with `ask`, all closed and none of them flat, lie to each other.
+
+    tolerance: (length) what counts as touching.
+    """
+    chosen = np.flatnonzero(ask)
+    i, j, skipped = overlapping_boxes(shells.low[chosen], shells.high[chosen], tolerance, MOST_PAIRS)
+    none = np.empty((0, 2), np.intp)
+    if not len(i):
+        return Relations(none, none, skipped)
+    i, j = chosen[i], chosen[j]
+    size = np.abs(shells.volume)
+    swap = (size[i] > size[j]) | ((size[i] == size[j]) & (i < j))
+    small, large = np.where(swap, j, i), np.where(swap, i, j)
+
+    wanted = np.zeros(len(size), bool)
+    wanted[small] = wanted[large] = True
+    tree = Tree(points, shells, wanted)
+    within, without, unsure = _locate(points, shells, tree, small, large, tolerance)
+    same = within & ~without & (size[large] - size[small] <= 1e-9 * size[large])
+    through = (within & without) | same
+    open_question = ~through
+    pierced, unfinished = _pierced(tree, small[open_question], large[open_question], tolerance)
+    through[open_question] = pierced
+    unsure = unsure.copy()
+    unsure[open_question] |= unfinished & ~pierced
+    inside = within & ~through & ~unsure
+    pair = np.stack([small, large], axis=1)
+    return Relations(pair[inside], pair[through], skipped + int(np.count_nonzero(unsure & ~through)))
+
+
+class Tree:
+    """One bounding-volume tree for each wanted shell: perfect binary trees over triangles in Morton order.
+
+    columns: (3, n) the vertices about `origin`; ids: (m, 3) the vertices of the sorted triangles.
+    root: (c,) the root of each shell's tree. A node's first child is `child`, -1 for leaves; the second one follows.
+    A leaf holds triangles `first` to `last`. low, high: (n, 3) boxes; of an empty node they are inverted.
+    """
+
+    def __init__(self, points: NDArray[np.floating], shells: Shells, wanted: NDArray[np.bool_]) -> None:
+        self.origin = (shells.low[wanted].min(axis=0) + shells.high[wanted].max(axis=0)) / 2.0
+        self.columns = np.ascontiguousarray(points.T, np.float64) - self.origin[:, None]
+        ids, shell = shells.triangles, shells.shell
+        if not wanted.all():
+            rows = np.flatnonzero(wanted[shell])
+            ids, shell = ids[rows], shell[rows]
+        low, high = np.empty((2, 3, len(ids)))
+        code = np.zeros(len(ids), np.int64)
+        corner = (shells.low - self.origin).T
+        scale = 1023.0 / np.maximum((shells.high - shells.low).max(axis=1), np.finfo(float).tiny)
+        for begin in range(0, len(ids), BLOCK):
+            rows = slice(begin, begin + BLOCK)
+            index = ids[rows].T.astype(np.intp, order="C")
+            for k, column in enumerate(self.columns):
+                a, b, c = column.take(index)
+                np.minimum(np.minimum(a, b), c, out=low[k, rows])
+                np.maximum(np.maximum(a, b), c, out=high[k, rows])
+                cell = (0.5 * (low[k, rows] + high[k, rows]) - corner[k, shell[rows]]) * scale[shell[rows]]
+                code[rows] |= _spread(cell.astype(np.int64)) << k
+        order = _radix_order(code)
+        order = order[_radix_order(shell[order])]
+        self.ids, shell = ids[order], shell[order]
+
+        present = np.flatnonzero(wanted)
+        begin = np.searchsorted(shell, present)
+        size = np.searchsorted(shell, present, side="right") - begin
+        leaves = -(-size // LEAF)
+        depth = np.ceil(np.log2(leaves)).astype(np.intp)
+        width = 1 << depth
+        offset = np.concatenate([[0], np.cumsum(2 * width - 1)])
+        count = int(offset[-1])
+        self.root = np.full(len(wanted), -1)
+        self.root[present] = offset[:-1]
+        self.low, self.high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+        self.first, self.last = np.zeros((2, count), np.intp)
+        tree = np.repeat(np.arange(len(present)), 2 * width - 1)
+        self.child = 2 * np.arange(count) - offset[tree] + 1
+        self.child[np.arange(count) - offset[tree] >= width[tree] - 1] = -1
+
+        k = ramp(leaves)
+        tree = np.repeat(np.arange(len(present)), leaves)
+        leaf = offset[tree] + width[tree] - 1 + k
+        self.first[leaf] = begin[tree] + LEAF * k
+        self.last[leaf] = np.minimum(self.first[leaf] + LEAF, (begin + size)[tree])
+        for k in range(3):
+            self.low[leaf, k] = np.minimum.reduceat(low[k, order], self.first[leaf])
+            self.high[leaf, k] = np.maximum.reduceat(high[k, order], self.first[leaf])
+        for level in range(int(depth.max()) - 1, -1, -1):
+            deep = np.flatnonzero(depth > level)
+            node = np.repeat(offset[deep] + (1 << level) - 1, 1 << level) + np.tile(np.arange(1 << level), len(deep))
+            child = self.child[node]
+            self.low[node] = np.minimum(self.low[child], self.low[child + 1])
+            self.high[node] = np.maximum(self.high[child], self.high[child + 1])
+
+    def corners(self, triangle: NDArray[np.intp]) -> NDArray[np.float64]:
+        """(3, k, 3) the corners of sorted triangles, about `origin`."""
+        return np.stack([column[self.ids[triangle].T] for column in self.columns], axis=-1)
+
+    def inside(self, places: NDArray[np.float64], shell: NDArray[np.intp], tolerance: float
+               ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+        """(k,) the winding number of a shell around each place (about `origin`), and whether it is sure: not where
+        the place is nearer than `tolerance` to the surface along the ray, or where the work ran out."""
+        winding = np.zeros(len(places), np.intp)
+        sure = np.ones(len(places), bool)
+        u, v = places[:, 0] - RAY[0] * places[:, 2], places[:, 1] - RAY[1] * places[:, 2]
+        pieces = _split(np.arange(len(places)), self.root[shell])
+        work = 0
+        while pieces:
+            place, node = pieces.pop()
+            work += len(place)
+            if work > MOST_WORK:
+                for rest, _ in [*pieces, (place, node)]:
+                    sure[rest] = False
+                break
+            low, high = self.low[node], self.high[node]
+            hit = high[:, 2] >= places[place, 2] - tolerance
+            for k, (at, slope) in enumerate(((u, RAY[0]), (v, RAY[1]))):
+                hit &= (low[:, k] - slope * high[:, 2] <= at[place]) & (high[:, k] - slope * low[:, 2] >= at[place])
+            place, node = place[hit], node[hit]
+            child = self.child[node]
+            leaf = child < 0
+            if leaf.any():
+                self._count(places, place[leaf], node[leaf], tolerance, winding, sure)
+            place, child = place[~leaf], child[~leaf]
+            pieces += _split(np.concatenate([place, place]), np.concatenate([child, child + 1]))
+        return winding, sure
+
+    def _count(self, places: NDArray, place: NDArray, leaf: NDArray, tolerance: float, winding: NDArray,
+               sure: NDArray) -> None:
+        """Add the crossings of the rays with the triangles of leaves."""
+        size = self.last[leaf] - self.first[leaf]
+        triangle = np.repeat(self.first[leaf], size) + ramp(size)
+        place = np.repeat(place, size)
+        corner = self.corners(triangle) - places[place]
+        u = corner[..., 0] - RAY[0] * corner[..., 2]
+        v = corner[..., 1] - RAY[1] * corner[..., 2]
+        ids = self.ids[triangle]
+        edge, positive = np.empty((3, len(triangle))), np.empty((3, len(triangle)), bool)
+        for k in range(3):
+            i, j = (k + 1) % 3, (k + 2) % 3
+            # Judged from the edge's lower vertex, so that both its triangles see one number; zero counts as positive.
+            back = ids[:, i] > ids[:, j]
+            area = np.where(back, u[j] * v[i] - u[i] * v[j], u[i] * v[j] - u[j] * v[i])
+            edge[k] = np.where(back, -area, area)
+            positive[k] = (area >= 0.0) ^ back
+        struck = (positive[0] == positive[1]) & (positive[1] == positive[2])
+        place, edge, positive, corner = place[struck], edge[:, struck], positive[0, struck], corner[:, struck]
+        total = edge.sum(axis=0)
+        flat = total == 0.0
+        height = np.einsum("kj,kj->j", edge, corner[..., 2]) / np.where(flat, 1.0, total)
+        sure[place[flat | (np.abs(height) <= tolerance)]] = False
+        above = height > 0.0
+        np.add.at(winding, place[above], np.where(positive[above], 1, -1))
+
+
+def decide(shells: Shells, relations: Relations, ask: NDArray[np.bool_]
+           ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
+    """Which shells to turn, and which are then outward shells in the material of others or cavities; (c,) each.
+
+    From the outermost inward: an inward shell that no material surrounds is inside out. It is turned, and so is what it
+    contains where that was consistent with it (a hollow body turned inside out as a whole).
+    """
+    number = len(ask)
+    given = np.where(ask, np.sign(shells.volume), 0.0)
+    sign = given.copy()
+    inner, outer = relations.inside.T
+    depth = np.bincount(inner, minlength=number)
+    parent = np.full(number, -1)
+    order = np.argsort(depth[outer], kind="stable")
+    parent[inner[order]] = outer[order]  # the last one, the deepest, is kept
+    order = np.argsort(depth[inner], kind="stable")
+    inner, outer = inner[order], outer[order]
+    around = np.zeros(number)
+    for level in np.unique(depth[ask]):
+        at = np.flatnonzero(ask & (depth == level))
+        if level:
+            own = slice(*np.searchsorted(depth[inner], [level, level + 1]))
+            follows = (sign[parent[at]] != given[parent[at]]) & (given[at] == -given[parent[at]])
+            sign[at[follows]] *= -1.0
+            around += np.bincount(inner[own], sign[outer[own]], minlength=number)
+        astray = at[(sign[at] < 0.0) & (around[at] <= 0.0)]
+        sign[astray] = 1.0
+    return sign != given, (sign > 0.0) & (around >= 1.0), (sign < 0.0) & (around >= 1.0)
+
+
+def _spread(value: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Ten bits with two zeros after each: a third of a Morton code."""
+    value = (value | value << 16) & 0x030000FF
+    value = (value | value << 8) & 0x0300F00F
+    value = (value | value << 4) & 0x030C30C3
+    return (value | value << 2) & 0x09249249
+
+
+def _split(*arrays: NDArray) -> list[tuple[NDArray, ...]]:
+    """The arrays in parallel pieces of bounded length."""
+    return [tuple(array[k:k + PIECE] for array in arrays) for k in range(0, len(arrays[0]), PIECE)]
+
+
+def _locate(points: NDArray, shells: Shells, tree: Tree, small: NDArray, large: NDArray, tolerance: float
+            ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
+    """For each pair: whether some point under the smaller shell's skin is within the larger shell, whether some is
+    without, and whether neither could be found out."""
+    most, least, together = SAMPLES
+    size = shells.start[small + 1] - shells.start[small]
+    number = np.clip(together // len(small), least, most)
+    pair = np.repeat(np.arange(len(small)), number)
+    k = np.tile(np.arange(number), len(small))
+    own = small[pair]
+    triangle = shells.start[own] + k * size[pair] // number
+    corner = points[shells.triangles[triangle]].astype(np.float64) - tree.origin
+    # Three numbers that never put two samples of a triangle in one place, nor any on a line of symmetry.
+    weight = np.stack([0.17 + k * 0.7548776662 % 1.0, 0.11 + k * 0.5698402910 % 1.0, 0.23 + k * 0.3247179572 % 1.0])
+    weight /= weight.sum(axis=0)
+    place = np.einsum("kn,nkj->nj", weight, corner)
+    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    area = np.linalg.norm(normal, axis=1)
+    depth = 10.0 ** (-2 - k % 3) * np.sqrt(area)  # a thin shell needs less than a thick one allows
+    inward = -np.sign(shells.volume[own]) * np.maximum(depth, 4.0 * tolerance)
+    place += normal * np.divide(inward, area, out=np.zeros_like(area), where=area > 0.0)[:, None]
+    self_winding, self_sure = tree.inside(place, own, tolerance)
+    keep = self_sure & (self_winding != 0)
+    place, pair = place[keep], pair[keep]
+    winding, sure = tree.inside(place, large[pair], tolerance)
+    within, without = np.zeros((2, len(small)), bool)
+    within[pair[sure & (winding != 0)]] = True
+    without[pair[sure & (winding == 0)]] = True
+    return within, without, ~(within | without)
+
+
+def _pierced(tree: Tree, one: NDArray, other: NDArray, tolerance: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """For each pair of shells whether an edge of one goes through a triangle of the other by more than the tolerance,
+    and whether the work ran out before that was known."""
+    found, unfinished = np.zeros((2, len(one)), bool)
+    pieces = _split(np.arange(len(one)), tree.root[one], tree.root[other])
+    work = 0
+    while pieces:
+        pair, a, b = pieces.pop()
+        going = ~found[pair]
+        pair, a, b = pair[going], a[going], b[going]
+        work += len(pair)
+        if work > MOST_WORK:
+            for rest, *_ in [*pieces, (pair,)]:
+                unfinished[rest] = True
+            break
+        meet = np.all(np.minimum(tree.high[a], tree.high[b]) - np.maximum(tree.low[a], tree.low[b]) >= 0.0, axis=1)
+        pair, a, b = pair[meet], a[meet], b[meet]
+        child_a, child_b = tree.child[a], tree.child[b]
+        both = (child_a < 0) & (child_b < 0)
+        if both.any():
+            _pierce_leaves(tree, pair[both], a[both], b[both], tolerance, found)
+            pair, a, b, child_a, child_b = (x[~both] for x in (pair, a, b, child_a, child_b))
+        # The larger box is opened; a leaf never is.
+        extent = (tree.high[a] - tree.low[a]).max(axis=1) >= (tree.high[b] - tree.low[b]).max(axis=1)
+        left = (child_b < 0) | (extent & (child_a >= 0))
+        pieces += _split(
+            np.concatenate([pair[left], pair[left], pair[~left], pair[~left]]),
+            np.concatenate([child_a[left], child_a[left] + 1, a[~left], a[~left]]),
+            np.concatenate([b[left], b[left], child_b[~left], child_b[~left] + 1]))
+    return found, unfinished
+
+
+def _pierce_leaves(tree: Tree, pair: NDArray, a: NDArray, b: NDArray, tolerance: float, found: NDArray) -> None:
+    """Mark the pairs of which a triangle in one leaf is pierced by an edge in the other."""
+    size_a, size_b = tree.last[a] - tree.first[a], tree.last[b] - tree.first[b]
+    k = ramp(size_a * size_b)
+    row = np.repeat(np.arange(len(a)), size_a * size_b)
+    first, second, pair = tree.first[a][row] + k // size_b[row], tree.first[b][row] + k % size_b[row], pair[row]
+    for _ in range(2):
+        corner, plane = tree.corners(first), tree.corners(second)
+        normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
+        length = np.linalg.norm(normal, axis=1)
+        normal = np.divide(normal, length[:, None], out=np.zeros_like(normal), where=length[:, None] > 0.0)
+        height = np.einsum("kij,ij->ki", corner - plane[0], normal)
+        through = (height.max(axis=0) > tolerance) & (height.min(axis=0) < -tolerance)
+        for i in range(3):
+            j = (i + 1) % 3
+            low, high = np.minimum(height[i], height[j]), np.maximum(height[i], height[j])
+            at = np.flatnonzero(through & (low < -tolerance) & (high > tolerance))
+            if not len(at):
+                continue
+            p, q, rise = corner[i, at], corner[j, at], height[i, at]
+            where = p + (q - p) * (rise / (rise - height[j, at]))[:, None]
+            depth = np.full(len(at), np.inf)
+            for k in range(3):
+                edge = plane[(k + 1) % 3, at] - plane[k, at]
+                across = np.einsum("ij,ij->i", np.cross(normal[at], edge), where - plane[k, at])
+                depth = np.minimum(depth, across / np.linalg.norm(edge, axis=1))
+            found[pair[at[depth > tolerance]]] = True
+        first, second = second, first

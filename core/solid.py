@@ -1,0 +1,339 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What kind of body a surface is, what had to be mended to measure it, and its moments.
+
+A mesh whose own edges prove it closed is measured as it stands. Any other is mended on a copy, one decision after the
+other, and each decision is told: equal positions are welded, then, along open edges only, positions that differ by
+rounding; copies of faces that keep edges from closing are left out; faces that run against the rest of their part are
+turned; gaps without area (T-junctions) close; other rims are capped. Then the shells are compared: a shell that is
+inside out and in no other's material is turned. What is still not closed is measured as a signed sum about the
+reference point, and called open.
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field, fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import polyhedron
+from .flatness import examine
+from .mending import Mended, counted, listed, mend
+from .moments import Moments
+from .nesting import decide, relate, sort_shells
+from .surface import Surface
+from .topology import closed_sides, components, mesh_faces
+from .weld import TOLERANCE
+
+LARGEST = 1e50  # a length whose sixth power is still a number
+NO_VOLUME = 1e-7  # of diagonal times area: what capping a flat sheet of float32 points leaves
+ROUNDING = 1e-14  # the same for a closed one
+SPREAD = 1e-6  # of the volume: below, nobody needs to know
+NO_PAIRS = np.empty((0, 2), np.int64)
+NO_FACES = np.empty(0, np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Faults:
+    """Where the faults are, in the input mesh's own numbers, sorted: faces (k,), edges (k, 2) as vertex pairs.
+
+    flipped_faces: turned to agree with the rest of their part (not those of a part that is inside out as a whole).
+    boundary_edges, non_manifold_edges, inconsistent_edges: as counted in `Health`, but each with all the mesh's edges
+    that lie there. duplicate_faces: the later copies. degenerate_faces: those without area.
+    """
+
+    flipped_faces: NDArray[np.integer] = field(default_factory=lambda: NO_FACES)
+    boundary_edges: NDArray[np.integer] = field(default_factory=lambda: NO_PAIRS)
+    non_manifold_edges: NDArray[np.integer] = field(default_factory=lambda: NO_PAIRS)
+    inconsistent_edges: NDArray[np.integer] = field(default_factory=lambda: NO_PAIRS)
+    duplicate_faces: NDArray[np.integer] = field(default_factory=lambda: NO_FACES)
+    degenerate_faces: NDArray[np.integer] = field(default_factory=lambda: NO_FACES)
+
+
+@dataclass(frozen=True, eq=False)
+class Health:
+    """The input, before anything was mended.
+
+    closed: in space: equal positions are one, and gaps without area are none.
+    welded: whether positions had to be welded to judge.
+    boundary_edges: with one face, after that welding, unless the gap they bound has no area.
+    non_manifold_edges: with more than two faces. inconsistent_edges: with two faces that both run the same way.
+    components: shells, connected across edges. inverted_components: inside out. nested_components: outward ones in
+        the material of others, counted twice. cavities: inward ones in the material of others. overlapping_components:
+        those that share a part of their interiors with another one, or are a copy of it.
+    duplicate_faces: later copies of faces. degenerate_faces: without area. non_planar_faces, volume_spread: the faces
+        that are not flat, and the volume (unit³) that the choice of their diagonals can change.
+    cap_area_share: the area of the caps that were needed by the area of the faces.
+    """
+
+    closed: bool
+    welded: bool = False
+    boundary_edges: int = 0
+    non_manifold_edges: int = 0
+    inconsistent_edges: int = 0
+    components: int = 1
+    inverted_components: int = 0
+    nested_components: int = 0
+    cavities: int = 0
+    overlapping_components: int = 0
+    duplicate_faces: int = 0
+    degenerate_faces: int = 0
+    non_planar_faces: int = 0
+    volume_spread: float = 0.0
+    cap_area_share: float = 0.0
+    faults: Faults = field(default_factory=Faults)
+
+    def as_record(self) -> dict:
+        """Plain values for JSON; of the faults only the flipped faces."""
+        record = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name != "faults"}
+        record["flipped_faces"] = self.faults.flipped_faces.tolist()
+        return record
+
+
+@dataclass(frozen=True, eq=False)
+class SolidMeasure:
+    """volume: Moments to order 3, about the body's reference point. area: Moments of the input's faces, without caps.
+    method: "exact", "capped", "reoriented" or "open". warnings: one sentence for each decision taken.
+
+    Of a body that is flat the volume's moments are zero; of an open one they depend on the reference point.
+    mended: the surface whose signed sum `volume` is, up to its sign.
+    """
+
+    volume: Moments
+    area: Moments
+    health: Health
+    method: str
+    warnings: tuple[str, ...]
+    mended: Surface
+
+    def refined(self) -> Moments:
+        """`volume` with its third order exact to rounding, for what its bounds leave undecided."""
+        exact = polyhedron.third_moments_exact(self.mended)
+        return exact if exact.total > 0.0 else replace(exact, raw=-exact.raw)
+
+
+def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) -> SolidMeasure:
+    """The moments of the body that a surface bounds, in the surface's own coordinates and unit, and how they came.
+
+    shell: the area's moments to order 3 (else order 0). threads: for the sums over faces, and for the verdict.
+    ValueError, with what to do, where there are no faces or a face uses a vertex that has no finite position.
+    """
+    surface, vertices, size = _used(surface)
+    error = float(np.linalg.norm(surface.coordinate_error))
+    tolerance = max(TOLERANCE * size, 4.0 * error)
+    if threads > 1:
+        with ThreadPoolExecutor(1) as pool:
+            waiting = pool.submit(examine, surface, error)
+            body = _proven(surface)
+        flatness = waiting.result()
+    else:
+        flatness, body = examine(surface, error), _proven(surface)
+    proven = body is not None
+    if not proven:
+        body = mend(surface, tolerance, size)
+    compared = _compared(body, tolerance, error) if body.number > 1 else None
+    turn = np.zeros(body.number, bool) if compared is None else compared.turned
+    measured = _to_measure(surface, body, turn, np.ones(1, bool) if compared is None else compared.solid, proven)
+    volume, area = polyhedron.solid_and_area(measured, threads, shell)
+    if body.changed:  # caps are no part of the area, and left out faces are
+        area = polyhedron.solid_and_area(surface, threads, shell)[1]
+    if compared is None:
+        solid = bool(abs(volume.total) > _noise(size, area.total, body.caps.any(), error))
+        turn = turn | (solid and volume.total < 0.0)
+        caps = body.caps.sum(axis=0) * solid
+    else:
+        solid = bool(compared.solid.any())
+        caps = body.caps[compared.solid].sum(axis=0)
+    cap_share = float(caps[2] / area.total) if area.total > 0.0 else 0.0
+    open_parts = bool(body.open.any())
+    if not solid and not open_parts:  # what rounding leaves of nothing would pass for a tiny body
+        volume = replace(volume, raw=np.zeros_like(volume.raw), error=volume.error + np.abs(volume.raw))
+    elif volume.total < 0.0:
+        volume = replace(volume, raw=-volume.raw)
+    flipped, inverted = _turned_faces(body, turn)
+    if open_parts or not solid:
+        method = "open"
+    elif caps.any():
+        method = "capped"
+    else:
+        method = "reoriented" if len(flipped) or len(inverted) else "exact"
+    notes = [*body.notes, *_turned_told(body, flipped, inverted), *_capped_told(*caps[:2].astype(int), cap_share)]
+    if compared is not None:
+        notes += _compared_told(body, compared)
+    if not solid:
+        notes.append("It is flat and encloses no volume: measure a shell.")
+    elif flatness.spread > SPREAD * volume.total:
+        notes.append("Faces that are not flat: the choice of their diagonals can change the volume by up to {:.2g} %."
+                     .format(100.0 * flatness.spread / volume.total))
+    counts = body.counts | (compared.counts if compared else {})
+    faults = {key: vertices[value] if vertices is not None and key.endswith("edges") else value
+              for key, value in body.faults.items()}
+    health = Health(
+        **counts, inverted_components=len(inverted), degenerate_faces=len(flatness.without_area),
+        non_planar_faces=flatness.not_flat, volume_spread=flatness.spread, cap_area_share=cap_share,
+        faults=Faults(**faults, flipped_faces=flipped, degenerate_faces=flatness.without_area))
+    return SolidMeasure(volume=volume, area=area, health=health, method=method, warnings=tuple(notes),
+                        mended=measured)
+
+
+def _used(surface: Surface) -> tuple[Surface, NDArray[np.intp] | None, float]:
+    """The surface without vertices that no face uses, the old number of each vertex (None where all are used), and the
+    diagonal of the bounding box. ValueError where the surface cannot be measured."""
+    faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
+    if not faces:
+        raise ValueError("It has no faces. Give it faces, or choose an object that has some.")
+    points = surface.points
+    if any(corners.min() < 0 or corners.max() >= len(points) for corners in faces):
+        raise ValueError("Its faces use vertices that do not exist. Run Mesh > Validate on it.")
+    used = np.zeros(len(points), bool)
+    for column in (0, 2, 1, 3):  # opposite corners first: they reach most vertices
+        for corners in faces:
+            if column < corners.shape[1]:
+                used[corners[:, column].astype(np.intp)] = True
+        if used.all():
+            break
+    vertices = None
+    if not used.all():
+        vertices = np.flatnonzero(used)
+        number = np.cumsum(used) - 1
+        surface = replace(
+            surface, points=points[used], triangles=number[surface.triangles], quads=number[surface.quads],
+            corner_vertices=None if surface.corner_vertices is None else number[surface.corner_vertices],
+            edges=None if surface.edges is None else number[surface.edges])
+    points = surface.points
+    with np.errstate(invalid="ignore", over="ignore"):
+        size = float(np.linalg.norm([float(points[:, k].max()) - float(points[:, k].min()) for k in range(3)]))
+    if not np.isfinite(size):
+        astray = np.flatnonzero(~np.isfinite(points).all(axis=1))
+        if len(astray):
+            raise ValueError(
+                "{:d} of its vertices have no finite position: {:s}. Delete them, or repair what moves them."
+                .format(len(astray), listed(astray if vertices is None else vertices[astray])))
+    if not max(size, float(np.abs(points).max())) < LARGEST:
+        raise ValueError("It is too large for its moments to be numbers. Scale it down.")
+    return surface, vertices, size
+
+
+def _noise(size: float, area: float, capped: bool, error: float) -> float:
+    """The volume that is none: what rounding leaves of a closed sheet, and what capping leaves of a flat one."""
+    return (NO_VOLUME * size + 4.0 * error) * area if capped else ROUNDING * size * area
+
+
+def _proven(surface: Surface) -> Mended | None:
+    """The body where the mesh's own edges prove it closed and oriented. Of one shell nobody needs the triangles."""
+    sides = closed_sides(surface)
+    if sides is None:
+        return None
+    quad_faces, triangle_faces = mesh_faces(surface)
+    present = np.zeros(max(quad_faces.max(initial=-1), triangle_faces.max(initial=-1)) + 1, bool)
+    present[quad_faces] = present[triangle_faces] = True
+    number = np.arange(len(present))
+    if not present.all():
+        number = np.cumsum(present) - 1
+        sides = number[sides]
+    shell, shells = components(int(number[-1]) + 1, sides[:, 0], sides[:, 1])
+    triangles, face = surface.triangles[:0], triangle_faces[:0]
+    if shells > 1:
+        triangles = np.concatenate([surface.quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3), surface.triangles])
+        face = np.concatenate([np.repeat(quad_faces, 2), triangle_faces])
+    return Mended(surface.points, triangles, face, np.zeros(len(face), bool), shell[number[face]], shells,
+                  np.zeros(shells, bool), np.zeros((shells, 3)), counts={"closed": True, "components": shells})
+
+
+@dataclass(frozen=True, eq=False)
+class _Compared:
+    """What comparing the shells of a body came to. turned, solid: (c,) the shells to turn, and those with a volume.
+    counts: entries of `Health`. unchecked: pairs of shells that were not compared."""
+
+    turned: NDArray[np.bool_]
+    solid: NDArray[np.bool_]
+    counts: dict
+    unchecked: int
+
+
+def _compared(body: Mended, tolerance: float, error: float) -> _Compared:
+    shells = sort_shells(body.points, body.triangles, body.shell, body.number)
+    size = np.linalg.norm(shells.high - shells.low, axis=1)
+    closed, capped = (_noise(size, shells.area, caps, error) for caps in (False, True))
+    noise = np.where(body.caps.any(axis=1), capped, closed)
+    solid = ~body.open & (np.abs(shells.volume) > noise)
+    relations = relate(body.points, shells, solid, tolerance)
+    turned, nested, cavities = decide(shells, relations, solid)
+    return _Compared(turned, solid, {
+        "nested_components": int(nested.sum()), "cavities": int(cavities.sum()),
+        "overlapping_components": len(np.unique(relations.crossing))}, relations.unchecked)
+
+
+def _to_measure(surface: Surface, body: Mended, turn: NDArray[np.bool_], solid: NDArray[np.bool_], proven: bool
+                ) -> Surface:
+    """The surface whose signed sum is the body's."""
+    turned = body.turned ^ turn[body.shell]
+    kept = (body.open | solid)[body.shell]  # of flat parts only rounding would count
+    if not body.changed and not turned.any() and (kept.all() or not kept.any()):
+        return surface
+    if proven:
+        quads, triangles = surface.quads.copy(), surface.triangles.copy()
+        rows = turned[:2 * len(quads):2]
+        quads[rows] = quads[rows][:, [0, 3, 2, 1]]  # the first corner stays, and with it the diagonal
+        rows = turned[2 * len(quads):]
+        triangles[rows] = triangles[rows][:, ::-1]
+        return replace(surface, quads=quads, triangles=triangles)
+    triangles = np.where(turn[body.shell][:, None], body.triangles[:, ::-1], body.triangles)
+    return Surface(body.points, triangles if kept.all() else triangles[kept])
+
+
+def _turned_faces(body: Mended, turn: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
+    """The mesh faces that were turned within their shells, and the shells that were turned as a whole."""
+    if not len(body.face) or not (body.turned.any() or turn.any()):
+        return NO_FACES, np.flatnonzero(turn)
+    own = body.face >= 0
+    turned, shell = (body.turned ^ turn[body.shell])[own], body.shell[own]
+    whole = np.bincount(shell, ~turned, minlength=body.number) == 0
+    return np.unique(body.face[own][turned & ~whole[shell]]), np.flatnonzero(whole)
+
+
+def _turned_told(body: Mended, flipped: NDArray, inverted: NDArray) -> list[str]:
+    """Sentences about the faces and the parts that were turned."""
+    notes = []
+    if len(flipped):
+        notes.append(counted(
+            flipped, "Face {:s} is flipped and was measured as if turned. Recalculate Outside mends it.",
+            "{:d} faces are flipped and were measured as if turned: {:s}. Recalculate Outside mends them."))
+    if len(inverted):
+        notes.append("{:s} inside out, and measured as if turned. Recalculate Outside mends that.".format(
+            "It is" if body.number == 1 else "One of its parts is" if len(inverted) == 1
+            else "{:d} of its {:d} parts are".format(len(inverted), body.number)))
+    return notes
+
+
+def _capped_told(flat: int, curved: int, share: float) -> list[str]:
+    """Sentences about the caps: how many are flat and curved, and their share of the area."""
+    if flat + curved == 0:
+        return []
+    if flat + curved == 1:
+        return ["One {:s} hole was capped ({:.3g} % of the area). Fill it for a closed body."
+                .format("curved" if curved else "flat", 100.0 * share)]
+    return ["{:d} holes were capped ({:d} flat, {:d} curved; {:.3g} % of the area). Fill them for a closed body."
+            .format(flat + curved, flat, curved, 100.0 * share)]
+
+
+def _compared_told(body: Mended, compared: _Compared) -> list[str]:
+    """Sentences about parts that count twice or not at all."""
+    notes = []
+    nested, overlapping = (compared.counts[key] for key in ("nested_components", "overlapping_components"))
+    if nested:
+        notes.append("{:s} inside another one, so that space counts twice. Flip what is a cavity, or measure the union."
+                     .format("One outward shell lies" if nested == 1 else "{:d} outward shells lie".format(nested)))
+    if overlapping:
+        notes.append("{:d} parts overlap, so that what they share counts twice. Measure the union instead."
+                     .format(overlapping))
+    flat = np.count_nonzero(~compared.solid & ~body.open)
+    if flat and compared.solid.any():
+        notes.append("{:s} flat and adds no volume.".format(
+            "One part is" if flat == 1 else "Each of {:d} parts is".format(flat)))
+    if compared.unchecked:
+        notes.append("Whether {:d} pairs of its parts overlap was not checked: it would have taken too long."
+                     .format(compared.unchecked))
+    return notes

@@ -1,0 +1,247 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How faces hang together: edges, the cheap proof of closedness, connected parts, consistent orientation.
+
+A surface bounds a body exactly when every edge is used as often one way as the other: then its boundary is zero as a
+chain, and the volume does not depend on a reference point. Where a mesh brings its own corners and edges, one scatter
+proves the common case (each edge once each way) without sorting anything.
+
+Connected parts are found by hooking: every node takes any lower neighbour as its parent, which cannot make a cycle,
+paths are halved by pointer jumping, the trees are contracted and the rest is done again (after Shiloach and Vishkin,
+"An O(log n) parallel connectivity algorithm", J. Algorithms 3, 1982). Orientation is the same on the double cover:
+each face becomes two nodes, one for each orientation; a part is orientable where its two covers stay apart.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .surface import Surface
+
+BLOCK = 1 << 15  # corners at a time: their scratch stays in the cache
+
+
+def closed_sides(surface: Surface) -> NDArray[np.int32] | None:
+    """(e, 2) the mesh face on each side of each used edge, where the mesh's own corners prove that every edge that
+    has faces has two, which run along it in opposite directions; None where they do not, or where there are none.
+
+    Edges without faces do not count.
+    """
+    if surface.corner_vertices is None or surface.corner_edges is None or surface.edges is None:
+        return None
+    corners, ends = surface.corner_vertices, surface.edges.reshape(-1)
+    faces = _corner_faces(surface)
+    if faces is None or len(surface.corner_edges) != len(corners):
+        return None
+    sides = np.zeros(len(ends), np.int32)  # one more than the face, 0 for none
+    for start in range(0, len(corners), BLOCK):
+        part = slice(start, start + BLOCK)
+        slot = surface.corner_edges[part].astype(np.intp)
+        slot += slot
+        slot += ends.take(slot) == corners[part]
+        sides[slot] = faces(start, min(start + BLOCK, len(corners)))
+    sides = sides.reshape(-1, 2)
+    if len(corners) != 2 * len(sides) or not sides.all():
+        used = sides.any(axis=1)
+        sides = sides[used]
+        if len(corners) != 2 * len(sides) or not sides.all():
+            return None
+    sides -= 1
+    return sides
+
+
+def _corner_faces(surface: Surface):
+    """A function (start, stop) -> one more than the face of each corner; None where faces and corners do not fit."""
+    count, quads, triangles = len(surface.corner_vertices), len(surface.quads), len(surface.triangles)
+    if not triangles and surface.quad_faces is None:
+        size = 4 if count == 4 * quads else 0
+    elif not quads and surface.triangle_faces is None:
+        size = 3 if count == 3 * triangles else 0
+    else:
+        quad_faces, triangle_faces = mesh_faces(surface)
+        pieces = np.bincount(triangle_faces, minlength=quad_faces.max(initial=-1) + 1)
+        sizes = np.where(pieces > 0, pieces + 2, 0)
+        sizes[quad_faces] = 4
+        if sizes.sum() != count:
+            return None
+        owner = np.repeat(np.arange(1, len(sizes) + 1, dtype=np.int32), sizes)
+        return lambda start, stop: owner[start:stop]
+    if not size:
+        return None
+    # A block may begin and end inside a face.
+    return lambda start, stop: np.repeat(
+        np.arange(start // size + 1, (stop - 1) // size + 2, dtype=np.int32), size)[start % size:][:stop - start]
+
+
+def mesh_faces(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """The mesh face of each quad and of each triangle."""
+    return (np.arange(len(surface.quads)) if surface.quad_faces is None else surface.quad_faces,
+            np.arange(len(surface.triangles)) if surface.triangle_faces is None else surface.triangle_faces)
+
+
+def components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
+    """(count,) the connected component of each node, in the order of their first nodes, and how many there are.
+
+    a, b: the ends of the links between the nodes.
+    """
+    blocks = [slice(start, start + BLOCK) for start in range(0, len(a), BLOCK)]
+    node = np.arange(count, dtype=np.int32 if count < 1 << 31 else np.int64)
+    parent = node.copy()
+    for rows in blocks:
+        parent[np.maximum(a[rows], b[rows]).astype(np.intp)] = np.minimum(a[rows], b[rows])
+    first = parent == node
+    number = int(np.count_nonzero(first))
+    if number == 1:  # all paths downward end there
+        return np.zeros(count, np.intp), 1
+    while True:
+        grand = parent.take(parent, mode="clip")
+        if np.array_equal(grand, parent):
+            break
+        parent = grand
+    label = (np.cumsum(first, dtype=parent.dtype) - 1).take(parent, mode="clip")
+    one, other = [label[:0]], [label[:0]]
+    for rows in blocks:
+        left, right = (label.take(ends[rows].astype(np.intp), mode="clip") for ends in (a, b))
+        apart = np.flatnonzero(left != right)
+        one.append(left[apart])
+        other.append(right[apart])
+    one, other = np.concatenate(one), np.concatenate(other)
+    if not len(one):
+        return label.astype(np.intp), number
+    inner, number = components(number, one, other)
+    return inner[label], number
+
+
+def first_equal(*columns: NDArray) -> NDArray[np.intp]:
+    """(n,) for each row the first row that is equal to it in all columns: 64-bit values, compared by their bits.
+
+    By hashing into a table in which the lowest row of a slot wins; rows equal to the winner are done, the others, whose
+    slot another row has won, go into the next round.
+    """
+    columns = [column.view(np.uint64) for column in columns]
+    key = columns[0]
+    for column in columns[1:]:
+        key = mixed(key) + column
+    key = mixed(key)
+    first = np.arange(len(key), dtype=np.int32 if len(key) < 1 << 31 else np.int64)
+    rest = first.copy()
+    while len(rest):
+        bits = int(2 * len(rest)).bit_length()
+        slot = (key >> np.uint64(64 - bits)).view(np.intp)
+        winner = np.empty(1 << bits, first.dtype)
+        winner[slot[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=first.dtype)  # of equal slots the last is kept
+        winner = winner[slot].astype(np.intp)
+        lost = np.zeros(len(rest), bool)
+        for column in columns:
+            lost |= column != column[winner]
+        first[rest] = rest[winner]
+        lost = np.flatnonzero(lost)
+        rest, key, columns = rest[lost], mixed(key[lost]), [column[lost] for column in columns]
+    return first.astype(np.intp)
+
+
+ODD = np.uint64(0x9E3779B97F4A7C15)
+
+
+def mixed(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """A 64-bit hash of 64-bit values: the finalizer of SplitMix64."""
+    z = values + ODD
+    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return z ^ (z >> np.uint64(31))
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """The undirected edges of triangles. Side 3t + i runs from corner i of triangle t to the next one.
+
+    of_side: (3m,) the edge of each side; upward: (3m,) whether the side runs from the lower vertex to the higher.
+    first: (e,) the first side of each edge, in ascending order. count: (e,) how many sides each has.
+    """
+
+    of_side: NDArray[np.intp]
+    upward: NDArray[np.bool_]
+    first: NDArray[np.intp]
+    count: NDArray[np.intp]
+
+    def balance(self, turned: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """(e,) sides that run upward minus sides that run downward, once the `turned` triangles are reversed."""
+        return np.bincount(self.of_side, np.where(self.upward ^ np.repeat(turned, 3), 1.0, -1.0))
+
+    def pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """The two sides of every edge that has exactly two."""
+        two = self.count == 2
+        last = np.empty(len(two), np.intp)
+        last[self.of_side] = np.arange(len(self.of_side))  # of equal indices the last is kept
+        return self.first[two], last[two]
+
+    def links(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Links between triangles that make all the sides of an edge connected, however many there are."""
+        side = np.arange(len(self.of_side))
+        first = self.first[self.of_side]
+        later = first != side
+        return first[later] // 3, side[later] // 3
+
+    def rims(self) -> NDArray[np.intp]:
+        """The sides of edges that have only one, ascending."""
+        return self.first[self.count == 1]
+
+
+def find_edges(triangles: NDArray[np.integer]) -> Edges:
+    """The edges of (m, 3) triangles with three different vertices each, m at least 1."""
+    start = triangles.astype(np.int64).ravel()
+    stop = triangles[:, [1, 2, 0]].astype(np.int64).ravel()
+    low, high = np.minimum(start, stop), np.maximum(start, stop)
+    first = first_equal(low * (int(high.max()) + 1) + high)
+    begins = first == np.arange(len(first))
+    of_side = (np.cumsum(begins) - 1)[first]
+    return Edges(of_side=of_side, upward=start < stop, first=np.flatnonzero(begins), count=np.bincount(of_side))
+
+
+def orientation(count: int, a: NDArray[np.integer], b: NDArray[np.integer], against: NDArray[np.bool_],
+                weight: NDArray[np.float64]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Which of `count` faces to turn so that linked ones agree, and which cannot be made to.
+
+    a, b: the linked faces; against: whether the two now disagree; weight: (count,) the area of each face: in each part
+    the orientation with less of it is turned. Returns (turned, nonorientable), both (count,); a part that is not
+    orientable (a Möbius strip, a Klein bottle) is left as it is.
+    """
+    turned, twisted = np.zeros((2, count), bool)
+    if not against.any():
+        return turned, twisted
+    # Nodes f and f + count: the face as it is and turned.
+    cover, _ = components(2 * count, np.concatenate([a, a + count]),
+                          np.concatenate([b + count * against, b + count * ~against]))
+    plain, reverse = cover[:count], cover[count:]
+    twisted = plain == reverse
+    turned = plain > reverse
+    part = np.minimum(plain, reverse)
+    moved = np.bincount(part, weight * turned)
+    whole = np.bincount(part, weight)
+    turned ^= (2.0 * moved > whole)[part]
+    return turned & ~twisted, twisted
+
+
+def shells(edges: Edges, part: NDArray[np.intp], parts: int, even: NDArray[np.bool_]) -> tuple[NDArray[np.intp], int]:
+    """The shells that parts make: (m,) the shell of each triangle, and how many.
+
+    part: (m,) the part of each triangle, connected across edges with exactly two sides. even: (e,) edges with one side
+    that close otherwise. A part that closes by itself is a shell of its own, though it may share edges with others
+    (two boxes that meet in an edge); the rest belong together where they share an edge (a box with an inner wall).
+    """
+    crowded = edges.count > 2
+    if not crowded.any():
+        return part, parts
+    key = edges.of_side * parts + part.repeat(3)
+    used, uses = np.unique(key, return_counts=True)
+    odd = (uses % 2 == 1) & ~even[used // parts]
+    unfinished = np.zeros(parts, bool)
+    unfinished[used[odd] % parts] = True
+    side = np.flatnonzero(crowded[edges.of_side] & unfinished[part].repeat(3))
+    meet = np.empty(len(crowded), np.intp)
+    meet[edges.of_side[side]] = part[side // 3]  # any of them
+    shell, number = components(parts, part[side // 3], meet[edges.of_side[side]])
+    return shell[part], number

@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small bodies as (points, triangles), outward unless the name says otherwise, and what is known of them."""
+
+import math
+
+import numpy as np
+from body_moments.core.surface import Surface
+
+CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+SIDES = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+TOP = (2, 3)  # the two triangles of a box that lie in its upper side
+
+
+def split(quads):
+    """Quads as triangles along their first diagonals."""
+    return np.asarray(quads)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+
+
+def box(low=(0, 0, 0), high=(1, 1, 1)):
+    low, high = np.array(low, float), np.array(high, float)
+    return CORNERS * (high - low) + low, split(SIDES)
+
+
+def joined(*parts):
+    """Several bodies in one mesh, each with vertices of its own."""
+    shift = np.cumsum([0] + [len(points) for points, _ in parts])
+    return (np.concatenate([points for points, _ in parts]),
+            np.concatenate([triangles + k for (_, triangles), k in zip(parts, shift)]))
+
+
+def inverted(part):
+    return part[0], part[1][:, ::-1]
+
+
+def without(part, *faces):
+    return part[0], np.delete(part[1], faces, axis=0)
+
+
+def with_flipped(part, *faces):
+    triangles = part[1].copy()
+    triangles[list(faces)] = triangles[list(faces)][:, ::-1]
+    return part[0], triangles
+
+
+def welded(part):
+    """The same with one vertex for each position."""
+    points, index = np.unique(part[0], axis=0, return_inverse=True)
+    return points, index.reshape(-1)[part[1]]
+
+
+def soup(part):
+    """The same with three vertices for each triangle."""
+    return part[0][part[1].ravel()], np.arange(part[1].size).reshape(-1, 3)
+
+
+def grid(n):
+    """The unit square in z = 0 facing up, in n x n quads."""
+    x, y = np.meshgrid(np.arange(n + 1) / n, np.arange(n + 1) / n, indexing="ij")
+    index = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
+    quads = np.stack([index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]], axis=-1).reshape(-1, 4)
+    return np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1), split(quads)
+
+
+def sphere(level=3):
+    """The octahedron, each triangle cut in four `level` times, its points on the unit sphere."""
+    points = np.concatenate([np.eye(3), -np.eye(3)])
+    triangles = np.array([[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]])
+    for _ in range(level):
+        sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+        ends, middle = np.unique(sides, axis=0, return_inverse=True)
+        ab, bc, ca = middle.reshape(3, -1) + len(points)
+        a, b, c = triangles.T
+        middles = points[ends].sum(axis=1)
+        points = np.concatenate([points, middles / np.linalg.norm(middles, axis=1)[:, None]])
+        triangles = np.concatenate([np.stack(t, axis=1) for t in ((a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca))])
+    return points, triangles
+
+
+def ring(nu, nv, twist=False, major=1.0, minor=0.35):
+    """A closed strip of nu x nv quads as (points, quads): a torus; with `twist`, a Klein bottle (the figure-8 one)."""
+    u, v = np.meshgrid(np.arange(nu) * 2 * np.pi / nu, np.arange(nv) * 2 * np.pi / nv, indexing="ij")
+    if twist:
+        r = major + minor * (np.cos(u / 2) * np.sin(v) - np.sin(u / 2) * np.sin(2 * v))
+        z = minor * (np.sin(u / 2) * np.sin(v) + np.cos(u / 2) * np.sin(2 * v))
+    else:
+        r, z = major + minor * np.cos(v), minor * np.sin(v)
+    points = np.stack([r * np.cos(u), r * np.sin(u), z], axis=-1).reshape(-1, 3)
+    i, j = (k.ravel() for k in np.meshgrid(np.arange(nu), np.arange(nv), indexing="ij"))
+
+    def vertex(i, j):
+        around = i // nu  # past the seam a Klein bottle's cross-section is turned by half
+        j = np.where(around % 2 == 1, -j, j) if twist else j
+        return i % nu * nv + j % nv
+
+    quads = np.stack([vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)], axis=1)
+    return points, quads
+
+
+def torus(nu=24, nv=16, **sizes):
+    points, quads = ring(nu, nv, **sizes)
+    return points, split(quads)
+
+
+def moebius(n=40):
+    u = np.arange(n) * 2 * np.pi / n
+    edges = []
+    for side in (-0.3, 0.3):
+        r = 1.0 + side * np.cos(u / 2)
+        edges.append(np.stack([r * np.cos(u), r * np.sin(u), side * np.sin(u / 2)], axis=1))
+    quads = [[i, i + 1, n + i + 1, n + i] for i in range(n - 1)] + [[n - 1, n, 0, 2 * n - 1]]
+    return np.concatenate(edges), split(quads)
+
+
+def rotation(seed):
+    q, r = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    q = q * np.sign(np.diag(r))
+    return q if np.linalg.det(q) > 0 else -q
+
+
+def moved(part, matrix=None, offset=(0, 0, 0)):
+    """The image under x -> matrix @ x + offset."""
+    points = part[0] if matrix is None else part[0] @ np.asarray(matrix).T
+    return points + np.asarray(offset, float), part[1]
+
+
+def surface(part, dtype=np.float64, **more):
+    return Surface(part[0].astype(dtype), part[1], **more)
+
+
+def mesh(points, faces, dtype=np.float64):
+    """A surface as a reader makes it from polygons: quads, fans for larger ones, and the mesh's corners and edges."""
+    edges, corner_edges = {}, []
+    for face in faces:
+        for a, b in zip(face, [*face[1:], face[0]]):
+            corner_edges.append(edges.setdefault((min(a, b), max(a, b)), len(edges)))
+    quads = [face for face in faces if len(face) == 4]
+    fans = [(k, (face[0], face[i], face[i + 1])) for k, face in enumerate(faces) if len(face) != 4
+            for i in range(1, len(face) - 1)]
+    return Surface(
+        np.asarray(points, dtype), triangles=np.array([fan for _, fan in fans], int).reshape(-1, 3),
+        quads=np.array(quads, int).reshape(-1, 4), triangle_faces=np.array([k for k, _ in fans], int),
+        quad_faces=np.array([k for k, face in enumerate(faces) if len(face) == 4], int),
+        corner_vertices=np.concatenate(faces), corner_edges=np.array(corner_edges), edges=np.array(list(edges)))
+
+
+def volume(part):
+    """The signed volume about a point of the body, added up without rounding."""
+    a, b, c = (part[0][part[1][:, k]].astype(float) - part[0][part[1][0, 0]].astype(float) for k in range(3))
+    return math.fsum(np.einsum("ij,ij->i", a, np.cross(b, c))) / 6.0
+
+
+def inertia(moments):
+    """The diagonal of the inertia tensor about the centre."""
+    second = moments.about_center().second()
+    return np.trace(second) - np.diag(second)

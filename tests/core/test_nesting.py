@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How shells lie to each other: boxes and spheres whose answer is known, and brute force."""
+
+import numpy as np
+import pytest
+from body_moments.core import nesting
+from body_moments.core.nesting import Tree, decide, overlapping_boxes, relate, sort_shells
+
+from tests.core.bodies import box, inverted, joined, moved, rotation, sphere, torus
+
+TOUCH = 1e-6
+OUTER, INNER = box((-2, -2, -2), (2, 2, 2)), box((-1, -1, -1), (1, 1, 1))
+
+
+def shells_of(*parts):
+    points, triangles = joined(*parts)
+    shell = np.repeat(np.arange(len(parts)), [len(part[1]) for part in parts])
+    return points, sort_shells(points, triangles, shell, len(parts))
+
+
+def relation(*parts):
+    points, shells = shells_of(*parts)
+    ask = np.ones(len(parts), bool)
+    found = relate(points, shells, ask, TOUCH)
+    return {tuple(pair) for pair in found.inside}, {tuple(sorted(pair)) for pair in found.crossing}, found.unchecked
+
+
+def test_shells_are_measured_one_by_one_in_whatever_order_their_triangles_come():
+    parts = [moved(sphere(2), 0.5 * np.eye(3), (k, 2 * k, 0)) for k in range(5)]
+    parts.append(inverted(box((9, 9, 9), (11, 12, 13))))
+    points, triangles = joined(*parts)
+    shell = np.repeat(np.arange(6), [len(part[1]) for part in parts])
+    order = np.random.default_rng(0).permutation(len(shell))
+    shells = sort_shells(points, triangles[order], shell[order], 6)
+    assert shells.volume[5] == pytest.approx(-24.0, rel=1e-14) and shells.area[5] == pytest.approx(52.0, rel=1e-14)
+    np.testing.assert_allclose(shells.volume[:5], shells.volume[0], rtol=1e-13)
+    for k, part in enumerate(parts):
+        np.testing.assert_array_equal(shells.low[k], part[0].min(axis=0))
+        np.testing.assert_array_equal(shells.high[k], part[0].max(axis=0))
+        assert set(map(tuple, shells.triangles[shells.start[k]:shells.start[k + 1]])) == set(
+            map(tuple, triangles[shell == k]))
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_overlapping_boxes_are_those_that_comparing_all_finds(seed):
+    rng = np.random.default_rng(seed)
+    low = rng.integers(0, 10, size=(60, 3)).astype(float)
+    high = low + rng.integers(0, 4, size=(60, 3))
+    i, j, skipped = overlapping_boxes(low, high, 1e-9, 10_000)
+    expected = {(a, b) for a in range(60) for b in range(a)
+                if np.all(np.minimum(high[a], high[b]) - np.maximum(low[a], low[b]) > 1e-9)}
+    assert {(max(pair), min(pair)) for pair in zip(i.tolist(), j.tolist())} == expected
+    assert len(i) == len(expected) and skipped == 0
+
+
+@pytest.mark.parametrize("spin", [None, 1, 2])
+def test_winding_numbers_are_those_of_the_bodies(spin):
+    matrix = np.eye(3) if spin is None else rotation(spin)
+    parts = [moved(part, matrix) for part in (OUTER, inverted(INNER), torus())]
+    points, shells = shells_of(*parts)
+    tree = Tree(points, shells, np.ones(3, bool))
+    rng = np.random.default_rng(4)
+    where = rng.uniform(-2.5, 2.5, size=(3000, 3))
+    # Points in the planes and on the axes of the boxes, where rays meet edges and corners.
+    where[:1000] = np.round(where[:1000] * 2) / 2 + 0.25 * rng.integers(0, 2, size=(1000, 3))
+    places = where @ matrix.T - tree.origin
+    for shell, (half, sign) in enumerate([(2.0, 1), (1.0, -1)]):
+        inside, sure = tree.inside(places, np.full(3000, shell), TOUCH)
+        reach = np.abs(where).max(axis=1)
+        clear = sure & (np.abs(reach - half) > 1e-3)
+        assert clear.sum() > 2000
+        np.testing.assert_array_equal(inside[clear], sign * (reach < half)[clear])
+    inside, sure = tree.inside(places, np.full(3000, 2), TOUCH)
+    across = np.hypot(np.hypot(where[:, 0], where[:, 1]) - 1.0, where[:, 2])
+    np.testing.assert_array_equal(inside[across < 0.3], 1)
+    np.testing.assert_array_equal(inside[across > 0.36], 0)
+
+
+@pytest.mark.parametrize("spin", [None, 3, 4, 5])
+@pytest.mark.parametrize("name, parts, inside, crossing", [
+    ("apart", [box(), box((2, 0, 0), (3, 1, 1))], set(), set()),
+    ("one in another", [OUTER, INNER], {(1, 0)}, set()),
+    ("one in another, listed first", [INNER, OUTER], {(0, 1)}, set()),
+    ("a cavity", [OUTER, inverted(INNER)], {(1, 0)}, set()),
+    ("a cavity that touches the wall", [OUTER, inverted(box((-2, -1, -1), (1, 1, 1)))], {(1, 0)}, set()),
+    ("overlapping by half, faces in common planes", [box(), box((0.5, 0, 0), (1.5, 1, 1))], set(), {(0, 1)}),
+    ("overlapping in a corner", [box(), box((0.5, 0.5, 0.5), (1.5, 1.5, 1.5))], set(), {(0, 1)}),
+    ("crossing bars, no vertex in the other", [box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -0.9), (1, 3, 0.9))],
+     set(), {(0, 1)}),
+    ("crossing bars of one height", [box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -1), (1, 3, 1))], set(), {(0, 1)}),
+    ("the same twice", [box(), box()], set(), {(0, 1)}),
+    ("the same twice, one inverted", [box(), inverted(box())], set(), {(0, 1)}),
+    ("touching in a face", [box(), box((1, 0, 0), (2, 1, 1))], set(), set()),
+    ("touching in a part of a face", [box(), box((1, 0.5, 0.3), (2, 1.5, 1.3))], set(), set()),
+    ("touching in an edge", [box(), box((1, 1, 0), (2, 2, 1))], set(), set()),
+    ("touching in a corner", [box(), box((1, 1, 1), (2, 2, 2))], set(), set()),
+    ("boxes overlap, bodies do not", [torus(), moved(sphere(2), 0.3 * np.eye(3))], set(), set()),
+    ("linked rings", [torus(), moved(torus(), [[1, 0, 0], [0, 0, -1], [0, 1, 0]], (1, 0, 0))], set(), set()),
+    ("a ring through a ring", [torus(), moved(torus(), np.eye(3), (0.9, 0.05, 0.02))], set(), {(0, 1)}),
+    ("three deep", [box((-k, -k, -k), (k, k, k)) for k in (3, 1, 2)], {(1, 0), (1, 2), (2, 0)}, set()),
+])
+def test_known_pairs(name, parts, inside, crossing, spin):
+    if spin is not None:
+        parts = [moved(part, rotation(spin) * 0.7, (5, -3, 2)) for part in parts]
+        # As Blender stores them: what touched now misses or enters by an ulp.
+        parts = [(points.astype(np.float32).astype(float), triangles) for points, triangles in parts]
+    assert relation(*parts) == (inside, crossing, 0)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_random_spheres_are_related_as_their_centres_and_radii_say(seed):
+    rng = np.random.default_rng(seed)
+    centre, radius = rng.uniform(-2, 2, size=(12, 3)), rng.uniform(0.2, 2.0, size=12)
+    parts = [moved(sphere(3), rotation(k) * r, c) for k, (c, r) in enumerate(zip(centre, radius))]
+    inside, crossing, _ = relation(*parts)
+    for i in range(12):
+        for j in range(12):
+            apart = np.linalg.norm(centre[i] - centre[j])
+            margin = 0.02 * (radius[i] + radius[j])  # the facets lie inside their spheres
+            if i != j and apart + radius[i] < radius[j] - margin:
+                assert (i, j) in inside
+            elif i < j and abs(radius[i] - radius[j]) + margin < apart < radius[i] + radius[j] - margin:
+                assert (i, j) in crossing
+            elif i < j and apart > radius[i] + radius[j]:
+                assert (i, j) not in inside | crossing and (j, i) not in inside
+
+
+def test_thousands_of_cavities_are_found_in_one_body():
+    holes = [inverted(moved(sphere(1), 0.3 * np.eye(3), place)) for place in np.ndindex(13, 13, 13)]
+    inside, crossing, unchecked = relation(*holes, box((-1, -1, -1), (13, 13, 13)))
+    assert len(inside) == 13 ** 3 and not crossing and not unchecked
+
+
+def test_work_that_would_take_too_long_is_left_and_said(monkeypatch):
+    parts = [sphere(4), moved(sphere(4), 0.99 * np.eye(3)), moved(box(), np.eye(3), (5, 5, 5))]
+    assert relation(*parts) == ({(1, 0)}, set(), 0)
+    monkeypatch.setattr(nesting, "MOST_WORK", 1000)
+    assert relation(*parts) == (set(), set(), 1)
+    monkeypatch.setattr(nesting, "MOST_WORK", 10 ** 9)
+    monkeypatch.setattr(nesting, "MOST_PAIRS", 0)
+    inside, crossing, unchecked = relation(*parts)
+    assert unchecked > 0 and not inside and not crossing
+
+
+@pytest.mark.parametrize("signs, turned, nested, cavities", [
+    ("+", "-", "-", "-"), ("-", "x", "-", "-"),
+    ("++", "--", "-x", "--"), ("+-", "--", "--", "-x"), ("-+", "xx", "--", "-x"), ("--", "x-", "--", "-x"),
+    ("+-+", "---", "---", "-x-"), ("-+-", "xxx", "---", "-x-"), ("+--", "--x", "---", "-x-"),
+    ("+++", "---", "-xx", "---"), ("+-+-", "----", "----", "-x-x"), ("-+-+", "xxxx", "----", "-x-x"),
+])
+def test_shells_in_shells_are_turned_where_no_material_surrounds_them(signs, turned, nested, cavities):
+    count = len(signs)
+    parts = [(inverted if sign == "-" else (lambda part: part))(moved(sphere(1), (count - k) * np.eye(3)))
+             for k, sign in enumerate(signs)]
+    order = np.random.default_rng(count).permutation(count)
+    points, shells = shells_of(*[parts[k] for k in order])
+    ask = np.ones(count, bool)
+    found = decide(shells, relate(points, shells, ask, TOUCH), ask)
+    for flags, expected in zip(found, (turned, nested, cavities)):
+        assert "".join("x" if flag else "-" for flag in flags[np.argsort(order)]) == expected

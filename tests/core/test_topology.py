@@ -1,0 +1,191 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Edges, the proof of closedness, connected parts and orientation, against plain Python."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from body_moments.core.topology import closed_sides, components, find_edges, first_equal, orientation, shells
+from body_moments.core.weld import equal_positions, face_groups, near_positions
+
+from tests.core.bodies import CORNERS, SIDES, box, joined, mesh, moebius, ring, soup, sphere, welded
+
+
+def union_find(count, a, b):
+    parent = list(range(count))
+
+    def root(i):
+        while parent[i] != i:
+            i = parent[i]
+        return i
+
+    for i, j in zip(a, b):
+        i, j = sorted((root(i), root(j)))
+        parent[j] = i
+    return np.array([root(i) for i in range(count)])
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_components_are_those_of_union_find_in_the_order_of_their_first_nodes(seed):
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 200))
+    a, b = rng.integers(0, count, size=(2, int(rng.integers(0, 2 * count))))
+    label, number = components(count, a, b)
+    roots = union_find(count, a, b)
+    expected = np.unique(roots, return_inverse=True)[1]
+    np.testing.assert_array_equal(label, expected)
+    assert number == len(np.unique(roots))
+
+
+def test_a_long_shuffled_path_is_one_component():
+    nodes = np.random.default_rng(1).permutation(100_000)
+    label, number = components(len(nodes), nodes[:-1], nodes[1:])
+    assert number == 1 and not label.any()
+
+
+def test_first_equal_finds_the_first_of_equal_rows_even_where_all_hashes_could_collide():
+    rng = np.random.default_rng(2)
+    for high in (1, 3, 1000):
+        rows = rng.integers(0, high, size=(2, 2000))
+        seen, expected = {}, []
+        for k, row in enumerate(rows.T):
+            expected.append(seen.setdefault(tuple(row), k))
+        np.testing.assert_array_equal(first_equal(*rows), expected)
+    assert len(first_equal(rows[0, :0])) == 0
+
+
+def test_edges_are_those_that_a_dictionary_finds():
+    triangles = joined(sphere(2), box())[1]
+    edges = find_edges(triangles)
+    found = {}
+    for t, triangle in enumerate(triangles):
+        for i in range(3):
+            a, b = triangle[i], triangle[(i + 1) % 3]
+            found.setdefault((min(a, b), max(a, b)), []).append(3 * t + i)
+    assert len(edges.count) == len(found)
+    for sides in found.values():
+        edge = edges.of_side[sides[0]]
+        assert edges.first[edge] == sides[0] and edges.count[edge] == len(sides)
+        assert all(edges.of_side[side] == edge for side in sides)
+    assert not edges.balance(np.zeros(len(triangles), bool)).any()
+    one, other = edges.pairs()
+    assert sorted(map(tuple, np.stack([one, other], axis=1))) == sorted(map(tuple, found.values()))
+
+
+def mixed_mesh():
+    """A cube whose top is a fan of four triangles and whose bottom and front are pentagons that share a bent edge."""
+    points = np.concatenate([CORNERS, [[0.5, 0.5, 1.0], [0.5, 0.0, 0.0]]])
+    faces = [[0, 2, 3, 1, 9], [2, 6, 7, 3], [0, 9, 1, 5, 4], [0, 4, 6, 2], [1, 3, 7, 5],
+             [4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]]
+    return points, faces
+
+
+@pytest.mark.parametrize("points, faces", [
+    (CORNERS, SIDES.tolist()), mixed_mesh(), (ring(20, 10)[0], ring(20, 10)[1].tolist()),
+    (sphere(2)[0], sphere(2)[1].tolist())])
+def test_a_closed_mesh_is_proven_closed_by_its_own_corners(points, faces):
+    surface = mesh(points, faces)
+    sides = closed_sides(surface)
+    assert len(sides) == len(surface.edges)
+    for (a, b), pair in zip(surface.edges, sides):
+        expected = {k for k, face in enumerate(faces) for i in range(len(face)) if {face[i], face[i - 1]} == {a, b}}
+        assert set(pair) == expected
+
+
+def test_one_hole_or_one_flipped_face_or_one_copy_spoils_the_proof():
+    points, faces = mixed_mesh()
+    for k in range(len(faces)):
+        assert closed_sides(mesh(points, faces[:k] + faces[k + 1:])) is None
+        assert closed_sides(mesh(points, faces[:k] + [faces[k][::-1]] + faces[k + 1:])) is None
+        assert closed_sides(mesh(points, faces + [faces[k]])) is None
+
+
+def test_loose_edges_do_not_spoil_the_proof():
+    surface = mesh(*mixed_mesh())
+    loose = replace(surface, edges=np.concatenate([surface.edges, [[0, 7], [2, 5]]]))
+    np.testing.assert_array_equal(closed_sides(loose), closed_sides(surface))
+
+
+def test_without_corners_or_with_foreign_ones_nothing_is_proven():
+    surface = mesh(*mixed_mesh())
+    assert closed_sides(replace(surface, corner_edges=None)) is None
+    fewer = replace(surface, triangles=surface.triangles[:-1], triangle_faces=surface.triangle_faces[:-1])
+    assert closed_sides(fewer) is None
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_orientation_turns_the_faces_that_were_flipped(seed):
+    rng = np.random.default_rng(seed)
+    triangles = sphere(3)[1]
+    flipped = rng.random(len(triangles)) < rng.uniform(0.0, 0.45)
+    triangles = np.where(flipped[:, None], triangles[:, ::-1], triangles)
+    edges = find_edges(triangles)
+    one, other = edges.pairs()
+    against = edges.upward[one] == edges.upward[other]
+    turned, twisted = orientation(len(triangles), one // 3, other // 3, against, np.ones(len(triangles)))
+    np.testing.assert_array_equal(turned, flipped)
+    assert not twisted.any()
+
+
+def test_a_moebius_strip_and_a_klein_bottle_have_no_orientation_and_a_torus_beside_them_has():
+    points, quads = ring(30, 12, twist=True)
+    klein = points, quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    tube = ring(20, 10)[0], ring(20, 10)[1][:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    for strip in (moebius(), klein):
+        triangles = joined(strip, tube)[1]
+        edges = find_edges(triangles)
+        one, other = edges.pairs()
+        against = edges.upward[one] == edges.upward[other]
+        assert against.any()
+        turned, twisted = orientation(len(triangles), one // 3, other // 3, against, np.ones(len(triangles)))
+        assert twisted[:len(strip[1])].all() and not twisted[len(strip[1]):].any()
+        assert not turned.any()
+
+
+def parts_of(triangles):
+    edges = find_edges(triangles)
+    one, other = edges.pairs()
+    return edges, *components(len(triangles), one // 3, other // 3)
+
+
+def test_boxes_that_share_an_edge_are_two_shells_and_boxes_with_a_common_wall_are_one():
+    edge = welded(joined(box(), box((1, 1, 0), (2, 2, 1))))[1]
+    edges, part, number = parts_of(edge)
+    shell, shell_number = shells(edges, part, number, np.zeros(len(edges.count), bool))
+    assert shell_number == 2
+    wall = welded(joined(box(), box((1, 0, 0), (2, 1, 1))))[1]
+    wall = wall[np.unique(np.sort(wall, axis=1), axis=0, return_index=True)[1]]
+    edges, part, number = parts_of(wall)
+    assert number == 3
+    shell, shell_number = shells(edges, part, number, np.zeros(len(edges.count), bool))
+    assert shell_number == 1
+
+
+def test_equal_positions_are_welded_and_minus_zero_is_zero():
+    points = soup(sphere(2))[0]
+    points[points == 0.0] *= np.where(np.arange(np.count_nonzero(points == 0.0)) % 2, 1.0, -1.0)
+    first = equal_positions(points)
+    assert len(np.unique(first)) == 66
+    np.testing.assert_array_equal(points[first], points)
+    assert np.all(first <= np.arange(len(points)))
+
+
+def test_positions_within_the_tolerance_are_welded_wherever_the_grid_cuts():
+    rng = np.random.default_rng(3)
+    base = rng.uniform(-1, 1, size=(400, 3))
+    step = rng.normal(size=base.shape)
+    step *= 0.99e-6 / np.linalg.norm(step, axis=1)[:, None]
+    points = np.concatenate([base, base + step])
+    first = near_positions(points, np.full(800, 1e-6))
+    np.testing.assert_array_equal(first, np.tile(np.arange(400), 2))
+    apart = np.concatenate([base, base + 10 * step])
+    np.testing.assert_array_equal(near_positions(apart, np.full(800, 1e-6)), np.arange(800))
+
+
+def test_faces_on_the_same_vertices_share_a_group_however_they_are_cut_and_turned():
+    triangles = np.array([[0, 1, 2], [0, 2, 3],  # face 0, a quad
+                          [3, 1, 0], [3, 2, 1],  # face 1, the same reversed and cut the other way
+                          [0, 1, 2], [2, 0, 1], [2, 3, 4]])
+    faces = np.array([0, 0, 1, 1, 2, 3, 4])
+    np.testing.assert_array_equal(face_groups(triangles, faces), [0, 0, 0, 0, 2, 2, 4])
