@@ -11,9 +11,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...core.rotation import rotation_matrix
 from .decisions import decisions, why_empty
 from .instances import Gathered
-from .reading import Reading, Unreadable, float64_matrix, float64_rotation
+from .reading import Reading, Unreadable, float64_matrix
 from .visibility import NOT_EVALUATED, hidden_reason, require_kind
 
 
@@ -48,7 +49,7 @@ def read_object(obj, depsgraph) -> Reading:
         name=obj.name,
         type=obj.type,
         matrix=matrix,
-        rotation=float64_rotation(rotation),
+        rotation=rotation_matrix(rotation),
         location=np.array(location[:], np.float64),
         parts=parts,
         warnings=list(decisions(obj, gathered, depsgraph)),

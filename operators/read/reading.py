@@ -95,16 +95,3 @@ def _or_one(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
 def float64_matrix(matrix) -> NDArray[np.float64]:
     """(4, 4) float64 of a `mathutils.Matrix`, to the bit."""
     return np.array([row[:] for row in matrix], np.float64)
-
-
-def float64_rotation(quaternion) -> NDArray[np.float64]:
-    """(3, 3) rotation of a `mathutils.Quaternion`, orthonormal to float64 although the quaternion
-    is float32."""
-    w, x, y, z = (np.array(quaternion[:], np.float64) / np.linalg.norm(quaternion[:])).tolist()
-    return np.array(
-        [
-            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
-            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
-            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
-        ]
-    )

@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Thin operators, one subject a file, and what they read Blender with and write to it.
+
+Modules are imported when the add-on is registered: the command line uses some of them without
+registering any.
+"""
+
+from contextlib import ExitStack
+from types import ModuleType
+
+
+def _parts() -> tuple[ModuleType, ...]:
+    """Everything that is registered, in this order: modules with `register`, or with CLASSES
+    only.
+    """
+    from . import (
+        align,
+        batch,
+        clear,
+        clipboard,
+        cursor,
+        empty,
+        measure_selected,
+        orientation,
+        origin,
+        presets,
+        principal_axes,
+        rigid_body,
+        select_faults,
+        settings,
+        staleness,
+    )
+
+    return (
+        settings,
+        staleness,
+        presets,
+        measure_selected,
+        select_faults,
+        clear,
+        clipboard,
+        origin,
+        principal_axes,
+        align,
+        empty,
+        cursor,
+        orientation,
+        rigid_body,
+        batch,
+    )
+
+
+def register() -> None:
+    """Register every part; where one fails, remove the others and let the error rise."""
+    with ExitStack() as undo:
+        for part in _parts():
+            _register(part)
+            undo.callback(_unregister, part)
+        undo.pop_all()
+
+
+def unregister() -> None:
+    """Remove everything that `register` added, in reverse."""
+    for part in reversed(_parts()):
+        _unregister(part)
+
+
+def _register(part: ModuleType) -> None:
+    if hasattr(part, "register"):
+        part.register()
+        return
+    import bpy
+
+    with ExitStack() as undo:
+        for cls in part.CLASSES:
+            bpy.utils.register_class(cls)
+            undo.callback(bpy.utils.unregister_class, cls)
+        undo.pop_all()
+
+
+def _unregister(part: ModuleType) -> None:
+    if hasattr(part, "unregister"):
+        part.unregister()
+        return
+    import bpy
+
+    for cls in reversed(part.CLASSES):
+        bpy.utils.unregister_class(cls)

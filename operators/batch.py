@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line: mass properties of the objects in files, without a window.
+
+    blender -b FILE.blend --python operators/batch.py -- measure [options]
+    blender -b -c body_moments measure [options] [FILE ...]
+    python operators/batch.py measure [options] FILE ...
+
+The first and the third (with the bpy module) need no installation: run as a script, this file
+loads the add-on's folder as a package and registers nothing but the settings that objects carry.
+All three reach `main`.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import io
+import os
+import sys
+import traceback
+from contextlib import redirect_stdout, suppress
+from pathlib import Path
+
+PACKAGE = "body_moments"  # the add-on's name when this file is run as a script
+ALL_MEASURED, SOME_NOT, WRONG_USAGE, OUR_FAULT = 0, 1, 2, 70
+
+_command = None
+
+
+def main(argv: list[str], *, channel: int | None = None, file_needed: bool = False) -> int:
+    """Run the command line and return its exit code.
+
+    argv: the words from `measure` on. channel: a descriptor for the result, by default the
+    standard output, which nothing else in this process reaches from then on. file_needed: whether
+    no file can be open.
+    """
+    from .command import arguments, output
+
+    channel = output.claim_stdout() if channel is None else channel
+    told = io.StringIO()
+    try:
+        with redirect_stdout(told):
+            options = arguments.parse(argv, file_needed)
+    except SystemExit as ended:
+        output.write(told.getvalue(), None, channel)  # the help, where it was asked for
+        return ended.code
+
+    from .command.run import Run
+    from .write.record import FORMATS
+
+    run = Run(options)
+    try:
+        run.measure()
+        output.write(FORMATS[options.format](run.documents), options.output, channel)
+    except OSError as error:
+        sys.stderr.write("body_moments: the result cannot be written: {}\n".format(error))
+        return OUR_FAULT
+    except Exception:
+        traceback.print_exc()
+        return OUR_FAULT
+    if run.faults:
+        return OUR_FAULT
+    return SOME_NOT if run.errors else ALL_MEASURED
+
+
+def register() -> None:
+    """Make `blender -c body_moments` known."""
+    import bpy
+
+    global _command
+    _command = bpy.utils.register_cli_command("body_moments", main)
+
+
+def unregister() -> None:
+    """Remove the command."""
+    import bpy
+
+    global _command
+    bpy.utils.unregister_cli_command(_command)
+    _command = None
+
+
+def _run_script() -> None:
+    """Run as `__main__`, outside of any package, in Blender or in a Python that has the bpy module.
+
+    Ends the process.
+    """
+    try:
+        code = _run()
+    except ModuleNotFoundError as error:
+        sys.stderr.write("body_moments: {}; install it, or use Blender\n".format(error))
+        code = WRONG_USAGE
+    except Exception:
+        traceback.print_exc()
+        code = OUR_FAULT
+    bpy = sys.modules.get("bpy")
+    if bpy is None or not bpy.app.module:
+        sys.exit(code)
+    # The module may hang while the interpreter ends, after it has opened a file of a newer Blender.
+    sys.stderr.flush()
+    session = Path(bpy.app.tempdir)
+    if session.name.startswith("blender_"):
+        with suppress(OSError):
+            session.rmdir()
+    os._exit(code)
+
+
+def _run() -> int:
+    """Load the add-on from its folder and run the command line of this process."""
+    _load_package()
+    output = importlib.import_module(PACKAGE + ".operators.command.output")
+    channel = output.claim_stdout()  # first of all: importing bpy may print
+    import bpy
+
+    words = sys.argv
+    if not bpy.app.module:  # Blender leaves to a script what follows "--"
+        words = words[words.index("--") :] if "--" in words else words[:1]
+    if not hasattr(bpy.types.Object, "body_moments"):
+        importlib.import_module(PACKAGE + ".operators.settings").register()
+    batch = importlib.import_module(PACKAGE + ".operators.batch")
+    return batch.main(words[1:], channel=channel, file_needed=bpy.app.module)
+
+
+def _load_package() -> None:
+    """Make the add-on's folder the package PACKAGE, whatever it is called."""
+    root = Path(__file__).resolve().parent.parent
+    spec = importlib.util.spec_from_file_location(
+        PACKAGE, root / "__init__.py", submodule_search_locations=[str(root)]
+    )
+    package = importlib.util.module_from_spec(spec)
+    sys.modules[PACKAGE] = package
+    spec.loader.exec_module(package)
+
+
+if __name__ == "__main__":
+    _run_script()

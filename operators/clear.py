@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Clear: remove the stored results from objects. Settings stay."""
+
+from bpy.types import Context, Operator
+
+from . import selection, staleness
+from .channels import Refused
+from .write import properties
+
+
+class OBJECT_OT_body_moments_clear(Operator):
+    """Remove the stored mass properties from the selected objects. Settings stay"""
+
+    bl_idname = "object.body_moments_clear"
+    bl_label = "Clear"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return selection.poll_selected(cls, context, modes=())
+
+    def execute(self, context: Context) -> set[str]:
+        objects = [
+            obj
+            for obj in context.view_layer.objects.selected
+            if any(key in obj for key in properties.DESCRIPTIONS)
+        ]
+
+        def remove(obj) -> bool:
+            if not obj.is_editable:
+                raise Refused("it is linked from another file; make it local first")
+            return properties.clear(obj)
+
+        count, failures = selection.each(self, objects, remove, (Refused,))
+        staleness.settle(context, objects)
+        text = (
+            "Removed the results from {count}"
+            if objects
+            else "No results to remove from the selected objects"
+        )
+        return selection.summarise(self, count, len(objects), text, failures)
+
+
+CLASSES = (OBJECT_OT_body_moments_clear,)

@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Getting numbers out: one value to the last digit, or the whole report as text."""
+
+import bpy
+from bpy.props import StringProperty
+from bpy.types import Context, Operator, OperatorProperties
+
+from . import selection, staleness
+from .write import properties
+from .write.report import report_text
+
+
+def to_clipboard(operator: Operator, context: Context, text: str, told: str) -> None:
+    """Blender has no clipboard in background; there the text itself is reported."""
+    context.window_manager.clipboard = text
+    operator.report({"INFO"}, text if bpy.app.background else told)
+
+
+class OBJECT_OT_body_moments_copy_value(Operator):
+    """Copy this value to the clipboard, in SI units and with all its digits"""
+
+    bl_idname = "object.body_moments_copy_value"
+    bl_label = "Copy Value"
+    bl_options = {"INTERNAL"}
+
+    value: StringProperty(name="Value", options={"HIDDEN", "SKIP_SAVE"})
+    unit: StringProperty(name="Unit", options={"HIDDEN", "SKIP_SAVE"})
+
+    @classmethod
+    def description(cls, _context: Context, values: OperatorProperties) -> str:
+        return "Copy {:s}\n\nUnit: {:s}".format(values.value, values.unit or "none")
+
+    def execute(self, context: Context) -> set[str]:
+        if not self.value:
+            self.report({"WARNING"}, "There is no value to copy")
+            return {"CANCELLED"}
+        to_clipboard(self, context, self.value, "Copied {:s}".format(self.value))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_body_moments_copy_report(Operator):
+    """Copy the stored mass properties of the selected objects, and their total, to the clipboard
+    as text in SI units
+    """
+
+    bl_idname = "object.body_moments_copy_report"
+    bl_label = "Copy Report"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if not selection.poll_selected(cls, context, modes=()):
+            return False
+        if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
+            cls.poll_message_set("Measure the selected objects first")
+            return False
+        return True
+
+    def execute(self, context: Context) -> set[str]:
+        objects = selection.selected(context)
+        outdated = {obj.name for obj in objects if staleness.reason(obj, context.scene)}
+        text = report_text(context, objects, outdated)
+        told = "Copied the report of {:s}".format(selection.counted(len(objects)))
+        to_clipboard(self, context, text, told)
+        return {"FINISHED"}
+
+
+CLASSES = (OBJECT_OT_body_moments_copy_value, OBJECT_OT_body_moments_copy_report)

@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of the command line. They are a public contract: an unknown or impossible one ends
+with exit code 2.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+
+from ..write.record import FORMATS, FRAMES
+
+MAX_ORDER = 3  # the measurement carries volume moments to this order
+DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
+
+_LATER_OPTIONS = (
+    *("--spacing", "--origin", "--spline-order", "--density-scale", "--fourier", "--q", "--grid"),
+    *("--qmax", "--pose", "--signature"),
+)
+_LATER_FORMATS = ("urdf", "sdf", "mjcf", "usd")
+
+_EPILOG = """\
+FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz or .fbx. Without one,
+the file that Blender has open is measured. All numbers are SI: kilograms and meters.
+exit code: 0 all measured, 1 something is listed under errors, 2 wrong usage, 70 a fault of the
+program"""
+
+
+def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
+    """The options of `measure`; file_needed: where no file can be open.
+
+    Raises SystemExit(2) with a message on the standard error, or SystemExit(0) after --help.
+    """
+    parser = _parser()
+    for word in argv:
+        option = word.partition("=")[0]
+        if option == "--":
+            break
+        if option in _LATER_OPTIONS:
+            parser.error("{} is not supported yet".format(option))
+    options = parser.parse_intermixed_args(argv)
+    if file_needed and not options.files:
+        parser.error("the name of a FILE is needed")
+    if options.surface_moments and options.order is None:
+        options.order = DEFAULT_ORDER
+    if options.output is not None and not options.output.parent.is_dir():
+        parser.error("argument --output: there is no folder {}".format(options.output.parent))
+    if options.output is not None and options.output.is_dir():
+        parser.error("argument --output: {} is a folder".format(options.output))
+    return options
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="body_moments",
+        usage="body_moments measure [options] [FILE ...]",
+        description="Exact mass properties of the objects in files.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    add = parser.add_argument
+    add("command", choices=("measure",), metavar="measure")
+    add("files", nargs="*", metavar="FILE")
+    add(
+        "--object",
+        action="append",
+        metavar="NAME",
+        help="only this object; repeatable (every measurable object)",
+    )
+    add("--kind", choices=("solid", "shell"), help="(each object's setting, or solid)")
+    add(
+        "--thickness",
+        type=_positive,
+        metavar="T",
+        help="of a shell, in meters (each object's setting)",
+    )
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument(
+        "--density", type=_positive, metavar="D", help="kg/m³ (each object's setting, or 1000)"
+    )
+    group.add_argument("--mass", type=_positive, metavar="M", help="kg, for each object")
+    add(
+        "--overlap",
+        choices=("signed", "union"),
+        help="overlapping or nested outward shells: counted as often as they cover a place, or "
+        "once (signed, with a warning)",
+    )
+    add(
+        "--unit-scale",
+        type=_positive,
+        metavar="S",
+        help="meters per unit in files that carry no unit: .stl, .obj, .ply (1)",
+    )
+    add(
+        "--frame",
+        choices=FRAMES,
+        default="world",
+        help="of centers, tensors, axes and moments (world)",
+    )
+    add(
+        "--order",
+        type=_order,
+        metavar="N",
+        help="add volume moments up to this order, at most {}, about the frame's origin".format(
+            MAX_ORDER
+        ),
+    )
+    add(
+        "--surface-moments",
+        action="store_true",
+        help="add area moments too (up to --order, or {})".format(DEFAULT_ORDER),
+    )
+    add(
+        "--format",
+        type=_format,
+        default="json",
+        metavar="{" + ",".join(FORMATS) + "}",
+        help="(json)",
+    )
+    add("--output", type=Path, metavar="PATH", help="(standard output)")
+    add(
+        "--write",
+        action="store_true",
+        help="store the results on the objects and save the .blend file",
+    )
+    return parser
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (0.0 < value < math.inf):
+        raise argparse.ArgumentTypeError("{!r} is not a positive number".format(text))
+    return value
+
+
+def _order(text: str) -> int:
+    try:
+        value = int(text)
+    except ValueError:
+        value = -1
+    if value < 0:
+        raise argparse.ArgumentTypeError("{!r} is not an order: 0, 1, 2 or 3".format(text))
+    if value > MAX_ORDER:
+        raise argparse.ArgumentTypeError("orders above {} are not supported yet".format(MAX_ORDER))
+    return value
+
+
+def _format(text: str) -> str:
+    if text in _LATER_FORMATS:
+        raise argparse.ArgumentTypeError("{} is not supported yet".format(text))
+    if text not in FORMATS:
+        raise argparse.ArgumentTypeError("{!r} is none of {}".format(text, ", ".join(FORMATS)))
+    return text

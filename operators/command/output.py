@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the result goes: to a file, whole or not at all, or alone on the standard output.
+
+Blender and its importers print on the standard output from C. So its descriptor is taken away from
+them: what was the standard output is kept for the result, and descriptor 1 becomes the standard
+error. It is not given back, because what C has buffered until then would follow the result; the
+entries that call this are the last thing their process does.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+
+def claim_stdout() -> int:
+    """A descriptor of the standard output, which nothing else in this process reaches any more."""
+    sys.stdout.flush()
+    channel = os.dup(1)
+    try:
+        os.dup2(2, 1)
+    except OSError:  # there is no standard error
+        silence = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(silence, 1)
+        os.close(silence)
+    return channel
+
+
+def write(text: str, path: Path | None, channel: int) -> None:
+    """Write a result to `path`, or to a descriptor where it is None. Raises OSError."""
+    # A file name that is not UTF-8 holds lone surrogates. Escaped so, they are what JSON writes for
+    # them.
+    data = text.encode("utf-8", "backslashreplace")
+    if path is None:
+        _write_all(channel, data)
+    elif path.exists() and not stat.S_ISREG(path.stat().st_mode):
+        path.write_bytes(data)  # a pipe or a device: it must be written to, not replaced
+    else:
+        _replace(path.resolve(), data)
+
+
+def _replace(path: Path, data: bytes) -> None:
+    partial = path.with_name("{}.{}.partial".format(path.name, os.getpid()))
+    try:
+        with open(partial, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(partial, path)
+    finally:
+        with suppress(FileNotFoundError):
+            partial.unlink()
+
+
+def _write_all(channel: int, data: bytes) -> None:
+    view = memoryview(data)
+    while view:
+        view = view[os.write(channel, view) :]

@@ -1,0 +1,215 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From a file to its document: open it, measure its objects, store the results on them where that
+is asked for.
+
+Whatever fails is an entry in `errors` and stops nothing else: a file that cannot be opened, an
+object that cannot be measured, a file that cannot be saved. A failure that nobody foresaw is one
+too, with its traceback on the standard error.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+import traceback
+from argparse import Namespace
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import bpy
+
+from ...core.measurement import Measurement
+from ...core.moments import Moments
+from ..measure import MeasureOptions, measure_object
+from ..read import Unreadable, measurable, measurable_objects
+from ..write import record
+from ..write.properties import store
+from .files import BLEND, UNITLESS, Unusable, open_file, save_file, suffix
+
+_BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
+
+
+@dataclass
+class Run:
+    """One command line at work.
+
+    documents: one for each file, in order. faults: how many of their errors are our own.
+    """
+
+    options: Namespace
+    documents: list[dict[str, Any]] = field(default_factory=list)
+    faults: int = 0
+
+    def __post_init__(self) -> None:
+        wanted = {
+            name: getattr(self.options, name)
+            for name in ("kind", "density", "mass", "thickness", "overlap")
+        }
+        self._wanted = MeasureOptions(**wanted, threads=os.cpu_count() or 1)
+
+    def measure(self) -> None:
+        """Measure every file that was named, or else the one that is open."""
+        for path in self.options.files or [None]:
+            self.documents.append(self._document(path))
+
+    @property
+    def errors(self) -> int:
+        """How many entries the documents have under `errors`."""
+        return sum(len(document["errors"]) for document in self.documents)
+
+    def _document(self, path: str | None) -> dict[str, Any]:
+        file = path or bpy.data.filepath or _asked_for()
+        measured: list[tuple[bpy.types.Object, Measurement]] = []
+        objects, errors = [], []
+        try:
+            self._open(path, file)
+            note = _unit_note(path, self.options.unit_scale)
+            chosen, errors = _chosen(self.options.object)
+            errors.extend(_missing_links())
+            for label, obj in chosen:
+                try:
+                    one, surface = self._measure(obj)
+                    told = replace(one, name=label, warnings=one.warnings + note)
+                    objects.append(
+                        record.record(told, self.options.frame, self.options.order, surface)
+                    )
+                    measured.append((obj, one))
+                except Unreadable as refusal:
+                    errors.append(_error(label, refusal.reason))
+                except Exception as error:
+                    errors.append(self._fault(label, error))
+            if self.options.write:
+                errors.extend(_store(path, measured))
+        except Unusable as refusal:
+            errors.append(_error(None, refusal))
+        except Exception as error:
+            errors.append(self._fault(None, error))
+        for one in errors:
+            where = [text for text in ("body_moments", file, one["name"]) if text]
+            sys.stderr.write("{}: {}\n".format(": ".join(where), one["reason"]))
+        return record.document(
+            objects,
+            record.total([one for _, one in measured]),
+            errors,
+            file=file,
+            blender=".".join(map(str, bpy.app.version)),
+            frame=self.options.frame,
+        )
+
+    def _open(self, path: str | None, file: str | None) -> None:
+        if path is not None:
+            open_file(path, self.options.unit_scale or 1.0)
+        elif file and not bpy.data.filepath:
+            raise Unusable("Blender could not open the file; check that it is there, and whole.")
+
+    def _measure(self, obj: bpy.types.Object) -> tuple[Measurement, Moments | None]:
+        """The object's measurement and, where they are asked for, its area moments to order 3."""
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        one = measure_object(obj, depsgraph, self._wanted)
+        if not self.options.surface_moments:
+            return one, None
+        if one.kind == "shell":
+            return one, one.area_moments
+        as_shell = MeasureOptions(
+            kind="shell", density=1.0, thickness=1.0, threads=self._wanted.threads
+        )
+        return one, measure_object(obj, depsgraph, as_shell).area_moments
+
+    def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
+        self.faults += 1
+        traceback.print_exception(error)
+        return _error(name, "A fault of the program: {}: {}.".format(type(error).__name__, error))
+
+
+def _error(name: str | None, reason: object) -> dict[str, Any]:
+    return {"name": name, "reason": str(reason)}
+
+
+def _chosen(
+    names: list[str] | None,
+) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]]]:
+    """The objects to measure, each under a name of its own, and an error for each name of none.
+
+    What the view layer excludes is among them: reading it tells why it cannot be measured.
+    """
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    same = Counter(obj.name for obj in scene.objects)
+    # A linked object may have a local one's name; the full name tells the library too.
+    labels = {obj: obj.name if same[obj.name] == 1 else obj.name_full for obj in scene.objects}
+    if names is None:
+        wanted = {*measurable_objects(layer), *_excluded(scene, layer)}
+        return [(label, obj) for obj, label in labels.items() if obj in wanted], []
+    chosen, errors = [], []
+    for name in names:
+        found = [(label, obj) for obj, label in labels.items() if label == name]
+        found = found or [(label, obj) for obj, label in labels.items() if obj.name == name]
+        chosen += [pair for pair in found if pair not in chosen]
+        if not found:
+            errors.append(_error(name, "The scene has no object of this name."))
+    return chosen, errors
+
+
+def _missing_links() -> Iterator[dict[str, Any]]:
+    """An error where Blender opened a file but not what it links to. It puts empty data there."""
+    data = bpy.data
+    groups = (data.objects, data.meshes, data.curves, data.metaballs, data.collections)
+    missing = [
+        item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing
+    ]
+    if missing:
+        reason = "Linked data is missing; put the linked files back, or make the data local: {}."
+        yield _error(None, reason.format(", ".join(sorted(missing))))
+
+
+def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.types.Object]:
+    """The scene's measurable objects outside of its view layer, but for the members of instanced
+    collections, which the instancers' records hold.
+    """
+    instancers = [obj for obj in scene.objects if obj.instance_type == "COLLECTION"]
+    instanced = {obj.instance_collection for obj in instancers} - {None}
+    members = {member for collection in instanced for member in collection.all_objects}
+    return {obj for obj in {*scene.objects} - {*layer.objects} - members if measurable(obj)}
+
+
+def _asked_for() -> str | None:
+    """The .blend file that Blender was started with. It runs a command on its start-up scene when
+    it cannot open it.
+    """
+    for word in sys.argv[1:]:
+        if word in ("-c", "--command", "--"):
+            return None
+        if _BLEND_WORD.search(word) and not word.startswith("-"):
+            return word
+    return None
+
+
+def _unit_note(path: str | None, scale: float | None) -> tuple[str, ...]:
+    """The decision about the file's unit, where there was one."""
+    unitless = path is not None and suffix(path) in UNITLESS
+    if unitless and scale is None:
+        return ("The file carries no unit; 1 unit is taken as 1 m (set --unit-scale).",)
+    if not unitless and scale is not None:
+        return ("The file carries its own unit; --unit-scale was not used.",)
+    return ()
+
+
+def _store(
+    path: str | None, measured: list[tuple[bpy.types.Object, Measurement]]
+) -> Iterator[dict[str, Any]]:
+    """Store the results, once all of them are there: drivers may read them and change what is
+    measured next.
+    """
+    if path is not None and suffix(path) != BLEND:
+        raise Unusable("Only a .blend file can keep the results; --write did nothing here.")
+    if not bpy.data.filepath:
+        raise Unusable("The scene has never been saved, so --write has no file to save.")
+    for obj, one in measured:
+        try:
+            store(obj, one)
+        except RuntimeError as refusal:
+            yield _error(obj.name, refusal)
+    save_file(bpy.data.filepath)

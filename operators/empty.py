@@ -1,0 +1,100 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Add Empty at the Principal Frame: something to parent, constrain and look at."""
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty
+from bpy.types import Context, Object, Operator
+from mathutils import Matrix
+
+from . import selection, snapping
+
+OF = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
+
+
+class OBJECT_OT_body_moments_add_empty(Operator):
+    """Add an empty at the center of mass"""
+
+    bl_idname = "object.body_moments_add_empty"
+    bl_label = "Add Empty at Principal Frame"
+    bl_description = (
+        "Add an empty at the center of mass, with the principal axes as its own and "
+        "arrows as long as the largest radius of gyration. An empty that was added "
+        "before is moved"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    parent: BoolProperty(
+        name="Parent to Object",
+        description="Make the object the parent of its empty, so that the empty moves with it",
+        default=True,
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return selection.poll_selected(cls, context)
+
+    def execute(self, context: Context) -> set[str]:
+        objects = selection.selected(context)
+        existing = {
+            empty[OF]: empty
+            for empty in context.scene.objects
+            if empty.type == "EMPTY" and OF in empty
+        }
+        notes: list[str] = []
+
+        def add(obj: Object) -> bool:
+            body = snapping.body_of(context, obj)
+            empty = existing.get(obj)
+            if empty is None:
+                empty = _new_empty(context, obj)
+            changed = _place(empty, body, obj if self.parent else None)
+            if changed and body.note:
+                notes.append("{:s}: {:s}".format(obj.name, body.note))
+            return changed
+
+        count, failures = selection.each(self, objects, add, snapping.REFUSALS)
+        text = "Placed an empty at the principal frame of {count}"
+        if not count and not failures:
+            text = (
+                "Nothing to do: the empties are there already"
+                if objects
+                else "Nothing selected can be measured"
+            )
+        return selection.summarise(self, count, len(objects), text, failures, notes)
+
+
+def _new_empty(context: Context, obj: Object) -> Object:
+    empty = bpy.data.objects.new("{:s} Principal Frame".format(obj.name), None)
+    empty.empty_display_type = "ARROWS"
+    empty.show_in_front = True  # the center of mass is mostly inside
+    empty.rotation_mode = "QUATERNION"
+    empty[OF] = obj
+    visible = [collection for collection in obj.users_collection if collection.library is None]
+    (visible[0] if visible else context.scene.collection).objects.link(empty)
+    return empty
+
+
+def _place(empty: Object, body: snapping.Body, parent: Object | None) -> bool:
+    """Move the empty to the body's frame; whether it was elsewhere."""
+    frame = np.eye(4)
+    frame[:3, :3], frame[:3, 3] = body.axes, body.center
+    now = np.array(empty.matrix_world, np.float64)
+    close = (
+        np.abs(now[:3, 3] - body.center).max()
+        <= 1e-6 * body.size + 1e-6 * np.abs(body.center).max()
+    )
+    if close and empty.parent == parent and body.is_principal(now[:3, :3]):
+        return False
+    empty.parent = parent
+    if parent is not None:
+        empty.parent_type = "OBJECT"
+        inverse = np.linalg.inv(np.array(parent.matrix_world, np.float64))
+        empty.matrix_parent_inverse = Matrix(inverse)
+    empty.empty_display_size = body.size
+    empty.matrix_world = Matrix(frame)
+    return True
+
+
+CLASSES = (OBJECT_OT_body_moments_add_empty,)

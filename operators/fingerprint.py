@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What stored numbers were computed from, in a text short enough for a property: geometry, transform and settings.
+
+The geometry's part is a digest of the moments themselves: no two shapes that a person would tell apart share twenty
+moments to the last bit, and it costs nothing. Transform and settings can be digested without measuring, so a panel
+may compare them while it draws.
+"""
+
+from __future__ import annotations
+
+import hashlib
+
+import bpy
+import numpy as np
+
+from ..core.decimal import decimal
+
+VERSION = "v1"
+
+
+def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
+    """The text stored as `body_fingerprint`: version, then the three digests."""
+    return ":".join([VERSION, _digest(geometry), matrix, settings])
+
+
+def matrix_hash(obj: bpy.types.Object) -> str:
+    """A digest of where the object is and how it is turned, scaled and sheared."""
+    return _digest(np.array(obj.matrix_world, np.float32).tobytes())
+
+
+def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
+    """A digest of the settings that the numbers of this object depend on."""
+    settings = obj.body_moments
+    unit = decimal(scene.unit_settings.scale_length)
+    return effective_hash(settings.kind, decimal(settings.density) if settings.mass_from == "DENSITY" else None,
+                          decimal(settings.mass) if settings.mass_from == "MASS" else None,
+                          decimal(settings.thickness) * unit, settings.overlap,
+                          unit)
+
+
+def effective_hash(kind: str, density: float | None, mass: float | None, thickness: float, overlap: str,
+                   unit_scale: float) -> str:
+    """A digest of settings as they were used; what a kind has no use for does not count."""
+    used = [kind, density, mass, round(thickness, 12) if kind == "SHELL" else None,
+            overlap if kind == "SOLID" else None, round(unit_scale, 12)]
+    return _digest(repr(used).encode())
+
+
+def _digest(data: bytes) -> str:
+    return hashlib.blake2s(data, digest_size=6).hexdigest()

@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The button: measure the selected objects and store what came out on them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import bpy
+
+from .measure import Measurement, Unreadable, measure_object
+from .staleness import settle
+from .write import properties
+
+AT_ONCE = 4  # up to so many objects are measured before the window is drawn again
+
+
+class OBJECT_OT_body_moments_measure(bpy.types.Operator):
+    """Compute the exact mass properties of the selected objects and store them on each"""
+
+    bl_idname = "object.body_moments_measure"
+    bl_label = "Measure"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not _chosen(context):
+            cls.poll_message_set("Select the objects to measure")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        window_manager = context.window_manager
+        objects = _chosen(context)
+        window_manager.progress_begin(0, len(objects))
+        try:
+            self._begin(context)
+            for done, _ in enumerate(self._steps, 1):
+                window_manager.progress_update(done)
+        finally:
+            window_manager.progress_end()
+        return self._finish(context)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        objects = _chosen(context)
+        if len(objects) <= AT_ONCE or context.window is None:
+            return self.execute(context)
+        self._begin(context)
+        self._count, self._done = len(objects), 0
+        self._timer = context.window_manager.event_timer_add(0.0, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        context.window_manager.progress_begin(0, self._count)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == "ESC":
+            self._end(context)
+            self.report({"INFO"}, "Measuring was cancelled; nothing was changed")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        if next(self._steps, None) is None:
+            self._end(context)
+            return self._finish(context)
+        self._done += 1
+        context.window_manager.progress_update(self._done)
+        context.workspace.status_text_set(
+            "Measuring: {:d} of {:d} objects. Esc cancels".format(self._done, self._count))
+        return {"RUNNING_MODAL"}
+
+    def _begin(self, context: bpy.types.Context) -> None:
+        self._found: list[tuple[bpy.types.Object, Measurement]] = []
+        self._failed: list[str] = []
+        self._steps = self._measure(_chosen(context), context.evaluated_depsgraph_get())
+
+    def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Iterator[bpy.types.Object]:
+        for obj in objects:
+            try:
+                self._found.append((obj, measure_object(obj, depsgraph)))
+            except Unreadable as error:
+                self._failed.append(str(error))
+            yield obj
+
+    def _end(self, context: bpy.types.Context) -> None:
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
+
+    def _finish(self, context: bpy.types.Context) -> set[str]:
+        """Nothing is stored before everything is measured, so that a cancelled run leaves nothing behind."""
+        stored = []
+        for obj, measurement in self._found:
+            try:
+                properties.store(obj, measurement)
+            except RuntimeError as error:
+                self._failed.append("{:s}: {:s}".format(obj.name, str(error)))
+                continue
+            stored.append(obj)
+        settle(context, stored)
+        self._say(len(stored))
+        for area in context.screen.areas if context.screen else ():
+            area.tag_redraw()
+        return {"FINISHED"} if stored else {"CANCELLED"}
+
+    def _say(self, stored: int) -> None:
+        warned = sum(bool(measurement.warnings) for _, measurement in self._found)
+        tried = stored + len(self._failed)
+        parts = ["Measured {:d} of {:d} objects".format(stored, tried)] if tried > 1 else []
+        if tried == stored == 1:
+            parts.append("Measured {:s}".format(self._found[0][0].name))
+        if warned:
+            parts.append("{:d} with warnings".format(warned))
+        parts += self._failed
+        self.report({"WARNING"} if self._failed or warned else {"INFO"}, "; ".join(parts))
+
+
+def _chosen(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The selected objects; in edit mode the ones being edited."""
+    return list(context.selected_objects)
+
+
+def register() -> None:
+    bpy.utils.register_class(OBJECT_OT_body_moments_measure)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(OBJECT_OT_body_moments_measure)

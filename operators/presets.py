@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials for all selected objects at once, presets of one's own, and settings from one object
+to the others.
+"""
+
+from bl_operators.presets import AddPresetBase
+from bpy.props import EnumProperty
+from bpy.types import Context, Object, Operator
+
+from ..core.materials import BY_NAME, MATERIALS
+from . import selection
+from .settings import copy_settings
+
+PRESETS = "body_moments"  # folder of the user's presets
+
+
+def _editable(context: Context) -> list[Object]:
+    active = context.view_layer.objects.active
+    objects = [obj for obj in context.view_layer.objects.selected if obj.is_editable]
+    return (
+        objects
+        if active is None or active in objects or not active.is_editable
+        else [active, *objects]
+    )
+
+
+class OBJECT_OT_body_moments_set_material(Operator):
+    """Set the density of all selected objects to that of a material"""
+
+    bl_idname = "object.body_moments_set_material"
+    bl_label = "Set Material"
+    bl_options = {"REGISTER", "UNDO"}
+    bl_property = "material"
+
+    material: EnumProperty(
+        name="Material",
+        description="The material whose density is taken",
+        items=[
+            (
+                material.name,
+                material.name,
+                "{:.7g} kg/m³. Source: {:s}".format(material.density, material.source),
+            )
+            for material in MATERIALS
+        ],
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if not _editable(context):
+            cls.poll_message_set("Select the objects first")
+            return False
+        return True
+
+    def invoke(self, context: Context, _event) -> set[str]:
+        context.window_manager.invoke_search_popup(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: Context) -> set[str]:
+        material = BY_NAME[self.material]
+        objects = _editable(context)
+        changed = 0
+        for obj in objects:
+            settings = obj.body_moments
+            before = (settings.mass_from, settings.density, settings.material)
+            settings.mass_from = "DENSITY"
+            settings.density = material.density
+            settings.material = material.name
+            changed += before != (settings.mass_from, settings.density, settings.material)
+        text = "Set {count} to " + material.name
+        if not changed:
+            text = "Nothing to do: it was {:s} already".format(material.name)
+        return selection.summarise(self, changed, len(objects), text)
+
+
+class OBJECT_OT_body_moments_copy_settings(Operator):
+    """Copy kind, material, density or mass, thickness and overlaps from the active object to all
+    other selected ones
+    """
+
+    bl_idname = "object.body_moments_copy_settings"
+    bl_label = "Copy Settings to Selected"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        active = context.view_layer.objects.active
+        if active is None or not any(obj != active for obj in context.view_layer.objects.selected):
+            cls.poll_message_set("Select other objects besides the active one")
+            return False
+        return True
+
+    def execute(self, context: Context) -> set[str]:
+        active = context.view_layer.objects.active
+        objects = [obj for obj in _editable(context) if obj != active]
+        count = sum(copy_settings(active.body_moments, obj.body_moments) for obj in objects)
+        text = (
+            "Copied the settings to {count}"
+            if count
+            else "Nothing to do: the settings were the same already"
+        )
+        return selection.summarise(self, count, len(objects), text)
+
+
+class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
+    """Keep the settings of the active object as a preset, or remove a preset"""
+
+    bl_idname = "object.body_moments_preset_add"
+    bl_label = "Add Body Moments Preset"
+    preset_menu = "OBJECT_PT_body_moments_presets"
+    preset_subdir = PRESETS
+    preset_defines = ["settings = bpy.context.object.body_moments"]
+    preset_values = [
+        "settings.kind",
+        "settings.thickness",
+        "settings.mass_from",
+        "settings.mass",
+        "settings.density",
+        "settings.material",
+        "settings.overlap",
+    ]
+
+
+CLASSES = (
+    OBJECT_OT_body_moments_set_material,
+    OBJECT_OT_body_moments_copy_settings,
+    OBJECT_OT_body_moments_preset_add,
+)

@@ -1,0 +1,318 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Giving an object another origin and other axes while all that can be seen stays where it is.
+
+An object's matrix goes from W to W', its data from p to D p with D = W'⁻¹ W, its children's parent
+inverses from P to W'⁻¹ W P. W' is read back after Blender has rounded it to float32, so that D
+undoes the very matrix that is used, and D is applied in float64 with one rounding.
+
+Nothing is assumed of modifiers: the change is first made on a copy of the data, the evaluated
+surfaces in the world are compared with those of before, and only where they are the same the change
+is kept. Otherwise all is put back. Other users of the data keep it as it is; the objects that are
+changed get a copy of their own, shared among them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+from bpy.types import ID, Context, Object
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from .channels import (
+    FLOAT32,
+    Channels,
+    Matrix4,
+    Refused,
+    basis,
+    set_location,
+    set_rotation_and_scale,
+    world,
+)
+from .read import Unreadable
+from .surroundings import SAME_SHAPE, Surroundings, referring, same_shape, shape
+
+# What these do does not depend on where an object's origin is, nor on its axes.
+INDIFFERENT = {
+    "ARMATURE",
+    "BOOLEAN",
+    "DATA_TRANSFER",
+    "EDGE_SPLIT",
+    "MASK",
+    "NORMAL_EDIT",
+    "SUBSURF",
+    "TRIANGULATE",
+    "UV_PROJECT",
+    "UV_WARP",
+    "VERTEX_WEIGHT_EDIT",
+    "VERTEX_WEIGHT_MIX",
+    "VERTEX_WEIGHT_PROXIMITY",
+    "WEIGHTED_NORMAL",
+}
+
+
+@dataclass
+class Plan:
+    """What one object shall become.
+
+    target: (4, 4) the wanted matrix_world. size: of the body, in Blender units. move_only: the axes
+        are kept to the bit.
+    """
+
+    obj: Object
+    target: Matrix4
+    size: float
+    move_only: bool
+    notes: list[str] = field(default_factory=list)
+
+
+def check(obj: Object) -> None:
+    """Refused where the object's data cannot be re-expressed at all."""
+    if obj.library is not None or (obj.data is not None and obj.data.library is not None):
+        raise Refused("it is linked from another file; make it and its data local first")
+    if obj.data is None:
+        raise Refused(
+            "it shows a collection and has no geometry of its own; make the instances real first"
+        )
+    if obj.type not in {"MESH", "CURVE", "SURFACE", "META", "FONT"}:
+        raise Refused("its geometry has no transform of its own; convert it to a mesh first")
+    if obj.instance_type in {"VERTS", "FACES"} and obj.children:
+        raise Refused(
+            "it shows its children on its vertices or faces; make the instances real first"
+        )
+    if abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
+        raise Refused("its scale is zero along an axis; set the scale first")
+
+
+def reframe(
+    context: Context, plans: list[Plan], progress=lambda: None
+) -> tuple[list[Plan], list[tuple[Object, str]]]:
+    """Carry out the plans; those that were, and for each other object the reason why it was left
+    as it was.
+    """
+    users = referring({plan.obj for plan in plans}) if plans else {}
+    done, failures = [], []
+    for group in _groups(plans):
+        try:
+            _reframe_group(context, group, users)
+            done += group
+        except (Refused, Unreadable, ValueError, RuntimeError) as error:
+            reason = str(getattr(error, "reason", error))
+            failures += [(plan.obj, reason) for plan in group]
+        progress()
+    return done, failures
+
+
+def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
+    """Plans whose objects share data and want the same change of it; never a parent and its child,
+    for the child is placed after its parent.
+    """
+    groups: list[tuple[Matrix4, list[Plan]]] = []
+    for plan in plans:
+        change = np.linalg.solve(plan.target, world(plan.obj))
+        reach = np.abs(np.array(plan.obj.bound_box)).max()
+        above = set(_lineage(plan.obj))
+        for other, members in groups:
+            if (
+                members[0].obj.data == plan.obj.data
+                and not above & {member.obj for member in members}
+                and _moves(change, other, reach) <= SAME_SHAPE * plan.size
+            ):
+                members.append(plan)
+                break
+        else:
+            groups.append((change, [plan]))
+    return [members for _, members in groups]
+
+
+def _moves(one: Matrix4, other: Matrix4, reach: float) -> float:
+    difference = np.abs(one - other)
+    return difference[:3, :3].sum() * reach + difference[:3, 3].max()
+
+
+def _reframe_group(context: Context, group: list[Plan], users: dict[Object, set[Object]]) -> None:
+    objects = [plan.obj for plan in group]
+    data = group[0].obj.data
+    depsgraph = context.evaluated_depsgraph_get()
+    before = {obj: shape(obj, depsgraph) for obj in objects}
+    around = Surroundings(objects, users, depsgraph)
+    was = {obj: world(obj) for obj in objects}
+    channels = [Channels(obj) for obj in objects]
+    trial = None
+    kept = False
+    try:
+        for plan in group:
+            reach(context, plan)
+        change = _exact_change(group[0], was[group[0].obj])
+        trial = data.copy()
+        transform_data(trial, change)
+        for obj in objects:
+            obj.data = trial
+        around.hold()
+        context.view_layer.update()
+        depsgraph = context.evaluated_depsgraph_get()
+        for plan in group:
+            if not same_shape(before[plan.obj], shape(plan.obj, depsgraph), plan.size):
+                raise Refused(_blame(plan.obj))
+        around.check(depsgraph, min(plan.size for plan in group))
+        group[0].notes += around.notes
+        kept = True
+    finally:
+        if not kept:
+            for obj in objects:
+                obj.data = data
+            for saved in channels:
+                saved.restore()
+            around.restore()
+        if trial is not None and (not kept or data.users - data.use_fake_user == 0):
+            if kept:  # nobody else uses the data: the change is made on the data itself
+                for obj in objects:
+                    obj.data = data
+                transform_data(data, change)
+            _remove(trial)
+        elif kept:
+            for plan in group:
+                plan.notes.append("got a copy of its data, for other objects use it too")
+        context.view_layer.update()
+
+
+def _remove(data: ID) -> None:
+    bpy.data.batch_remove([data])
+
+
+def reach(context: Context, plan: Plan) -> None:
+    """Set the channels so that the evaluated matrix becomes the target; Refused where something
+    else holds it.
+    """
+    obj = plan.obj
+    outer = _outer(obj)
+    if not abs(np.linalg.det(outer[:3, :3])) > 0.0:
+        raise Refused("its parent has a scale of zero; set that scale first")
+    slack = location_tolerance(obj, plan.size) / np.cbrt(abs(np.linalg.det(outer[:3, :3])))
+    wanted = plan.target
+    for _ in range(3):  # what the parents' float32 matrices round is corrected once it is known
+        local = np.linalg.solve(outer, wanted)
+        set_location(obj, local[:3, 3], slack)
+        if not plan.move_only:
+            set_rotation_and_scale(obj, local[:3, :3])
+        context.view_layer.update()
+        off = plan.target[:3, 3] - world(obj)[:3, 3]
+        if np.abs(off).max() <= FLOAT32 * np.abs(plan.target[:3, 3]).max():
+            break
+        wanted = wanted.copy()
+        wanted[:3, 3] += off
+    reached = world(obj)
+    if np.abs(reached[:3, 3] - plan.target[:3, 3]).max() > location_tolerance(obj, plan.size):
+        raise Refused("a constraint or its parent holds its location; remove or apply that first")
+    scale = np.abs(plan.target[:3, :3]).max()
+    if np.abs(reached[:3, :3] - plan.target[:3, :3]).max() > 2e-6 * scale:
+        raise Refused(
+            "a constraint or its parent holds its rotation or scale; remove or apply that first"
+        )
+
+
+def _outer(obj: Object) -> Matrix4:
+    """(4, 4) what parents multiply the basis with."""
+    if obj.parent is None:
+        return np.eye(4)
+    if obj.parent_type in {"OBJECT", "ARMATURE", "LATTICE"}:
+        return world(obj.parent) @ np.array(obj.matrix_parent_inverse, np.float64)
+    own = basis(obj)
+    if abs(np.linalg.det(own[:3, :3])) == 0.0:
+        raise Refused("its scale is zero along an axis; set the scale first")
+    return np.linalg.solve(own.T, world(obj).T).T
+
+
+def _exact_change(plan: Plan, was: Matrix4) -> Matrix4:
+    now = world(plan.obj)
+    change = np.linalg.solve(now, was)
+    if plan.move_only:
+        change[:3, :3] = np.eye(3)
+        change[:3, 3] = np.linalg.solve(was[:3, :3], was[:3, 3] - now[:3, 3])
+    change[3] = (0.0, 0.0, 0.0, 1.0)
+    return change
+
+
+def location_tolerance(obj: Object, size: float) -> float:
+    """How near to a point an origin can be told to be: some float32 steps of every location on
+    the way to the world.
+    """
+    reach = max(np.abs(world(one)[:3, 3]).max() for one in _lineage(obj))
+    return 4e-7 * size + 4.0 * FLOAT32 * reach
+
+
+def _lineage(obj: Object) -> Iterable[Object]:
+    while obj is not None:
+        yield obj
+        obj = obj.parent
+
+
+# Data
+
+
+def transform_data(data: ID, change: Matrix4) -> None:
+    """p → change · p for every control point of the data and its shape keys. Refused where the
+    data cannot.
+    """
+    if isinstance(data, bpy.types.Mesh):
+        _transform_mesh(data, change)
+    elif isinstance(data, bpy.types.TextCurve):
+        _move_text(data, change)
+    elif isinstance(data, bpy.types.Curve):
+        data.transform(Matrix(change), shape_keys=True)
+    else:
+        data.transform(Matrix(change))
+
+
+def _transform_mesh(mesh: bpy.types.Mesh, change: Matrix4) -> None:
+    layers = [mesh.attributes["position"].data] if mesh.vertices else []
+    name = "vector"
+    exact = [_mapped(layer, name, change) for layer in layers]
+    keys = [block.data for block in mesh.shape_keys.key_blocks] if mesh.shape_keys else []
+    exact_keys = [_mapped(key, "co", change) for key in keys]
+    # Blender's own transform also turns custom normals; its float32 coordinates are replaced by the
+    # exact ones.
+    mesh.transform(Matrix(change), shape_keys=True)
+    if mesh.vertices:
+        mesh.attributes["position"].data.foreach_set(name, exact[0])
+    for key, points in zip(keys, exact_keys):
+        key.foreach_set("co", points)
+    if np.linalg.det(change[:3, :3]) < 0.0:
+        mesh.flip_normals()
+    mesh.update()
+
+
+def _mapped(collection, name: str, change: Matrix4) -> NDArray[np.float32]:
+    points = np.empty(3 * len(collection), np.float32)
+    collection.foreach_get(name, points)
+    points = points.reshape(-1, 3).astype(np.float64) @ change[:3, :3].T + change[:3, 3]
+    return np.ascontiguousarray(points, np.float32).ravel()
+
+
+def _move_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
+    offset = change[:3, 3]
+    if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(
+        np.abs(offset).max(), text.size
+    ):
+        raise Refused("text can only be moved within its own plane; convert it to a mesh first")
+    text.offset_x += offset[0]
+    text.offset_y += offset[1]
+
+
+def _blame(obj: Object) -> str:
+    names = [
+        modifier.name
+        for modifier in obj.modifiers
+        if modifier.show_viewport and modifier.type not in INDIFFERENT
+    ]
+    if names:
+        return (
+            "its shape would change, because it depends on the origin or axes through {:s}; "
+            "apply or remove "
+            "that first, or give it an object of its own to refer to".format(", ".join(names))
+        )
+    return "its shape would change; apply its scale or convert it to a mesh first"

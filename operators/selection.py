@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What all operators on the selection share: which objects, polls that say why, progress, and
+one report a run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import contextmanager
+
+import bpy
+from bpy.types import Context, Object, Operator
+
+from .read import measurable
+
+LISTED = 3  # failures that a report names before it only counts
+
+
+def selected(context: Context) -> list[Object]:
+    """The selected objects that could be measured, parents before children. Works in background
+    too.
+    """
+    objects = [obj for obj in context.view_layer.objects.selected if measurable(obj)]
+    return sorted(objects, key=_depth)
+
+
+def _depth(obj: Object) -> int:
+    depth = 0
+    while obj.parent is not None:
+        obj, depth = obj.parent, depth + 1
+    return depth
+
+
+def poll_selected(
+    cls: type[Operator], context: Context, modes: Sequence[str] = ("OBJECT",)
+) -> bool:
+    """Whether something is selected in a mode that suits; says why not."""
+    if modes and context.mode not in modes:
+        cls.poll_message_set("Switch to Object Mode first")
+        return False
+    if not context.view_layer.objects.selected:
+        cls.poll_message_set("Select the objects first")
+        return False
+    return True
+
+
+@contextmanager
+def progress(count: int):
+    """A counter to call after each of `count` steps; shown at the cursor where there are many."""
+    manager = bpy.context.window_manager
+    shown = count > 1
+    done = 0
+
+    def step() -> None:
+        nonlocal done
+        done += 1
+        if shown:
+            manager.progress_update(done)
+
+    if shown:
+        manager.progress_begin(0, count)
+    try:
+        yield step
+    finally:
+        if shown:
+            manager.progress_end()
+
+
+def summarise(
+    operator: Operator,
+    done: int,
+    total: int,
+    text: str,
+    failures: Iterable[tuple[str, str]] = (),
+    notes: Iterable[str] = (),
+) -> set[str]:
+    """One report for the run, and what `execute` returns.
+
+    text: what happened to `done` objects, with {count} for "3 objects". failures: (name, reason)
+        each. notes: sentences.
+    """
+    failures, notes = list(failures), list(notes)
+    sentences = []
+    if done or not failures:
+        sentences.append(text.format(count=counted(done)))
+    if failures:
+        listed = ["{:s}: {:s}".format(*failure) for failure in failures[:LISTED]]
+        if len(failures) > LISTED:
+            listed.append("and {:d} more".format(len(failures) - LISTED))
+        sentences.append(
+            "{:d} of {:s} left unchanged. {:s}".format(
+                len(failures), counted(total), "; ".join(listed)
+            )
+        )
+    sentences += notes[:LISTED]
+    operator.report({"WARNING"} if failures or notes else {"INFO"}, ". ".join(sentences))
+    return {"FINISHED"} if done else {"CANCELLED"}
+
+
+def counted(count: int) -> str:
+    return "1 object" if count == 1 else "{:d} objects".format(count)
+
+
+def each(
+    operator: Operator,
+    objects: Sequence[Object],
+    action: Callable[[Object], bool],
+    refusals: tuple[type[Exception], ...],
+) -> tuple[int, list[tuple[str, str]]]:
+    """Run `action` on each object; how many it changed, and (name, reason) of those that it
+    refused.
+    """
+    changed, failures = 0, []
+    with progress(len(objects)) as step:
+        for obj in objects:
+            try:
+                changed += bool(action(obj))
+            except refusals as error:
+                failures.append((obj.name, str(getattr(error, "reason", error))))
+            step()
+    return changed, failures

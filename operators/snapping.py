@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the snapping operators share: where the body is now, in Blender units, and refreshing
+what was stored.
+
+Directions of nearly equal moments are not fixed by a body whose coordinates are float32: measured
+again they turn, by about rounding over the gap between the moments. Whether axes are principal is
+therefore told from the tensor, which must be diagonal in them to rounding, not from the angle
+between two measured frames.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from bpy.types import Context, Object, Operator
+from numpy.typing import NDArray
+
+from ..core.decimal import decimal
+from . import reframe, selection, staleness
+from .channels import Refused
+from .measure import MeasureOptions, measure_object
+from .read import Unreadable
+from .write import properties
+
+REFUSALS = (Refused, Unreadable, ValueError, RuntimeError)
+DIAGONAL = 4e-7  # of the trace: what float32 coordinates leave of products of inertia
+
+
+@dataclass(frozen=True)
+class Body:
+    """An object as measured now, world axes, lengths in Blender units.
+
+    center (3,), axes (3, 3) principal, as columns, det +1; inertia (3, 3) about the center in
+    kg·m²; gyration (3,) radii; size: the largest of them; note: what was free to choose.
+    """
+
+    obj: Object
+    center: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    inertia: NDArray[np.float64]
+    gyration: NDArray[np.float64]
+    mass: float
+    note: str
+
+    @property
+    def size(self) -> float:
+        return float(self.gyration.max())
+
+    def is_principal(self, frame: NDArray) -> bool:
+        """Whether the columns of `frame` are this body's principal axes, in this order and with
+        these signs, as far as its coordinates can tell."""
+        tensor = frame.T @ self.inertia @ frame
+        limit = DIAGONAL * np.trace(tensor)
+        diagonal = np.diag(tensor)
+        off = np.abs(tensor - np.diag(diagonal)).max()
+        along = (frame * self.axes).sum(axis=0)
+        return bool(off <= limit and (np.diff(diagonal) >= -limit).all() and (along > -0.5).all())
+
+
+def body_of(context: Context, obj: Object) -> Body:
+    """Measure an object; Refused where its numbers depend on a reference point."""
+    measurement = measure_object(obj, context.evaluated_depsgraph_get(), MeasureOptions())
+    if measurement.method.endswith("open"):
+        raise Refused(
+            "it is open and cannot be capped, so that its center is not its own; close it, or "
+            "set its kind to Shell"
+        )
+    unit = decimal(context.scene.unit_settings.scale_length)
+    body = measurement.mass_properties
+    return Body(
+        obj=obj,
+        center=body.center / unit,
+        axes=body.principal.axes,
+        inertia=body.inertia,
+        gyration=body.radii_of_gyration / unit,
+        mass=body.mass,
+        note=body.principal.note,
+    )
+
+
+def refresh(context: Context, objects: list[Object]) -> None:
+    """Measure and store again the objects that carry results: an operator that moved them keeps
+    them up to date.
+    """
+    stored = [obj for obj in objects if properties.is_stored(obj)]
+    if not stored:
+        return
+    context.view_layer.update()
+    depsgraph = context.evaluated_depsgraph_get()
+    fresh = []
+    for obj in stored:
+        try:
+            properties.store(obj, measure_object(obj, depsgraph, MeasureOptions()))
+        except REFUSALS:  # what is stored stays, and the panel says that it is out of date
+            continue
+        fresh.append(obj)
+    staleness.settle(context, fresh)
+
+
+def carry_out(
+    operator: Operator,
+    context: Context,
+    objects: list[Object],
+    plans: list[reframe.Plan],
+    failures: list[tuple[str, str]],
+    text: str,
+) -> set[str]:
+    """Reframe what was planned and report it; objects without plan or failure were right before."""
+    with staleness.paused(), selection.progress(len(plans)) as step:
+        done, refused = reframe.reframe(context, plans, step)
+    failures += [(obj.name, reason) for obj, reason in refused]
+    refresh(context, [plan.obj for plan in done])
+    notes = ["{:s} {:s}".format(plan.obj.name, note) for plan in done for note in plan.notes]
+    if not done and not failures:
+        text = (
+            "Nothing to do: all of it was there already"
+            if objects
+            else "Nothing selected can be measured"
+        )
+    return selection.summarise(operator, len(done), len(objects), text, failures, notes)

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether stored numbers are out of date.
+
+Transform and settings are compared by their digests in the fingerprint. A digest of the geometry
+would need measuring, so a handler notes, in memory only, which objects' geometry Blender
+re-evaluated after their numbers were stored: a note is the pair of the object's session uid and the
+fingerprint that it then carried. Nothing is written to any data.
+
+Undo re-evaluates what it brings back, which is no edit: the one update that follows it is not
+noted. An edit that undo brings back again was noted when it was made. Reading a file reports no
+updates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+from bpy.app.handlers import persistent
+from bpy.types import Context, Depsgraph, Object, Scene
+
+from .fingerprint import matrix_hash, settings_hash
+
+# session uid → the fingerprints that were current when the geometry changed
+_edited: dict[int, set[str]] = {}
+_undone = False
+_paused = False
+_generation = 0
+
+
+def settle(context: Context, objects: list[Object]) -> None:
+    """Call after results were stored: evaluates what storing itself has tagged, then takes the
+    objects as up to date.
+    """
+    context.view_layer.update()
+    for obj in objects:
+        mark_fresh(obj)
+
+
+def mark_fresh(obj: Object) -> None:
+    """The object's stored numbers are those of its geometry as it is now."""
+    global _generation
+    _generation += 1
+    _edited.pop(obj.session_uid, None)
+
+
+@contextmanager
+def paused() -> Iterator[None]:
+    """Nothing is noted in here: for changes that leave every object's shape as it was."""
+    global _paused
+    _paused = True
+    try:
+        yield
+    finally:
+        _paused = False
+
+
+def generation() -> int:
+    """Grows with every change that Blender reports; what was cached under an older one may be
+    wrong.
+    """
+    return _generation
+
+
+def reason(obj: Object, scene: Scene) -> str:
+    """Why the stored numbers are out of date, "" where they are not or there are none."""
+    stored = str(obj.get("body_fingerprint", ""))
+    parts = stored.split(":")
+    if len(parts) != 4:
+        return ""
+    if stored in _edited.get(obj.session_uid, ()):
+        return "Geometry Changed"
+    if parts[2] != matrix_hash(obj):
+        return "Transform Changed"
+    if parts[3] != settings_hash(obj, scene):
+        return "Settings Changed"
+    return ""
+
+
+@persistent
+def _note(_scene: Scene, depsgraph: Depsgraph | None = None) -> None:
+    global _generation, _undone
+    _generation += 1
+    if _paused or depsgraph is None or depsgraph.mode != "VIEWPORT":
+        return
+    if _undone:
+        _undone = False
+        return
+    for update in depsgraph.updates:
+        if not update.is_updated_geometry or not isinstance(update.id, Object):
+            continue
+        obj = update.id.original
+        fingerprint = obj.get("body_fingerprint")
+        if fingerprint is not None:
+            _edited.setdefault(obj.session_uid, set()).add(str(fingerprint))
+
+
+@persistent
+def _undo(*_args) -> None:
+    global _generation, _undone
+    _generation += 1
+    _undone = True
+
+
+@persistent
+def _load(*_args) -> None:
+    global _generation, _undone
+    _generation += 1
+    _undone = False
+    _edited.clear()
+
+
+HANDLERS = (
+    ("depsgraph_update_post", _note),
+    ("frame_change_post", _note),
+    ("undo_post", _undo),
+    ("redo_post", _undo),
+    ("load_post", _load),
+)
+
+
+def register() -> None:
+    for name, function in HANDLERS:
+        getattr(bpy.app.handlers, name).append(function)
+
+
+def unregister() -> None:
+    for name, function in reversed(HANDLERS):
+        getattr(bpy.app.handlers, name).remove(function)
+    _edited.clear()

@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The stored results: ID properties on the object, the public contract for drivers, rigs and exporters.
+
+SI units, object frame (the object's location and rotation, unit scale). Inertia is six tensor entries about the center
+of mass, xx, yy, zz, xy, xz, yz, with xy = -∫xy dm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.mass import MassProperties
+from ...core.measurement import Measurement
+from ...core.pose import PrincipalFrame
+from ...core.rotation import quaternion, rotation_matrix
+
+DESCRIPTIONS = {
+    "body_mass": "Mass in kg",
+    "body_density": "Mean density in kg/m³",
+    "body_volume": "Volume in m³",
+    "body_area": "Surface area in m²",
+    "body_center_of_mass": "Center of mass in the object's frame (location and rotation, unit scale), in m",
+    "body_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the center of mass, along the object's axes, "
+                    "in kg·m² (xy = −∫xy dm)",
+    "body_principal_moments": "Principal moments of inertia, ascending, in kg·m²",
+    "body_principal_axes": "Quaternion w, x, y, z that turns the object's axes into the principal axes",
+    "body_error_bound": "What rounding may have changed: volume, area, center of mass, inertia; "
+                        "then the same four for what storing coordinates as float32 may have",
+    "body_method": "How the numbers came about",
+    "body_warnings": "What was decided on the way, one sentence a line",
+    "body_fingerprint": "What the numbers were computed from",
+}
+LENGTHS = {"body_mass": 0, "body_density": 0, "body_volume": 0, "body_area": 0, "body_center_of_mass": 3,
+           "body_inertia": 6, "body_principal_moments": 3, "body_principal_axes": 4, "body_error_bound": 8}
+BOUNDED = ("volume", "area", "center_of_mass", "inertia")
+ENTRIES = ("xx", "yy", "zz", "xy", "xz", "yz")
+TENSOR = ((0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2))
+
+
+@dataclass(frozen=True, eq=False)
+class Stored:
+    """What an object carries, SI. body: in the object frame, or where `in_world` has put it.
+    error_bound: as of a Measurement."""
+
+    density: float
+    volume: float
+    area: float
+    body: MassProperties
+    error_bound: dict
+
+    def in_world(self, matrix_world, unit: float) -> Stored:
+        """The same in the world frame. matrix_world: of the object; unit: metres per Blender unit."""
+        location, turn, _ = matrix_world.decompose()
+        to_object = rotation_matrix(turn).T
+        origin = -to_object @ np.array(location, np.float64) * unit
+        return replace(self, body=self.body.in_frame(to_object, origin))
+
+
+def store(obj: bpy.types.Object, measurement: Measurement) -> None:
+    """Writes all results on the object, or none. RuntimeError, with the remedy, where the object cannot hold them."""
+    if not obj.is_editable:
+        raise RuntimeError("It is linked from another file; make it local or a library override to store results on "
+                           "it.")
+    body, bound = measurement.in_object_frame(), measurement.error_bound
+    values = {
+        "body_mass": body.mass,
+        "body_density": measurement.density,
+        "body_volume": measurement.volume,
+        "body_area": measurement.area,
+        "body_center_of_mass": body.center.tolist(),
+        "body_inertia": body.inertia[TENSOR].tolist(),
+        "body_principal_moments": body.principal.moments.tolist(),
+        "body_principal_axes": quaternion(body.principal.axes).tolist(),
+        "body_error_bound": [float(source[name]) for source in (bound, bound["input"]) for name in BOUNDED],
+        "body_method": measurement.method,
+        "body_warnings": "\n".join(measurement.warnings),
+        "body_fingerprint": measurement.fingerprint,
+    }
+    for key, value in values.items():
+        obj[key] = value
+        if not isinstance(value, str):
+            obj.id_properties_ui(key).update(description=DESCRIPTIONS[key], precision=6)
+    obj.update_tag()  # drivers that read them follow
+
+
+def clear(obj: bpy.types.Object) -> bool:
+    """Removes all results; whether there were any."""
+    found = [key for key in DESCRIPTIONS if key in obj]
+    for key in found:
+        del obj[key]
+    if found:
+        obj.update_tag()
+    return bool(found)
+
+
+def is_stored(obj: bpy.types.Object) -> bool:
+    """Whether the object carries results."""
+    return numbers(obj) is not None
+
+
+def method_and_warnings(obj: bpy.types.Object) -> tuple[str, list[str]]:
+    """How the stored numbers came about, and what was decided on the way."""
+    return str(obj.get("body_method", "")), str(obj.get("body_warnings", "")).splitlines()
+
+
+def numbers(obj: bpy.types.Object) -> tuple[tuple[float, ...], ...] | None:
+    """The stored numbers as they are, in the order of LENGTHS; None where one is missing or something else."""
+    rows = []
+    for key, length in LENGTHS.items():
+        value = obj.get(key)
+        try:
+            row = tuple(float(number) for number in value) if length else (float(value),)
+        except (TypeError, ValueError):  # absent, or overwritten by something else
+            return None
+        if len(row) != max(length, 1):
+            return None
+        rows.append(row)
+    return tuple(rows)
+
+
+def stored(rows: tuple[tuple[float, ...], ...]) -> Stored:
+    """The results that `numbers` has read, in the object frame."""
+    (mass,), (density,), (volume,), (area,), center, entries, moments, turn, bounds = rows
+    tensor = np.zeros((3, 3))
+    tensor[TENSOR] = tensor[TENSOR[::-1]] = entries
+    axes = rotation_matrix(turn) if any(turn) else np.eye(3)
+    rounding, inputs = (dict(zip(BOUNDED, bounds[i:i + 4])) for i in (0, 4))
+    frame = PrincipalFrame(np.array(moments), axes, symmetry="", unique=False, note="")
+    error, moved = ({"mass": bound["volume"] * density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
+                    for bound in (rounding, inputs))
+    body = MassProperties(mass, np.array(center), tensor, frame, error, moved)
+    return Stored(density, volume, area, body, {**rounding, "input": inputs})
+
+
+def tensor_entries(tensor: NDArray) -> NDArray[np.float64]:
+    """(6,) a (3, 3) tensor in the order of ENTRIES."""
+    return tensor[TENSOR]

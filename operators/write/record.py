@@ -1,0 +1,258 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measurements as records: the JSON document of a file, JSON lines and CSV. A public contract,
+`body-moments/1`.
+
+A document is what one file gave: one record for each object, their total, and what could not be
+measured. All numbers are SI. Centres, tensors, axes and moments are in the world frame or in each
+object's own frame (its location and rotation, unit scale); objects do not share their frames, so
+the total is always in the world frame. A number that is not finite is written as null, never as NaN
+or Infinity, which are not JSON.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import re
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ...core.mass import MassProperties, combined
+from ...core.measurement import Measurement
+from ...core.moments import Moments, monomials
+
+SCHEMA = "body-moments/1"
+FRAMES = ("world", "object")
+
+# The inertia tensor's six entries, in the order in which they are stored on an object.
+TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2))
+
+# An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break,
+# so none matches.
+_SPREAD = re.compile(r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|null))*)\n\s*\]")
+
+
+def record(
+    measurement: Measurement,
+    frame: str = "world",
+    order: int | None = None,
+    surface: Moments | None = None,
+) -> dict[str, Any]:
+    """One object's record.
+
+    frame: "world" or "object". order: adds `moments`, volume moments up to that order (at most 3)
+    about the frame's origin; of a shell, those of its thin volume. surface: area moments of the
+    same object, world frame, added to them.
+    """
+    properties = measurement.mass_properties if frame == "world" else measurement.in_object_frame()
+    entry = {
+        "name": measurement.name,
+        "type": measurement.type,
+        "kind": measurement.kind,
+        "method": measurement.method,
+        "density": measurement.density,
+        "mass": properties.mass,
+        "volume": measurement.volume,
+        "area": measurement.area,
+        **_inertial(properties),
+    }
+    if order is not None:
+        volume = measurement.volume_moments
+        if volume is None:
+            volume = measurement.area_moments * measurement.thickness
+        entry["moments"] = {"order": order, "about": [0.0, 0.0, 0.0]}
+        entry["moments"]["volume"] = _about_origin(volume, order, measurement, frame)
+        if surface is not None:
+            entry["moments"]["surface"] = _about_origin(surface, order, measurement, frame)
+    entry["health"] = measurement.health.as_record()
+    entry["error_bound"] = measurement.error_bound
+    entry["warnings"] = list(measurement.warnings)
+    return plain(entry)
+
+
+def total(measurements: Sequence[Measurement]) -> dict[str, Any]:
+    """All objects as one body, in the world frame: masses add, and inertia by the parallel-axis
+    theorem.
+    """
+    entry = {
+        "mass": math.fsum(one.mass_properties.mass for one in measurements),
+        "volume": math.fsum(one.volume for one in measurements),
+        "area": math.fsum(one.area for one in measurements),
+        **dict.fromkeys(
+            ("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry")
+        ),
+    }
+    if measurements:
+        with suppress(ValueError):  # together they have no mass, and so no centre
+            entry.update(_inertial(combined([one.mass_moments for one in measurements])))
+    return plain(entry)
+
+
+def document(
+    objects: Iterable[dict[str, Any]],
+    total: dict[str, Any],
+    errors: Iterable[dict[str, Any]],
+    *,
+    file: str | None,
+    blender: str | None,
+    frame: str = "world",
+) -> dict[str, Any]:
+    """What one file gave. The objects are sorted by name; `file` is None for a scene that was never
+    saved.
+    """
+    if frame != "world":
+        total = {"frame": "world", **total}
+    return {
+        "schema": SCHEMA,
+        "blender": blender,
+        "file": file,
+        "frame": frame,
+        "objects": sorted(objects, key=lambda entry: entry["name"]),
+        "total": total,
+        "errors": list(errors),
+    }
+
+
+def to_json(documents: Sequence[dict[str, Any]]) -> str:
+    """One document as itself, several as an array, indented for a reader with each row of numbers
+    on one line.
+    """
+    value = documents[0] if len(documents) == 1 else list(documents)
+    text = json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False)
+    return _SPREAD.sub(lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text) + "\n"
+
+
+def to_json_lines(documents: Iterable[dict[str, Any]]) -> str:
+    """One document a line."""
+    return "".join(json.dumps(one, ensure_ascii=False, allow_nan=False) + "\n" for one in documents)
+
+
+def to_csv(documents: Iterable[dict[str, Any]]) -> str:
+    """One row an object under one header. What could not be measured is a row too, with its reason
+    under `error`.
+    """
+    rows = []
+    for one in documents:
+        place = {"file": one["file"], "frame": one["frame"]}
+        rows += [{**place, **_columns(entry)} for entry in one["objects"]]
+        rows += [
+            {**place, "name": entry["name"], "error": entry["reason"]} for entry in one["errors"]
+        ]
+    header = list(
+        dict.fromkeys(
+            [*_COLUMNS, *(name for row in rows for name in row if name not in _LAST), *_LAST]
+        )
+    )
+    text = io.StringIO()
+    table = csv.DictWriter(text, header, lineterminator="\n")
+    table.writeheader()
+    table.writerows({name: _cell(value) for name, value in row.items()} for row in rows)
+    return text.getvalue()
+
+
+FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv}
+
+
+def plain(value: Any) -> Any:
+    """The value as JSON can hold it: Python's own types, and None for every number that is not
+    finite.
+    """
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+def _inertial(properties: MassProperties) -> dict[str, Any]:
+    principal = properties.principal
+    return {
+        "center_of_mass": properties.center,
+        "inertia": properties.inertia,
+        "principal_moments": principal.moments,
+        "principal_axes": principal.axes,
+        "symmetry": principal.symmetry,
+    }
+
+
+def _about_origin(
+    moments: Moments, order: int, measurement: Measurement, frame: str
+) -> dict[str, float]:
+    """World-frame moments by exponents, about the origin of the frame and along its axes."""
+    if frame == "object":
+        to_frame = np.eye(4)
+        to_frame[:3, :3] = measurement.rotation.T
+        to_frame[:3, 3] = -to_frame[:3, :3] @ measurement.location
+        # A change of axes stretches nothing, whatever the body measures and however the rotation
+        # was rounded.
+        moments = replace(moments, of="mass").mapped(to_frame)
+    moments = moments.truncated(order).shifted(np.zeros(3))
+    return {
+        ",".join(map(str, powers)): value
+        for powers, value in zip(monomials(order), moments.raw, strict=True)
+    }
+
+
+_COLUMNS = (
+    "file", "frame", "name", "type", "kind", "method", "density", "mass", "volume", "area",
+    *(f"center_of_mass_{axis}" for axis in "xyz"),
+    *(f"inertia_{name}" for name, *_ in TENSOR),
+    *(f"principal_moment_{number}" for number in (1, 2, 3)),
+    *(f"principal_axis_{number}_{axis}" for number in (1, 2, 3) for axis in "xyz"),
+    "symmetry",
+)  # fmt: skip
+_LAST = ("warnings", "error")
+
+
+def _columns(entry: dict[str, Any]) -> dict[str, Any]:
+    """A record as one flat row; what a list or a table holds gets a column each."""
+    row = {name: entry[name] for name in _COLUMNS if name in entry}
+    row |= {
+        f"center_of_mass_{axis}": value
+        for axis, value in zip("xyz", entry["center_of_mass"], strict=True)
+    }
+    row |= {f"inertia_{name}": entry["inertia"][i][j] for name, i, j in TENSOR}
+    for number in range(3):
+        row[f"principal_moment_{number + 1}"] = entry["principal_moments"][number]
+        row |= {
+            f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number]
+            for i, axis in enumerate("xyz")
+        }
+    row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"])
+    for name in ("volume", "surface"):
+        powers = entry.get("moments", {}).get(name, {})
+        row |= {f"{name}_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
+    row["warnings"] = entry["warnings"]
+    return row
+
+
+def _nested(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
+    row = {}
+    for name, value in values.items():
+        row |= (
+            _nested(f"{prefix}_{name}", value)
+            if isinstance(value, dict)
+            else {f"{prefix}_{name}": value}
+        )
+    return row
+
+
+def _cell(value: Any) -> Any:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, list):
+        return " | ".join(map(str, value))
+    return value

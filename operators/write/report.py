@@ -1,0 +1,222 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A report that a person reads, in the order that CAD dialogs use: verdict, mass, volume, center,
+principal axes, tensor.
+
+It is made from a document (`record.document`) alone, so that whatever is told in JSON can be told
+in words, and from the results that are stored on objects by way of a document too. What a document
+lacks is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+
+from ...core.decimal import decimal
+from ...core.mass import MassProperties, combined
+from . import properties
+from .record import TENSOR, document, plain
+
+METHODS = {
+    "exact": "closed; the numbers are those of the surface itself",
+    "reoriented": "closed after flipped faces were turned",
+    "capped": "open; holes were capped",
+    "open": "open and not to be capped; the numbers depend on the reference point",
+    "shell": "a shell; the mass is in the surface",
+    "union": "overlapping shells, united",
+}
+FINDINGS = {
+    "boundary_edges": "boundary edges",
+    "non_manifold_edges": "non-manifold edges",
+    "inconsistent_edges": "edges between faces that face opposite ways",
+    "inverted_components": "inside-out parts",
+    "nested_components": "parts inside others, counted twice",
+    "overlapping_components": "overlapping parts",
+    "cavities": "cavities",
+    "duplicate_faces": "duplicate faces",
+    "degenerate_faces": "faces without area",
+    "non_planar_faces": "faces that are not flat",
+}
+BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
+DIGITS = 7  # as many as float32 coordinates carry
+NOISE = (
+    2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; told as 0
+)
+INDENT = "  "
+WIDTH = 22
+
+
+def report_text(context: Any, objects: Sequence[Any], outdated: Collection[str] = ()) -> str:
+    """The results stored on `objects`, in the frame that the context's scene is set to.
+
+    outdated: names of those whose results no longer hold. Objects without results are named too.
+    """
+    scene = context.scene
+    unit, frame = decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
+    entries, bodies, errors = [], [], []
+    for obj in objects:
+        rows = properties.numbers(obj)
+        if rows is None:
+            errors.append({"name": obj.name, "reason": "It has no stored results; measure it."})
+            continue
+        found = properties.stored(rows)
+        world = found.in_world(obj.matrix_world, unit)
+        bodies.append(world.body)
+        entries.append(_stored_record(obj, world if frame == "world" else found, obj.name in outdated))
+    total = _stored_total(entries, bodies)
+    return text(document(entries, total, errors, file=None, blender=None, frame=frame))
+
+
+def text(document: dict[str, Any]) -> str:
+    """A document as plain text, with its units and conventions stated."""
+    lines = ["Mass properties, SI units, {} frame".format(document["frame"])]
+    if document["file"]:
+        lines.append("File: {}".format(document["file"]))
+    for entry in document["objects"]:
+        lines += ["", entry["name"], *_body(entry, document["frame"])]
+    if len(document["objects"]) > 1:
+        heading = "Total of {} objects, world frame".format(len(document["objects"]))
+        lines += ["", heading, *_body(document["total"], "world")]
+    if document["errors"]:
+        lines += ["", "Not measured"]
+        lines += [
+            "{}{}: {}".format(INDENT, one["name"] or "File", one["reason"])
+            for one in document["errors"]
+        ]
+    return "\n".join(lines) + "\n"
+
+
+def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
+    """The lines of one object, or of a total."""
+    if "method" in entry:
+        yield _line(
+            "Verdict",
+            "{}: {}".format(entry["method"], METHODS.get(entry["method"].split()[-1], "")),
+        )
+        found = [
+            "{} {}".format(entry["health"][name], words)
+            for name, words in FINDINGS.items()
+            if entry.get("health", {}).get(name)
+        ]
+        if found:
+            yield _line("Found", ", ".join(found))
+        yield _line("Kind", "{}, {}".format(entry["kind"], entry["type"].lower()))
+    yield _line("Mass", _number(entry["mass"]), "kg")
+    if "density" in entry:
+        yield _line("Density", _number(entry["density"]), "kg/m³")
+    yield _line("Volume", _number(entry["volume"]), "m³")
+    yield _line("Surface area", _number(entry["area"]), "m²")
+    if entry["center_of_mass"] is None or entry["inertia"] is None:
+        return
+    size = abs(entry["volume"] or 0.0) ** (1.0 / 3.0)
+    yield _line(
+        "Center of mass", _vector(entry["center_of_mass"], size), "m, {} frame".format(frame)
+    )
+    yield from _principal(entry)
+    yield from _tensor(entry["inertia"], frame)
+    yield from _bounds(entry.get("error_bound", {}))
+    for warning in entry.get("warnings", []):
+        yield _line("Warning", warning)
+
+
+def _principal(entry: dict[str, Any]) -> Iterable[str]:
+    moments, axes = entry["principal_moments"], entry.get("principal_axes")
+    symmetry = ", {}".format(entry["symmetry"]) if entry.get("symmetry") else ""
+    yield _line("Principal moments", "about the center of mass, kg·m²{}".format(symmetry))
+    for i, moment in enumerate(moments):
+        along = "  along {}".format(_vector([row[i] for row in axes])) if axes else ""
+        yield _line("  I{}".format(i + 1), _number(moment) + along)
+    if entry["mass"]:
+        radii = np.sqrt(np.array(moments, float) / entry["mass"])
+        yield _line("Radii of gyration", _vector(radii.tolist()), "m")
+
+
+def _tensor(inertia: list[list[float]], frame: str) -> Iterable[str]:
+    yield _line(
+        "Inertia tensor",
+        "about the center of mass, {} axes, kg·m² (entries: Ixy = −∫ρxy dV)".format(frame),
+    )
+    values = _clean([inertia[i][j] for _, i, j in TENSOR])
+    for row in (slice(0, 3), slice(3, 6)):
+        cells = [
+            "I{} {:<16}".format(name, _number(value))
+            for (name, *_), value in zip(TENSOR[row], values[row])
+        ]
+        yield _line("", "".join(cells).rstrip())
+
+
+def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
+    for label, values in (
+        ("Rounding, at most", bounds),
+        ("float32 coordinates", bounds.get("input", {})),
+    ):
+        parts = [
+            "{} {:.1e} {}".format(name.replace("_", " "), values[name], unit)
+            for name, unit in BOUNDS.items()
+            if values.get(name) is not None
+        ]
+        if any(values.get(name) for name in BOUNDS):
+            yield _line(label, ", ".join(parts))
+
+
+def _line(label: str, value: str, unit: str = "") -> str:
+    return "{}{:<{}}{} {}".format(INDENT, label, WIDTH, value, unit).rstrip()
+
+
+def _number(value: float | None) -> str:
+    return "unknown" if value is None else "{:.{}g}".format(value, DIGITS)
+
+
+def _vector(values: Sequence[float | None], size: float = 0.0) -> str:
+    return "({})".format(", ".join(_number(value) for value in _clean(values, size)))
+
+
+def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
+    """The values with 0.0 for what is rounding beside the largest of them, or beside the body's
+    size.
+    """
+    largest = max([size, *(abs(value) for value in values if value is not None)])
+    return [
+        0.0 if value is not None and abs(value) <= NOISE * largest else value for value in values
+    ]
+
+
+def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[str, Any]:
+    """A record without health, which is not stored."""
+    method, warnings = properties.method_and_warnings(obj)
+    if outdated:
+        warnings.insert(0, "Out of date: the object has changed since it was measured.")
+    entry = {
+        "name": obj.name,
+        "type": obj.type,
+        "kind": "shell" if method == "shell" else "solid",
+        "method": method,
+        "density": found.density,
+        "mass": found.body.mass,
+        "volume": found.volume,
+        "area": found.area,
+        "center_of_mass": found.body.center,
+        "inertia": found.body.inertia,
+        "principal_moments": found.body.principal.moments,
+        "principal_axes": found.body.principal.axes,
+        "error_bound": found.error_bound,
+        "warnings": warnings,
+    }
+    return plain(entry)
+
+
+def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[MassProperties]) -> dict[str, Any]:
+    """Everything stored as one body, world frame. Axes are left out: signs need third moments."""
+    total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
+    total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
+    if bodies:
+        with suppress(ValueError):  # together they have no mass
+            whole = combined([(body.as_moments(), 1.0) for body in bodies])
+            total |= {"center_of_mass": whole.center, "inertia": whole.inertia}
+            total |= {"principal_moments": whole.principal.moments}
+            total |= {"symmetry": whole.principal.symmetry}
+    return plain(total)

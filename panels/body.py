@@ -1,0 +1,252 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel, in the order of CAD's mass property dialogs: verdict, material, mass, center,
+principal axes, tensor.
+
+It is in the 3D Viewport's sidebar, and the same in the object's properties, where it stays open
+beside other settings.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from bpy.types import Context, Object, Panel, UILayout
+
+from ..operators import results, staleness
+from ..operators.units import SI_UNITS, Units
+from ..operators.write import properties
+from . import rows
+
+# method: (headline, icon, explanation)
+VERDICTS = {
+    "exact": ("Exact, Closed Surface", "CHECKMARK", ""),
+    "union": ("Exact, United Shells", "CHECKMARK", ""),
+    "shell": ("Shell", "MOD_SOLIDIFY", "The mass is in the surface"),
+    "reoriented": ("Reoriented", "INFO", "Closed after flipped faces were turned"),
+    "capped": ("Capped", "ERROR", "The surface is open; its holes were capped"),
+    "open": ("Open", "CANCEL", "Not closed: the numbers depend on the reference point"),
+}
+AXES = ("X", "Y", "Z")
+NUMBERS = ("1", "2", "3")
+BOUNDS = (("Rounding, at Most", None), ("Coordinates Stored as Float32, at Most", "input"))
+BOUNDED = {
+    "volume": ("Volume", "volume"),
+    "area": ("Area", "area"),
+    "center_of_mass": ("Center", "length"),
+    "inertia": ("Inertia", "inertia"),
+}
+
+
+class BodyPanel:
+    """What both places show."""
+
+    bl_label = "Body Moments"
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None
+
+    def draw(self, context: Context) -> None:
+        obj, scene = context.object, context.scene
+        layout = self.layout
+        layout.use_property_decorate = False
+        units = Units.of(scene.unit_settings)
+        found = results.of_object(obj, scene)
+        _verdict(layout, context, obj, measured=found is not None)
+        _material(layout, context, obj)
+        row = layout.row(align=True)
+        row.scale_y = 1.4
+        row.operator("object.body_moments_measure", icon="PHYSICS")
+        row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
+        if found is not None:
+            _numbers(layout, scene, units, found)
+            _more(layout, units, found)
+            _warnings(layout, context, obj)
+            row = layout.row(align=True)
+            row.operator("object.body_moments_copy_report", icon="COPYDOWN")
+            row.operator("object.body_moments_clear", icon="TRASH")
+        _actions(layout)
+        _totals(layout, context, units)
+
+
+def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> None:
+    column = layout.column(align=True)
+    if not measured:
+        column.label(text="Not Measured", icon="RADIOBUT_OFF")
+        return
+    method, _ = properties.method_and_warnings(obj)
+    *before, last = method.split() or [""]
+    headline, icon, explanation = VERDICTS.get(last, (method.title(), "INFO", ""))
+    outdated = staleness.reason(obj, context.scene)
+    column.label(text=" ".join([*before, headline]), icon=icon)
+    if explanation:
+        rows.sentence(column, context, explanation, icon="BLANK1")
+    if outdated:
+        row = column.row()
+        row.alert = True
+        row.label(text="Out of Date: {:s}".format(outdated), icon="FILE_REFRESH")
+
+
+def _material(layout: UILayout, context: Context, obj: Object) -> None:
+    settings = obj.body_moments
+    column = layout.column()
+    column.use_property_split = True
+    column.row().prop(settings, "kind", expand=True)
+    if settings.kind == "SHELL":
+        column.prop(settings, "thickness")
+    else:
+        column.prop(settings, "overlap")
+    column.row().prop(settings, "mass_from", text="Given", expand=True)
+    if settings.mass_from == "DENSITY":
+        split = column.row(align=True).split(factor=0.4, align=True)
+        label = split.row()
+        label.alignment = "RIGHT"
+        label.label(text="Material")
+        row = split.row(align=True)
+        row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
+        row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
+        column.prop(settings, "density", text="Density kg/m³")
+    else:
+        column.prop(settings, "mass", text="Mass kg")
+    if len(context.selected_objects) > 1:
+        column.operator("object.body_moments_copy_settings", icon="PASTEDOWN")
+
+
+def _numbers(layout: UILayout, scene, units: Units, found: properties.Stored) -> None:
+    column = layout.column(align=True)
+    rows.value(column, units, "Mass", "mass", found.body.mass)
+    rows.value(column, units, "Density", "density", found.density)
+    rows.value(column, units, "Volume", "volume", found.volume)
+    rows.value(column, units, "Area", "area", found.area)
+    layout.row().prop(scene.body_moments, "frame", expand=True)
+    column = layout.column(align=True)
+    rows.heading(column, "Center of Mass", "length", found.body.center)
+    rows.values(column, units, AXES, "length", found.body.center)
+    column = layout.column(align=True)
+    rows.heading(column, "Principal Moments", "inertia", found.body.principal.moments)
+    rows.values(column, units, NUMBERS, "inertia", found.body.principal.moments)
+    column = layout.column(align=True)
+    rows.heading(column, "Principal Axes", "", found.body.principal.axes)
+    for label, axis in zip(NUMBERS, found.body.principal.axes.T):
+        rows.direction(column, label, axis)
+
+
+def _more(layout: UILayout, units: Units, found: properties.Stored) -> None:
+    header, body = layout.panel("body_moments_gyration", default_closed=True)
+    header.label(text="Radii of Gyration")
+    if body is not None:
+        rows.values(body.column(align=True), units, NUMBERS, "length", found.body.radii_of_gyration)
+    header, body = layout.panel("body_moments_tensor", default_closed=True)
+    header.label(text="Inertia Tensor")
+    if body is not None:
+        column = body.column(align=True)
+        column.label(text="At the center of mass, Ixy = −∫xy dm")
+        entries = properties.tensor_entries(found.body.inertia)
+        rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
+    header, body = layout.panel("body_moments_bounds", default_closed=True)
+    header.label(text="Error Bounds")
+    if body is not None:
+        _bounds(body, units, found)
+
+
+def _bounds(layout: UILayout, units: Units, found: properties.Stored) -> None:
+    sizes = {
+        "volume": found.volume,
+        "area": found.area,
+        "center_of_mass": np.abs(found.body.center).max(),
+        "inertia": found.body.principal.moments.max(),
+    }
+    for heading, bound in BOUNDS:
+        column = layout.column(align=True)
+        column.label(text=heading)
+        values = found.error_bound if bound is None else found.error_bound[bound]
+        for name, (label, quantity) in BOUNDED.items():
+            rows.texts(column, label, units.bound(quantity, values[name], sizes[name]), repr(values[name]),
+                       SI_UNITS[quantity])
+
+
+def _warnings(layout: UILayout, context: Context, obj: Object) -> None:
+    _, warnings = properties.method_and_warnings(obj)
+    if not warnings:
+        return
+    header, body = layout.panel("body_moments_warnings", default_closed=False)
+    header.label(text="Warnings ({:d})".format(len(warnings)))
+    if body is not None:
+        for warning in warnings:
+            rows.sentence(body, context, warning, icon="DOT")
+
+
+def _actions(layout: UILayout) -> None:
+    header, body = layout.panel("body_moments_snap", default_closed=False)
+    header.label(text="Snap")
+    if body is None:
+        return
+    column = body.column(align=True)
+    column.operator("object.body_moments_origin_to_center", icon="OBJECT_ORIGIN")
+    column.operator("object.body_moments_axes_to_principal", icon="EMPTY_AXIS")
+    column.operator("object.body_moments_align_to_world", icon="ORIENTATION_GLOBAL")
+    column = body.column(align=True)
+    column.operator("object.body_moments_add_empty", text="Add Empty", icon="OUTLINER_OB_EMPTY")
+    column.operator("view3d.body_moments_cursor_to_center", icon="PIVOT_CURSOR")
+    column.operator(
+        "object.body_moments_create_orientation",
+        text="Transform Orientation",
+        icon="ORIENTATION_LOCAL",
+    )
+    column.operator("object.body_moments_set_rigid_body_mass", icon="RIGID_BODY")
+
+
+def _totals(layout: UILayout, context: Context, units: Units) -> None:
+    header, body = layout.panel("body_moments_totals", default_closed=True)
+    header.label(text="Total of Selection")
+    if body is None:
+        return
+    total = results.total(context)
+    column = body.column(align=True)
+    if not total.count:
+        column.label(text="No selected object is measured", icon="INFO")
+        return
+    column.label(
+        text="1 object" if total.count == 1 else "{:d} objects".format(total.count), icon="GROUP"
+    )
+    for names, text in ((total.missing, "not measured"), (total.outdated, "out of date")):
+        if names:
+            row = column.row()
+            row.alert = True
+            row.label(text="{:d} {:s}".format(len(names), text), icon="ERROR")
+    column = body.column(align=True)
+    if total.body is not None:
+        rows.value(column, units, "Mass", "mass", total.body.mass)
+    rows.value(column, units, "Volume", "volume", total.volume)
+    rows.value(column, units, "Area", "area", total.area)
+    if total.body is None:
+        return
+    column = body.column(align=True)
+    rows.heading(column, "Center of Mass (World)", "length", total.body.center)
+    rows.values(column, units, AXES, "length", total.body.center)
+    column = body.column(align=True)
+    moments = total.body.principal.moments
+    rows.heading(column, "Principal Moments", "inertia", moments)
+    rows.values(column, units, NUMBERS, "inertia", moments)
+
+
+class VIEW3D_PT_body_moments(BodyPanel, Panel):
+    """Mass properties in the sidebar"""
+
+    bl_idname = "VIEW3D_PT_body_moments"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Moments"
+
+
+class OBJECT_PT_body_moments(BodyPanel, Panel):
+    """Mass properties in the object's properties"""
+
+    bl_idname = "OBJECT_PT_body_moments"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "object"
+    bl_options = {"DEFAULT_CLOSED"}
+
+
+CLASSES = (VIEW3D_PT_body_moments, OBJECT_PT_body_moments)

@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rows of a narrow panel: values that can be copied, and sentences that wrap."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import blf
+import numpy as np
+from bpy.types import Context, UILayout
+
+from ..operators.clipboard import OBJECT_OT_body_moments_copy_value
+from ..operators.units import SI_UNITS, Units
+
+LABEL = 0.36  # share of a row that its label takes
+MARGIN = 96  # what tabs, borders and an icon take of the region's width, in unscaled pixels
+NARROW = 160
+
+
+def value(layout: UILayout, units: Units, label: str, quantity: str, si: float) -> None:
+    """One value with its unit, and a button that copies it to the last digit."""
+    texts(layout, label, units.text(quantity, si), repr(float(si)), SI_UNITS[quantity])
+
+
+def values(
+    layout: UILayout, units: Units, labels: Sequence[str], quantity: str, si: Sequence[float]
+) -> None:
+    """A row for each value, all in the same unit."""
+    for label, text, one in zip(labels, units.texts(quantity, si), si):
+        texts(layout, label, text, repr(float(one)), SI_UNITS[quantity])
+
+
+def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) -> None:
+    """A heading whose button copies all values below it."""
+    row = layout.row(align=True)
+    row.label(text=label)
+    _copy(row, repr(np.asarray(si, float).tolist()), SI_UNITS.get(quantity, ""))
+
+
+def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
+    """A unit vector in one row."""
+    row = layout.row(align=True)
+    split = row.split(factor=0.1, align=True)
+    split.label(text=label)
+    cells = split.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
+    for component in vector:
+        cell = cells.row(align=True)
+        cell.alignment = "RIGHT"
+        cell.label(
+            text="{:.4f}".format(component + 0.0).replace("-0.0000", "0.0000").replace("-", "−")
+        )
+    _copy(row, repr([float(component) for component in vector]), "")
+
+
+def texts(layout: UILayout, label: str, text: str, exact: str, unit: str) -> None:
+    """Label, text to the right, copy button."""
+    row = layout.row(align=True)
+    split = row.split(factor=LABEL, align=True)
+    split.label(text=label)
+    cell = split.row(align=True)
+    cell.alignment = "RIGHT"
+    cell.label(text=text)
+    _copy(row, exact, unit)
+
+
+def _copy(row: UILayout, exact: str, unit: str) -> None:
+    button = row.operator(
+        OBJECT_OT_body_moments_copy_value.bl_idname, text="", icon="COPYDOWN", emboss=False
+    )
+    button.value = exact
+    button.unit = unit
+
+
+def sentence(layout: UILayout, context: Context, text: str, icon: str = "NONE") -> None:
+    """A text in as many lines as the region's width asks for."""
+    column = layout.column(align=True)
+    column.scale_y = 0.85
+    for i, line in enumerate(_wrapped(text, *_width(context))):
+        if icon == "NONE":
+            column.label(text=line)
+        else:
+            column.label(text=line, icon=icon if i == 0 else "BLANK1")
+
+
+def _width(context: Context) -> tuple[int, float]:
+    """(pixels, font size in pixels) that a line has."""
+    scale = context.preferences.system.ui_scale
+    region = context.region
+    width = region.width if region is not None else 0
+    points = context.preferences.ui_styles[0].widget.points
+    return max(int(width - MARGIN * scale), int(NARROW * scale)), points * scale
+
+
+@lru_cache(maxsize=256)
+def _wrapped(text: str, width: int, size: float) -> tuple[str, ...]:
+    blf.size(0, size)
+    lines, line = [], ""
+    for word in text.split():
+        longer = "{:s} {:s}".format(line, word) if line else word
+        if line and blf.dimensions(0, longer)[0] > width:
+            lines.append(line)
+            line = word
+        else:
+            line = longer
+    return (*lines, line)

@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects to try operators on, and what they look like in the world."""
+
+import bpy
+import numpy as np
+
+# A closed body without any symmetry: an L with a slanted end, so that nothing about its frame is
+# left to choose.
+POINTS = ((0, 0, 0), (3, 0, 0), (3.5, 1, 0), (1, 1, 0), (1, 2.5, 0), (0, 2, 0))
+HEIGHT = 0.7
+
+
+def mesh_body(name="Body", points=POINTS, height=HEIGHT):
+    """A mesh: the polygon as a prism."""
+    n = len(points)
+    vertices = [*points, *((x, y, height) for x, y, _ in points)]
+    faces = [tuple(range(n))[::-1], tuple(range(n, 2 * n))]
+    faces += [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n)]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(vertices, [], faces)
+    mesh.update()
+    return mesh
+
+
+def add(data, name="Body", location=(0, 0, 0), rotation=(0, 0, 0), scale=(1, 1, 1), select=True):
+    """An object in the scene, selected and active."""
+    obj = bpy.data.objects.new(name, data)
+    bpy.context.scene.collection.objects.link(obj)
+    obj.location, obj.rotation_euler, obj.scale = location, rotation, scale
+    bpy.context.view_layer.update()
+    if select:
+        bpy.ops.object.select_all(action="DESELECT")
+        obj.select_set(True)
+        bpy.context.view_layer.objects.active = obj
+    return obj
+
+
+def only(*objects):
+    """Select these and make the first active."""
+    bpy.ops.object.select_all(action="DESELECT")
+    for obj in objects:
+        obj.select_set(True)
+    bpy.context.view_layer.objects.active = objects[0]
+
+
+def seen(obj):
+    """(n, 3) float64 vertices of the evaluated object in the world."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    evaluated = obj.evaluated_get(depsgraph)
+    mesh = evaluated.to_mesh()
+    points = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", points)
+    evaluated.to_mesh_clear()
+    matrix = np.array(obj.matrix_world, np.float64)
+    return points.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def place(obj):
+    """(4, 4) float64 matrix_world."""
+    bpy.context.view_layer.update()
+    return np.array(obj.matrix_world, np.float64)
+
+
+def measured(obj):
+    """The measurement of an object as it is now."""
+    from body_moments.operators.measure import MeasureOptions, measure_object
+
+    bpy.context.view_layer.update()
+    return measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions())

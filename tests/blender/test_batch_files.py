@@ -1,0 +1,215 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the command line opens: every format, its unit and axes, and broken files of all kinds."""
+
+import os
+import struct
+
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+
+from tests.blender import batch_files as files
+from tests.blender.batch_files import document, measured, reason, run
+
+pytestmark = pytest.mark.usefixtures("registered")
+needs_usd = pytest.mark.skipif(
+    not bpy.app.usd.supported, reason="this Blender is built without USD"
+)
+
+
+@pytest.mark.parametrize(
+    "suffix",
+    [pytest.param(end, marks=needs_usd if "usd" in end else ()) for end in files.EXPORTERS],
+)
+def test_every_format_gives_the_box_that_was_saved(tmp_path, suffix):
+    path = files.box_file(tmp_path / f"part{suffix}")
+    found = document(path)
+    (entry,) = found["objects"]
+    assert found["file"] == path and found["errors"] == [] and found["schema"] == "body-moments/1"
+    assert entry["type"] == "MESH" and entry["kind"] == "solid" and entry["method"] == "exact"
+    assert entry["volume"] == pytest.approx(6.0, rel=1e-6)
+    assert entry["area"] == pytest.approx(22.0, rel=1e-6)
+    assert entry["mass"] == pytest.approx(6000.0, rel=1e-6)
+    assert entry["center_of_mass"] == pytest.approx(files.CENTER, rel=1e-6)
+    assert entry["principal_moments"] == pytest.approx([2500.0, 5000.0, 6500.0], rel=1e-5)
+    assert entry["health"]["closed"] is True
+    assert found["total"]["mass"] == entry["mass"]
+    if suffix in (".blend", ".glb", ".gltf", ".fbx"):
+        assert entry["name"] == files.BOX_NAME
+
+
+@pytest.mark.parametrize(
+    "name, text, center",
+    [
+        ("t.stl", files.stl_text(), (0.25, 0.5, 0.75)),
+        ("t.ply", files.ply_text(), (0.25, 0.5, 0.75)),
+        # There y is up, and the importer turns the object by a quarter: a float32 matrix.
+        ("T.OBJ", files.obj_text(), (0.25, -0.75, 0.5)),
+    ],
+    ids=["stl", "ply", "obj"],
+)
+def test_a_file_written_by_hand_is_measured_as_blender_shows_it(tmp_path, name, text, center):
+    entry = measured(files.write_text(tmp_path / name, text))
+    assert entry["volume"] == pytest.approx(1.0, rel=1e-12)
+    assert entry["center_of_mass"] == pytest.approx(center, rel=2e-7 if "OBJ" in name else 1e-12)
+
+
+@pytest.mark.parametrize("suffix", [".stl", ".obj", ".ply"])
+def test_the_unit_scale_is_for_files_without_a_unit(tmp_path, suffix):
+    path = files.box_file(tmp_path / f"part{suffix}")
+    meters, millimeters = measured(path), measured(path, "--unit-scale", "0.001")
+    assert meters["volume"] == pytest.approx(6.0, rel=1e-6)
+    assert any("--unit-scale" in warning for warning in meters["warnings"])
+    assert millimeters["volume"] == pytest.approx(6e-9, rel=1e-6)
+    assert millimeters["area"] == pytest.approx(22e-6, rel=1e-6)
+    assert millimeters["mass"] == pytest.approx(6e-6, rel=1e-6)
+    assert millimeters["center_of_mass"] == pytest.approx([0.01, 0.02, 0.03], rel=1e-6)
+    assert millimeters["principal_moments"] == pytest.approx([2.5e-12, 5e-12, 6.5e-12], rel=1e-5)
+    assert millimeters["warnings"] == []
+
+
+@pytest.mark.parametrize("suffix", [".glb", ".blend"])
+def test_a_file_with_a_unit_keeps_it_and_says_so(tmp_path, suffix):
+    entry = measured(files.box_file(tmp_path / f"part{suffix}"), "--unit-scale", "0.001")
+    assert entry["volume"] == pytest.approx(6.0, rel=1e-6)
+    assert any("--unit-scale" in warning for warning in entry["warnings"])
+
+
+def test_a_blend_files_own_unit_scale_counts(tmp_path):
+    files.empty_scene()
+    files.add_box()
+    bpy.context.scene.unit_settings.scale_length = 0.001
+    entry = measured(files.save(tmp_path / "part.blend"))
+    assert entry["volume"] == pytest.approx(6e-9, rel=1e-6)
+    assert entry["center_of_mass"] == pytest.approx([0.01, 0.02, 0.03], rel=1e-6)
+
+
+@needs_usd
+def test_a_usd_stages_unit_counts(tmp_path):
+    entry = measured(files.write_text(tmp_path / "t.usda", files.usda_text(0.01)))
+    assert entry["volume"] == pytest.approx(1e-6, rel=1e-6)
+    assert entry["center_of_mass"] == pytest.approx([0.0025, 0.005, 0.0075], rel=1e-6)
+
+
+@needs_usd
+def test_an_invisible_usd_prim_is_not_lost_without_a_word(tmp_path):
+    prims = 'token visibility = "invisible"'
+    found = document(files.write_text(tmp_path / "t.usda", files.usda_text(1.0, prims)))
+    assert [entry["name"] for entry in found["objects"] + found["errors"]] == ["Tetra"]
+
+
+def test_several_files_give_their_documents_in_order_and_leave_nothing_behind(tmp_path):
+    scaled = files.box_file(tmp_path / "scaled.stl")
+    files.empty_scene()
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    files.add_box("Other")
+    blend = files.save(tmp_path / "other.blend")
+    missing = str(tmp_path / "missing.stl")
+    line = run(scaled, blend, missing, scaled)
+    assert [found["file"] for found in line.documents] == [scaled, blend, missing, scaled]
+    names = [[entry["name"] for entry in found["objects"]] for found in line.documents]
+    assert names == [["scaled"], ["Other"], [], ["scaled"]]
+    assert line.documents[0]["objects"] == line.documents[3]["objects"]
+    assert line.errors == 1
+
+
+def test_an_importer_whose_add_on_is_switched_off_still_works(tmp_path):
+    import addon_utils
+
+    path = files.box_file(tmp_path / "part.glb")
+    addon_utils.disable("io_scene_gltf2")
+    assert measured(path)["volume"] == pytest.approx(6.0, rel=1e-6)
+
+
+GARBAGE = bytes(range(256)) * 4
+
+
+@pytest.mark.parametrize("suffix", list(files.EXPORTERS))
+@pytest.mark.parametrize("data", [b"", b"hello world\n", GARBAGE], ids=["empty", "text", "noise"])
+def test_a_file_that_is_not_what_its_name_says_is_an_error_of_its_own(tmp_path, suffix, data):
+    (tmp_path / f"bad{suffix}").write_bytes(data)
+    assert reason(tmp_path / f"bad{suffix}")
+
+
+@pytest.mark.parametrize("suffix", [".blend", ".glb", ".gltf", ".ply", ".stl", ".fbx"])
+def test_half_a_file_is_an_error(tmp_path, suffix):
+    path = tmp_path / f"part{suffix}"
+    files.box_file(path)
+    data = path.read_bytes()
+    path.write_bytes(data[: len(data) // 2])
+    assert reason(path)
+
+
+def test_a_text_stl_cut_short_is_not_measured_as_half_a_body(tmp_path):
+    text = files.stl_text(faces=files.FACES[:2], end="facet normal 0 0 0\nouter loop\n")
+    assert "endsolid" in reason(files.write_text(tmp_path / "cut.stl", text))
+
+
+def test_a_binary_stl_whose_header_says_solid_is_binary(tmp_path):
+    corners = [[files.CORNERS[i] for i in face] for face in files.FACES]
+    facets = [struct.pack("<12fH", 0, 0, 0, *a, *b, *c, 0) for a, b, c in corners]
+    path = tmp_path / "t.stl"
+    path.write_bytes(b"solid binary".ljust(80) + struct.pack("<I", 4) + b"".join(facets))
+    assert measured(path)["volume"] == pytest.approx(1.0)
+    path.write_bytes(path.read_bytes()[:-1])
+    assert "cut short" in reason(path)
+
+
+def test_what_is_no_file_is_an_error(tmp_path):
+    (tmp_path / "folder.blend").mkdir()
+    assert "folder" in reason(tmp_path / "folder.blend")
+    assert "no such file" in reason(tmp_path / "missing.obj")
+    if hasattr(os, "mkfifo"):
+        os.mkfifo(tmp_path / "pipe.blend")
+        assert "regular" in reason(tmp_path / "pipe.blend")
+
+
+@pytest.mark.parametrize("name", ["part.step", "part", "part.blend.zip"])
+def test_a_kind_of_file_that_blender_does_not_import_is_an_error(tmp_path, name):
+    assert ".stl" in reason(files.write_text(tmp_path / name, "x"))
+
+
+@pytest.mark.parametrize("suffix", [".npy", ".npz", ".nrrd", ".nii", ".nii.gz"])
+def test_arrays_are_said_to_come_later(tmp_path, suffix):
+    assert "not supported yet" in reason(files.write_text(tmp_path / f"scan{suffix}", "x"))
+
+
+def test_scripts_inside_a_blend_file_do_not_run(tmp_path):
+    files.empty_scene()
+    box = files.add_box()
+    sentinel = tmp_path / "it_ran"
+    script = bpy.data.texts.new("startup.py")
+    script.write(
+        f"open({str(sentinel)!r}, 'w')\nimport bpy\nbpy.data.objects[0].scale = (9, 9, 9)\n"
+    )
+    script.use_module = True
+    driver = box.driver_add("location", 0).driver
+    driver.expression = f"len(open({str(sentinel)!r}, 'w').name)"
+    path = files.save(tmp_path / "hostile.blend")
+    sentinel.unlink(missing_ok=True)
+    bpy.context.preferences.filepaths.use_scripts_auto_execute = True
+    try:
+        entry = measured(path)
+    finally:
+        bpy.context.preferences.filepaths.use_scripts_auto_execute = False
+    assert not sentinel.exists()
+    assert entry["volume"] == pytest.approx(6.0)
+
+
+def test_data_linked_from_a_file_that_is_gone_is_an_error_and_the_rest_is_measured(tmp_path):
+    library = tmp_path / "library.blend"
+    files.box_file(library)
+    files.empty_scene()
+    files.add_box("Local")
+    with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
+        wanted.objects = [files.BOX_NAME]
+    bpy.context.scene.collection.objects.link(wanted.objects[0])
+    path = files.save(tmp_path / "part.blend")
+    assert document(path)["errors"] == []
+    library.unlink()
+    found = document(path)
+    assert [entry["name"] for entry in found["objects"]] == ["Local"]
+    (error,) = found["errors"]
+    assert error["name"] is None and "library.blend" in error["reason"]

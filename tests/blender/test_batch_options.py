@@ -1,0 +1,332 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line's options, on the scene that is open and on .blend files."""
+
+import json
+import math
+import os
+
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.operators import batch
+from mathutils import Euler, Matrix
+
+from tests.blender import batch_files as files
+from tests.blender.batch_files import document, measured, run
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+@pytest.fixture
+def standard_output(capfd):
+    """Given back after a test, because `main` takes it away for good."""
+    kept = os.dup(1)
+    yield
+    os.dup2(kept, 1)
+    os.close(kept)
+
+
+def names(found):
+    return [entry["name"] for entry in found["objects"]]
+
+
+def errors(found):
+    return {entry["name"]: entry["reason"] for entry in found["errors"]}
+
+
+def test_without_a_file_the_open_scene_is_measured():
+    files.add_box()
+    found = document()
+    assert names(found) == [files.BOX_NAME] and found["file"] is None
+    assert found["blender"] == ".".join(map(str, bpy.app.version))
+
+
+def test_an_open_file_gives_its_name(tmp_path):
+    path = files.box_file(tmp_path / "part.blend")
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert document()["file"] == path
+
+
+def test_a_blend_file_that_blender_was_asked_for_and_could_not_open_is_an_error(monkeypatch):
+    words = ["blender", "-b", "missing.blend", "-c", "body_moments", "measure"]
+    monkeypatch.setattr("sys.argv", words)
+    files.add_box()  # the start-up scene, in which the command then runs
+    assert files.reason() and document()["file"] == "missing.blend"
+    monkeypatch.setattr("sys.argv", [*words[:2], *words[3:], "--object", "a.blend"])
+    assert names(document()) == [files.BOX_NAME]
+
+
+def test_objects_are_sorted_and_what_has_no_geometry_is_left_out():
+    for name in ("b", "C", "a"):
+        files.add_box(name)
+    bpy.ops.object.camera_add()
+    bpy.ops.object.light_add()
+    bpy.ops.object.empty_add()
+    found = document()
+    assert names(found) == ["C", "a", "b"] and found["errors"] == []
+    assert found["total"]["mass"] == pytest.approx(18000.0)
+
+
+def test_only_the_named_objects_are_measured():
+    for name in ("a", "b", "c"):
+        files.add_box(name)
+    found = document("--object", "c", "--object=a", "--object", "c")
+    assert names(found) == ["a", "c"] and found["errors"] == []
+    assert found["total"]["mass"] == pytest.approx(12000.0)
+
+
+def test_a_name_that_is_not_there_or_has_no_geometry_is_an_error():
+    files.add_box("a")
+    bpy.ops.object.camera_add()
+    line = run("--object", "a", "--object", "z", "--object", "Camera")
+    (found,) = line.documents
+    assert names(found) == ["a"] and set(errors(found)) == {"z", "Camera"} and line.errors == 2
+
+
+@pytest.mark.parametrize("how", ["hide_viewport", "excluded", "collection"])
+def test_an_object_that_blender_does_not_evaluate_is_an_error_with_its_reason(how):
+    files.add_box("shown")
+    hidden = files.add_box("hidden")
+    if how == "hide_viewport":
+        hidden.hide_viewport = True
+    else:
+        collection = bpy.data.collections.new("Away")
+        bpy.context.scene.collection.children.link(collection)
+        bpy.context.scene.collection.objects.unlink(hidden)
+        collection.objects.link(hidden)
+        layer = bpy.context.view_layer.layer_collection.children["Away"]
+        if how == "excluded":
+            layer.exclude = True
+        else:
+            collection.hide_viewport = True
+    found = document()
+    assert names(found) == ["shown"] and list(errors(found)) == ["hidden"]
+    assert errors(found)["hidden"]
+
+
+def test_the_members_of_an_instanced_collection_that_is_excluded_are_in_the_instancers_record():
+    member = files.add_box("member", (0, 0, 0))
+    collection = bpy.data.collections.new("Parts")
+    bpy.context.scene.collection.children.link(collection)
+    bpy.context.scene.collection.objects.unlink(member)
+    collection.objects.link(member)
+    bpy.ops.object.empty_add(location=(5, 0, 0))
+    empty = bpy.context.active_object
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    bpy.context.view_layer.layer_collection.children["Parts"].exclude = True
+    found = document()
+    assert names(found) == [empty.name] and found["errors"] == []
+    assert found["objects"][0]["center_of_mass"] == pytest.approx([5.0, 0.0, 0.0], abs=1e-12)
+
+
+def test_a_linked_object_of_the_same_name_has_a_name_of_its_own(tmp_path):
+    path = files.box_file(tmp_path / "library.blend")
+    files.empty_scene()
+    files.add_box()
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.objects = [files.BOX_NAME]
+    bpy.context.scene.collection.objects.link(wanted.objects[0])
+    found = names(document())
+    assert found == [files.BOX_NAME, files.BOX_NAME + " [library.blend]"]
+    assert names(document("--object", found[0])) == found[:1]
+    assert names(document("--object", found[1])) == found[1:]
+
+
+def test_density_and_mass_override_the_objects_settings():
+    box = files.add_box()
+    box.body_moments.density = 2000.0
+    assert measured()["mass"] == pytest.approx(12000.0)
+    assert measured("--density", "1.5")["mass"] == pytest.approx(9.0)
+    given = measured("--mass", "3")
+    assert given["mass"] == pytest.approx(3.0) and given["density"] == pytest.approx(0.5)
+
+
+def test_a_mass_is_that_of_each_object():
+    files.add_box("a")
+    files.add_box("b", size=(2, 2, 2))
+    found = document("--mass", "5")
+    assert [entry["mass"] for entry in found["objects"]] == pytest.approx([5.0, 5.0])
+    assert found["total"]["mass"] == pytest.approx(10.0)
+
+
+def test_settings_stored_in_a_blend_file_are_used(tmp_path):
+    box = files.add_box()
+    box.body_moments.mass_from, box.body_moments.mass = "MASS", 7.0
+    shell = files.add_box("Shell")
+    shell.body_moments.kind, shell.body_moments.thickness = "SHELL", 0.5
+    solid, sheet = sorted(
+        document(files.save(tmp_path / "part.blend"))["objects"], key=lambda entry: entry["kind"]
+    )[::-1]
+    assert solid["kind"] == "solid" and solid["mass"] == pytest.approx(7.0)
+    assert sheet["kind"] == "shell" and sheet["method"] == "shell"
+    assert sheet["mass"] == pytest.approx(22.0 * 0.5 * 1000.0)
+
+
+def test_a_shells_thickness_is_in_meters_whatever_the_scenes_unit():
+    files.add_box()
+    bpy.context.scene.unit_settings.scale_length = 0.1
+    entry = measured("--kind", "shell", "--thickness", "0.01", "--density", "1000")
+    assert entry["kind"] == "shell" and entry["method"] == "shell"
+    assert entry["area"] == pytest.approx(0.22, rel=1e-6)
+    assert entry["volume"] == pytest.approx(0.0022, rel=1e-6)
+    assert entry["mass"] == pytest.approx(2.2, rel=1e-6)
+    assert entry["health"]["closed"] is True
+
+
+def test_overlapping_shells_count_twice_with_a_warning_or_once_on_request():
+    first, second = (
+        files.add_box("a", (0, 0, 0), (2, 2, 2)),
+        files.add_box("b", (1, 0, 0), (2, 2, 2)),
+    )
+    for obj in (first, second):
+        obj.select_set(True)
+    bpy.context.view_layer.objects.active = first
+    bpy.ops.object.join()
+    signed, union = measured(), measured("--overlap", "union")
+    assert signed["volume"] == pytest.approx(16.0) and signed["warnings"]
+    assert signed["health"]["overlapping_components"] == 2
+    assert union["volume"] == pytest.approx(12.0, rel=1e-6) and union["method"] == "union"
+
+
+def test_the_frame_is_the_worlds_or_the_objects_own():
+    box = files.add_box(center=(0, 0, 0))
+    for vertex in box.data.vertices:
+        vertex.co.x += 4.0
+    turn = Euler((0.3, -0.4, 0.5)).to_matrix().to_4x4()
+    box.matrix_world = Matrix.Translation((7, 8, 9)) @ turn @ Matrix.Scale(2.0, 4)
+    found = document("--frame", "object")
+    entry = found["objects"][0]
+    assert found["frame"] == "object" and found["total"]["frame"] == "world"
+    assert entry["center_of_mass"] == pytest.approx([8.0, 0.0, 0.0], abs=1e-5)
+    expected = [32 * 6500.0, 32 * 5000.0, 32 * 2500.0]
+    assert [entry["inertia"][i][i] for i in range(3)] == pytest.approx(expected, rel=1e-5)
+    world = measured()
+    center = turn @ Matrix.Translation((8, 0, 0)) @ Matrix.Identity(4)
+    expected = [a + b for a, b in zip(center.translation, (7, 8, 9), strict=True)]
+    assert world["center_of_mass"] == pytest.approx(expected, abs=1e-5)
+    assert found["total"]["center_of_mass"] == pytest.approx(world["center_of_mass"])
+    assert found["total"]["principal_moments"] == pytest.approx(entry["principal_moments"])
+
+
+def box_moment(powers, center=files.CENTER, size=(1, 2, 3)):
+    bounds = [(c - s / 2, c + s / 2) for c, s in zip(center, size, strict=True)]
+    return math.prod(
+        (b ** (n + 1) - a ** (n + 1)) / (n + 1) for (a, b), n in zip(bounds, powers, strict=True)
+    )
+
+
+def test_moments_are_about_the_frames_origin():
+    files.add_box()
+    assert "moments" not in measured()
+    moments = measured("--order", "3")["moments"]
+    assert (
+        moments["order"] == 3 and moments["about"] == [0.0, 0.0, 0.0] and "surface" not in moments
+    )
+    assert len(moments["volume"]) == 20
+    for key, value in moments["volume"].items():
+        assert value == pytest.approx(
+            box_moment([int(power) for power in key.split(",")]), rel=1e-12
+        )
+    own = measured("--order", "2", "--frame", "object")["moments"]["volume"]
+    assert own["0,0,0"] == pytest.approx(6.0) and own["1,0,0"] == pytest.approx(0.0, abs=1e-12)
+    assert own["0,2,0"] == pytest.approx(6.0 * 4.0 / 12.0)
+
+
+def test_surface_moments_are_those_of_the_area():
+    files.add_box(center=(0, 0, 0), size=(2, 2, 2))
+    moments = measured("--order", "2", "--surface-moments")["moments"]
+    # Four faces with x from -1 to 1, two at x = ±1.
+    surface = {"0,0,0": 24.0, "2,0,0": 4 * (2 * 2 / 3) + 2 * 4.0, "1,0,0": 0.0, "1,1,0": 0.0}
+    assert {key: moments["surface"][key] for key in surface} == pytest.approx(surface, abs=1e-12)
+    assert moments["volume"]["0,0,0"] == pytest.approx(8.0)
+    assert measured("--surface-moments", "--kind", "shell")["moments"]["surface"][
+        "0,0,0"
+    ] == pytest.approx(24.0)
+
+
+def test_the_surface_moments_of_a_solid_are_its_own_under_uneven_scale():
+    box = files.add_box(center=(0, 0, 0), size=(1, 1, 1))
+    box.scale = (1, 2, 3)
+    surface = measured("--surface-moments")["moments"]["surface"]
+    assert surface["0,0,0"] == pytest.approx(22.0)
+    assert surface["0,0,2"] == pytest.approx(2 * 2 * 2.25 + (2 * 2 + 2 * 1) * 27 / 12)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        [],
+        ["weigh"],
+        ["measure", "--density", "1", "--mass", "1"],
+        ["measure", "--density", "nan"],
+        ["measure", "--density", "-1"],
+        ["measure", "--mass", "0"],
+        ["measure", "--thickness", "thin"],
+        ["measure", "--unit-scale", "inf"],
+        ["measure", "--kind", "liquid"],
+        ["measure", "--overlap", "both"],
+        ["measure", "--frame", "local"],
+        ["measure", "--order", "4"],
+        ["measure", "--order", "-1"],
+        ["measure", "--order", "two"],
+        ["measure", "--format", "xml"],
+        ["measure", "--format", "urdf"],
+        ["measure", "--output"],
+        ["measure", "--output", "no/such/folder/out.json"],
+        ["measure", "--output", "."],
+        ["measure", "--dens", "1"],
+        ["measure", "--pose"],
+        ["measure", "--fourier=out.npz", "--q", "q.npy"],
+    ],
+    ids=" ".join,
+)
+def test_wrong_usage_ends_with_2_and_a_sentence(words, capfd, standard_output):
+    assert batch.main(words) == 2
+    told = capfd.readouterr()
+    assert told.out == "" and "error: " in told.err
+    later = {"urdf", "--pose", "--fourier=out.npz", "4"} & set(words)
+    assert ("not supported yet" in told.err) == bool(later)
+
+
+def test_help_is_no_error(capfd, standard_output):
+    assert batch.main(["measure", "--help"]) == 0
+    assert "--unit-scale" in capfd.readouterr().out
+
+
+def test_main_writes_the_result_and_returns_the_exit_code(capfd, standard_output):
+    files.add_box()
+    assert batch.main(["measure"]) == 0
+    assert names(json.loads(capfd.readouterr().out)) == [files.BOX_NAME]
+
+
+def test_options_and_files_may_be_mixed(tmp_path):
+    path = files.box_file(tmp_path / "part.stl")
+    line = run("--density", "2", path, "--frame", "object", path, "--unit-scale", "0.001")
+    assert [found["objects"][0]["density"] for found in line.documents] == [2.0, 2.0]
+
+
+def test_a_fault_of_our_own_stops_nothing_else(monkeypatch, capsys):
+    from body_moments.operators.command import run as module
+
+    files.add_box("a")
+    files.add_box("b")
+    real = module.measure_object
+
+    def failing(obj, *rest):
+        if obj.name == "a":
+            raise KeyError("surprise")
+        return real(obj, *rest)
+
+    monkeypatch.setattr(module, "measure_object", failing)
+    line = run()
+    assert line.faults == 1 and names(line.documents[0]) == ["b"]
+    assert "surprise" in errors(line.documents[0])["a"]
+    assert "Traceback" in capsys.readouterr().err
+
+
+def test_every_error_is_told_on_the_standard_error_too(capsys):
+    files.add_box("a")
+    run("--object", "z", "gone.stl")
+    assert "body_moments: gone.stl: " in capsys.readouterr().err

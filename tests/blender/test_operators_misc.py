@@ -1,0 +1,275 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Clear, copy, empties, cursor, orientation, rigid bodies, faults, materials and settings."""
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.bodies import add, measured, mesh_body, only, place
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def body_keys(obj):
+    return [key for key in obj.keys() if key.startswith("body_") and key != "body_moments"]  # noqa: SIM118
+
+
+def test_clear_removes_all_results_of_the_selected_objects_only():
+    one, other = add(mesh_body(), "One"), add(mesh_body(), "Other")
+    only(one, other)
+    bpy.ops.object.body_moments_measure()
+    one["mine"] = 5
+    only(one)
+    assert bpy.ops.object.body_moments_clear() == {"FINISHED"}
+    assert not body_keys(one) and one["mine"] == 5 and one.body_moments.density == 1000.0
+    assert body_keys(other)
+    assert bpy.ops.object.body_moments_clear() == {"CANCELLED"}
+
+
+def test_copy_report_needs_results_and_then_works():
+    add(mesh_body())
+    assert not bpy.ops.object.body_moments_copy_report.poll()
+    bpy.ops.object.body_moments_measure()
+    assert bpy.ops.object.body_moments_copy_report() == {"FINISHED"}
+    assert bpy.ops.object.body_moments_copy_value(value="3.15", unit="m³") == {"FINISHED"}
+    assert bpy.ops.object.body_moments_copy_value() == {"CANCELLED"}
+
+
+@pytest.mark.parametrize("parent", [True, False])
+def test_the_empty_is_the_principal_frame_and_there_is_one(parent):
+    obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.4, 0.5), scale=(1, 2, 3))
+    assert bpy.ops.object.body_moments_add_empty(parent=parent) == {"FINISHED"}
+    (empty,) = [one for one in bpy.data.objects if one.type == "EMPTY"]
+    body = measured(obj).mass_properties
+    assert np.abs(place(empty)[:3, 3] - body.center).max() < 1e-5
+    assert np.abs(place(empty)[:3, :3] - body.principal.axes).max() < 1e-5
+    assert empty.parent == (obj if parent else None)
+    assert empty.empty_display_type == "ARROWS"
+    assert abs(empty.empty_display_size / body.radii_of_gyration.max() - 1.0) < 1e-6
+    only(obj)
+    assert bpy.ops.object.body_moments_add_empty(parent=parent) == {"CANCELLED"}
+    obj.location.x += 5.0
+    assert bpy.ops.object.body_moments_add_empty(parent=parent) == (
+        {"CANCELLED"} if parent else {"FINISHED"}
+    )
+    assert np.abs(place(empty)[:3, 3] - measured(obj).mass_properties.center).max() < 1e-5
+    assert len([one for one in bpy.data.objects if one.type == "EMPTY"]) == 1
+
+
+def test_the_cursor_goes_to_the_center_of_all_selected():
+    one = add(mesh_body(), "One", location=(1, 2, 3))
+    other = add(mesh_body(), "Other", location=(-7, 0, 0), scale=(2, 2, 2))
+    only(one, other)
+    assert bpy.ops.view3d.body_moments_cursor_to_center() == {"FINISHED"}
+    bodies = [measured(obj).mass_properties for obj in (one, other)]
+    center = sum(body.mass * body.center for body in bodies) / sum(body.mass for body in bodies)
+    assert np.abs(np.array(bpy.context.scene.cursor.location) - center).max() < 1e-5
+
+
+@pytest.mark.parametrize("mode", ["XYZ", "ZYX", "QUATERNION", "AXIS_ANGLE"])
+def test_the_cursor_turns_to_the_axes_on_request(mode):
+    obj = add(mesh_body(), rotation=(0.3, 0.4, 0.5))
+    cursor = bpy.context.scene.cursor
+    cursor.rotation_mode = mode
+    assert bpy.ops.view3d.body_moments_cursor_to_center(rotate=True) == {"FINISHED"}
+    axes = measured(obj).mass_properties.principal.axes
+    assert np.abs(np.array(cursor.matrix)[:3, :3] - axes).max() < 1e-5
+
+
+def test_an_orientation_is_created_or_its_absence_is_explained():
+    obj = add(mesh_body(), rotation=(0.3, 0.4, 0.5))
+    outcome = bpy.ops.object.body_moments_create_orientation(name="Mine")
+    slot = bpy.context.scene.transform_orientation_slots[0]
+    if any(
+        area.type == "VIEW_3D"
+        for window in bpy.context.window_manager.windows
+        for area in window.screen.areas
+    ):
+        assert outcome == {"FINISHED"}
+        assert slot.custom_orientation.name == "Mine"
+        axes = measured(obj).mass_properties.principal.axes
+        assert np.abs(np.array(slot.custom_orientation.matrix) - axes).max() < 1e-5
+    else:
+        assert outcome == {"CANCELLED"}
+
+
+def test_rigid_body_mass_is_the_mass_in_kilograms_whatever_the_unit():
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    obj = add(mesh_body())
+    set_mass = bpy.ops.object.body_moments_set_rigid_body_mass
+    assert set_mass() == {"CANCELLED"} and obj.rigid_body is None
+    assert set_mass(add=True) == {"FINISHED"}
+    assert abs(obj.rigid_body.mass / measured(obj).mass_properties.mass - 1.0) < 1e-6
+    assert abs(obj.rigid_body.mass - 3.15e-3) < 1e-6
+    assert set_mass() == {"CANCELLED"}
+    obj.body_moments.density = 2000.0
+    assert set_mass() == {"FINISHED"}
+
+
+def test_no_faults_stays_in_object_mode_and_says_so():
+    obj = add(mesh_body())
+    assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
+    assert obj.mode == "OBJECT" and "body_mass" in obj
+
+
+def test_boundary_edges_and_flipped_faces_are_selected():
+    mesh = mesh_body()
+    obj = add(mesh)
+    import bmesh
+
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    bm.faces.ensure_lookup_table()
+    bmesh.ops.delete(bm, geom=[bm.faces[0]], context="FACES_ONLY")
+    bm.faces.ensure_lookup_table()
+    bm.faces[3].normal_flip()
+    bm.to_mesh(mesh)
+    bm.free()
+    mesh.update()
+    assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
+    assert obj.mode == "EDIT"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    boundary = {i for i, edge in enumerate(mesh.edges) if edge.select}
+    uses = np.bincount([loop.edge_index for loop in mesh.loops], minlength=len(mesh.edges))
+    assert set(np.flatnonzero(uses == 1)) <= boundary
+    assert mesh.polygons[3].select
+    assert sum(face.select for face in mesh.polygons) == 1
+
+
+def test_only_faulty_objects_go_to_edit_mode():
+    good, bad = add(mesh_body(), "Good"), add(mesh_body(), "Bad")
+    import bmesh
+
+    bm = bmesh.new()
+    bm.from_mesh(bad.data)
+    bm.faces.ensure_lookup_table()
+    bmesh.ops.delete(bm, geom=[bm.faces[0]], context="FACES_ONLY")
+    bm.to_mesh(bad.data)
+    bm.free()
+    only(good, bad)
+    assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
+    assert (good.mode, bad.mode) == ("OBJECT", "EDIT")
+    assert not good.select_get() and bpy.context.object == bad
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert sum(edge.select for edge in bad.data.edges) == 6
+
+
+def test_faults_of_a_result_of_modifiers_are_not_selected_in_the_mesh():
+    obj = add(mesh_body())
+    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
+    assert bpy.ops.object.body_moments_select_faults() == {"CANCELLED"}
+    assert obj.mode == "OBJECT"
+    modifier.show_viewport = False
+    assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
+
+
+def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets_it():
+    from body_moments.core.materials import BY_NAME
+    from body_moments.core.decimal import decimal
+
+    one, other = add(mesh_body(), "One"), add(mesh_body(), "Other")
+    only(one, other)
+    other.body_moments.mass_from = "MASS"
+    assert bpy.ops.object.body_moments_set_material(material="Water") == {"FINISHED"}
+    for obj in (one, other):
+        assert obj.body_moments.material == "Water" and obj.body_moments.mass_from == "DENSITY"
+        assert decimal(obj.body_moments.density) == BY_NAME["Water"].density
+    assert bpy.ops.object.body_moments_set_material(material="Water") == {"CANCELLED"}
+    one.body_moments.density = 500.0
+    assert one.body_moments.material == ""
+
+
+def test_settings_are_copied_to_the_other_selected_objects():
+    one, other = add(mesh_body(), "One"), add(mesh_body(), "Other")
+    assert not bpy.ops.object.body_moments_copy_settings.poll()
+    only(one, other)
+    one.body_moments.kind = "SHELL"
+    one.body_moments.thickness = 0.02
+    assert bpy.ops.object.body_moments_copy_settings() == {"FINISHED"}
+    assert (
+        other.body_moments.kind == "SHELL"
+        and other.body_moments.thickness == one.body_moments.thickness
+    )
+    assert bpy.ops.object.body_moments_copy_settings() == {"CANCELLED"}
+
+
+def test_ones_own_presets_are_kept_loaded_and_removed():
+    obj = add(mesh_body())
+    obj.body_moments.density = 321.0
+    assert bpy.ops.object.body_moments_preset_add(name="My Foam") == {"FINISHED"}
+    (path,) = [f"{folder}/My_Foam.py" for folder in bpy.utils.preset_paths("body_moments")]
+    obj.body_moments.density = 1.0
+    bpy.ops.script.execute_preset(filepath=path, menu_idname="OBJECT_PT_body_moments_presets")
+    assert obj.body_moments.density == 321.0
+    assert bpy.ops.object.body_moments_preset_add(name="My Foam", remove_name=True) == {"FINISHED"}
+
+
+def test_materials_are_many_sourced_and_plausible():
+    from body_moments.core.materials import BY_NAME, MATERIALS
+
+    assert len(MATERIALS) >= 40 and len(BY_NAME) == len(MATERIALS)
+    for material in MATERIALS:
+        assert 1.0 < material.density < 23000.0 and material.source and material.category
+
+
+@pytest.mark.parametrize(
+    "system, length, mass, expected",
+    [
+        (
+            "METRIC",
+            "ADAPTIVE",
+            "ADAPTIVE",
+            ("1.5 m", "2 cm²", "8 m³", "250 g", "7850 kg/m³", "2 kg·cm²"),
+        ),
+        (
+            "METRIC",
+            "MILLIMETERS",
+            "GRAMS",
+            ("1500 mm", "200 mm²", "8000000000 mm³", "250 g", "0.00785 g/mm³", "200000 g·mm²"),
+        ),
+        (
+            "IMPERIAL",
+            "INCHES",
+            "POUNDS",
+            (
+                "59.0551 in",
+                "0.310001 in²",
+                "488190 in³",
+                "0.551156 lb",
+                "0.283599 lb/in³",
+                "0.683434 lb·in²",
+            ),
+        ),
+        ("NONE", "ADAPTIVE", "ADAPTIVE", ("1.5", "0.0002", "8", "0.25", "7850", "0.0002")),
+    ],
+)
+def test_numbers_are_shown_in_the_scenes_units(system, length, mass, expected):
+    from body_moments.operators.units import Units
+
+    units = Units(system, length, mass, 1.0)
+    values = (
+        ("length", 1.5),
+        ("area", 2e-4),
+        ("volume", 8.0),
+        ("mass", 0.25),
+        ("density", 7850.0),
+        ("inertia", 2e-4),
+    )
+    assert tuple(units.text(*value) for value in values) == expected
+
+
+def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():
+    from body_moments.operators.units import Units, number
+
+    assert [number(value) for value in (0.0, 1e-9, 123456789.0, -0.5, 1.23456789e-3, 1e12)] == [
+        "0",
+        "1e−9",
+        "123457000",
+        "−0.5",
+        "0.00123457",
+        "1e12",
+    ]
+    assert Units("METRIC", "ADAPTIVE", "ADAPTIVE", 1.0).text("mass", 1e-9) == "0.001 mg"
+    texts = Units("METRIC", "METERS", "KILOGRAMS", 1.0).texts("inertia", (5.0, 1e-17))
+    assert texts == ["5 kg·m²", "0 kg·m²"]

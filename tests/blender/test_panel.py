@@ -1,0 +1,303 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panel says, drawn into a layout that writes everything down."""
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.bodies import add, measured, mesh_body, only
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+class Layout:
+    """Records labels, properties and operators, in the order of drawing. Checks that what is
+    drawn exists.
+    """
+
+    def __init__(self, record=None, closed=()):
+        object.__setattr__(self, "record", [] if record is None else record)
+        object.__setattr__(self, "closed", closed)
+
+    def __setattr__(self, name, value):
+        if name == "alert" and value:
+            self.record.append(("alert", ""))
+        object.__setattr__(self, name, value)
+
+    def _sub(self, **_options):
+        return Layout(self.record, self.closed)
+
+    row = column = split = box = grid_flow = _sub
+
+    def panel(self, name, default_closed=False):
+        return self._sub(), None if name in self.closed else self._sub()
+
+    def separator(self, **_options):
+        pass
+
+    def label(self, text="", icon="NONE"):
+        assert icon in bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items
+        self.record.append(("label", text))
+
+    def prop(self, data, name, text=None, **_options):
+        assert name in data.bl_rna.properties
+        self.record.append(("prop", name))
+
+    def operator(self, name, text=None, icon="NONE", **_options):
+        assert icon in bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items
+        category, function = name.split(".")
+        getattr(getattr(bpy.ops, category), function).get_rna_type()
+        properties = SimpleNamespace()
+        self.record.append(("operator", name, properties))
+        return properties
+
+    def menu(self, name, **_options):
+        assert hasattr(bpy.types, name)
+        self.record.append(("menu", name))
+
+    def popover(self, name, **_options):
+        assert hasattr(bpy.types, name)
+        self.record.append(("popover", name))
+
+
+def drawn(closed=()):
+    from body_moments.panels.body import VIEW3D_PT_body_moments
+
+    layout = Layout(closed=closed)
+    VIEW3D_PT_body_moments.draw(SimpleNamespace(layout=layout), bpy.context)
+    return layout.record
+
+
+def labels(record):
+    return [entry[1] for entry in record if entry[0] == "label"]
+
+
+def copied(record, unit):
+    return [
+        entry[2].value
+        for entry in record
+        if entry[0] == "operator" and entry[1].endswith("copy_value") and entry[2].unit == unit
+    ]
+
+
+def test_both_panels_draw_and_an_object_without_results_is_told_as_such():
+    add(mesh_body())
+    assert "Not Measured" in labels(drawn())
+    assert bpy.types.VIEW3D_PT_body_moments.bl_category == "Moments"
+    assert bpy.types.OBJECT_PT_body_moments.bl_context == "object"
+
+
+def test_every_kind_of_object_can_be_active():
+    for kind in ("CAMERA", "EMPTY", "LIGHT", "ARMATURE"):
+        data = {
+            "CAMERA": lambda: bpy.data.cameras.new("C"),
+            "LIGHT": lambda: bpy.data.lights.new("L", "POINT"),
+            "ARMATURE": lambda: bpy.data.armatures.new("A"),
+            "EMPTY": lambda: None,
+        }[kind]()
+        add(data, kind)
+        drawn()
+
+
+def test_the_order_is_that_of_cad_dialogs():
+    add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    found = labels(drawn())
+    order = [
+        "Exact, Closed Surface",
+        "Mass",
+        "Density",
+        "Volume",
+        "Area",
+        "Center of Mass",
+        "Principal Moments",
+        "Principal Axes",
+        "Radii of Gyration",
+        "Inertia Tensor",
+        "Snap",
+        "Total of Selection",
+    ]
+    places = [found.index(text) for text in order]
+    assert places == sorted(places)
+
+
+def test_values_are_shown_with_units_and_copied_with_all_digits():
+    obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.2, 0.1))
+    bpy.ops.object.body_moments_measure()
+    found = measured(obj)
+    record = drawn(closed=("body_moments_totals",))
+    assert "3.15 m³" in labels(record)
+    assert float(copied(record, "m³")[0]) == obj["body_volume"]
+    assert float(copied(record, "kg")[0]) == obj["body_mass"]
+    center = [float(text) for text in copied(record, "m")[1:4]]
+    assert np.abs(np.array(center) - found.mass_properties.center).max() < 1e-12
+
+
+@pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])
+@pytest.mark.parametrize("unit", [1.0, 0.001])
+def test_the_frame_shown_is_the_frame_chosen(frame, unit):
+    from body_moments.operators import results
+
+    scene = bpy.context.scene
+    scene.unit_settings.scale_length = unit
+    obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.2, 0.1), scale=(1, 2, -1))
+    bpy.ops.object.body_moments_measure()
+    scene.body_moments.frame = frame
+    shown, truth = results.of_object(obj, scene).body, measured(obj)
+    truth = truth.mass_properties if frame == "WORLD" else truth.in_object_frame()
+    assert np.abs(shown.center - truth.center).max() < 1e-12 * max(1.0, np.abs(truth.center).max())
+    assert np.abs(shown.inertia - truth.inertia).max() < 1e-12 * np.trace(truth.inertia)
+    assert np.abs(shown.principal.axes - truth.principal.axes).max() < 1e-9
+    assert np.abs(shown.radii_of_gyration / truth.radii_of_gyration - 1.0).max() < 1e-12
+
+
+def test_totals_have_parallel_axis_terms():
+    from body_moments.operators import results
+
+    objects = [
+        add(mesh_body(), str(i), location=(10 * i, 2 * i, -i), rotation=(i, 0, 0)) for i in range(3)
+    ]
+    only(*objects)
+    bpy.ops.object.body_moments_measure()
+    add(mesh_body(), "Not Measured")
+    for obj in objects:
+        obj.select_set(True)
+    from body_moments.core.mass import combined
+
+    truth = combined([measured(obj).mass_moments for obj in objects])
+    total = results.total(bpy.context)
+    assert total.count == 3 and total.missing == ("Not Measured",)
+    assert abs(total.body.mass / truth.mass - 1.0) < 1e-12
+    assert np.abs(total.body.center - truth.center).max() < 1e-9
+    moments = truth.principal.moments
+    assert np.abs(total.body.principal.moments - moments).max() < 1e-9 * moments.max()
+    found = labels(drawn())
+    assert "3 objects" in found and "1 not measured" in found
+
+
+def test_damaged_results_are_not_shown():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    obj["body_center_of_mass"] = 5.0
+    assert "Not Measured" in labels(drawn())
+    obj["body_center_of_mass"] = [1.0, 2.0]
+    assert "Not Measured" in labels(drawn())
+
+
+def test_warnings_are_wrapped_and_complete():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    sentence = (
+        "This is a long warning that does not fit into one line of a narrow panel, whatever its "
+        "font is"
+    )
+    obj["body_warnings"] = sentence
+    found = labels(drawn())
+    lines = found[found.index("Warnings (1)") + 1 :]
+    lines = lines[: lines.index("Snap")]
+    assert " ".join(lines) == sentence and len(lines) > 2
+
+
+def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
+    from body_moments.operators import measure
+
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    monkeypatch.setattr(measure, "read_object", lambda *_: pytest.fail("the panel measures"))
+    before = {key: str(obj[key]) for key in obj.keys() if key.startswith("body_")}  # noqa: SIM118
+    drawn()
+    assert {key: str(obj[key]) for key in obj.keys() if key.startswith("body_")} == before  # noqa: SIM118
+
+
+def outdated():
+    return [text for text in labels(drawn()) if text.startswith("Out of Date")]
+
+
+def test_out_of_date_after_a_change_of_transform_settings_or_geometry_and_not_after_measuring():
+    obj = add(mesh_body())
+    update = bpy.context.view_layer.update
+    bpy.ops.object.body_moments_measure()
+    update()
+    assert not outdated()
+    obj.location.x = 2.0
+    update()
+    assert outdated() == ["Out of Date: Transform Changed"]
+    obj.location.x = 0.0
+    update()
+    assert not outdated()
+    obj.body_moments.density = 7000.0
+    assert outdated() == ["Out of Date: Settings Changed"]
+    bpy.ops.object.body_moments_measure()
+    update()
+    assert not outdated()
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    update()
+    assert outdated() == ["Out of Date: Geometry Changed"]
+    bpy.ops.object.body_moments_measure()
+    update()
+    assert not outdated()
+    obj.modifiers.new("Subdivision", "SUBSURF")
+    update()
+    assert outdated()
+
+
+def test_selecting_renaming_and_undoing_something_else_leaves_results_up_to_date():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    bpy.context.view_layer.update()
+    bpy.ops.ed.undo_push(message="measured")
+    obj.select_set(False)
+    obj.select_set(True)
+    obj.name = "Renamed"
+    bpy.context.view_layer.update()
+    assert not outdated()
+    bpy.ops.ed.undo_push(message="renamed")
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    assert bpy.context.object.name == "Body" and not outdated()
+
+
+def test_an_operator_that_refuses_leaves_results_up_to_date():
+    obj = add(mesh_body())
+    obj.modifiers.new("Cast", "CAST")
+    bpy.ops.object.body_moments_measure()
+    bpy.context.view_layer.update()
+    assert bpy.ops.object.body_moments_origin_to_center() == {"CANCELLED"}
+    assert not outdated()
+
+
+def test_a_saved_file_is_up_to_date_when_opened_and_out_of_date_when_edited(tmp_path):
+    add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    path = str(tmp_path / "a.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert not outdated()
+    obj = bpy.context.object
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    bpy.context.view_layer.update()
+    assert outdated()
+
+
+def test_the_presets_panel_draws_without_presets(monkeypatch):
+    from body_moments.panels.materials import (
+        OBJECT_MT_body_moments_materials,
+        OBJECT_PT_body_moments_presets,
+    )
+
+    monkeypatch.setattr(bpy.utils, "preset_paths", lambda _: [])
+    add(mesh_body())
+    for cls in (OBJECT_MT_body_moments_materials, OBJECT_PT_body_moments_presets):
+        layout = Layout()
+        cls.draw(
+            SimpleNamespace(
+                layout=layout, preset_add_operator=getattr(cls, "preset_add_operator", "")
+            ),
+            bpy.context,
+        )
+        assert layout.record
