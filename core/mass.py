@@ -46,7 +46,7 @@ class MassProperties:
             raise ValueError("The body has no volume.")
         frame = principal_frame(moments, prefer, refine)
         shift = moments.raw[1:4] / total
-        second = density * (moments.raw[SECOND] - np.outer(moments.raw[1:4], shift))
+        second = density * (moments.raw[SECOND] - total * np.outer(shift, shift))
         inertia = np.trace(second) * np.eye(3) - second
         return cls(
             mass=float(density * total), center=moments.about + shift, inertia=inertia,
@@ -73,7 +73,8 @@ class MassProperties:
 
     def in_frame(self, rotation: NDArray, origin: NDArray) -> MassProperties:
         """The same body in the frame whose axes are the columns of `rotation` and whose origin is `origin`."""
-        return replace(self, center=rotation.T @ (self.center - origin), inertia=rotation.T @ self.inertia @ rotation,
+        inertia = rotation.T @ self.inertia @ rotation
+        return replace(self, center=rotation.T @ (self.center - origin), inertia=(inertia + inertia.T) / 2.0,
                        principal=self.principal.turned(rotation.T))
 
 

@@ -54,22 +54,26 @@ def mend(surface: Surface, tolerance: float, size: float) -> Mended:
     given, face = surface.all_triangles()
     given, face = given.astype(np.intp), np.asarray(face, np.intp)
     notes: list[str] = []
-    triangles, welded, moved = _welded(points, given, tolerance)
+    triangles, welded, moved, edges = _welded(points, given, tolerance)
     if moved > 0.0:
         notes.append("Vertices along open edges were welded to others, up to {:.1g} of the body's size away."
                      .format(moved / size))
     rows = np.flatnonzero(_proper(triangles))
     copies = NO_COPIES
     if len(rows):
-        copies, left_out = _copies(points, triangles[rows], face[rows], notes)
-        rows = rows[~left_out]
+        edges = edges or find_edges(triangles[rows])
+        if edges.count.max() > 2:  # elsewhere copies of faces would have no others beside them
+            copies, left_out = _copies(points, triangles[rows], face[rows], edges, notes)
+            if left_out.any():
+                rows = rows[~left_out]
+                edges = find_edges(triangles[rows])
     triangles, given, face = triangles[rows], given[rows], face[rows]
     body = Mended(points, triangles, face, np.zeros(len(rows), bool), np.zeros(len(rows), np.intp), 0,
                   np.zeros(0, bool), np.zeros((0, 3)), changed=moved > 0.0 or len(copies[1]) > 0, notes=notes)
     body.counts = {"welded": welded, "duplicate_faces": len(copies[0]), "closed": False, "components": 0}
     body.faults = {"duplicate_faces": copies[0]}
     if len(rows):
-        _join(body, given, tolerance)
+        _join(body, given, edges, tolerance)
     return body
 
 
@@ -79,17 +83,18 @@ def _proper(triangles: NDArray) -> NDArray[np.bool_]:
     return (a != b) & (b != c) & (c != a)
 
 
-def _welded(points: NDArray, triangles: NDArray, tolerance: float) -> tuple[NDArray, bool, float]:
-    """The triangles over welded vertices, whether any were, and how far one had to move."""
+def _welded(points: NDArray, triangles: NDArray, tolerance: float) -> tuple[NDArray, bool, float, Edges | None]:
+    """The triangles over welded vertices, whether any were, how far one had to move, and the edges of the triangles
+    that are still proper, where they are known."""
     rows = np.flatnonzero(_proper(triangles))
     if not len(rows):
-        return triangles, False, 0.0
+        return triangles, False, 0.0, None
     soup = len(triangles) * 3 == len(points)
     if not soup:
         edges = find_edges(triangles[rows])
         odd = edges.count % 2 == 1
         if not odd.any():
-            return triangles, False, 0.0
+            return triangles, False, 0.0, edges
         along = np.stack(_ends(triangles[rows], edges.first[odd]))  # vertices along open edges
         part, number = components(len(rows), *edges.links())
         unfinished = np.zeros(number, bool)
@@ -107,21 +112,25 @@ def _welded(points: NDArray, triangles: NDArray, tolerance: float) -> tuple[NDAr
         triangles[rows] = onto[triangles[rows]]
         along = onto[along]
         rows = rows[_proper(triangles[rows])]
-    if not len(rows) or (welded and not np.any(find_edges(triangles[rows]).count % 2)):
-        return triangles, welded, 0.0
+    if not len(rows):
+        return triangles, welded, 0.0, None
+    if welded:
+        edges = find_edges(triangles[rows])
+        if not np.any(edges.count % 2):
+            return triangles, welded, 0.0, edges if soup else None
 
     vertices = _distinct(along, len(points))
     reach = vertex_tolerance(points, triangles[rows], vertices, tolerance)
     same = near_positions(points[vertices], reach)
     if np.array_equal(same, np.arange(len(same))):
-        return triangles, welded, 0.0
+        return triangles, welded, 0.0, None
     place = points[vertices].astype(np.float64)
     moved = float(np.linalg.norm(place - place[same], axis=1).max())
     triangles = triangles.copy()
     onto = np.arange(len(points))
     onto[vertices] = vertices[same]
     triangles[rows] = onto[triangles[rows]]
-    return triangles, True, moved
+    return triangles, True, moved, None
 
 
 def _distinct(values: NDArray[np.integer], width: int) -> NDArray[np.intp]:
@@ -131,7 +140,7 @@ def _distinct(values: NDArray[np.integer], width: int) -> NDArray[np.intp]:
     return np.flatnonzero(present)
 
 
-def _copies(points: NDArray, triangles: NDArray, face: NDArray, notes: list[str]
+def _copies(points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, notes: list[str]
             ) -> tuple[tuple[NDArray, NDArray], NDArray[np.bool_]]:
     """The faces on the same vertices as an earlier one; those left out; and (m,) which triangles these are.
 
@@ -148,7 +157,6 @@ def _copies(points: NDArray, triangles: NDArray, face: NDArray, notes: list[str]
     copied[group[later]] = True
     copied = copied[group]
 
-    edges = find_edges(triangles)
     side = np.flatnonzero(np.repeat(copied, 3))
     edge, owner = edges.of_side[side], side // 3
     meet = np.empty(len(edges.count), np.intp)
@@ -159,7 +167,8 @@ def _copies(points: NDArray, triangles: NDArray, face: NDArray, notes: list[str]
     votes = np.bincount(region[owner], vote, minlength=number)
     asked = np.bincount(region[owner], others > 0, minlength=number) > 0
 
-    vector = _face_vectors(points, triangles, face)
+    vector = _vectors(points, triangles)
+    vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)
     agree = np.sign(np.einsum("ij,ij->i", vector[face], vector[group])) * np.linalg.norm(vector[face], axis=1)
     parallel = np.bincount(region, agree * later, minlength=number)
     reduced = np.where(asked, votes > 0, parallel > 0)[region]
@@ -176,11 +185,10 @@ def _copies(points: NDArray, triangles: NDArray, face: NDArray, notes: list[str]
     return (np.unique(face[later]), gone), left_out
 
 
-def _face_vectors(points: NDArray, triangles: NDArray, face: NDArray) -> NDArray[np.float64]:
-    """(f, 3) the area vector of each mesh face."""
+def _vectors(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
+    """(m, 3) twice the area vector of each triangle."""
     a, b, c = (points[triangles[:, k]].astype(np.float64) for k in range(3))
-    vector = np.cross(b - a, c - a) / 2.0
-    return np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)
+    return np.cross(b - a, c - a)
 
 
 def counted(numbers: NDArray[np.integer], one: str, many: str) -> str:
@@ -196,18 +204,17 @@ def listed(numbers: NDArray[np.integer], most: int = 8) -> str:
     return text + ", …" if len(numbers) > most else text
 
 
-def _join(body: Mended, given: NDArray, tolerance: float) -> None:
+def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:
     """Orient the faces of each part, group parts into shells, and close the shells."""
     triangles, points = body.triangles, body.points
-    edges = find_edges(triangles)
     gap = _gaps(points, triangles, edges, tolerance)
     one, other = edges.pairs()
     against = edges.upward[one] == edges.upward[other]
     a = np.concatenate([one, gap.one]) // 3
     b = np.concatenate([other, gap.other]) // 3
-    corners = points[triangles].astype(np.float64)
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2.0
-    turned, twisted = orientation(len(triangles), a, b, np.concatenate([against, gap.against]), area)
+    disagree = np.concatenate([against, gap.against])
+    area = np.linalg.norm(_vectors(points, triangles), axis=1) if disagree.any() else np.zeros(len(triangles))
+    turned, twisted = orientation(len(triangles), a, b, disagree, area)
     part, parts = components(len(triangles), a, b)
     filled = np.zeros(len(edges.count), bool)
     filled[edges.of_side[gap.sides]] = True

@@ -23,7 +23,7 @@ RAY = (0.08173, 0.05311)  # the ray is (0.08173, 0.05311, 1)
 LEAF = 4  # triangles
 PIECE = 1 << 17  # pairs looked at together
 BLOCK = 1 << 14  # triangles whose scratch stays in the cache
-MOST_PAIRS = 200_000  # of shells
+MOST_PAIRS = 100_000  # of shells
 MOST_WORK = 10_000_000  # pairs of boxes looked at
 SAMPLES = 256, 8, 50_000  # points under the skin for one pair: at most, at least; and for all pairs together
 
@@ -156,7 +156,8 @@ def relate(points: NDArray[np.floating], shells: Shells, ask: NDArray[np.bool_],
 class Tree:
     """One bounding-volume tree for each wanted shell: perfect binary trees over triangles in Morton order.
 
-    columns: (3, n) the vertices about `origin`; ids: (m, 3) the vertices of the sorted triangles.
+    columns: (3, n) the vertices about `origin`; ids: (m, 3) the vertices of the sorted triangles; bottom, top: (3, m)
+    their boxes.
     root: (c,) the root of each shell's tree. A node's first child is `child`, -1 for leaves; the second one follows.
     A leaf holds triangles `first` to `last`. low, high: (n, 3) boxes; of an empty node they are inverted.
     """
@@ -184,6 +185,7 @@ class Tree:
         order = _radix_order(code)
         order = order[_radix_order(shell[order])]
         self.ids, shell = ids[order], shell[order]
+        self.bottom, self.top = low[:, order], high[:, order]
 
         present = np.flatnonzero(wanted)
         begin = np.searchsorted(shell, present)
@@ -207,8 +209,8 @@ class Tree:
         self.first[leaf] = begin[tree] + LEAF * k
         self.last[leaf] = np.minimum(self.first[leaf] + LEAF, (begin + size)[tree])
         for k in range(3):
-            self.low[leaf, k] = np.minimum.reduceat(low[k, order], self.first[leaf])
-            self.high[leaf, k] = np.maximum.reduceat(high[k, order], self.first[leaf])
+            self.low[leaf, k] = np.minimum.reduceat(self.bottom[k], self.first[leaf])
+            self.high[leaf, k] = np.maximum.reduceat(self.top[k], self.first[leaf])
         for level in range(int(depth.max()) - 1, -1, -1):
             deep = np.flatnonzero(depth > level)
             node = np.repeat(offset[deep] + (1 << level) - 1, 1 << level) + np.tile(np.arange(1 << level), len(deep))
@@ -244,7 +246,8 @@ class Tree:
             child = self.child[node]
             leaf = child < 0
             if leaf.any():
-                self._count(places, place[leaf], node[leaf], tolerance, winding, sure)
+                for leaves in _split(place[leaf], node[leaf], size=PIECE // LEAF):
+                    self._count(places, *leaves, tolerance, winding, sure)
             place, child = place[~leaf], child[~leaf]
             pieces += _split(np.concatenate([place, place]), np.concatenate([child, child + 1]))
         return winding, sure
@@ -315,9 +318,9 @@ def _spread(value: NDArray[np.int64]) -> NDArray[np.int64]:
     return (value | value << 2) & 0x09249249
 
 
-def _split(*arrays: NDArray) -> list[tuple[NDArray, ...]]:
+def _split(*arrays: NDArray, size: int = PIECE) -> list[tuple[NDArray, ...]]:
     """The arrays in parallel pieces of bounded length."""
-    return [tuple(array[k:k + PIECE] for array in arrays) for k in range(0, len(arrays[0]), PIECE)]
+    return [tuple(array[k:k + size] for array in arrays) for k in range(0, len(arrays[0]), size)]
 
 
 def _locate(points: NDArray, shells: Shells, tree: Tree, small: NDArray, large: NDArray, tolerance: float
@@ -371,7 +374,8 @@ def _pierced(tree: Tree, one: NDArray, other: NDArray, tolerance: float) -> tupl
         child_a, child_b = tree.child[a], tree.child[b]
         both = (child_a < 0) & (child_b < 0)
         if both.any():
-            _pierce_leaves(tree, pair[both], a[both], b[both], tolerance, found)
+            for leaves in _split(pair[both], a[both], b[both], size=PIECE // LEAF ** 2):
+                _pierce_leaves(tree, *leaves, tolerance, found)
             pair, a, b, child_a, child_b = (x[~both] for x in (pair, a, b, child_a, child_b))
         # The larger box is opened; a leaf never is.
         extent = (tree.high[a] - tree.low[a]).max(axis=1) >= (tree.high[b] - tree.low[b]).max(axis=1)
@@ -389,25 +393,34 @@ def _pierce_leaves(tree: Tree, pair: NDArray, a: NDArray, b: NDArray, tolerance:
     k = ramp(size_a * size_b)
     row = np.repeat(np.arange(len(a)), size_a * size_b)
     first, second, pair = tree.first[a][row] + k // size_b[row], tree.first[b][row] + k % size_b[row], pair[row]
+    meet = np.ones(len(pair), bool)
+    for low, high in zip(tree.bottom, tree.top):
+        meet &= (low[first] <= high[second]) & (low[second] <= high[first])
+    first, second, pair = first[meet], second[meet], pair[meet]
+    corner, plane = tree.corners(first), tree.corners(second)
     for _ in range(2):
-        corner, plane = tree.corners(first), tree.corners(second)
-        normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
-        length = np.linalg.norm(normal, axis=1)
-        normal = np.divide(normal, length[:, None], out=np.zeros_like(normal), where=length[:, None] > 0.0)
-        height = np.einsum("kij,ij->ki", corner - plane[0], normal)
-        through = (height.max(axis=0) > tolerance) & (height.min(axis=0) < -tolerance)
-        for i in range(3):
-            j = (i + 1) % 3
-            low, high = np.minimum(height[i], height[j]), np.maximum(height[i], height[j])
-            at = np.flatnonzero(through & (low < -tolerance) & (high > tolerance))
-            if not len(at):
-                continue
-            p, q, rise = corner[i, at], corner[j, at], height[i, at]
-            where = p + (q - p) * (rise / (rise - height[j, at]))[:, None]
-            depth = np.full(len(at), np.inf)
-            for k in range(3):
-                edge = plane[(k + 1) % 3, at] - plane[k, at]
-                across = np.einsum("ij,ij->i", np.cross(normal[at], edge), where - plane[k, at])
-                depth = np.minimum(depth, across / np.linalg.norm(edge, axis=1))
-            found[pair[at[depth > tolerance]]] = True
-        first, second = second, first
+        found[pair[_piercing(corner, plane, tolerance)]] = True
+        corner, plane = plane, corner
+
+
+def _piercing(corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance: float) -> NDArray[np.intp]:
+    """Which of the triangles `corner` have an edge that goes through their partner in `plane`, both (3, k, 3), ending
+    more than the tolerance away from its plane and passing more than that away from its edges."""
+    normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
+    length = np.linalg.norm(normal, axis=1)[:, None]
+    normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)
+    height = np.einsum("kij,ij->ki", corner - plane[0], normal)
+    at = np.flatnonzero((height.max(axis=0) > tolerance) & (height.min(axis=0) < -tolerance))
+    corner, plane, normal, height = corner[:, at], plane[:, at], normal[at], height[:, at]
+    depth = np.full(len(at), -np.inf)
+    for i in range(3):
+        p, q, rise, fall = corner[i], corner[i - 1], height[i], height[i - 1]
+        crosses = (np.minimum(rise, fall) < -tolerance) & (np.maximum(rise, fall) > tolerance)
+        where = p + (q - p) * (rise / np.where(crosses, rise - fall, 1.0))[:, None]
+        within = np.where(crosses, np.inf, -np.inf)
+        for k in range(3):
+            edge = plane[k] - plane[k - 1]
+            across = np.einsum("ij,ij->i", np.cross(normal, edge), where - plane[k])
+            within = np.minimum(within, across / np.linalg.norm(edge, axis=1))
+        depth = np.maximum(depth, within)
+    return at[depth > tolerance]

@@ -4,10 +4,16 @@
 
 The divergence theorem turns a body into cones from a reference point over its faces. Over the cone on a triangle
 a, b, c with determinant w = a·((b-a) x (c-a)) a monomial f of degree n integrates to w / (2n + 6) · E[f], where E[f] is
-its mean over the triangle; over the triangle itself to half its doubled area times E[f]. To second order that is the
-formula of Sheynin and Tuzikov (2001): E[x] = s / 3 and E[x x'] = (s s' + a a' + b b' + c c') / 12 with s = a + b + c.
-The third order is exact on small meshes and on request. On large ones it is found to within the third moments of
-runs of neighbouring faces (see `blocks`), and `error` says so.
+its mean over the triangle; over the triangle itself to half its doubled area times E[f]. To second order
+
+    E[f] = 3/4 f(centroid) + 1/12 (f(a) + f(b) + f(c))
+
+is exact (it is the formula of Sheynin and Tuzikov, 2001, for those orders). So the moments of a body are those of point
+masses at the centroids of its triangles and at its vertices, and a vertex is visited once, not six times. In third
+order this leaves out 1/20 Σ (corner - centroid)^3, of the order of an edge cubed, which is added to `error`. Small
+meshes, and large ones on request, take a rule that is exact to third order: with the nodes y = (centroid·3 + corner·2)/5
+
+    E[f] = 25/48 (f(y_a) + f(y_b) + f(y_c)) - 27/48 f(centroid).
 
 Rounding. Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the
 product of its edges, not to the body's size cubed; that keeps the bound small for fine meshes and far from the origin.
@@ -19,24 +25,32 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import Faces, Sums
+from .blocks import SLICES, Fans, Rows, power_sums
 from .moments import Moments, U, monomials
 from .surface import Surface
 
-BLOCK = 16384  # triangles: calls cost little by then, and the scratch of two threads stays below 10 MB
-EXACT_BLOCK = 4096  # triangles with four nodes each
+BLOCK = 16384  # triangles: calls cost little by then, and the scratch of two threads stays below 8 MB
+EXACT_BLOCK = 4096  # triangles with three more nodes each
 EXACT = 20000  # triangles up to which the exact third order costs less than finding out that it is needed
+PAIRED = 1000  # triangles below which looking for pairs costs more than it saves
 CHUNK_POINTS = 512  # points whose coordinates are compared as one row
 RANGE = 2.0 ** 100  # reaches beyond this, or below its inverse, are scaled, lest a product of six overflow or vanish
-SUMMED = 128  # u: runs add up 32 terms, and numpy adds contiguous rows in pairs of sums of at most 128 in 8 lanes
+PAIRWISE = 64  # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
 FACTORS = np.where(np.arange(3) < EXPONENTS[:, :, None], np.arange(3)[:, None] + 1, 0)  # rows of [1, x, y, z]
+# Factors of the power sums over centroids (times 3), vertices and the nodes of the exact rule (times 5).
+CENTROIDS = np.array([1 / 6, 1 / 24, 1 / 120, 1 / 432])[DEGREE]
+VERTICES = np.array([0.0, 0.0, 1 / 120, 1 / 144])[DEGREE]
+SPREAD = np.array([0.0, 0.0, 1 / 480, 1 / 2880])[DEGREE]
+SPREAD_CENTROIDS = np.array([1 / 6, 1 / 24, -1 / 160, -1 / 576])[DEGREE]
 CONE = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
+TO_AREA = DEGREE + 3.0  # ∫ f over a triangle / (doubled area E[f]), instead
 
 
 def solid_moments(surface: Surface, threads: int = 1) -> Moments:
@@ -66,11 +80,8 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
     points = np.ascontiguousarray(surface.points)
     if points.dtype != np.float32:
         points = points.astype(np.float64, copy=False)
-    for faces in (surface.triangles, surface.quads):
-        if len(faces) and (faces.min() < 0 or faces.max() >= len(points)):
-            raise ValueError("a face names a vertex that does not exist")
     low, high = _bounding_box(points)
-    if not (np.isfinite(low).all() and np.isfinite(high).all()):
+    if not all(map(isfinite, [*low, *high])):
         raise ValueError("the coordinates are not all finite")
     center = low / 2.0 + high / 2.0
     if points.dtype == np.float32:
@@ -86,14 +97,12 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
     blocks += [(surface.quads[i:i + size // 2], True) for i in range(0, len(surface.quads), size // 2)]
     threads = max(1, min(threads, len(blocks) // 2))
     if threads == 1:
-        sums = job.run(blocks)
+        parts = [job.run(blocks)]
     else:
         ends = [len(blocks) * i // threads for i in range(threads + 1)]
         with ThreadPoolExecutor(threads) as pool:
-            sums, *others = pool.map(job.run, [blocks[a:b] for a, b in zip(ends, ends[1:])])
-        for other in others:
-            sums.add(other)
-    return job.moments(sums)
+            parts = list(pool.map(job.run, [blocks[a:b] for a, b in zip(ends, ends[1:])]))
+    return job.total(parts)
 
 
 def _bounding_box(points: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -133,6 +142,15 @@ class _Scaled(Surface):
 
 
 @dataclass(frozen=True, eq=False)
+class _Part:
+    """What one thread has added up: the rows of its blocks, and what its faces left on their vertices."""
+
+    rows: list[Rows]
+    weights: NDArray[np.complex128] | None
+    area_weights: NDArray[np.float64] | None
+
+
+@dataclass(frozen=True, eq=False)
 class _Job:
     """One surface to be measured. points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count:
     triangles."""
@@ -146,54 +164,131 @@ class _Job:
     shell: bool
     exact: bool
 
-    def run(self, blocks: list[tuple[NDArray, bool]]) -> Sums:
+    def run(self, blocks: list[tuple[NDArray, bool]]) -> _Part:
         """The sums over blocks of faces, each with whether they are quads. Safe in threads."""
+        lumped = not self.exact
+        weights = np.zeros(len(self.points), np.complex128) if lumped else None
+        area_weights = np.zeros(len(self.points)) if lumped and self.shell else None
         size = min(EXACT_BLOCK if self.exact else BLOCK, self.count)
-        faces = Faces(self.points, self.center, size, area=self.area, shell=self.shell, exact=self.exact)
-        for block, quads in blocks:
-            faces.add((None if quads else _pairs(block)) or list(block.T), quads)
-        if faces.flipped:
-            flipped = np.concatenate(faces.flipped, axis=1)
-            for i in range(0, flipped.shape[1], size // 2):
-                faces.add(list(flipped[:, i:i + size // 2]))
-        if not self.exact:
-            faces.flush()
-        return faces.sums
+        fans = Fans(self.points, self.center, size, weights=weights, area_weights=area_weights, area=self.area,
+                    shell=self.shell, exact=self.exact)
+        rows = []
+        for faces, quads in blocks:
+            if faces.min() < 0 or faces.max() >= len(self.points):
+                raise ValueError("a face names a vertex that does not exist")
+            pairs = None if quads or len(faces) < PAIRED else _pairs(faces)
+            rows.append(fans.block(pairs or list(faces.T), quads))
+        if fans.flipped:
+            flipped = np.concatenate(fans.flipped, axis=1)
+            half = max(size // 2, 1)
+            rows += [fans.block(list(flipped[:, i:i + half])) for i in range(0, flipped.shape[1], half)]
+        return _Part(rows, weights, area_weights)
 
-    def moments(self, sums: Sums) -> tuple[Moments, Moments]:
-        """Volume and area, with their bounds."""
-        raw = sums.volume / CONE
-        error = self._error(raw, 9.0 * U * (self.reach @ sums.tau), sums.size, sums) / CONE
-        error[10:] += sums.rest / 12.0
-        moved = np.zeros(20)
-        if self.half_ulp.any():
-            moved = self._swept(sums) * _powers(self.reach + self.half_ulp)
-        volume = Moments(raw, self.center, "volume", error + 8.0 * U * np.abs(raw), moved)
+    def total(self, parts: list[_Part]) -> tuple[Moments, Moments]:
+        """The moments of volume and area with their bounds."""
+        rows = [row for part in parts for row in part.rows]
+        bounds = _Bounds(self, rows)
+        vertices = area_vertices = np.zeros(20)
+        if not self.exact:
+            vertices, area_vertices, bounds.valence = self._vertices(parts)
+        raw = self._raw([row.sums for row in rows], [row.spread for row in rows], vertices)
+        volume = Moments(raw, self.center, "volume", *bounds.volume(raw))
         if not self.area:
             return volume, Moments(np.zeros(1), self.center, "area")
-        raw = sums.area / 2.0 if self.shell else np.array([sums.double / 2.0])
-        error = self._error(raw, 9.0 * U * sums.tau.sum(), sums.double, sums) / 2.0
+        raw = np.array([bounds.double / 2.0])
         if self.shell:
-            error[10:] += sums.area_rest / 2.0
-        moved = np.zeros(20)
-        if self.half_ulp.any():
-            reach, step = self.reach + self.half_ulp, np.linalg.norm(self.half_ulp)
-            turned = step * (sums.edges + 2.0 * step * sums.count)
-            moved = _powers(reach) * (turned + EXPONENTS @ (self.half_ulp / reach) * (self._swept(sums) / step))
-        return volume, Moments(raw, self.center, "area", error + 8.0 * U * np.abs(raw), moved[:len(raw)])
+            raw = TO_AREA * self._raw([row.areas for row in rows], [row.area_spread for row in rows], area_vertices)
+        return volume, Moments(raw, self.center, "area", *bounds.of_area(raw))
 
-    def _error(self, raw: NDArray, weight: float, size: float, sums: Sums) -> NDArray[np.float64]:
-        """What rounding does to Σ w E[f]: the weights are off by `weight` in all; then come their products with the
-        vectors, the sums, whose terms are up to ten times as large as the result, and underflow."""
-        rounding = U * (8.0 * DEGREE + SUMMED + sums.parts) * np.array([1.0, 1.5, 2.5, 10.0])[DEGREE]
-        error = weight + rounding * (size * (1.0 + 1e-9) + weight) + 1e-290 * sums.count
-        return (error * _powers(self.reach))[:len(raw)]
+    def _raw(self, sums: list[NDArray], spread: list[NDArray], vertices: NDArray) -> NDArray[np.float64]:
+        if self.exact:
+            return _added(sums) * SPREAD_CENTROIDS + _added(spread) * SPREAD
+        return _added(sums) * CENTROIDS + vertices * VERTICES
 
-    def _swept(self, sums: Sums) -> float:
+    def _vertices(self, parts: list[_Part]) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+        """(20,) and (20,) the power sums over the vertices, for volume and area, and the most faces at one vertex."""
+        sums, areas, valence = [], [np.zeros(20)], 0.0
+        size = -(-min(BLOCK, len(self.points)) // SLICES) * SLICES
+        node, work, products, weight = (np.zeros((rows, size)) for rows in (3, 3, 6, 1))
+        for start in range(0, len(self.points), size):
+            part = slice(start, min(start + size, len(self.points)))
+            k = part.stop - start
+            np.subtract(self.points[part].T, self.center[:, None], out=node[:, :k])
+            lumps = parts[0].weights[part]
+            for other in parts[1:]:
+                lumps += other.weights[part]
+            valence = max(valence, lumps.imag.max())
+            weight[:, :k], weight[:, k:] = lumps.real, 0.0
+            sums.append(power_sums(weight[0], node, work, products, lowest=2))
+            if self.shell:
+                weight[:, :k] = sum(p.area_weights[part] for p in parts)
+                areas.append(power_sums(weight[0], node, work, products, lowest=2))
+        return _added(sums), _added(areas), valence
+
+
+def _added(rows: list[NDArray]) -> NDArray[np.float64]:
+    """The sum of many rows, pairwise."""
+    return np.add.reduce(np.array(rows).T.copy(), axis=1)
+
+
+class _Bounds:
+    """What the numbers may be off by, from the largest edges of each chunk of triangles and the sums of their sizes.
+
+    double: the sum of the doubled areas. valence: the most faces at one vertex, one addition each.
+    """
+
+    def __init__(self, job: _Job, rows: list[Rows]):
+        fans = [(row.edges[:, i], row.edges[:, i + 1], row.sizes[:, i], row.counts[None])
+                for row in rows for i in range(row.sizes.shape[1])]
+        self.first, self.second, self.sizes, counts = (np.concatenate(column, axis=1) for column in zip(*fans))
+        self.job, self.counts, self.blocks, self.valence = job, counts[0], len(rows), 0.0
+        self.double = float(np.add.reduce(self.sizes[1]))
+        tau = self.first[[1, 2, 0]] * self.second[[2, 0, 1]] + self.first[[2, 0, 1]] * self.second[[1, 2, 0]]
+        self.tau = tau @ self.counts
+
+    def volume(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(20,) and (20,) `error` and `input` of volume moments."""
+        error = self._error(raw, 9.0 * U * (self.job.reach @ self.tau), self.sizes[0]) / CONE
+        if not self.job.half_ulp.any():
+            return error + 8.0 * U * np.abs(raw), np.zeros(20)
+        return error + 8.0 * U * np.abs(raw), self._swept() * _powers(self.job.reach + self.job.half_ulp)
+
+    def of_area(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(k,) and (k,) `error` and `input` of area moments."""
+        error = self._error(raw, 9.0 * U * self.tau.sum(), self.sizes[1]) / 2.0 + 8.0 * U * np.abs(raw)
+        if not self.job.half_ulp.any():
+            return error, np.zeros(len(raw))
+        half_ulp, reach = self.job.half_ulp, self.job.reach + self.job.half_ulp
+        step = np.linalg.norm(half_ulp)
+        turned = step * (self._edges() + 2.0 * step * self.counts.sum())
+        moved = _powers(reach) * (turned + EXPONENTS @ (half_ulp / reach) * (self._swept() / step))
+        return error, moved[:len(raw)]
+
+    def _error(self, raw: NDArray, weight: float, sizes: NDArray) -> NDArray[np.float64]:
+        """The error of Σ w E[f]: the weights are off by `weight` in all; then their products with the nodes, the sums,
+        what underflow may lose and the rest of the third order."""
+        job, size = self.job, sizes.sum() * (1.0 + 1e-9)
+        rounding = U * (8.0 * DEGREE + PAIRWISE + 2.0 * np.log2(self.blocks + 1.0) + self.valence)
+        if job.exact:
+            rounding[4:] *= 3.0  # that rule's weights are not all positive
+        error = (weight + rounding * (size + weight) + 1e-290 * self.counts.sum()) * _powers(job.reach)
+        if not job.exact:
+            # Seen from the centroid no corner is farther than the largest edge, and one only two thirds of it.
+            x, y, z = np.maximum(self.first, self.second)
+            cubes = np.array([x * x * x, x * x * y, x * x * z, x * y * y, x * y * z, x * z * z, y * y * y, y * y * z,
+                              y * z * z, z * z * z])
+            error[10:] += (2.0 + 8.0 / 27.0) / 20.0 * (1.0 + 1e-9) * (cubes @ sizes)
+        return error[:len(raw)]
+
+    def _edges(self) -> float:
+        """What bounds the sum of the lengths of the edges at the triangles' first corners."""
+        return (np.sqrt((self.first ** 2).sum(axis=0)) + np.sqrt((self.second ** 2).sum(axis=0))) @ self.counts
+
+    def _swept(self) -> float:
         """The volume that the surface sweeps when its points move by their half ulps, for a closed surface."""
-        step = np.linalg.norm(self.half_ulp)
-        double = sums.double * (1.0 + 1e-9) if self.area else np.linalg.norm(sums.tau)
-        return step * (double / 2.0 + step * sums.edges + 2.0 * step ** 2 * sums.count)
+        step = np.linalg.norm(self.job.half_ulp)
+        double = self.double * (1.0 + 1e-9) if self.job.area else np.linalg.norm(self.tau)
+        return step * (double / 2.0 + step * self._edges() + 2.0 * step ** 2 * self.counts.sum())
 
 
 def _powers(reach: NDArray) -> NDArray[np.float64]:

@@ -164,7 +164,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
         notes += _compared_told(body, compared)
     if not solid:
         notes.append("It is flat and encloses no volume: measure a shell.")
-    elif flatness.spread > SPREAD * volume.total:
+    elif flatness.spread > SPREAD * volume.total > 0.0:
         notes.append("Faces that are not flat: the choice of their diagonals can change the volume by up to {:.2g} %."
                      .format(100.0 * flatness.spread / volume.total))
     counts = body.counts | (compared.counts if compared else {})
@@ -334,6 +334,6 @@ def _compared_told(body: Mended, compared: _Compared) -> list[str]:
         notes.append("{:s} flat and adds no volume.".format(
             "One part is" if flat == 1 else "Each of {:d} parts is".format(flat)))
     if compared.unchecked:
-        notes.append("Whether {:d} pairs of its parts overlap was not checked: it would have taken too long."
+        notes.append("Whether {:d} pairs of its parts overlap was not checked, as it would have taken too long."
                      .format(compared.unchecked))
     return notes

@@ -4,7 +4,7 @@
 
 Blender's own formatter has no density and no inertia, and shows a microgram as "0 kg". So all
 quantities are formatted here, to six significant digits, from the scene's system, length unit and
-mass unit. Areas, volumes, densities and inertias follow the two chosen units; an adaptive unit is
+mass unit. Areas, volumes and inertias follow the two chosen units; an adaptive unit is
 chosen for each number.
 """
 
@@ -146,13 +146,10 @@ class Units:
         return _fitting([table[key] for key in ADAPTIVE_MASSES[self.system]], value, base)
 
     def _density(self) -> tuple[float, str]:
-        masses, lengths = MASSES[self.system], LENGTHS[self.system]
-        mass, length = masses.get("KILOGRAMS", masses.get("POUNDS")), _base(lengths)
-        if (
-            self.mass != "ADAPTIVE" and self.length != "ADAPTIVE"
-        ):  # one without the other makes units nobody uses
-            mass, length = masses[self.mass], lengths[self.length]
-        return mass[0] / length[0] ** 3, "{:s}/{:s}³".format(mass[1], length[1])
+        """As densities are tabulated and typed, whatever a scene's lengths are: kg/mm³ helps nobody."""
+        if self.system == "METRIC":
+            return 1.0, "kg/m³"
+        return POUND / FOOT**3, "lb/ft³"
 
     def _inertia(self, value: float) -> tuple[float, str]:
         masses, lengths = MASSES[self.system], LENGTHS[self.system]

@@ -185,6 +185,7 @@ def _inertial(properties: MassProperties) -> dict[str, Any]:
         "principal_moments": principal.moments,
         "principal_axes": principal.axes,
         "symmetry": principal.symmetry,
+        "principal_axes_unique": principal.unique,
     }
 
 
