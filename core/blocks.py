@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,22 +29,20 @@ class Rows:
     """What one block adds.
 
     sums, areas: (20,) Σ weight node^α to order 3 (see `power_sums`). The weights are the determinants or the doubled
-    areas of the triangles, the nodes the sums of their corners. spread, area_spread: (20,) the same over three nodes
-    a triangle, that sum and twice one corner more; zero unless asked for.
+    areas of the triangles, the nodes the sums of their corners or those of the exact rule.
     edges: (3, corners - 1, chunks) the largest components of the fans' edges in each chunk of faces.
     sizes: (2, corners - 2, chunks) Σ |determinant| and Σ doubled area. counts: (chunks,) faces.
     """
 
     sums: NDArray[np.float64]
     areas: NDArray[np.float64]
-    spread: NDArray[np.float64]
-    area_spread: NDArray[np.float64]
     edges: NDArray[np.float64]
     sizes: NDArray[np.float64]
     counts: NDArray[np.int64]
 
 
 NOTHING = np.zeros(20)
+RULE = np.array([25.0, 25.0, 25.0, -27.0])[:, None]  # 48 times the weights of the exact rule's nodes
 
 
 def power_sums(weights: NDArray, nodes: NDArray, work: NDArray, products: NDArray, *,
@@ -83,34 +80,38 @@ class _Scratch:
     def __init__(self, buffer: NDArray, count: int, k: int, exact: bool):
         fans = count - 2
         columns = fans * k
-        self._buffer, self._position = buffer, -(buffer.ctypes.data // 8) % 8
-        self.index = self._rows(count, k).view(np.intp)
-        self.corners, self.weight = self._rows(3, count, k), self._rows(2 * k).view(np.complex128)
-        self.weight.imag = 1.0
-        self.det, self.double = self._rows(fans, k), self._rows(fans, k)
-        room = self._rows(6 * columns)  # products need as much as the edges do, and the float32 corners
-        self.edges, self.products = (room[:prod(shape)].reshape(shape) for shape in ((3, count - 1, k), (6, columns)))
-        self.single = room.view(np.float32)[:self.corners.size].reshape(self.corners.shape)
-        self.plus, self.minus = self._rows(3, fans, k), self._rows(3, fans, k)
-        self.nodes, self.work = self.plus.reshape(3, columns), self.minus.reshape(3, columns)
-        self.offsets = self.plus.reshape(-1)[:self.index.size].view(np.intp).reshape(self.index.shape)
+        position = -(buffer.ctypes.data // 8) % 8
+
+        def rows(number: int) -> NDArray[np.float64]:
+            # 64-byte aligned and 64 bytes apart: numpy < 2 leaves its vector loop where output ends at input's start
+            nonlocal position
+            start, position = position, position + number * k + 8
+            return buffer[start:start + number * k]
+
+        self.index = rows(count).view(np.intp).reshape(count, k)
+        self.corners = rows(3 * count).reshape(3, count, k)
+        self.det, self.double = rows(fans).reshape(fans, k), rows(fans).reshape(fans, k)
+        room = rows(6 * fans)  # products need as much as the edges do, and the float32 corners
+        self.products = room.reshape(6, columns)
+        self.edges = room[:3 * (count - 1) * k].reshape(3, count - 1, k)
+        self.single = room.view(np.float32)[:3 * count * k].reshape(3, count, k)
+        self.nodes, self.work = rows(3 * fans).reshape(3, columns), rows(3 * fans).reshape(3, columns)
+        self.plus, self.minus = self.nodes.reshape(3, fans, k), self.work.reshape(3, fans, k)
+        self.offsets = self.nodes.reshape(-1)[:count * k].view(np.intp).reshape(count, k)
         self.first, self.second, self.apex = self.edges[:, :-1], self.edges[:, 1:], self.corners[:, :1]
         self.starts = np.arange(0, k, CHUNK)
         self.counts = np.minimum(self.starts + CHUNK, k) - self.starts
         if exact:
-            self.spread, self.spread_weight = self._rows(3, fans, 3, k), self._rows(fans, 3, k)
-            self.spread_work, self.spread_products = self._rows(3, 3 * columns), self._rows(6, 3 * columns)
-
-    def _rows(self, *shape: int) -> NDArray[np.float64]:
-        # 64-byte aligned, and 64 bytes apart: numpy < 2 leaves its vector loop where an output ends at an input's start
-        start, size = self._position, prod(shape)
-        self._position += -(-size // 8) * 8 + 8
-        return self._buffer[start:start + size].reshape(shape)
+            self.spread, self.spread_weight = rows(12 * fans).reshape(3, fans, 4, k), rows(4 * fans).reshape(fans, 4, k)
+            self.spread_work, self.spread_products = rows(12 * fans).reshape(3, -1), rows(24 * fans).reshape(6, -1)
+        else:
+            self.weight = rows(2).view(np.complex128)
+            self.weight.imag = 1.0
 
     @staticmethod
     def size(triangles: int, exact: bool) -> int:
         """The buffer that blocks of up to that many triangles need."""
-        return (28 + 39 * exact) * (triangles + 2 * SLICES) + 16 * 16
+        return (28 + 52 * exact) * (triangles + 2 * SLICES) + 16 * 8
 
 
 class Fans:
@@ -119,7 +120,7 @@ class Fans:
     points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. weights: (n,) complex, to which
     every corner of a face adds its triangles' determinants and, as imaginary part, one; area_weights: (n,) the same
     for doubled areas; either may be None. area: whether doubled areas are wanted, shell: also their `power_sums`.
-    exact: whether the three nodes a triangle are wanted too.
+    exact: whether the nodes are those of the exact rule.
     """
 
     def __init__(self, points: NDArray, center: NDArray, triangles: int, *, weights: NDArray | None,
@@ -172,10 +173,15 @@ class Fans:
         np.add(own.first, own.second, out=own.plus)
         np.multiply(apex, 3.0, out=own.minus[:, :1])
         np.add(own.plus, own.minus[:, :1], out=own.plus)  # the nodes: three times the centroids
-        spread = self._spread(own) if self.exact else (NOTHING, NOTHING)
-        sums = power_sums(det.reshape(-1), own.nodes, own.work, own.products)
-        areas = power_sums(double.reshape(-1), own.nodes, own.work, own.products) if self.shell else NOTHING
-        return Rows(sums, areas, *spread, largest, sizes, own.counts)
+        shell = NOTHING
+        if self.exact:
+            self._spread(own)
+            sums = self._exact(own, det)
+            shell = self._exact(own, double) if self.shell else NOTHING
+        else:
+            sums = power_sums(det.reshape(-1), own.nodes, own.work, own.products)
+            shell = power_sums(double.reshape(-1), own.nodes, own.work, own.products) if self.shell else NOTHING
+        return Rows(sums, shell, largest, sizes, own.counts)
 
     def _scratch(self, count: int, k: int) -> _Scratch:
         k = -(-k // SLICES) * SLICES
@@ -231,15 +237,21 @@ class Fans:
                 for corner in ends:
                     np.add.at(self.area_weights, own.index[corner], weight)
 
-    def _spread(self, own: _Scratch) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The power sums of the nodes that lie between the centroids and the corners."""
-        np.add(own.apex, own.apex, out=own.apex)
+    def _spread(self, own: _Scratch) -> None:
+        """The nodes of the exact rule, fifteen times as far out as they are: 3 (s + 2 corner) and 5 s, s being the sums
+        of the corners."""
+        np.multiply(own.plus, 5.0, out=own.spread[:, :, 3])
+        np.multiply(own.apex, 6.0, out=own.apex)
+        np.multiply(own.plus, 3.0, out=own.plus)
         np.add(own.plus, own.apex, out=own.spread[:, :, 0])
-        for node, edge in ((1, own.first), (2, own.second)):
-            np.add(edge, edge, out=own.spread[:, :, node])
-            np.add(own.spread[:, :, node], own.spread[:, :, 0], out=own.spread[:, :, node])
-        nodes, weight, results = own.spread.reshape(3, -1), own.spread_weight.reshape(-1), []
-        for weights in (own.det, own.double) if self.shell else (own.det,):
-            own.spread_weight[...] = weights[:, None]
-            results.append(power_sums(weight, nodes, own.spread_work, own.spread_products))
-        return results[0], results[-1] if self.shell else NOTHING
+        np.multiply(own.edges, 6.0, out=own.edges)
+        np.add(own.spread[:, :, 0], own.first, out=own.spread[:, :, 1])
+        np.add(own.spread[:, :, 0], own.second, out=own.spread[:, :, 2])
+
+    def _exact(self, own: _Scratch, weights: NDArray) -> NDArray[np.float64]:
+        """The power sums over those nodes, 48 times what they are, and Σ weight as it is."""
+        np.multiply(weights[:, None], RULE, out=own.spread_weight)
+        nodes, weight = own.spread.reshape(3, -1), own.spread_weight.reshape(-1)
+        sums = power_sums(weight, nodes, own.spread_work, own.spread_products)
+        sums[0] = np.add.reduce(weights, axis=None)
+        return sums

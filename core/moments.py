@@ -167,9 +167,10 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
     )
 
 
-def is_similarity(linear: NDArray) -> bool:
-    """Whether a 3x3 map is a rotation, reflection and uniform scale, as far as float32 matrices can be."""
-    return _stretch_deviation(np.asarray(linear, np.float64)[None])[0] <= SIMILARITY
+def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
+    """(k,) whether each of the (k, 3, 3) maps is a rotation, reflection and uniform scale, as far as float32 matrices
+    can be."""
+    return _stretch_deviation(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY
 
 
 def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None) -> Moments:
@@ -177,26 +178,44 @@ def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None)
 
     matrices: (k, 4, 4), as for `Moments.mapped`. about: (3,), by default the mean of the images of `moments.about`.
     """
-    matrices = np.asarray(matrices, np.float64)
-    linear = matrices[:, :3, :3]
-    origins = np.einsum("kij,j->ki", linear, moments.about) + matrices[:, :3, 3]
-    about = origins.mean(axis=0) if about is None else np.asarray(about, np.float64)
+    rows = np.ascontiguousarray(np.asarray(matrices, np.float64)[:, :3].transpose(1, 2, 0))  # (3, 4, k), maps last
+    linear, places = rows[:, :3], rows[:, 3]
+    point = moments.about[:, None]
+    origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + places
+    about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     raw, error, extra = np.zeros((3, len(moments.raw)))
     for start in range(0, len(matrices), BLOCK):
         part = slice(start, start + BLOCK)
-        weight, weight_error, deviation = _weights(moments.of, linear[part])
-        offset = origins[part] - about
-        raw += (_horner(moments.raw, moments.order, linear[part], offset) * weight).sum(axis=1)
+        maps = linear[:, :, part]
+        weight, weight_error, deviation = _weights(moments.of, maps)
+        offset = origins[:, part] - about[:, None]
+        image = _horner(moments.raw, moments.order, maps, offset)
+        image *= weight
+        raw += np.add.reduce(image, axis=1)
         # The images of the reference point are rounded, and the body moves with them.
-        stretch = np.abs(linear[part]).sum(axis=2).max(axis=1)
-        reach = np.abs(offset).max(axis=1)
-        slack = 6 * U * (np.abs(matrices[part, :3, 3]).max(axis=1) + np.abs(about).max()
-                         + stretch * np.abs(moments.about).max())
+        stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
+        slack = 6 * U * (np.abs(places[:, part]).max(axis=0) + np.abs(about).max() + stretch * np.abs(point).max())
         weight_error = weight_error + (len(matrices) + 6 * moments.order + 8) * U * weight
-        bounds = _bounds(moments, stretch, reach, slack, weight, weight_error, deviation)
+        if len(matrices) == 1:
+            bounds = _bounds_of_one(moments, maps, offset, slack, weight, weight_error, deviation)
+        else:
+            bounds = _bounds(moments, stretch, reach, slack, weight, weight_error, deviation)
         error += bounds[0]
         extra += bounds[1]
     return Moments(raw, about, moments.of, error, extra)
+
+
+def _bounds_of_one(moments: Moments, linear: NDArray, offset: NDArray, slack: NDArray, weight: NDArray,
+                   weight_error: NDArray, deviation: NDArray) -> tuple[NDArray, NDArray]:
+    """As `_bounds` for one map, moment by moment: the recursion itself on absolute values."""
+    order, reach = moments.order, (np.abs(linear), np.abs(offset))
+    error, mapped_input = (_horner(bound, order, *reach)[:, 0] for bound in (moments.error, moments.input))
+    size = _horner(np.abs(moments.raw) + moments.error + moments.input, order, reach[0], reach[1] + slack)[:, 0]
+    rounding = weight * error + weight_error * size
+    for axis, raised in enumerate(_raised(order) if order else ()):
+        moved = monomials(order)[raised, axis] * slack * weight * size[:len(raised)]
+        rounding[raised] += moved
+    return rounding, weight * (mapped_input + deviation * size)
 
 
 def _bounds(moments: Moments, stretch: NDArray, reach: NDArray, slack: NDArray, weight: NDArray,
@@ -229,14 +248,13 @@ def _bounds(moments: Moments, stretch: NDArray, reach: NDArray, slack: NDArray, 
 
 
 def _weights(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """(k,) the factor by which each map changes the measure, its rounding bound, and by how much the map fails to
+    """(k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and by how much the map fails to
     have one factor."""
-    exact = np.zeros(len(linear))
+    exact = np.zeros(linear.shape[2])
     if of == "mass":
-        return np.ones(len(linear)), exact, exact
-    a, b, c = linear[:, :, 0], linear[:, :, 1], linear[:, :, 2]
-    terms = [(a[:, i] * b[:, j] * c[:, k], a[:, i] * b[:, k] * c[:, j])
-             for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
+        return np.ones(linear.shape[2]), exact, exact
+    a, b, c = linear
+    terms = [(a[i] * b[j] * c[k], a[i] * b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
     det = np.abs(sum(plus - minus for plus, minus in terms))
     permanent = sum(np.abs(plus) + np.abs(minus) for plus, minus in terms)
     if of == "volume":
@@ -248,18 +266,22 @@ def _weights(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
 
 
 def _stretch_deviation(linear: NDArray) -> NDArray[np.float64]:
-    """(k,) by how much, relatively, each map stretches one direction more than another; infinite for a flat map."""
-    gram = np.einsum("kia,kib->kab", linear, linear)
-    mean = np.trace(gram, axis1=1, axis2=2) / 3.0
+    """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for a flat map."""
+    columns = linear.transpose(1, 0, 2)
+    a, b, c = (np.add.reduce(column * column, axis=0) for column in columns)
+    ab, ac, bc = (np.abs(np.add.reduce(columns[i] * columns[j], axis=0)) for i, j in ((0, 1), (0, 2), (1, 2)))
+    mean = (a + b + c) / 3.0
+    off = np.maximum(np.maximum(np.abs(a - mean) + ab + ac, np.abs(b - mean) + ab + bc), np.abs(c - mean) + ac + bc)
     with np.errstate(invalid="ignore", divide="ignore"):
-        off = np.abs(gram / mean[:, None, None] - np.eye(3)).sum(axis=2).max(axis=1)
+        off = off / mean
     return np.where(np.isfinite(off), off, np.inf)
 
 
 def _horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
-    """(K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the (K,) functional, l_i the k linear forms."""
-    forms = [(offset[:, i], linear[:, i, 0], linear[:, i, 1], linear[:, i, 2]) for i in range(3)]
-    out = np.zeros((len(values), len(linear)))
+    """(K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the (K,) functional, l_i the linear forms of the k
+    maps, linear (3, 3, k) and offset (3, k)."""
+    forms = [(offset[i], *linear[i]) for i in range(3)]
+    out = np.zeros((len(values), offset.shape[1]))
     by_p = np.broadcast_to(values[:, None], out.shape)
     for p in range(order + 1):
         by_q = by_p

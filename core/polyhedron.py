@@ -11,7 +11,7 @@ its mean over the triangle; over the triangle itself to half its doubled area ti
 is exact (it is the formula of Sheynin and Tuzikov, 2001, for those orders). So the moments of a body are those of point
 masses at the centroids of its triangles and at its vertices, and a vertex is visited once, not six times. In third
 order this leaves out 1/20 Σ (corner - centroid)^3, of the order of an edge cubed, which is added to `error`. Small
-meshes, and large ones on request, take a rule that is exact to third order: with the nodes y = (centroid·3 + corner·2)/5
+meshes, and large ones on request, take a rule that is exact to third order: with y = (3 centroid + 2 corner) / 5
 
     E[f] = 25/48 (f(y_a) + f(y_b) + f(y_c)) - 27/48 f(centroid).
 
@@ -35,7 +35,7 @@ from .moments import Moments, U, monomials
 from .surface import Surface
 
 BLOCK = 16384  # triangles: calls cost little by then, and the scratch of two threads stays below 8 MB
-EXACT_BLOCK = 4096  # triangles with three more nodes each
+EXACT_BLOCK = 4096  # triangles of four nodes each
 EXACT = 20000  # triangles up to which the exact third order costs less than finding out that it is needed
 PAIRED = 1000  # triangles below which looking for pairs costs more than it saves
 CHUNK_POINTS = 512  # points whose coordinates are compared as one row
@@ -44,13 +44,12 @@ PAIRWISE = 64  # u: numpy adds up contiguous rows in pairs of sums of at most 12
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
 FACTORS = np.where(np.arange(3) < EXPONENTS[:, :, None], np.arange(3)[:, None] + 1, 0)  # rows of [1, x, y, z]
-# Factors of the power sums over centroids (times 3), vertices and the nodes of the exact rule (times 5).
-CENTROIDS = np.array([1 / 6, 1 / 24, 1 / 120, 1 / 432])[DEGREE]
-VERTICES = np.array([0.0, 0.0, 1 / 120, 1 / 144])[DEGREE]
-SPREAD = np.array([0.0, 0.0, 1 / 480, 1 / 2880])[DEGREE]
-SPREAD_CENTROIDS = np.array([1 / 6, 1 / 24, -1 / 160, -1 / 576])[DEGREE]
+# Divisors of the power sums over centroids (times 3), vertices, and the nodes of the exact rule (times 15).
+CENTROIDS = np.array([6.0, 24.0, 120.0, 432.0])[DEGREE]
+VERTICES = np.array([np.inf, np.inf, 120.0, 144.0])[DEGREE]
+SPREAD = np.array([6.0, 8 * 48 * 15, 10 * 48 * 15 ** 2, 12 * 48 * 15 ** 3])[DEGREE]
 CONE = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
-TO_AREA = DEGREE + 3.0  # ∫ f over a triangle / (doubled area E[f]), instead
+TO_AREA = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
 
 
 def solid_moments(surface: Surface, threads: int = 1) -> Moments:
@@ -191,19 +190,20 @@ class _Job:
         vertices = area_vertices = np.zeros(20)
         if not self.exact:
             vertices, area_vertices, bounds.valence = self._vertices(parts)
-        raw = self._raw([row.sums for row in rows], [row.spread for row in rows], vertices)
+        raw = self._raw([row.sums for row in rows], vertices, np.ones(20))
         volume = Moments(raw, self.center, "volume", *bounds.volume(raw))
         if not self.area:
             return volume, Moments(np.zeros(1), self.center, "area")
         raw = np.array([bounds.double / 2.0])
         if self.shell:
-            raw = TO_AREA * self._raw([row.areas for row in rows], [row.area_spread for row in rows], area_vertices)
+            raw = self._raw([row.areas for row in rows], area_vertices, TO_AREA)
         return volume, Moments(raw, self.center, "area", *bounds.of_area(raw))
 
-    def _raw(self, sums: list[NDArray], spread: list[NDArray], vertices: NDArray) -> NDArray[np.float64]:
+    def _raw(self, sums: list[NDArray], vertices: NDArray, factor: NDArray) -> NDArray[np.float64]:
+        total = np.add.reduce(np.array(sums).T.copy(), axis=1)  # pairwise
         if self.exact:
-            return _added(sums) * SPREAD_CENTROIDS + _added(spread) * SPREAD
-        return _added(sums) * CENTROIDS + vertices * VERTICES
+            return total / (SPREAD / factor)
+        return total / (CENTROIDS / factor) + vertices / (VERTICES / factor)
 
     def _vertices(self, parts: list[_Part]) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
         """(20,) and (20,) the power sums over the vertices, for volume and area, and the most faces at one vertex."""
@@ -223,12 +223,7 @@ class _Job:
             if self.shell:
                 weight[:, :k] = sum(p.area_weights[part] for p in parts)
                 areas.append(power_sums(weight[0], node, work, products, lowest=2))
-        return _added(sums), _added(areas), valence
-
-
-def _added(rows: list[NDArray]) -> NDArray[np.float64]:
-    """The sum of many rows, pairwise."""
-    return np.add.reduce(np.array(rows).T.copy(), axis=1)
+        return np.add.reduce(np.array(sums)), np.add.reduce(np.array(areas)), valence
 
 
 class _Bounds:
@@ -268,9 +263,9 @@ class _Bounds:
         """The error of Σ w E[f]: the weights are off by `weight` in all; then their products with the nodes, the sums,
         what underflow may lose and the rest of the third order."""
         job, size = self.job, sizes.sum() * (1.0 + 1e-9)
-        rounding = U * (8.0 * DEGREE + PAIRWISE + 2.0 * np.log2(self.blocks + 1.0) + self.valence)
+        rounding = U * (8.0 * DEGREE + PAIRWISE + 0.1 * self.blocks + self.valence)
         if job.exact:
-            rounding[4:] *= 3.0  # that rule's weights are not all positive
+            rounding *= 3.0  # that rule's weights are not all positive
         error = (weight + rounding * (size + weight) + 1e-290 * self.counts.sum()) * _powers(job.reach)
         if not job.exact:
             # Seen from the centroid no corner is farther than the largest edge, and one only two thirds of it.
@@ -297,7 +292,7 @@ def _powers(reach: NDArray) -> NDArray[np.float64]:
 
 
 def _pairs(triangles: NDArray) -> list[NDArray] | None:
-    """The four corners, (k/2,) each, of quads where triangles 2i and 2i+1 are the halves of one, for every i; else None.
+    """The four corners, (k/2,) each, of quads where triangles 2i and 2i+1 are halves of one for every i; else None.
 
     Meshes that were triangulated from quads are like that, and two triangles that share an edge cost less than two
     loose ones. The first pair shows which of their corners meet.

@@ -99,7 +99,7 @@ def _scores(moments: Moments, shift: NDArray, spread: NDArray, axes: NDArray, fr
 
 def _decided(size: NDArray, doubt: NDArray, noise: float) -> bool:
     """Whether better third moments could neither change which scores count, nor their signs, nor their order."""
-    clear = (size - doubt > noise) & (doubt < 1e-3 * size)
+    clear = size - doubt > noise
     below = size + doubt <= noise
     if not (clear[:, 0] | (clear | below).all(axis=1)).all():
         return False
@@ -115,15 +115,15 @@ def _third_scores(moments: Moments, shift: NDArray, spread: NDArray, axes: NDArr
     outer = np.outer(shift, shift)
     cross = shift[:, None, None] * second
     third = third - cross - cross.transpose(1, 0, 2) - cross.transpose(1, 2, 0) + 2.0 * shift[:, None, None] * outer
-    turned = np.einsum("abc,ai->ibc", third, axes)
+    error = (moments.error[THIRD] + 3.0 * np.abs(shift).max() * moments.error[SECOND].max()) / total
+    turned, turned_error = np.einsum("abc,ai->ibc", third, axes), np.einsum("abc,ai->ibc", error, np.abs(axes))
     size = np.sqrt(np.maximum(spread, 1e-30 * spread[0]))  # a lamina has no extent along an axis, and no skewness
     scores, doubt = np.zeros((2, 3, 3))
-    error = 3.0 * (moments.error[THIRD].max() / total + np.abs(shift).max() * moments.error[SECOND].max() / total)
     for i in range(3):
         for column, j in enumerate((i, (i + 1) % 3, (i + 2) % 3)):
             unit = size[i] * size[j] ** 2
             scores[i, column] = axes[:, j] @ turned[i] @ axes[:, j] / unit
-            doubt[i, column] = 3.0 * np.sqrt(3.0) * error / unit
+            doubt[i, column] = np.abs(axes[:, j]) @ turned_error[i] @ np.abs(axes[:, j]) / unit
     return scores, doubt
 
 

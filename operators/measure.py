@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..core.decimal import decimal
 from ..core.mass import MassProperties
 from ..core.measurement import Measurement
-from ..core.moments import Moments, is_similarity, map_sum, sum_moments
+from ..core.moments import Moments, are_similarities, map_sum, sum_moments
 from ..core.polyhedron import solid_and_area
 from ..core.solid import Health, SolidMeasure, measure_solid
 from .fingerprint import effective_hash, fingerprint, matrix_hash
@@ -98,7 +98,7 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> _Body:
         matrices = _scaled(part.matrices, unit)
         volumes.append(map_sum(solid.volume, matrices))
         areas.extend(_mapped_areas(part, solid.area, matrices, shell, threads))
-        stretch = np.abs(np.linalg.det(matrices[:, :3, :3])).sum()
+        stretch = volumes[-1].total / solid.volume.total if solid.volume.total else 0.0  # Σ |det|
         healths.append((replace(solid.health, volume_spread=solid.health.volume_spread * stretch), len(matrices)))
         methods.append(solid.method)
         if not shell:  # a shell is measured as it is
@@ -134,14 +134,17 @@ def _scaled(matrices: NDArray, unit: float) -> NDArray[np.float64]:
 def _mapped_areas(part: Part, area: Moments, matrices: NDArray, shell: bool, threads: int) -> Iterator[Moments]:
     """The area moments of a part's images. Areas do not follow a map that stretches unevenly, so there the mapped
     surface is measured, once for each different map."""
-    even = np.array([is_similarity(matrix[:3, :3]) for matrix in matrices])
+    even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield map_sum(area, matrices[even])
+    if even.all():
+        return
     linear, which = np.unique(matrices[~even, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
+    places = matrices[~even, :3, 3]
     for i, row in enumerate(linear):
         mapped = solid_and_area(part.surface.mapped(row.reshape(3, 3)), threads, shell=shell)[1]
         moved = np.tile(np.eye(4), (np.count_nonzero(which.ravel() == i), 1, 1))
-        moved[:, :3, 3] = matrices[~even][which.ravel() == i, :3, 3]
+        moved[:, :3, 3] = places[which.ravel() == i]
         yield map_sum(mapped, moved)
 
 

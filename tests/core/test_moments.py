@@ -10,8 +10,8 @@ import pytest
 
 from body_moments.core.moments import (
     Moments,
+    are_similarities,
     index,
-    is_similarity,
     map_sum,
     monomial_count,
     monomials,
@@ -152,8 +152,8 @@ def test_areas_follow_similarities_only():
     assert doubled.total == pytest.approx(4.0, rel=1e-15)
     with pytest.raises(ValueError, match="unevenly"):
         area.mapped(np.diag([2.0, 1.0, 1.0, 1.0]))
-    assert is_similarity(np.diag([3.0, 3.0, -3.0])) and not is_similarity(np.diag([1.0, 1.0, 1.001]))
-    assert not is_similarity(np.zeros((3, 3)))
+    maps = np.array([np.diag([3.0, 3.0, -3.0]), np.diag([1.0, 1.0, 1.001]), np.zeros((3, 3))])
+    assert are_similarities(maps).tolist() == [True, False, False]
 
 
 def test_what_a_float32_rotation_lacks_of_a_similarity_is_in_the_input_bound():

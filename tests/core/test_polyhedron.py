@@ -1,0 +1,420 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments of meshes against rational arithmetic and closed forms. Small blocks make small meshes take the path of large
+ones; the bounds that come with the numbers are the tolerance wherever there is one."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core import blocks, polyhedron
+from body_moments.core.surface import Surface, flipped_quads
+
+from tests.core import exact
+
+MONOMIALS = exact.MONOMIALS
+L_OUTLINE = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
+L_CAPS = [(0, 1, 2, 3), (0, 3, 4, 5)]
+TETRAHEDRON = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+
+
+@pytest.fixture(params=["exact", "fast"])
+def path(request, monkeypatch):
+    """Both ways through the third order, in blocks of a few faces."""
+    monkeypatch.setattr(polyhedron, "BLOCK", 16)
+    monkeypatch.setattr(polyhedron, "EXACT_BLOCK", 16)
+    monkeypatch.setattr(polyhedron, "PAIRED", 0)
+    monkeypatch.setattr(blocks, "CHUNK", 4)
+    if request.param == "fast":
+        monkeypatch.setattr(polyhedron, "EXACT", 0)
+    return request.param
+
+
+def grid_torus(n=12, m=8, noise=0.0, seed=0, major=1.0, minor=0.4):
+    """A closed torus of n x m quads with its points moved at random: points and quads."""
+    u, v = np.meshgrid(np.arange(n) * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij")
+    ring = major + minor * np.cos(v)
+    points = np.stack([ring * np.cos(u), ring * np.sin(u), minor * np.sin(v)], axis=-1).reshape(-1, 3)
+    points = points + noise * np.random.default_rng(seed).standard_normal(points.shape)
+    i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
+    corners = [(i, j), ((i + 1) % n, j), ((i + 1) % n, (j + 1) % m), (i, (j + 1) % m)]
+    return points, np.stack([(a * m + b).ravel() for a, b in corners], axis=1)
+
+
+def assert_within(moments, truth, error=None):
+    """Every moment is as near to the truth as its bound says."""
+    error = moments.error if error is None else error
+    for value, bound, right, monomial in zip(moments.raw, error, truth, MONOMIALS):
+        assert abs(Fraction(float(value)) - right) <= Fraction(float(bound)), monomial
+
+
+def assert_exact(surface, truth_at_origin, ulps=8):
+    """The moments about the origin equal the closed form to rounding: `ulps` of the largest of their order."""
+    moments = polyhedron.solid_moments(surface).shifted(np.zeros(3))
+    truth = np.array([float(value) for value in truth_at_origin])
+    for order in range(3):
+        part = [i for i, m in enumerate(MONOMIALS) if sum(m) == order]
+        assert np.abs(moments.raw[part] - truth[part]).max() <= ulps * np.finfo(float).eps * np.abs(truth[part]).max()
+
+
+def test_box_is_its_closed_form(path):
+    low, high = (1, 2, 3), (3, 5, 8)
+    points, truth = np.array(exact.box(low, high), float), exact.box_moments(low, high)
+    assert_exact(Surface(points, quads=np.array(exact.BOX_QUADS)), truth)
+    assert_exact(Surface(points, np.array(exact.fan(exact.BOX_QUADS))), truth)
+
+
+def test_box_about_its_centre_is_exact(path):
+    surface = Surface(np.array(exact.box((0, 0, 0), (2, 3, 5)), float), quads=np.array(exact.BOX_QUADS))
+    volume, area = polyhedron.solid_and_area(surface)
+    assert volume.total == 30.0 and area.total == 62.0
+    assert volume.about.tolist() == [1.0, 1.5, 2.5]
+    assert volume.raw[1:10].tolist() == [0.0, 0.0, 0.0, 10.0, 0.0, 0.0, 22.5, 0.0, 62.5]
+
+
+def test_corner_tetrahedron_is_dirichlets_integral(path):
+    points = np.array([(0, 0, 0), (2, 0, 0), (0, 3, 0), (0, 0, 5)], float)
+    assert_exact(Surface(points, np.array(TETRAHEDRON)), exact.corner_tetrahedron_moments(2, 3, 5))
+
+
+def test_triangular_prism_is_its_rational_truth(path):
+    points, faces = exact.prism([(0, 0), (4, 0), (1, 3)], -1, 2, [(0, 1, 2)])
+    triangles = exact.fan(faces)
+    assert_exact(Surface(np.array(points, float), np.array(triangles)), exact.volume_moments(points, triangles))
+
+
+def test_l_prism_has_the_published_inertia(path):
+    points, faces = exact.prism(L_OUTLINE, 0, 1, L_CAPS)
+    moments = polyhedron.solid_moments(Surface(np.array(points, float), np.array(exact.fan(faces))))
+    assert moments.total == pytest.approx(5.0, rel=1e-15)
+    assert moments.center == pytest.approx([1.1, 1.1, 0.5], rel=1e-15)
+    second = moments.about_center().second()
+    inertia = np.trace(second) * np.eye(3) - second
+    assert np.diag(inertia) == pytest.approx([121 / 30, 121 / 30, 217 / 30], rel=4e-15)
+    assert inertia[0, 1] == pytest.approx(1.8, rel=4e-15)
+    third = polyhedron.third_moments_exact(Surface(np.array(points, float), np.array(exact.fan(faces)))).about_center()
+    assert [third[3, 0, 0], third[0, 3, 0], third[2, 1, 0], third[1, 2, 0], third[0, 0, 3]] == pytest.approx(
+        [2.16, 2.16, -0.84, -0.84, 0.0], abs=2e-14)
+
+
+def test_box_with_one_face_subdivided_has_the_same_moments(path):
+    points = exact.box((0, 0, 0), (2, 3, 5))
+    triangles = exact.fan(exact.BOX_QUADS)
+    split = triangles[2:]
+    for a, b, c in triangles[:2]:
+        points = [*points, tuple((x + y + z) / 4 + x / 4 for x, y, z in zip(points[a], points[b], points[c]))]
+        split += [(a, b, len(points) - 1), (b, c, len(points) - 1), (c, a, len(points) - 1)]
+    assert_exact(Surface(np.array(points, float), np.array(split)), exact.box_moments((0, 0, 0), (2, 3, 5)))
+
+
+def test_cavity_subtracts(path):
+    outer, inner = exact.box((-2, -2, -2), (2, 2, 2)), exact.box((-1, -1, -1), (1, 1, 1))
+    triangles = np.array(exact.fan(exact.BOX_QUADS))
+    surface = Surface(np.array(outer + inner, float), np.concatenate([triangles, triangles[:, ::-1] + 8]))
+    moments = polyhedron.solid_moments(surface)
+    second = moments.about_center().second()
+    assert moments.total == 56.0
+    assert second[1, 1] + second[2, 2] == pytest.approx(496 / 3, rel=1e-15)
+
+
+SHAPES = {
+    "round": (1.0, 1.0, 1.0), "flat": (1.0, 1.0, 1e-9), "needle": (1.0, 1e-7, 1e-7), "sheet": (1e3, 1.0, 1e-6)}
+PLACES = {"centred": 0.0, "near": 1.0, "far": 1e4, "very far": 1e8}
+SIZES = {"unit": 1.0, "tiny": 1e-9, "huge": 1e12, "extreme": 1e-60}
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_bound_holds_for_random_meshes(path, shape, place, seed):
+    rng = np.random.default_rng([seed, len(shape), len(place)])
+    size = list(SIZES.values())[seed % 4]
+    count = int(rng.integers(4, 14))
+    turn = np.linalg.qr(rng.standard_normal((3, 3)))[0] if seed % 2 else np.eye(3)
+    points = (rng.standard_normal((count, 3)) * SHAPES[shape]) @ turn + PLACES[place] * rng.standard_normal(3)
+    points *= size
+    if seed % 3 == 0 and size > 1e-20:
+        points = points.astype(np.float32)
+    triangles = rng.integers(0, count, (int(rng.integers(1, 40)), 3))
+    volume, area = polyhedron.solid_and_area(Surface(points, triangles), shell=True)
+    assert_within(volume, exact.volume_moments(points, triangles, volume.about))
+    assert_within(area, exact.area_moments(points, triangles, area.about))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_bound_holds_for_slivers(path, seed):
+    rng = np.random.default_rng(seed)
+    points, quads = grid_torus(6, 5, noise=1e-3, seed=seed)
+    points[quads[:, 1]] = points[quads[:, 0]] + 10.0 ** rng.uniform(-14, -3) * rng.standard_normal((len(quads), 3))
+    points += 10.0 ** rng.uniform(-3, 6)
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    volume, area = polyhedron.solid_and_area(Surface(points, triangles), shell=True)
+    assert_within(volume, exact.volume_moments(points, triangles, volume.about))
+    assert_within(area, exact.area_moments(points, triangles, area.about))
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_exact_third_moments_are_right_to_their_rounding_bound(monkeypatch, seed):
+    monkeypatch.setattr(polyhedron, "EXACT", 0)
+    points, quads = grid_torus(10, 6, noise=0.05, seed=seed)
+    surface = Surface(points, Surface(points, quads=quads).all_triangles()[0])
+    moments = polyhedron.third_moments_exact(surface)
+    assert_within(moments, exact.volume_moments(points, surface.triangles, moments.about))
+    assert moments.error[10:].max() < 1e-12
+    coarse = polyhedron.solid_moments(surface)
+    assert coarse.error[10:].max() > 1e-6  # the lumped rule says what it leaves out
+    assert_within(coarse, exact.volume_moments(points, surface.triangles, coarse.about))
+
+
+def test_the_bound_is_not_vacuous_for_a_clean_body():
+    points, quads = grid_torus(250, 200)
+    moments = polyhedron.solid_moments(Surface(points, Surface(points, quads=quads).all_triangles()[0]))
+    assert moments.error[0] < 1e-12 * moments.total
+    assert moments.error[1:4].max() < 1e-12 * moments.total  # the body is about one unit in size
+    assert moments.error[4:10].max() < 1e-12 * np.trace(moments.second())
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
+    rng = np.random.default_rng(seed)
+    points, quads = grid_torus(7, 5, noise=0.03, seed=seed)
+    points = (points * 10.0 ** rng.uniform(-3, 2) + 10.0 ** rng.uniform(-2, 3)).astype(np.float32)
+    surface = Surface(points, Surface(points, quads=quads).all_triangles()[0])
+    volume, area = polyhedron.solid_and_area(surface, shell=True)
+    moved = points.astype(float) + surface.coordinate_error * rng.choice([-1.0, 1.0], points.shape)
+    for moments, formula in ((volume, exact.volume_moments), (area, exact.area_moments)):
+        assert_within(moments, formula(moved, surface.triangles, moments.about), moments.error + moments.input)
+
+
+def test_float64_points_have_no_input_bound():
+    points, quads = grid_torus()
+    assert not polyhedron.solid_moments(Surface(points, quads=quads)).input.any()
+
+
+def test_a_brick_one_kilometre_away_is_as_right_as_float32_lets_it_be():
+    corners = np.array(exact.box((1000.0, 1000.0, 0.0), (1000.02, 1000.03, 0.05)), np.float32)
+    surface = Surface(corners, quads=np.array(exact.BOX_QUADS))
+    volume, area = polyhedron.solid_and_area(surface)
+    assert abs(volume.total - 3e-5) <= volume.input[0] + volume.error[0]
+    assert abs(area.total - 0.0062) <= area.input[0] + area.error[0]
+    step = np.linalg.norm(surface.coordinate_error)  # 4e-5, a tenth of a percent of the brick
+    assert volume.input[0] < 1.1 * step * area.total
+
+
+@pytest.mark.parametrize("factor", [1e4, 1e6])
+def test_relative_errors_stay_below_1e_14_far_from_the_origin(factor):
+    points, quads = grid_torus(40, 30, noise=1e-2)
+    points = np.round((points + factor * np.array([1.0, -2.0, 3.0])) * 2.0 ** 20) / 2.0 ** 20
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    moments = polyhedron.solid_moments(Surface(points, triangles))
+    truth = exact.volume_moments(points, triangles, moments.about)
+    assert abs(Fraction(moments.total) / truth[0] - 1) < 1e-14
+    centre = [value / truth[0] for value in truth[1:4]]
+    assert max(abs(Fraction(float(m)) / Fraction(moments.total) - c) for m, c in zip(moments.raw[1:4], centre)) < 1e-14
+    size = float(truth[4] + truth[7] + truth[9])
+    assert max(abs(float(value) - float(right)) for value, right in zip(moments.raw[4:10], truth[4:10])) < 1e-14 * size
+
+
+@pytest.mark.parametrize("exponent", [-300, -140, -30, 30, 100])
+def test_moments_scale_exactly_with_powers_of_two(exponent):
+    points, quads = grid_torus(noise=0.05)
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    plain = polyhedron.solid_moments(Surface(points, triangles))
+    scaled = polyhedron.solid_moments(Surface(np.ldexp(points, exponent), triangles))
+    powers = exponent * np.array([sum(m) + 3 for m in MONOMIALS])
+    assert scaled.about.tolist() == np.ldexp(plain.about, exponent).tolist()
+    difference = np.abs(scaled.raw - np.ldexp(plain.raw, powers))
+    assert (difference <= np.ldexp(plain.error, powers) + np.finfo(float).tiny).all()
+    assert (scaled.error >= difference).all()
+
+
+def test_a_mirrored_surface_has_the_opposite_sign(path):
+    points, quads = grid_torus(noise=0.05)
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    plain = polyhedron.solid_moments(Surface(points, triangles))
+    inverted = polyhedron.solid_moments(Surface(points, triangles[:, ::-1]))
+    mirrored = polyhedron.solid_moments(Surface(points * [-1.0, 1.0, 1.0], triangles))
+    odd = np.array([(-1.0) ** m[0] for m in MONOMIALS])
+    assert (np.abs(inverted.raw + plain.raw) <= inverted.error + plain.error).all()
+    assert (np.abs(mirrored.raw + odd * plain.raw) <= mirrored.error + plain.error).all()
+
+
+def test_a_sheared_surface_has_the_mapped_moments(path):
+    points, quads = grid_torus(noise=0.05)
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    matrix = np.eye(4)
+    matrix[:3, :3] = [[2.0, 0.5, 0.25], [0.0, 1.0, -0.75], [0.0, 0.0, 0.5]]
+    matrix[:3, 3] = [5.0, -7.0, 11.0]
+    sheared = polyhedron.third_moments_exact(Surface(points @ matrix[:3, :3].T + matrix[:3, 3], triangles))
+    mapped = polyhedron.third_moments_exact(Surface(points, triangles)).mapped(matrix).shifted(sheared.about)
+    assert np.abs(sheared.raw - mapped.raw).max() < 1e-13 * np.abs(mapped.raw).max()
+
+
+def test_degenerate_faces_change_nothing(path):
+    points, quads = grid_torus(noise=0.05)
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    zero = np.array([[3, 3, 3], [5, 5, 9], [7, 2, 7]])
+    plain = polyhedron.solid_moments(Surface(points, triangles))
+    more = polyhedron.solid_moments(Surface(points, np.concatenate([zero, triangles, zero])))
+    assert (np.abs(more.raw - plain.raw) <= plain.error).all()
+
+
+def test_open_surface_is_closed_from_the_middle_of_its_box(path):
+    points = np.array(exact.box((0, 0, 0), (1, 1, 1)), float)
+    triangles = np.array(exact.fan(exact.BOX_QUADS[:5]))  # without the face z = 1
+    moments = polyhedron.solid_moments(Surface(points, triangles))
+    assert moments.total == pytest.approx(5 / 6, rel=1e-15)
+
+
+@pytest.mark.parametrize("shell", [False, True])
+def test_empty_surfaces_have_no_moments(shell):
+    for points in (np.empty((0, 3)), np.ones((4, 3), np.float32)):
+        volume, area = polyhedron.solid_and_area(Surface(points), shell=shell)
+        assert not volume.raw.any() and not area.raw.any()
+        assert volume.order == 3 and area.order == (3 if shell else 0)
+
+
+def test_a_single_triangle_and_a_single_point_are_harmless():
+    flat = polyhedron.solid_moments(Surface(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float), np.array([[0, 1, 2]])))
+    assert flat.total == 0.0
+    point = polyhedron.solid_moments(Surface(np.ones((3, 3)), np.array([[0, 1, 2]])))
+    assert point.total == 0.0 and point.about.tolist() == [1.0, 1.0, 1.0]
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_coordinates_that_are_not_finite_are_refused(bad):
+    points, quads = grid_torus()
+    points[5, 1] = bad
+    with pytest.raises(ValueError, match="finite"):
+        polyhedron.solid_moments(Surface(points, quads=quads))
+
+
+@pytest.mark.parametrize("index", [-1, 96])
+def test_indices_that_name_no_point_are_refused(index):
+    points, quads = grid_torus()
+    quads[17, 2] = index
+    with pytest.raises(ValueError, match="vertex"):
+        polyhedron.solid_moments(Surface(points, quads=quads))
+    with pytest.raises(ValueError, match="vertex"):
+        polyhedron.solid_moments(Surface(points, quads[:, :3]))
+
+
+@pytest.mark.parametrize("index_type", [np.int32, np.int64, np.uint32])
+@pytest.mark.parametrize("point_type", [np.float32, np.float64])
+def test_every_array_type_gives_the_same_moments(path, point_type, index_type):
+    points, quads = grid_torus(noise=0.05)
+    points = points.astype(np.float32)
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    plain = polyhedron.solid_moments(Surface(points, triangles))
+    points = np.asfortranarray(points.astype(point_type))
+    other = polyhedron.solid_moments(Surface(points, triangles.astype(index_type)))
+    assert (np.abs(other.shifted(plain.about).raw - plain.raw) <= 2.0 * plain.error).all()
+
+
+@pytest.mark.parametrize("count", [1, 7, 8, 9, 15, 16, 17, 31, 32, 33, 47, 48, 49])
+def test_sums_do_not_depend_on_where_blocks_end(path, count):
+    points, quads = grid_torus(noise=0.05)
+    for surface in (Surface(points, quads[:count, :3]), Surface(points, quads=quads[:count])):
+        triangles = surface.all_triangles()[0]
+        volume, area = polyhedron.solid_and_area(surface, shell=True)
+        assert_within(volume, exact.volume_moments(points, triangles, volume.about))
+        assert_within(area, exact.area_moments(points, triangles, area.about))
+
+
+@pytest.mark.parametrize("first", range(3))
+@pytest.mark.parametrize("second", range(3))
+def test_pairs_of_triangles_are_found_however_their_corners_are_turned(path, first, second):
+    points, quads = grid_torus(noise=0.05)
+    triangles = np.stack([np.roll(quads[:, [0, 1, 2]], first, axis=1), np.roll(quads[:, [0, 2, 3]], second, axis=1)],
+                         axis=1).reshape(-1, 3)
+    assert polyhedron._pairs(triangles) is not None
+    paired = polyhedron.solid_moments(Surface(points, triangles))
+    assert_within(paired, exact.volume_moments(points, triangles, paired.about))
+    broken = triangles.copy()
+    broken[-1] = np.roll(broken[-1], 1)
+    assert polyhedron._pairs(broken) is None
+
+
+def test_threads_give_the_serial_result_to_the_bound(monkeypatch):
+    monkeypatch.setattr(polyhedron, "BLOCK", 64)
+    monkeypatch.setattr(polyhedron, "EXACT", 0)
+    points, quads = grid_torus(30, 20, noise=0.02)
+    points = points.astype(np.float32)
+    mixed = Surface(points, quads[:200, [0, 1, 2]], quads=quads[200:])
+    for threads in (2, 3, 8, 100):
+        for serial, threaded in zip(polyhedron.solid_and_area(mixed, 1, True),
+                                    polyhedron.solid_and_area(mixed, threads, True)):
+            assert (np.abs(serial.raw - threaded.raw) <= serial.error).all()
+
+
+def test_errors_in_threads_reach_the_caller(monkeypatch):
+    monkeypatch.setattr(polyhedron, "BLOCK", 64)
+    points, quads = grid_torus(30, 20)
+    quads[-1, -1] = 600
+    with pytest.raises(ValueError, match="vertex"):
+        polyhedron.solid_moments(Surface(points, quads=quads), threads=2)
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-12, 1e-3, 1e9, 1e12])
+@pytest.mark.parametrize("seed", range(5))
+def test_quads_are_cut_as_blender_cuts_them(path, seed, scale):
+    rng = np.random.default_rng(seed)
+    points, quads = grid_torus(8, 6, noise=0.12, seed=seed)
+    points = (points * scale).astype(np.float32)
+    # Nearly flat against the rule, collinear corners and quads folded onto themselves.
+    loose = rng.integers(0, len(points), (40, 4))
+    quads = np.concatenate([quads, loose, quads[:5, [0, 1, 1, 2]], quads[:5, [0, 2, 1, 3]]])
+    surface = Surface(points, quads=quads)
+    assert flipped_quads(points, quads).any() or scale in (1e-12, 1e12)
+    triangles = surface.all_triangles()[0]
+    volume, area = polyhedron.solid_and_area(surface, shell=True)
+    assert_within(volume, exact.volume_moments(points, triangles, volume.about))
+    assert_within(area, exact.area_moments(points, triangles, area.about))
+
+
+def test_quads_on_the_edge_of_the_rule_are_decided_in_float32(path):
+    """Arrow heads whose normals are at right angles to within rounding: float64 alone would often decide otherwise."""
+    rng = np.random.default_rng(3)
+    count = 300
+    a, c = np.array([0.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0])
+    angle = rng.uniform(0.0, 2.0 * np.pi, count)
+    b = np.stack([rng.uniform(0.2, 0.8, count), np.cos(angle), np.sin(angle)], axis=1)
+    d = np.stack([rng.uniform(0.2, 0.8, count), -np.sin(angle), np.cos(angle)], axis=1)
+    points = np.stack([np.broadcast_to(a, b.shape), b, np.broadcast_to(c, b.shape), d], axis=1).reshape(-1, 3)
+    points = (points + rng.uniform(-3.0, 3.0, 3)).astype(np.float32)
+    quads = np.arange(len(points)).reshape(-1, 4)
+    flips = flipped_quads(points, quads)
+    assert 50 < flips.sum() < 250
+    volume, area = polyhedron.solid_and_area(Surface(points, quads=quads), shell=True)
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    assert_within(volume, exact.volume_moments(points, triangles, volume.about))
+    assert_within(area, exact.area_moments(points, triangles, area.about))
+
+
+def test_area_alone_equals_the_zeroth_shell_moment(path):
+    points, quads = grid_torus(noise=0.05)
+    surface = Surface(points.astype(np.float32), quads=quads)
+    alone, shell = polyhedron.solid_and_area(surface)[1], polyhedron.solid_and_area(surface, shell=True)[1]
+    assert alone.order == 0 and shell.order == 3 and alone.of == shell.of == "area"
+    assert abs(alone.total - shell.total) <= alone.error[0] + shell.error[0]
+
+
+def test_area_of_slivers_keeps_its_digits():
+    for height in (1e-6, 1e-8, 1e-12):
+        points = np.array([(0, 0, 0), (1, 0, 0), (0.37, height, 0)])
+        assert polyhedron.solid_and_area(Surface(points, np.array([[0, 1, 2]])))[1].total == pytest.approx(
+            height / 2, rel=1e-15)
+
+
+def test_memory_is_bounded_by_blocks():
+    import tracemalloc
+
+    points, quads = grid_torus(500, 400)
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    surface = Surface(points, triangles)
+    for threads in (1, 2):
+        tracemalloc.start()
+        polyhedron.solid_moments(surface, threads)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert peak <= 16 * len(triangles) + 8_000_000
