@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from .surface import flipped_quads
 
 SLICES = 8  # rows of a block that einsum adds up
-CHUNK = 1024  # columns that share one bound of their edges
+CHUNK = 256  # columns that share one bound of their edges
 FLIP_MARGIN = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
 

@@ -1,0 +1,220 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From an object to its numbers: closed forms through every transform, kind, unit and overlap, and nothing touched."""
+
+from fractions import Fraction
+
+import bpy
+import numpy as np
+import pytest
+
+from body_moments.operators.measure import MeasureOptions, measure_object
+from body_moments.operators.read import Unreadable
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+CUBE = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+
+
+def corners(low, high):
+    return [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+
+
+def box(low=(0, 0, 0), high=(1, 2, 3), name="Box", turned=False):
+    return {"points": corners(low, high), "faces": [face[::-1] for face in CUBE] if turned else CUBE, "name": name}
+
+
+def add(*shells, name="Box", **transform):
+    points, faces = [], []
+    for shell in shells:
+        faces += [tuple(i + len(points) for i in face) for face in shell["faces"]]
+        points += shell["points"]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(points, [], faces)
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    for key, value in transform.items():
+        setattr(obj, key, value)
+    bpy.context.view_layer.update()
+    return obj
+
+
+def measure(obj, **options):
+    return measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(**options))
+
+
+def world(obj):
+    return np.array(obj.matrix_world, np.float64)
+
+
+TRANSFORMS = {
+    "plain": {},
+    "moved": {"location": (100, -200, 300)},
+    "turned": {"rotation_euler": (0.3, 0.5, -1.0)},
+    "uneven": {"scale": (2, 0.5, 3), "rotation_euler": (0.1, 0.2, 0.3)},
+    "mirrored": {"scale": (-1, 1, 1), "location": (1, 2, 3)},
+    "tiny": {"scale": (1e-6, 1e-6, 1e-6)},
+    "huge": {"scale": (1e6, 1e6, 1e6)},
+}
+
+
+@pytest.mark.parametrize("name", TRANSFORMS)
+def test_a_box_is_exact_through_every_transform(name):
+    """The truth is the affine law on the box's exact moments with the matrix that Blender holds."""
+    obj = add(box(), **TRANSFORMS[name])
+    matrix = world(obj)
+    linear, volume = matrix[:3, :3], 6.0 * abs(np.linalg.det(matrix[:3, :3]))
+    second = linear @ np.diag([1 / 12, 4 / 12, 9 / 12]) @ linear.T * volume * 1000.0
+    found = measure(obj)
+    body = found.mass_properties
+    assert found.method == "exact" and not found.warnings
+    assert found.volume == pytest.approx(volume, rel=1e-13)
+    assert abs(found.volume - volume) <= found.error_bound["volume"] + 1e-15 * volume
+    center = linear @ (0.5, 1.0, 1.5) + matrix[:3, 3]
+    assert np.allclose(body.center, center, rtol=0, atol=1e-13 * np.abs(center).max())
+    inertia = np.trace(second) * np.eye(3) - second
+    assert np.allclose(body.inertia, inertia, rtol=0, atol=1e-13 * np.trace(second))
+    axes = body.principal.axes
+    assert np.linalg.det(axes) == pytest.approx(1.0, abs=1e-12)
+    assert np.allclose(axes.T @ inertia @ axes, np.diag(body.principal.moments), atol=1e-12 * np.trace(second))
+    faces = linear @ np.diag([1, 2, 3])
+    area = 2 * sum(np.linalg.norm(np.cross(faces[:, i], faces[:, (i + 1) % 3])) for i in range(3))
+    assert abs(found.area - area) <= found.error_bound["area"] + found.error_bound["input"]["area"]
+
+
+def test_shear_from_a_parent_is_measured():
+    parent = add(box(), name="Parent", scale=(3, 1, 1))
+    child = add(box((0, 0, 0), (1, 1, 1)), name="Child", rotation_euler=(0, 0, 0.7))
+    child.parent = parent
+    bpy.context.view_layer.update()
+    linear = world(child)[:3, :3]
+    assert abs(linear.T @ linear - np.diag(np.diag(linear.T @ linear))).max() > 0.1  # it is sheared
+    found = measure(child)
+    assert found.volume == pytest.approx(abs(np.linalg.det(linear)), rel=1e-13)
+    sides = [np.linalg.norm(np.cross(linear[:, i], linear[:, (i + 1) % 3])) for i in range(3)]
+    assert found.area == pytest.approx(2 * sum(sides), rel=1e-6)
+
+
+def test_the_object_frame_has_unit_scale():
+    obj = add(box(), scale=(2, 2, 2), location=(5, 6, 7), rotation_euler=(0, 0, np.pi / 2))
+    local = measure(obj).in_object_frame()
+    assert np.allclose(local.center, (1, 2, 3), atol=1e-6)
+    assert np.allclose(np.diag(local.inertia), np.array([52, 40, 20]) / 12 * 48 * 1000, rtol=1e-6)
+
+
+@pytest.mark.parametrize("unit", [0.001, 0.3048, 1.0, 1000.0])
+def test_numbers_are_si_at_every_unit_scale(unit):
+    bpy.context.scene.unit_settings.scale_length = unit
+    found = measure(add(box()), density=2.0)
+    body = found.mass_properties
+    assert found.volume == pytest.approx(6 * unit**3, rel=1e-13)
+    assert found.area == pytest.approx(22 * unit**2, rel=1e-12)
+    assert np.allclose(body.center, np.array([0.5, 1, 1.5]) * unit, rtol=1e-13)
+    assert np.allclose(np.diag(body.inertia), np.array([13, 10, 5]) * unit**5, rtol=1e-12)
+
+
+def test_a_given_mass_makes_the_density_follow():
+    found = measure(add(box()), mass=12.0)
+    assert found.density == pytest.approx(2.0) and found.mass_properties.mass == pytest.approx(12.0)
+
+
+def test_a_shell_has_the_mass_of_its_sheet():
+    found = measure(add(box((0, 0, 0), (1, 1, 1))), kind="shell", thickness=0.01, density=1000.0)
+    assert found.method == "shell" and not found.warnings
+    assert found.mass_properties.mass == pytest.approx(60.0, rel=1e-13)
+    # a hollow cube of side s has I = 5/18 m s²
+    assert np.allclose(np.diag(found.mass_properties.inertia), 60.0 * 5 / 18, rtol=1e-12)
+
+
+def test_an_unevenly_scaled_shell_is_measured_as_it_lies():
+    even = measure(add(box((0, 0, 0), (1, 2, 3))), kind="shell", thickness=0.01)
+    uneven = measure(add(box((0, 0, 0), (1, 1, 1)), scale=(1, 2, 3)), kind="shell", thickness=0.01)
+    assert uneven.area == pytest.approx(even.area, rel=1e-12)
+    assert np.allclose(uneven.mass_properties.inertia, even.mass_properties.inertia, rtol=1e-12, atol=1e-12)
+
+
+def test_a_flat_sheet_is_a_shell_and_no_solid():
+    sheet = add({"points": [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], "faces": [(0, 1, 2, 3)]})
+    with pytest.raises(Unreadable, match="shell"):
+        measure(sheet)
+    found = measure(sheet, kind="shell", thickness=0.001, density=1000.0).mass_properties
+    assert np.allclose(np.diag(found.inertia), np.array([1, 1, 2]) / 12, rtol=1e-12)
+
+
+def test_overlapping_shells_are_summed_with_a_warning_or_united():
+    obj = add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)))
+    signed, united = measure(obj), measure(obj, overlap="union")
+    assert signed.volume == pytest.approx(2.0) and signed.health.overlapping_components and signed.warnings
+    assert united.method == "union" and united.volume == pytest.approx(1.5, rel=1e-6)
+    assert np.allclose(np.diag(united.mass_properties.inertia), np.array([0.25, 0.40625, 0.40625]) * 1000, rtol=1e-5)
+    assert united.health.overlapping_components  # the input's
+
+
+def test_a_nested_shell_counts_twice_or_not_at_all_and_a_cavity_subtracts():
+    outer, inner = box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3))
+    nested = add(outer, inner)
+    assert measure(nested).volume == pytest.approx(72.0) and measure(nested).warnings
+    assert measure(nested, overlap="union").volume == pytest.approx(64.0, rel=1e-6)
+    hollow = measure(add(outer, box((1, 1, 1), (3, 3, 3), turned=True)))
+    assert hollow.volume == pytest.approx(56.0) and hollow.method == "exact"
+    assert np.allclose(np.diag(hollow.mass_properties.inertia), 165.33333333333334 * 1000, rtol=1e-12)
+
+
+def test_the_union_leaves_nothing_behind():
+    obj = add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)))
+    kinds = ("objects", "meshes", "scenes", "collections")
+    before = [len(getattr(bpy.data, kind)) for kind in kinds]
+    measure(obj, overlap="union")
+    assert [len(getattr(bpy.data, kind)) for kind in kinds] == before
+
+
+def test_a_brick_modelled_a_kilometre_away_is_right_to_what_its_coordinates_allow():
+    """The truth of the stored coordinates in rationals; the 5 cm that were meant lie within the input bound."""
+    obj = add(box((1000.0, 1000.0, 0.0), (1000.05, 1000.05, 0.05)))
+    found = measure(obj)
+    points = np.array([vertex.co[:] for vertex in obj.data.vertices])
+    low, high = points.min(axis=0), points.max(axis=0)
+    stored = [Fraction(float(h)) - Fraction(float(a)) for a, h in zip(low, high)]
+    assert found.volume == pytest.approx(float(stored[0] * stored[1] * stored[2]), rel=1e-13)
+    assert 1e-13 < abs(found.volume - 0.05**3) < found.error_bound["input"]["volume"] < 0.1 * 0.05**3
+
+
+def test_measuring_changes_nothing():
+    obj = add(box())
+    obj.modifiers.new("", "SUBSURF")
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+    points = np.array([vertex.co[:] for vertex in obj.data.vertices])
+    kinds = ("objects", "meshes", "scenes", "collections", "node_groups")
+    before = [len(getattr(bpy.data, kind)) for kind in kinds]
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    assert np.array_equal(points, [vertex.co[:] for vertex in obj.data.vertices])
+    assert [len(getattr(bpy.data, kind)) for kind in kinds] == before
+    assert obj.select_get() and bpy.context.object == obj and obj.mode == "OBJECT"
+
+
+def test_zero_scale_is_refused_with_the_remedy_and_zero_density_too():
+    flat = add(box(), scale=(1, 1, 0))
+    with pytest.raises(Unreadable, match="zero scale"):
+        measure(flat)
+    weightless = add(box())
+    weightless.body_moments.density = 0.0
+    with pytest.raises(Unreadable, match="density is zero"):
+        measure(weightless)
+
+
+def test_the_report_counts_what_could_not_be_measured_and_keeps_the_rest():
+    good, bad = add(box(), name="Good"), add({"points": [(0, 0, 0)], "faces": []}, name="Bad")
+    for obj in (good, bad):
+        obj.select_set(True)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    assert "body_mass" in good and "body_mass" not in bad
+
+
+def test_principal_frames_of_copies_turn_with_the_copies():
+    l_prism = (box((0, 0, 0), (3, 1, 1)), box((0, 1, 0), (1, 4, 1)), box((0, 0, 1), (1, 1, 2.5)))
+    first = measure(add(*l_prism))
+    second = measure(add(*l_prism, rotation_euler=(1.0, 2.0, 3.0), location=(7, 8, 9)))
+    turn = second.rotation
+    assert np.allclose(turn.T @ second.mass_properties.principal.axes, first.mass_properties.principal.axes, atol=1e-5)
+    assert np.allclose(second.in_object_frame().inertia, first.in_object_frame().inertia, rtol=1e-5, atol=1e-2)
