@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The inner loop of `polyhedron`: fans of triangles, a block of faces at a time, in scratch memory that is made once.
+"""The inner loop of `polyhedron`: triangles and pairs of triangles, a block at a time, in scratch that is made once.
 
-A face of c corners is the fan of its first corner, triangles (0, i, i+1). Corners are gathered by component, so that
-every numpy call runs along contiguous rows. A call costs as much as a thousand additions, memory beyond the cache
-twice as much as within: hence blocks, few calls, and results written over rows that are no longer needed. Products are
-summed over rows of a fixed number of slices, not along them: einsum then multiplies and adds in one pass.
+A face of three or four corners is the fan of its first corner: the triangles 0, 1, 2 and perhaps 0, 2, 3. A pair has
+five edges where two triangles have six, and so five midpoints.
+
+Corners are gathered by component, so that every numpy call runs along contiguous rows. A call costs as much as ten
+thousand additions, memory beyond the cache twice as much as within: hence blocks, few calls, and results written over
+rows that are no longer needed. Products are summed over a few slices of their rows, not along them, so that einsum
+multiplies and adds in one pass.
 """
 
 from __future__ import annotations
@@ -18,10 +21,11 @@ from numpy.typing import NDArray
 
 from .surface import flipped_quads
 
-SLICES = 8  # rows of a block that einsum adds up
-CHUNK = 256  # columns that share one bound of their edges
+SLICES = 8  # of a row that einsum adds up
+CHUNK = 256  # columns that share one bound of their edges; a multiple of SLICES
 FLIP_MARGIN = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
+EXACT = np.array([25.0, 25.0, 25.0, -27.0])[:, None]  # 48 times the weights of the exact rule's nodes
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,41 +33,33 @@ class Rows:
     """What one block adds.
 
     sums, areas: (20,) Σ weight node^α to order 3 (see `power_sums`). The weights are the determinants or the doubled
-    areas of the triangles, the nodes the sums of their corners or those of the exact rule.
+    areas of the triangles, the nodes those of the rule; order 0 is the sum of the determinants or doubled areas alone.
     edges: (3, corners - 1, chunks) the largest components of the fans' edges in each chunk of faces.
     sizes: (2, corners - 2, chunks) Σ |determinant| and Σ doubled area. counts: (chunks,) faces.
     """
 
     sums: NDArray[np.float64]
-    areas: NDArray[np.float64]
+    areas: NDArray[np.float64] | None
     edges: NDArray[np.float64]
     sizes: NDArray[np.float64]
     counts: NDArray[np.int64]
 
 
-NOTHING = np.zeros(20)
-RULE = np.array([25.0, 25.0, 25.0, -27.0])[:, None]  # 48 times the weights of the exact rule's nodes
+def power_sums(weights: NDArray, nodes: NDArray, work: NDArray, products: NDArray) -> NDArray[np.float64]:
+    """(20,) Σ w x^p y^q z^r for 1 ≤ p+q+r ≤ 3, in the order of `moments.monomials`, and zero for order 0.
 
-
-def power_sums(weights: NDArray, nodes: NDArray, work: NDArray, products: NDArray, *,
-               lowest: int = 0) -> NDArray[np.float64]:
-    """(20,) Σ w x^p y^q z^r for p+q+r ≤ 3, in the order of `moments.monomials`.
-
-    weights: (k,). nodes: (3, k), k a multiple of SLICES. work: (3, k) and products: (6, k) scratch. lowest: 2 leaves
-    zeros in the orders below.
+    weights: (n, k) or (1, k). nodes: (3, n, k), k a multiple of SLICES. work: (3, n, k), products: (6, n, k).
     """
     total = np.zeros(20)
     np.multiply(nodes, weights, out=work)
-    if lowest == 0:
-        total[0] = np.add.reduce(weights)
-        np.add.reduce(work, axis=1, out=total[1:4])
+    np.add.reduce(work.reshape(3, -1), axis=1, out=total[1:4])
     np.multiply(nodes, work[0], out=products[:3])
     np.multiply(nodes[1:], work[1], out=products[3:5])
     np.multiply(nodes[2], work[2], out=products[5])
-    np.add.reduce(products, axis=1, out=total[4:10])
-    x, y, z = nodes.reshape(3, SLICES, -1)
-    products = products.reshape(6, SLICES, -1)
-    cubes = work.reshape(3 * SLICES, -1)[:10]
+    np.add.reduce(products.reshape(6, -1), axis=1, out=total[4:10])
+    slices = SLICES * nodes.shape[1]
+    x, y, z = nodes.reshape(3, slices, -1)
+    products, cubes = products.reshape(6, slices, -1), work.reshape(3 * slices, -1)[:10]
     np.einsum("pjk,jk->pk", products, x, out=cubes[:6])
     np.einsum("pjk,jk->pk", products[3:], y, out=cubes[6:9])
     np.einsum("jk,jk->k", products[5], z, out=cubes[9])
@@ -74,63 +70,65 @@ def power_sums(weights: NDArray, nodes: NDArray, work: NDArray, products: NDArra
 class _Scratch:
     """Contiguous rows for blocks of one shape, carved out of one buffer; some share memory when their times differ.
 
-    corners: (3, c, k), edges: (3, c-1, k), plus and minus: (3, c-2, k), det and double: (c-2, k), index: (c, k).
+    index: (c, k). corners: (3, c, k), edges: (3, c-1, k), normals, minus: (3, c-2, k), later all products: (6, n, k).
+    det, double: (c-2, k). nodes, work: (3, n, k), weights: (n, k), n the number of nodes of a face.
     """
 
     def __init__(self, buffer: NDArray, count: int, k: int, exact: bool):
         fans = count - 2
-        columns = fans * k
+        number = _nodes(count, exact)
         position = -(buffer.ctypes.data // 8) % 8
 
-        def rows(number: int) -> NDArray[np.float64]:
+        def rows(*shape: int) -> NDArray[np.float64]:
             # 64-byte aligned and 64 bytes apart: numpy < 2 leaves its vector loop where output ends at input's start
             nonlocal position
-            start, position = position, position + number * k + 8
-            return buffer[start:start + number * k]
+            size = k
+            for length in shape:
+                size *= length
+            start, position = position, position + size + 8
+            return buffer[start:start + size].reshape(*shape, k)
 
-        self.index = rows(count).view(np.intp).reshape(count, k)
-        self.corners = rows(3 * count).reshape(3, count, k)
-        self.det, self.double = rows(fans).reshape(fans, k), rows(fans).reshape(fans, k)
-        room = rows(6 * fans)  # products need as much as the edges do, and the float32 corners
-        self.products = room.reshape(6, columns)
-        self.edges = room[:3 * (count - 1) * k].reshape(3, count - 1, k)
-        self.single = room.view(np.float32)[:3 * count * k].reshape(3, count, k)
-        self.nodes, self.work = rows(3 * fans).reshape(3, columns), rows(3 * fans).reshape(3, columns)
-        self.plus, self.minus = self.nodes.reshape(3, fans, k), self.work.reshape(3, fans, k)
-        self.offsets = self.nodes.reshape(-1)[:count * k].view(np.intp).reshape(count, k)
-        self.first, self.second, self.apex = self.edges[:, :-1], self.edges[:, 1:], self.corners[:, :1]
-        self.starts = np.arange(0, k, CHUNK)
-        self.counts = np.minimum(self.starts + CHUNK, k) - self.starts
-        if exact:
-            self.spread, self.spread_weight = rows(12 * fans).reshape(3, fans, 4, k), rows(4 * fans).reshape(fans, 4, k)
-            self.spread_work, self.spread_products = rows(12 * fans).reshape(3, -1), rows(24 * fans).reshape(6, -1)
-        else:
-            self.weight = rows(2).view(np.complex128)
-            self.weight.imag = 1.0
+        self.index = rows(count).view(np.intp)
+        self.nodes, self.work = rows(3, number), rows(3, number)
+        self.weights, self.double = rows(number if exact or fans == 2 else 1), rows(fans)
+        self.det = rows(fans) if exact else self.weights[:4:2]
+        start = position
+        self.corners, self.edges = rows(3, count), rows(3, count - 1)
+        self.normals, self.minus = rows(3, fans), rows(3, fans)
+        position = start
+        self.products = rows(6, number)
+        self.apex, self.first, self.second = self.corners[:, :1], self.edges[:, :-1], self.edges[:, 1:]
+        self.offsets = self.normals.reshape(-1)[:count * k].view(np.intp).reshape(count, k)
+        self.single = self.edges.reshape(-1).view(np.float32)[:3 * count * k].reshape(3, count, k)
+        self.chunk = min(k, CHUNK)
+
+    def chunks(self, rows: NDArray) -> NDArray[np.float64]:
+        """Rows (..., k) as (..., chunks, columns)."""
+        return rows.reshape(*rows.shape[:-1], -1, self.chunk)
+
+
+def _nodes(count: int, exact: bool) -> int:
+    return 4 * (count - 2) if exact else 2 * count - 3
+
+
+class Faces:
+    """The loop body for blocks of up to `triangles` triangles.
+
+    points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. area: whether doubled areas are
+    wanted, shell: also their power sums. exact: whether the nodes are those of the rule for third order.
+    """
+
+    def __init__(self, points: NDArray, center: NDArray, triangles: int, *, area: bool, shell: bool, exact: bool):
+        self.points, self.flat, self.center = points, points.reshape(-1), center
+        self.area, self.shell, self.exact = area, shell, exact
+        self.buffer = np.empty(self.size(triangles + 2 * CHUNK, exact) + 16 * 10)
+        self.scratch: dict[tuple[int, int], _Scratch] = {}
+        self.flipped: list[NDArray] = []
 
     @staticmethod
     def size(triangles: int, exact: bool) -> int:
-        """The buffer that blocks of up to that many triangles need."""
-        return (28 + 52 * exact) * (triangles + 2 * SLICES) + 16 * 8
-
-
-class Fans:
-    """The loop body for blocks of up to `triangles` triangles.
-
-    points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. weights: (n,) complex, to which
-    every corner of a face adds its triangles' determinants and, as imaginary part, one; area_weights: (n,) the same
-    for doubled areas; either may be None. area: whether doubled areas are wanted, shell: also their `power_sums`.
-    exact: whether the nodes are those of the exact rule.
-    """
-
-    def __init__(self, points: NDArray, center: NDArray, triangles: int, *, weights: NDArray | None,
-                 area_weights: NDArray | None, area: bool, shell: bool, exact: bool):
-        self.points, self.flat, self.center = points, points.reshape(-1), center
-        self.weights, self.area_weights = weights, area_weights
-        self.area, self.shell, self.exact = area, shell, exact
-        self.buffer = np.empty(_Scratch.size(triangles, exact))
-        self.scratch: dict[tuple[int, int], _Scratch] = {}
-        self.flipped: list[NDArray] = []
+        """The numbers that the scratch for so many triangles holds."""
+        return (61 if exact else 46) * triangles
 
     def block(self, faces: Sequence[NDArray], quads: bool = False) -> Rows:
         """The sums over some faces.
@@ -139,52 +137,44 @@ class Fans:
         that Blender cuts along the other diagonal, and append them to `flipped`, turned by one corner; otherwise the
         first diagonal is taken.
         """
-        own = self._scratch(len(faces), len(faces[0]))
+        k = len(faces[0])
+        own = self._shaped(len(faces), k)
         for row, corner in zip(own.index, faces):
             row[:len(corner)] = corner
-            row[len(corner):] = faces[0][0]  # up to a multiple of SLICES: faces that are a point
+            row[len(corner):] = faces[0][0]  # filled up with faces that are a point
         self._gather(own)
-        edges, det, double, apex = own.edges, own.det, own.double, own.apex
-        np.subtract(own.corners[:, 1:], apex, out=edges)
-        normals = own.plus
+        normals = own.normals
+        np.subtract(own.corners[:, 1:], own.apex, out=own.edges)
         for x, y, z in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-            np.multiply(own.first[y], own.second[z], out=own.plus[x])
+            np.multiply(own.first[y], own.second[z], out=normals[x])
             np.multiply(own.first[z], own.second[y], out=own.minus[x])
-        np.subtract(own.plus, own.minus, out=normals)
-        largest = np.maximum.reduceat(edges, own.starts, axis=2)
-        np.maximum(largest, -np.minimum.reduceat(edges, own.starts, axis=2), out=largest)
+        np.subtract(normals, own.minus, out=normals)
+        edges = own.chunks(own.edges)
+        largest = np.maximum.reduce(edges, axis=3)
+        np.maximum(largest, -np.minimum.reduce(edges, axis=3), out=largest)
         flipped = self._flipped(own, largest) if quads else ()
 
-        np.subtract(apex, self.center[:, None, None], out=apex)
-        np.einsum("cfk,ck->fk", normals, apex[:, 0], out=det)
+        np.subtract(own.corners, self.center[:, None, None], out=own.corners)
+        np.einsum("cfk,ck->fk", normals, own.apex[:, 0], out=own.det)
         if self.area:
             np.multiply(normals, normals, out=normals)
-            np.add(normals[0], normals[1], out=double)
-            np.add(double, normals[2], out=double)
-            np.sqrt(double, out=double)
+            np.add(normals[0], normals[1], out=own.double)
+            np.add(own.double, normals[2], out=own.double)
+            np.sqrt(own.double, out=own.double)
         if len(flipped):
-            det[:, flipped] = double[:, flipped] = 0.0
-        sizes = np.zeros((2, len(det), len(own.starts)))
-        np.add.reduceat(np.abs(det, out=own.minus[0]), own.starts, axis=1, out=sizes[0])
+            own.det[:, flipped] = own.double[:, flipped] = 0.0
+        sizes = np.zeros((2, *largest.shape[1:]))[:, 1:]
+        np.add.reduce(own.chunks(np.abs(own.det, out=own.minus[0])), axis=2, out=sizes[0])
         if self.area:
-            np.add.reduceat(double, own.starts, axis=1, out=sizes[1])
-        if self.weights is not None:
-            self._scatter(own)
-        np.add(own.first, own.second, out=own.plus)
-        np.multiply(apex, 3.0, out=own.minus[:, :1])
-        np.add(own.plus, own.minus[:, :1], out=own.plus)  # the nodes: three times the centroids
-        shell = NOTHING
-        if self.exact:
-            self._spread(own)
-            sums = self._exact(own, det)
-            shell = self._exact(own, double) if self.shell else NOTHING
-        else:
-            sums = power_sums(det.reshape(-1), own.nodes, own.work, own.products)
-            shell = power_sums(double.reshape(-1), own.nodes, own.work, own.products) if self.shell else NOTHING
-        return Rows(sums, shell, largest, sizes, own.counts)
+            np.add.reduce(own.chunks(own.double), axis=2, out=sizes[1])
+        (self._exact_nodes if self.exact else self._midpoints)(own)
+        sums = self._summed(own, own.det)
+        areas = self._summed(own, own.double) if self.shell else None
+        return Rows(sums, areas, largest, sizes, np.minimum(np.arange(k, 0, -own.chunk), own.chunk))
 
-    def _scratch(self, count: int, k: int) -> _Scratch:
-        k = -(-k // SLICES) * SLICES
+    def _shaped(self, count: int, k: int) -> _Scratch:
+        unit = SLICES if k <= CHUNK else CHUNK
+        k = -(-k // unit) * unit
         if (count, k) not in self.scratch:
             self.scratch = {(count, k): _Scratch(self.buffer, count, k, self.exact)}
         return self.scratch[count, k]
@@ -205,14 +195,13 @@ class Fans:
         They are those whose two normals face away from each other in float32. That can differ from float64 only where
         the product is within float32's rounding of zero.
         """
-        cosine = own.det[0]
-        np.einsum("ck,ck->k", own.plus[:, 0], own.plus[:, 1], out=cosine)
+        cosine = own.double[0]
+        np.einsum("ck,ck->k", own.normals[:, 0], own.normals[:, 1], out=cosine)
         if self.points.dtype == np.float32:
             length = np.sqrt((largest ** 2).sum(axis=0))
             margin = FLIP_MARGIN * length[0] * length[1] ** 2 * length[2]
-            near = np.minimum.reduceat(cosine, own.starts) <= margin
-            if not near.any() and length.max() < FLOAT32_OVERFLOW:
-                return own.starts[:0]
+            if length.max() < FLOAT32_OVERFLOW and (np.minimum.reduce(own.chunks(cosine), axis=1) > margin).all():
+                return own.index[0, :0]
             square = np.einsum("cik,cik->ik", own.edges, own.edges)
             limit = FLIP_MARGIN * square[1] * np.sqrt(square[0] * square[2])
             limit[square.max(axis=0) > FLOAT32_OVERFLOW ** 2] = np.inf
@@ -225,33 +214,38 @@ class Fans:
         self.flipped.append(np.roll(quads[:, turn], -1, axis=0))
         return suspects[turn]
 
-    def _scatter(self, own: _Scratch) -> None:
-        """Add each triangle's weights to its corners."""
-        corners = (((0, 1, 2), (0,)),) if len(own.det) == 1 else (((0, 2), (0, 1)), ((1,), (0,)), ((3,), (1,)))
-        for ends, fans in corners:
-            own.weight.real[...] = own.det[0] + own.det[1] if len(fans) == 2 else own.det[fans[0]]
-            for corner in ends:
-                np.add.at(self.weights, own.index[corner], own.weight)
-            if self.area_weights is not None:
-                weight = own.double[0] + own.double[1] if len(fans) == 2 else own.double[fans[0]]
-                for corner in ends:
-                    np.add.at(self.area_weights, own.index[corner], weight)
+    def _midpoints(self, own: _Scratch) -> None:
+        """The nodes of the plain rule, twice as far out as they are: those of edges 0-1, 1-2, ... and the diagonal."""
+        corners, nodes, count = own.corners, own.nodes, len(own.index)
+        np.add(corners[:, :-1], corners[:, 1:], out=nodes[:, :count - 1])
+        np.add(corners[:, -1], corners[:, 0], out=nodes[:, count - 1])
+        if count == 4:
+            np.add(corners[:, 0], corners[:, 2], out=nodes[:, 4])
 
-    def _spread(self, own: _Scratch) -> None:
-        """The nodes of the exact rule, fifteen times as far out as they are: 3 (s + 2 corner) and 5 s, s being the sums
-        of the corners."""
-        np.multiply(own.plus, 5.0, out=own.spread[:, :, 3])
-        np.multiply(own.apex, 6.0, out=own.apex)
-        np.multiply(own.plus, 3.0, out=own.plus)
-        np.add(own.plus, own.apex, out=own.spread[:, :, 0])
-        np.multiply(own.edges, 6.0, out=own.edges)
-        np.add(own.spread[:, :, 0], own.first, out=own.spread[:, :, 1])
-        np.add(own.spread[:, :, 0], own.second, out=own.spread[:, :, 2])
+    def _exact_nodes(self, own: _Scratch) -> None:
+        """The nodes of the exact rule, fifteen times as far out as they are: for each triangle 3 (s + 2 corner) and
+        last 5 s, s being the sum of its corners."""
+        corners, nodes = own.corners, own.nodes
+        np.add(corners[:, 1:-1], corners[:, 2:], out=nodes[:, 3::4])
+        np.add(nodes[:, 3::4], own.apex, out=nodes[:, 3::4])
+        np.multiply(corners, 6.0, out=corners)
+        for node, corner in ((2, corners[:, 2:]), (1, corners[:, 1:-1]), (0, own.apex)):
+            np.multiply(nodes[:, 3::4], 3.0, out=nodes[:, node::4])
+            np.add(nodes[:, node::4], corner, out=nodes[:, node::4])
+        np.multiply(nodes[:, 3::4], 5.0, out=nodes[:, 3::4])
 
-    def _exact(self, own: _Scratch, weights: NDArray) -> NDArray[np.float64]:
-        """The power sums over those nodes, 48 times what they are, and Σ weight as it is."""
-        np.multiply(weights[:, None], RULE, out=own.spread_weight)
-        nodes, weight = own.spread.reshape(3, -1), own.spread_weight.reshape(-1)
-        sums = power_sums(weight, nodes, own.spread_work, own.spread_products)
-        sums[0] = np.add.reduce(weights, axis=None)
+    def _summed(self, own: _Scratch, weights: NDArray) -> NDArray[np.float64]:
+        """(20,) the power sums over the nodes with the weights of the triangles, and the weights' own sum."""
+        fans, k = weights.shape
+        total = np.add.reduce(np.add.reduce(weights, axis=1))
+        if self.exact:
+            np.multiply(weights[:, None], EXACT, out=own.weights.reshape(fans, 4, k))
+        else:
+            if weights is not own.det:
+                own.det[...] = weights
+            if fans == 2:  # of the midpoints the first two belong to the first triangle, the next two to the second
+                own.weights[1:4:2] = weights
+                np.add(weights[0], weights[1], out=own.weights[4])
+        sums = power_sums(own.weights, own.nodes, own.work, own.products)
+        sums[0] = total
         return sums

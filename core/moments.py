@@ -248,8 +248,8 @@ def _bounds(moments: Moments, stretch: NDArray, reach: NDArray, slack: NDArray, 
 
 
 def _weights(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """(k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and by how much the map fails to
-    have one factor."""
+    """(k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and by how much the
+    map fails to have one factor."""
     exact = np.zeros(linear.shape[2])
     if of == "mass":
         return np.ones(linear.shape[2]), exact, exact
@@ -266,7 +266,8 @@ def _weights(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
 
 
 def _stretch_deviation(linear: NDArray) -> NDArray[np.float64]:
-    """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for a flat map."""
+    """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for
+    a flat map."""
     columns = linear.transpose(1, 0, 2)
     a, b, c = (np.add.reduce(column * column, axis=0) for column in columns)
     ab, ac, bc = (np.abs(np.add.reduce(columns[i] * columns[j], axis=0)) for i, j in ((0, 1), (0, 2), (1, 2)))

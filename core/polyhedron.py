@@ -4,13 +4,10 @@
 
 The divergence theorem turns a body into cones from a reference point over its faces. Over the cone on a triangle
 a, b, c with determinant w = a·((b-a) x (c-a)) a monomial f of degree n integrates to w / (2n + 6) · E[f], where E[f] is
-its mean over the triangle; over the triangle itself to half its doubled area times E[f]. To second order
-
-    E[f] = 3/4 f(centroid) + 1/12 (f(a) + f(b) + f(c))
-
-is exact (it is the formula of Sheynin and Tuzikov, 2001, for those orders). So the moments of a body are those of point
-masses at the centroids of its triangles and at its vertices, and a vertex is visited once, not six times. In third
-order this leaves out 1/20 Σ (corner - centroid)^3, of the order of an edge cubed, which is added to `error`. Small
+its mean over the triangle; over the triangle itself to half its doubled area times E[f]. To second order the mean is
+that of the midpoints of the edges, exactly (it is the formula of Sheynin and Tuzikov, 2001, for those orders). So the
+moments of a body are those of point masses at its edges, and two triangles that share an edge share a point. In third
+order this leaves out 3/40 Σ (corner - centroid)^3, of the order of an edge cubed, which is added to `error`. Small
 meshes, and large ones on request, take a rule that is exact to third order: with y = (3 centroid + 2 corner) / 5
 
     E[f] = 25/48 (f(y_a) + f(y_b) + f(y_c)) - 27/48 f(centroid).
@@ -30,24 +27,25 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import SLICES, Fans, Rows, power_sums
+from .blocks import CHUNK, Faces, Rows
 from .moments import Moments, U, monomials
 from .surface import Surface
 
-BLOCK = 16384  # triangles: calls cost little by then, and the scratch of two threads stays below 8 MB
-EXACT_BLOCK = 4096  # triangles of four nodes each
+BLOCK = 32768  # triangles at most: by then calls cost little, and more would leave the cache
+EXACT_BLOCK = 8192  # triangles at most, with more nodes each
+MEMORY = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
 EXACT = 20000  # triangles up to which the exact third order costs less than finding out that it is needed
 PAIRED = 1000  # triangles below which looking for pairs costs more than it saves
+LEAST = 16384  # triangles that are worth a thread
 CHUNK_POINTS = 512  # points whose coordinates are compared as one row
 RANGE = 2.0 ** 100  # reaches beyond this, or below its inverse, are scaled, lest a product of six overflow or vanish
 PAIRWISE = 64  # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
 FACTORS = np.where(np.arange(3) < EXPONENTS[:, :, None], np.arange(3)[:, None] + 1, 0)  # rows of [1, x, y, z]
-# Divisors of the power sums over centroids (times 3), vertices, and the nodes of the exact rule (times 15).
-CENTROIDS = np.array([6.0, 24.0, 120.0, 432.0])[DEGREE]
-VERTICES = np.array([np.inf, np.inf, 120.0, 144.0])[DEGREE]
-SPREAD = np.array([6.0, 8 * 48 * 15, 10 * 48 * 15 ** 2, 12 * 48 * 15 ** 3])[DEGREE]
+# Divisors of the power sums over twice the midpoints and over fifteen times the nodes of the exact rule.
+MIDPOINTS = np.array([6.0, 48.0, 120.0, 288.0])[DEGREE]
+NODES = np.array([6.0, 8 * 48 * 15, 10 * 48 * 15 ** 2, 12 * 48 * 15 ** 3])[DEGREE]
 CONE = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 TO_AREA = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
 
@@ -89,19 +87,18 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
     largest = reach.max()
     if largest and not 1.0 / RANGE < largest < RANGE:
         return _rescaled(surface, int(np.log2(largest)), threads, area=area, shell=shell, exact=exact)
-    exact = exact or count <= EXACT
-    job = _Job(points, center, reach, surface.coordinate_error, count, area, shell, exact)
-    size = EXACT_BLOCK if exact else BLOCK
+    job = _Job(points, center, reach, surface.coordinate_error, count, area, shell, exact or count <= EXACT)
+    threads = max(1, min(threads, count // LEAST))
+    size = job.block(threads)
     blocks = [(surface.triangles[i:i + size], False) for i in range(0, len(surface.triangles), size)]
-    blocks += [(surface.quads[i:i + size // 2], True) for i in range(0, len(surface.quads), size // 2)]
-    threads = max(1, min(threads, len(blocks) // 2))
+    size = max(size // 2, 1)
+    blocks += [(surface.quads[i:i + size], True) for i in range(0, len(surface.quads), size)]
     if threads == 1:
-        parts = [job.run(blocks)]
-    else:
-        ends = [len(blocks) * i // threads for i in range(threads + 1)]
-        with ThreadPoolExecutor(threads) as pool:
-            parts = list(pool.map(job.run, [blocks[a:b] for a, b in zip(ends, ends[1:])]))
-    return job.total(parts)
+        return job.moments(job.run(blocks, 1))
+    ends = [len(blocks) * i // threads for i in range(threads + 1)]
+    with ThreadPoolExecutor(threads) as pool:
+        parts = pool.map(lambda a, b: job.run(blocks[a:b], threads), ends, ends[1:])
+        return job.moments([row for part in parts for row in part])
 
 
 def _bounding_box(points: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -141,15 +138,6 @@ class _Scaled(Surface):
 
 
 @dataclass(frozen=True, eq=False)
-class _Part:
-    """What one thread has added up: the rows of its blocks, and what its faces left on their vertices."""
-
-    rows: list[Rows]
-    weights: NDArray[np.complex128] | None
-    area_weights: NDArray[np.float64] | None
-
-
-@dataclass(frozen=True, eq=False)
 class _Job:
     """One surface to be measured. points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count:
     triangles."""
@@ -163,80 +151,53 @@ class _Job:
     shell: bool
     exact: bool
 
-    def run(self, blocks: list[tuple[NDArray, bool]]) -> _Part:
-        """The sums over blocks of faces, each with whether they are quads. Safe in threads."""
-        lumped = not self.exact
-        weights = np.zeros(len(self.points), np.complex128) if lumped else None
-        area_weights = np.zeros(len(self.points)) if lumped and self.shell else None
-        size = min(EXACT_BLOCK if self.exact else BLOCK, self.count)
-        fans = Fans(self.points, self.center, size, weights=weights, area_weights=area_weights, area=self.area,
-                    shell=self.shell, exact=self.exact)
-        rows = []
-        for faces, quads in blocks:
-            if faces.min() < 0 or faces.max() >= len(self.points):
-                raise ValueError("a face names a vertex that does not exist")
-            pairs = None if quads or len(faces) < PAIRED else _pairs(faces)
-            rows.append(fans.block(pairs or list(faces.T), quads))
-        if fans.flipped:
-            flipped = np.concatenate(fans.flipped, axis=1)
-            half = max(size // 2, 1)
-            rows += [fans.block(list(flipped[:, i:i + half])) for i in range(0, flipped.shape[1], half)]
-        return _Part(rows, weights, area_weights)
+    def block(self, threads: int) -> int:
+        """The number of triangles in a block: as many as the memory allows, and a share for every thread."""
+        memory = (MEMORY[0] * self.count + MEMORY[1]) // threads
+        size = min(EXACT_BLOCK if self.exact else BLOCK, memory // (8 * Faces.size(1, self.exact)))
+        return max(1, min(size // CHUNK * CHUNK or size, -(-self.count // threads)))
 
-    def total(self, parts: list[_Part]) -> tuple[Moments, Moments]:
-        """The moments of volume and area with their bounds."""
-        rows = [row for part in parts for row in part.rows]
+    def run(self, blocks: list[tuple[NDArray, bool]], threads: int) -> list[Rows]:
+        """The sums over blocks of faces, each with whether they are quads. Safe in threads."""
+        size = self.block(threads)
+        faces = Faces(self.points, self.center, size, area=self.area, shell=self.shell, exact=self.exact)
+        rows = []
+        for block, quads in blocks:
+            if block.min() < 0 or block.max() >= len(self.points):
+                raise ValueError("a face names a vertex that does not exist")
+            pairs = None if quads or len(block) < PAIRED else _pairs(block)
+            rows.append(faces.block(pairs or list(block.T), quads))
+        if faces.flipped:
+            flipped = np.concatenate(faces.flipped, axis=1)
+            half = max(size // 2, 1)
+            rows += [faces.block(list(flipped[:, i:i + half])) for i in range(0, flipped.shape[1], half)]
+        return rows
+
+    def moments(self, rows: list[Rows]) -> tuple[Moments, Moments]:
+        """Volume and area, with their bounds."""
         bounds = _Bounds(self, rows)
-        vertices = area_vertices = np.zeros(20)
-        if not self.exact:
-            vertices, area_vertices, bounds.valence = self._vertices(parts)
-        raw = self._raw([row.sums for row in rows], vertices, np.ones(20))
+        divisors = NODES if self.exact else MIDPOINTS
+        raw = np.add.reduce(np.array([row.sums for row in rows])) / divisors
         volume = Moments(raw, self.center, "volume", *bounds.volume(raw))
         if not self.area:
             return volume, Moments(np.zeros(1), self.center, "area")
         raw = np.array([bounds.double / 2.0])
         if self.shell:
-            raw = self._raw([row.areas for row in rows], area_vertices, TO_AREA)
-        return volume, Moments(raw, self.center, "area", *bounds.of_area(raw))
-
-    def _raw(self, sums: list[NDArray], vertices: NDArray, factor: NDArray) -> NDArray[np.float64]:
-        total = np.add.reduce(np.array(sums).T.copy(), axis=1)  # pairwise
-        if self.exact:
-            return total / (SPREAD / factor)
-        return total / (CENTROIDS / factor) + vertices / (VERTICES / factor)
-
-    def _vertices(self, parts: list[_Part]) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-        """(20,) and (20,) the power sums over the vertices, for volume and area, and the most faces at one vertex."""
-        sums, areas, valence = [], [np.zeros(20)], 0.0
-        size = -(-min(BLOCK, len(self.points)) // SLICES) * SLICES
-        node, work, products, weight = (np.zeros((rows, size)) for rows in (3, 3, 6, 1))
-        for start in range(0, len(self.points), size):
-            part = slice(start, min(start + size, len(self.points)))
-            k = part.stop - start
-            np.subtract(self.points[part].T, self.center[:, None], out=node[:, :k])
-            lumps = parts[0].weights[part]
-            for other in parts[1:]:
-                lumps += other.weights[part]
-            valence = max(valence, lumps.imag.max())
-            weight[:, :k], weight[:, k:] = lumps.real, 0.0
-            sums.append(power_sums(weight[0], node, work, products, lowest=2))
-            if self.shell:
-                weight[:, :k] = sum(p.area_weights[part] for p in parts)
-                areas.append(power_sums(weight[0], node, work, products, lowest=2))
-        return np.add.reduce(np.array(sums)), np.add.reduce(np.array(areas)), valence
+            raw = np.add.reduce(np.array([row.areas for row in rows])) / (divisors / TO_AREA)
+        return volume, Moments(raw, self.center, "area", *bounds.area(raw))
 
 
 class _Bounds:
     """What the numbers may be off by, from the largest edges of each chunk of triangles and the sums of their sizes.
 
-    double: the sum of the doubled areas. valence: the most faces at one vertex, one addition each.
+    double: the sum of the doubled areas.
     """
 
     def __init__(self, job: _Job, rows: list[Rows]):
         fans = [(row.edges[:, i], row.edges[:, i + 1], row.sizes[:, i], row.counts[None])
                 for row in rows for i in range(row.sizes.shape[1])]
         self.first, self.second, self.sizes, counts = (np.concatenate(column, axis=1) for column in zip(*fans))
-        self.job, self.counts, self.blocks, self.valence = job, counts[0], len(rows), 0.0
+        self.job, self.counts, self.blocks = job, counts[0], len(rows)
         self.double = float(np.add.reduce(self.sizes[1]))
         tau = self.first[[1, 2, 0]] * self.second[[2, 0, 1]] + self.first[[2, 0, 1]] * self.second[[1, 2, 0]]
         self.tau = tau @ self.counts
@@ -248,7 +209,7 @@ class _Bounds:
             return error + 8.0 * U * np.abs(raw), np.zeros(20)
         return error + 8.0 * U * np.abs(raw), self._swept() * _powers(self.job.reach + self.job.half_ulp)
 
-    def of_area(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def area(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(k,) and (k,) `error` and `input` of area moments."""
         error = self._error(raw, 9.0 * U * self.tau.sum(), self.sizes[1]) / 2.0 + 8.0 * U * np.abs(raw)
         if not self.job.half_ulp.any():
@@ -263,16 +224,18 @@ class _Bounds:
         """The error of Σ w E[f]: the weights are off by `weight` in all; then their products with the nodes, the sums,
         what underflow may lose and the rest of the third order."""
         job, size = self.job, sizes.sum() * (1.0 + 1e-9)
-        rounding = U * (8.0 * DEGREE + PAIRWISE + 0.1 * self.blocks + self.valence)
+        rounding = U * (8.0 * DEGREE + PAIRWISE + self.blocks)
         if job.exact:
             rounding *= 3.0  # that rule's weights are not all positive
         error = (weight + rounding * (size + weight) + 1e-290 * self.counts.sum()) * _powers(job.reach)
         if not job.exact:
-            # Seen from the centroid no corner is farther than the largest edge, and one only two thirds of it.
-            x, y, z = np.maximum(self.first, self.second)
-            cubes = np.array([x * x * x, x * x * y, x * x * z, x * y * y, x * y * z, x * z * z, y * y * y, y * y * z,
-                              y * z * z, z * z * z])
-            error[10:] += (2.0 + 8.0 / 27.0) / 20.0 * (1.0 + 1e-9) * (cubes @ sizes)
+            # Seen from the centroid the corners are at most as far as a third of these sums of edges.
+            cubes = np.zeros((10, len(self.counts)))
+            for a, b in ((1.0, 1.0), (2.0, 1.0), (1.0, 2.0)):
+                x, y, z = (a * self.first + b * self.second) / 3.0
+                cubes += [x * x * x, x * x * y, x * x * z, x * y * y, x * y * z, x * z * z, y * y * y, y * y * z,
+                          y * z * z, z * z * z]
+            error[10:] += 3.0 / 40.0 * (1.0 + 1e-9) * (cubes @ sizes)
         return error[:len(raw)]
 
     def _edges(self) -> float:

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from .moments import SECOND, THIRD, Moments
 
 EQUAL = 1e-6  # moments closer than this, relatively, are equal
-SKEWED = 1e-6  # a normalised third moment below this is noise
+SKEWED = 1e-5  # a normalised third moment below this is noise: ten times what float32 coordinates make
 RANKED = 1e-4  # scores closer than this, relatively, are equally clear
 
 NOTES = {

@@ -7,7 +7,6 @@ from fractions import Fraction
 import bpy
 import numpy as np
 import pytest
-
 from body_moments.operators.measure import MeasureOptions, measure_object
 from body_moments.operators.read import Unreadable
 

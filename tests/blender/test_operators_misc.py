@@ -165,8 +165,8 @@ def test_faults_of_a_result_of_modifiers_are_not_selected_in_the_mesh():
 
 
 def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets_it():
-    from body_moments.core.materials import BY_NAME
     from body_moments.core.decimal import decimal
+    from body_moments.core.materials import BY_NAME
 
     one, other = add(mesh_body(), "One"), add(mesh_body(), "Other")
     only(one, other)

@@ -3,8 +3,8 @@
 """Moments of polyhedra in rational arithmetic, and closed forms: truths without a tolerance.
 
 Floats are dyadic fractions, so the moments of a mesh of floats are rational numbers; they are found here with integers
-of any length. The formula is that of Sheynin and Tuzikov by its generating function 1 / ((1-a·t)(1-b·t)(1-c·t)), not the
-quadrature that the add-on uses.
+of any length. The formula is that of Sheynin and Tuzikov by its generating function 1 / ((1-a·t)(1-b·t)(1-c·t)), not
+the quadrature that the add-on uses.
 """
 
 from __future__ import annotations

@@ -6,7 +6,6 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-
 from body_moments.core.mass import MassProperties, combined
 from body_moments.core.moments import Moments, monomials, sum_moments
 

@@ -7,7 +7,6 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-
 from body_moments.core.moments import (
     Moments,
     are_similarities,

@@ -24,7 +24,9 @@ def path(request, monkeypatch):
     monkeypatch.setattr(polyhedron, "BLOCK", 16)
     monkeypatch.setattr(polyhedron, "EXACT_BLOCK", 16)
     monkeypatch.setattr(polyhedron, "PAIRED", 0)
-    monkeypatch.setattr(blocks, "CHUNK", 4)
+    monkeypatch.setattr(blocks, "CHUNK", 8)
+    monkeypatch.setattr(polyhedron, "CHUNK", 8)
+    monkeypatch.setattr(polyhedron, "LEAST", 8)
     if request.param == "fast":
         monkeypatch.setattr(polyhedron, "EXACT", 0)
     return request.param
@@ -162,7 +164,7 @@ def test_exact_third_moments_are_right_to_their_rounding_bound(monkeypatch, seed
     assert_within(moments, exact.volume_moments(points, surface.triangles, moments.about))
     assert moments.error[10:].max() < 1e-12
     coarse = polyhedron.solid_moments(surface)
-    assert coarse.error[10:].max() > 1e-6  # the lumped rule says what it leaves out
+    assert coarse.error[10:].max() > 1e-6  # the plain rule says what it leaves out
     assert_within(coarse, exact.volume_moments(points, surface.triangles, coarse.about))
 
 
@@ -337,6 +339,7 @@ def test_pairs_of_triangles_are_found_however_their_corners_are_turned(path, fir
 
 def test_threads_give_the_serial_result_to_the_bound(monkeypatch):
     monkeypatch.setattr(polyhedron, "BLOCK", 64)
+    monkeypatch.setattr(polyhedron, "LEAST", 64)
     monkeypatch.setattr(polyhedron, "EXACT", 0)
     points, quads = grid_torus(30, 20, noise=0.02)
     points = points.astype(np.float32)
@@ -348,7 +351,7 @@ def test_threads_give_the_serial_result_to_the_bound(monkeypatch):
 
 
 def test_errors_in_threads_reach_the_caller(monkeypatch):
-    monkeypatch.setattr(polyhedron, "BLOCK", 64)
+    monkeypatch.setattr(polyhedron, "LEAST", 64)
     points, quads = grid_torus(30, 20)
     quads[-1, -1] = 600
     with pytest.raises(ValueError, match="vertex"):
@@ -410,11 +413,11 @@ def test_memory_is_bounded_by_blocks():
     import tracemalloc
 
     points, quads = grid_torus(500, 400)
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    surface = Surface(points, triangles)
-    for threads in (1, 2):
-        tracemalloc.start()
-        polyhedron.solid_moments(surface, threads)
-        peak = tracemalloc.get_traced_memory()[1]
-        tracemalloc.stop()
-        assert peak <= 16 * len(triangles) + 8_000_000
+    loose = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    for surface in (Surface(points, loose), Surface(points.astype(np.float32), quads=quads)):
+        for threads in (1, 2):
+            tracemalloc.start()
+            polyhedron.solid_and_area(surface, threads, True)
+            peak = tracemalloc.get_traced_memory()[1]
+            tracemalloc.stop()
+            assert peak <= 16 * len(loose) + 8_000_000

@@ -5,7 +5,6 @@ taken nearest to the preferred axes and said."""
 
 import numpy as np
 import pytest
-
 from body_moments.core.moments import Moments, monomials, sum_moments
 from body_moments.core.pose import principal_frame
 
@@ -32,7 +31,8 @@ def tetrahedron():
     import math
     f = math.factorial
     raw = [f(p) * f(q) * f(r) / f(p + q + r + 3) for p, q, r in monomials(3).tolist()]
-    return Moments(np.array(raw), np.zeros(3)).mapped([[1, 0.3, -0.2, 0], [0.1, 2, 0.5, 0], [0.4, 0, 3, 0], [0, 0, 0, 1]])
+    shear = [[1, 0.3, -0.2, 0], [0.1, 2, 0.5, 0], [0.4, 0, 3, 0], [0, 0, 0, 1]]
+    return Moments(np.array(raw), np.zeros(3)).mapped(shear)
 
 
 UNIQUE = {
@@ -78,8 +78,10 @@ def test_two_mirror_images_have_mirrored_frames_but_both_are_right_handed():
 def test_the_two_clearest_axes_have_positive_third_moments():
     for body in UNIQUE.values():
         frame = principal_frame(body)
-        third = np.einsum("abc,ai,bi,ci->i", body.about_center().third(), *[frame.axes] * 3)
-        scores = third / (body.total * np.diag(frame.axes.T @ body.about_center().second() @ frame.axes / body.total) ** 1.5)
+        central = body.about_center()
+        third = np.einsum("abc,ai,bi,ci->i", central.third(), *[frame.axes] * 3)
+        spread = np.diag(frame.axes.T @ central.second() @ frame.axes) / body.total
+        scores = third / (body.total * spread**1.5)
         clearest = np.argsort(np.abs(scores))[1:]
         assert (scores[clearest] > 0).all() or np.abs(scores[clearest]).min() < 1e-6
 

@@ -83,7 +83,7 @@ def one_document(*measurements, errors=(), frame="world", **options):
 def test_a_record_has_the_keys_of_the_contract_in_its_order():
     assert list(record.record(box())) == [
         *("name", "type", "kind", "method", "density", "mass", "volume", "area", "center_of_mass"),
-        *("inertia", "principal_moments", "principal_axes", "symmetry"),
+        *("inertia", "principal_moments", "principal_axes", "symmetry", "principal_axes_unique"),
         *("health", "error_bound", "warnings"),
     ]
     keys = ["schema", "blender", "file", "frame", "objects", "total", "errors"]

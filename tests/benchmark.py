@@ -1,0 +1,286 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Times and ratios against trimesh, libigl, Blender's BMesh and the floor of reading and gathering, from one run.
+
+    python tests/benchmark.py [--quick]
+
+Every table interleaves its rows in one process, so that its ratios hold whatever else the machine does. It prints
+medians and least times and asserts nothing: a busy machine is no failure. What is not installed is left out.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import os
+import platform
+import statistics
+import sys
+import tempfile
+import time
+import tracemalloc
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def load_package() -> None:
+    """The project's root as the package `body_moments`, whatever its folder is called."""
+    spec = importlib.util.spec_from_file_location(
+        "body_moments", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)])
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["body_moments"] = module
+    spec.loader.exec_module(module)
+
+
+load_package()
+
+from body_moments.core.mass import MassProperties  # noqa: E402
+from body_moments.core.polyhedron import solid_and_area, solid_moments, third_moments_exact  # noqa: E402
+from body_moments.core.surface import Surface  # noqa: E402
+
+
+def torus(n: int, m: int, noise: float, lopsided: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """A closed torus of n x m quads, index-local: points, and quads as corners. noise: of every coordinate, as a share
+    of the shorter edges. lopsided: bent so that it has no symmetry."""
+    u, v = np.meshgrid(np.arange(n) * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij")
+    points = np.stack([(1 + 0.4 * np.cos(v)) * np.cos(u), (1 + 0.4 * np.cos(v)) * np.sin(u), 0.4 * np.sin(v)], axis=-1)
+    points = points.reshape(-1, 3)
+    points += noise * 0.8 * np.pi / m * np.random.default_rng(0).standard_normal(points.shape)
+    if lopsided:
+        points[:, 0] *= 1.2 + 0.2 * points[:, 0]
+        points[:, 2] += 0.3 * points[:, 0] ** 2 + 0.1 * points[:, 1]
+        points[:, 1] *= 1.0 + 0.2 * points[:, 2] + 0.1 * points[:, 0]
+    i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
+    corners = [(i, j), ((i + 1) % n, j), ((i + 1) % n, (j + 1) % m), (i, (j + 1) % m)]
+    return points, np.stack([(a * m + b).ravel() for a, b in corners], axis=1).astype(np.int32)
+
+
+def measure_arrays(points: np.ndarray, triangles: np.ndarray, threads: int = 1) -> MassProperties:
+    """The whole path: volume, centre, inertia and the principal frame with its signs."""
+    surface = Surface(points, triangles)
+    refine = lambda: third_moments_exact(surface, threads)  # noqa: E731
+    return MassProperties.from_moments(solid_moments(surface, threads), refine=refine)
+
+
+def gather(points: np.ndarray, faces: np.ndarray) -> None:
+    """The floor: subtract a reference point and fetch every corner's coordinates, in blocks."""
+    size = 16384
+    flat = (points - points[0]).reshape(-1)
+    for start in range(0, len(faces), size):
+        index = np.multiply(faces[start:start + size].T, 3, dtype=np.intp)
+        for axis in range(3):
+            flat[axis:].take(index, mode="clip")
+
+
+def interleaved(rows: dict[str, Callable[[], object]], rounds: int) -> dict[str, list[float]]:
+    """Seconds of each row, a round at a time, after one round that does not count."""
+    times: dict[str, list[float]] = {name: [] for name in rows}
+    for round_ in range(rounds + 1):
+        for name, function in rows.items():
+            start = time.perf_counter()
+            function()
+            if round_:
+                times[name].append(time.perf_counter() - start)
+    return times
+
+
+def table(title: str, times: dict[str, list[float]], against: list[str], per: int | None = None) -> None:
+    """Print medians, least times and the ratios of the medians (and of the least times) to some of the rows."""
+    print("\n" + title)
+    head = "".join("{:>22s}".format("/ " + name) for name in against)
+    unit = "ns a triangle" if per else ""
+    print("    {:<40s}{:>10s}{:>10s}{:>15s}{:s}".format("", "median ms", "least ms", unit, head))
+    for name, values in times.items():
+        median, least = statistics.median(values), min(values)
+        ratios = "".join("{:>22s}".format("{:.2f} ({:.2f})".format(median / statistics.median(times[other]),
+                                                                   least / min(times[other]))) for other in against)
+        each = "{:.1f}".format(median / per * 1e9) if per else ""
+        print("    {:<40s}{:>10.1f}{:>10.1f}{:>15s}{:s}".format(name, median * 1e3, least * 1e3, each, ratios))
+
+
+def optional(name: str):
+    """A module, or None where it is not installed."""
+    return importlib.import_module(name) if importlib.util.find_spec(name) else None
+
+
+def arrays(side: int, rounds: int) -> None:
+    plain, lopsided = torus(side, side, 0.05), torus(side, side, 0.05, lopsided=True)
+    compare("triangulated quads, noisy torus", *plain, True, rounds)
+    compare("triangulated quads, lopsided body", *lopsided, True, rounds)
+    compare("loose triangles, noisy torus", *plain, False, rounds)
+
+
+def compare(title: str, points: np.ndarray, quads: np.ndarray, paired: bool, rounds: int) -> None:
+    """A body in arrays, its quads cut into triangles that follow each other in pairs or do not."""
+    trimesh, igl = optional("trimesh"), optional("igl")
+    halves = quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]
+    triangles = np.stack(halves, axis=1).reshape(-1, 3) if paired else np.concatenate(halves)
+    indices = triangles.astype(np.int64)
+    ours = {"ours with frame, 1 thread": lambda: measure_arrays(points, triangles),
+            "ours with frame, 2 threads": lambda: measure_arrays(points, triangles, 2)}
+    rows = ours | {"gather only": lambda: gather(points, triangles)}
+    if igl:
+        rows["igl.moments"] = lambda: igl.moments(points, indices)
+    if trimesh:
+        rows["trimesh mass_properties"] = lambda: trimesh.triangles.mass_properties(points[triangles])
+    times = interleaved(rows, rounds)
+    others = [name for name in rows if name not in ours]
+    table("{:,} triangles in arrays: {:s}".format(len(triangles), title), times, others, len(triangles))
+    if trimesh:
+        print("    faster than trimesh: {:.1f}x on one thread, {:.1f}x on two".format(*(
+            statistics.median(times["trimesh mass_properties"]) / statistics.median(times[name]) for name in ours)))
+
+
+def memory(side: int) -> None:
+    points, quads = torus(side, side, 0.05)
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    print("\nextra memory, {:,} triangles (16 bytes a triangle + 8 MB are {:.1f} MB)".format(
+        len(triangles), (16 * len(triangles) + 8e6) / 1e6))
+    for threads in (1, 2):
+        tracemalloc.start()
+        measure_arrays(points, triangles, threads)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        print("    {:<40s}{:>10.1f} MB".format("{:d} thread{:s}".format(threads, "s" * (threads > 1)), peak / 1e6))
+
+
+def latency(rounds: int) -> None:
+    points, quads = torus(10, 15, 0.05)
+    triangles = np.stack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
+    rows = {"ours: moments": lambda: solid_moments(Surface(points, triangles)),
+            "ours: with frame": lambda: measure_arrays(points, triangles)}
+    if trimesh := optional("trimesh"):
+        rows["trimesh mass_properties"] = lambda: trimesh.triangles.mass_properties(points[triangles])
+    print("\n{:d} triangles".format(len(triangles)))
+    for name, values in interleaved(rows, 100 * rounds).items():
+        print("    {:<40s}{:>10.0f} us median{:>10.0f} us least".format(name, statistics.median(values) * 1e6,
+                                                                        min(values) * 1e6))
+
+
+def mesh_object(name: str, points: np.ndarray, quads: np.ndarray):
+    """A mesh object of quads, linked to the scene."""
+    import bpy
+
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(len(points))
+    mesh.attributes["position"].data.foreach_set("vector", points.astype(np.float32).reshape(-1))
+    if len(quads):
+        mesh.loops.add(quads.size)
+        mesh.attributes[".corner_vert"].data.foreach_set("value", quads.reshape(-1))
+        mesh.polygons.add(len(quads))
+        mesh.polygons.foreach_set("loop_start", np.arange(0, quads.size, 4, dtype=np.int32))
+        mesh.update(calc_edges=True)
+    made = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(made)
+    return made
+
+
+def read_floor(mesh) -> Surface:
+    """Read a mesh's positions and corners, and nothing else."""
+    points = np.empty((len(mesh.vertices), 3), np.float32)
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.attributes["position"].data.foreach_get("vector", points.reshape(-1))
+    mesh.attributes[".corner_vert"].data.foreach_get("value", corners)
+    return Surface(points, quads=corners.reshape(-1, 4))
+
+
+def blender(side: int, rounds: int) -> None:
+    import bmesh
+    import bpy
+    from body_moments.operators.measure import MeasureOptions, measure_object
+    from body_moments.operators.read import read_object
+
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    body = mesh_object("Torus", *torus(side, side, 0.05))
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+
+    def moments_only(threads: int) -> None:
+        (part,) = read_object(body, depsgraph).parts
+        volume = solid_and_area(part.surface, threads)[0].mapped(part.matrices[0])
+        MassProperties.from_moments(volume, refine=lambda: third_moments_exact(part.surface, threads))
+
+    def floor() -> None:
+        surface = read_floor(body.evaluated_get(depsgraph).to_mesh())
+        gather(surface.points.astype(np.float64), surface.quads)
+
+    def by_bmesh() -> None:
+        edited = bmesh.new()
+        edited.from_object(body, depsgraph)
+        edited.calc_volume(signed=True)
+        edited.free()
+
+    rows = {"mass properties, 1 thread": lambda: moments_only(1),
+            "mass properties, 2 threads": lambda: moments_only(2),
+            "with the full verdict, 1 thread": lambda: measure_object(body, depsgraph, MeasureOptions(threads=1)),
+            "with the full verdict, 2 threads": lambda: measure_object(body, depsgraph, MeasureOptions(threads=2)),
+            "read and gather only": floor,
+            "bmesh from_object + calc_volume": by_bmesh}
+    times = interleaved(rows, rounds)
+    table("evaluated mesh of {:,} quads, Blender {:s}".format(side * side, bpy.app.version_string), times,
+          ["read and gather only", "bmesh from_object + calc_volume"], 2 * side * side)
+    bpy.data.objects.remove(body)
+
+
+def instances(count: int, rounds: int) -> None:
+    import bpy
+    from body_moments.operators.measure import MeasureOptions, measure_object
+    from body_moments.operators.read.mesh import mesh_surface
+
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    source = mesh_object("Source", *torus(100, 100, 0.05))
+    ground = mesh_object("Ground", np.random.default_rng(1).uniform(-100.0, 100.0, (count, 3)),
+                         np.empty((0, 4), np.int32))
+    group = bpy.data.node_groups.new("Scatter", "GeometryNodeTree")
+    for direction in ("INPUT", "OUTPUT"):
+        group.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
+    start, end, info, scatter = (group.nodes.new(name) for name in (
+        "NodeGroupInput", "NodeGroupOutput", "GeometryNodeObjectInfo", "GeometryNodeInstanceOnPoints"))
+    info.inputs["Object"].default_value = source
+    info.inputs["As Instance"].default_value = True
+    group.links.new(start.outputs[0], scatter.inputs["Points"])
+    group.links.new(info.outputs["Geometry"], scatter.inputs["Instance"])
+    group.links.new(scatter.outputs[0], end.inputs[0])
+    ground.modifiers.new("Scatter", "NODES").node_group = group
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+
+    def floor() -> None:
+        cloud = ground.evaluated_get(depsgraph).evaluated_geometry().instances_pointcloud()
+        matrices = np.empty(16 * len(cloud.points), np.float32)
+        cloud.attributes["instance_transform"].data.foreach_get("value", matrices)
+        mesh_surface(source.evaluated_get(depsgraph).data)
+
+    rows = {"measure, 1 thread": lambda: measure_object(ground, depsgraph, MeasureOptions(threads=1)),
+            "read the matrices and the mesh": floor}
+    table("{:,} instances of {:,} faces".format(count, 10_000), interleaved(rows, rounds),
+          ["read the matrices and the mesh"])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="a tenth of the faces, fewer rounds")
+    quick = parser.parse_args().quick
+    side, rounds = (316, 5) if quick else (1000, 9)
+    print("Python {:s}, numpy {:s}, {:s}, {:d} processors".format(
+        platform.python_version(), np.__version__, platform.machine(), os.cpu_count() or 1))
+    arrays(side, rounds)
+    memory(side)
+    latency(rounds)
+    if not optional("bpy"):
+        print("\nThere is no bpy here: reading from Blender was not measured.")
+        return
+    with tempfile.TemporaryDirectory(prefix="body_moments_user_") as folder:
+        os.environ["BLENDER_USER_RESOURCES"] = folder
+        import bpy  # noqa: F401
+
+        sys.modules["body_moments"].register()
+        blender(side, rounds)
+        instances(1000 if quick else 10_000, rounds)
+        sys.modules["body_moments"].unregister()
+
+
+if __name__ == "__main__":
+    main()
