@@ -2,13 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The inner loop of `polyhedron`: triangles and pairs of triangles, a block at a time, in scratch that is made once.
 
-A face of three or four corners is the fan of its first corner: the triangles 0, 1, 2 and perhaps 0, 2, 3. A pair has
-five edges where two triangles have six, and so five midpoints.
+A face is a base a-c with a corner b on one side, and perhaps a corner d on the other: the triangles a, b, c and
+a, c, d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (v b + w d),
+
+    H = u (a a' + c c') + 2 (v b b' + w d d')
+    120 ∫ x x'     = H + (q Z' + Z q') / 2
+    288 ∫ x x' x'' = q H + the same for the other two orders of the indices, but for the third moments about q / 2.
+
+Those are, of one triangle with e = c - a and f = 2 b - q, v / 2880 (f (f f' + e e') + the other two orders), of the
+order of an edge cubed. They are added on request. No sum cancels what it holds: all its weights are positive.
 
 Corners are gathered by component, so that every numpy call runs along contiguous rows. A call costs as much as ten
 thousand additions, memory beyond the cache twice as much as within: hence blocks, few calls, and results written over
-rows that are no longer needed. Products are summed over a few slices of their rows, not along them, so that einsum
-multiplies and adds in one pass.
+rows that are no longer needed. Products are summed over slices of their rows, not along them: einsum then multiplies
+and adds in one pass, into rows that stay in the cache.
 """
 
 from __future__ import annotations
@@ -21,20 +28,25 @@ from numpy.typing import NDArray
 
 from .surface import flipped_quads
 
-SLICES = 8  # of a row that einsum adds up
-CHUNK = 256  # columns that share one bound of their edges; a multiple of SLICES
+SLICES = 16  # of a row that einsum adds up
+CHUNK = 512  # columns that share one bound of their edges; a multiple of SLICES
 FLIP_MARGIN = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
-EXACT = np.array([25.0, 25.0, 25.0, -27.0])[:, None]  # 48 times the weights of the exact rule's nodes
+TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
+# Where, in a table of x, y, z times x, y, z and in one of x, y, z times xx, xy, xz, yy, yz, zz, the terms of the
+# symmetric products stand: two of each xx, xy, ... and three of each xxx, xxy, ...
+SQUARE = np.array([[3 * i + j, 3 * j + i] for i in range(3) for j in range(i, 3)])
+TENSOR = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
+CUBE = np.array([[6 * i + TENSOR[j, k], 6 * j + TENSOR[i, k], 6 * k + TENSOR[i, j]] for i, j, k in TRIPLES])
 
 
 @dataclass(frozen=True, eq=False)
 class Rows:
     """What one block adds.
 
-    sums, areas: (20,) Σ weight node^α to order 3 (see `power_sums`). The weights are the determinants or the doubled
-    areas of the triangles, the nodes those of the rule; order 0 is the sum of the determinants or doubled areas alone.
-    edges: (3, corners - 1, chunks) the largest components of the fans' edges in each chunk of faces.
+    sums, areas: (20,) Σ weight, 48, 120 and 2880 ∫ of the monomials of first to third order in the order of
+    `moments.monomials`, over the cones, and over their faces as if they were cones of unit height.
+    edges: (3, corners - 1, chunks) the largest components of b-a, c-a (and d-a) in each chunk of faces.
     sizes: (2, corners - 2, chunks) Σ |determinant| and Σ doubled area. counts: (chunks,) faces.
     """
 
@@ -45,61 +57,39 @@ class Rows:
     counts: NDArray[np.int64]
 
 
-def power_sums(weights: NDArray, nodes: NDArray, work: NDArray, products: NDArray) -> NDArray[np.float64]:
-    """(20,) Σ w x^p y^q z^r for 1 ≤ p+q+r ≤ 3, in the order of `moments.monomials`, and zero for order 0.
-
-    weights: (n, k) or (1, k). nodes: (3, n, k), k a multiple of SLICES. work: (3, n, k), products: (6, n, k).
-    """
-    total = np.zeros(20)
-    np.multiply(nodes, weights, out=work)
-    np.add.reduce(work.reshape(3, -1), axis=1, out=total[1:4])
-    np.multiply(nodes, work[0], out=products[:3])
-    np.multiply(nodes[1:], work[1], out=products[3:5])
-    np.multiply(nodes[2], work[2], out=products[5])
-    np.add.reduce(products.reshape(6, -1), axis=1, out=total[4:10])
-    slices = SLICES * nodes.shape[1]
-    x, y, z = nodes.reshape(3, slices, -1)
-    products, cubes = products.reshape(6, slices, -1), work.reshape(3 * slices, -1)[:10]
-    np.einsum("pjk,jk->pk", products, x, out=cubes[:6])
-    np.einsum("pjk,jk->pk", products[3:], y, out=cubes[6:9])
-    np.einsum("jk,jk->k", products[5], z, out=cubes[9])
-    np.add.reduce(cubes, axis=1, out=total[10:])
-    return total
-
-
 class _Scratch:
     """Contiguous rows for blocks of one shape, carved out of one buffer; some share memory when their times differ.
 
-    index: (c, k). corners: (3, c, k), edges: (3, c-1, k), normals, minus: (3, c-2, k), later all products: (6, n, k).
-    det, double: (c-2, k). nodes, work: (3, n, k), weights: (n, k), n the number of nodes of a face.
+    index: (c, k). corners, weighted: (3, c, k). weights: (c, k). edges: (3, c-1, k), later tensors: (6, k).
+    normals and minus: (3, c-2, k), later local: (6, c-2, k). det, double: (c-2, k). middle, both, all: (3, k).
     """
 
     def __init__(self, buffer: NDArray, count: int, k: int, exact: bool):
         fans = count - 2
-        number = _nodes(count, exact)
         position = -(buffer.ctypes.data // 8) % 8
 
-        def rows(*shape: int) -> NDArray[np.float64]:
+        def rows(number: int) -> NDArray[np.float64]:
             # 64-byte aligned and 64 bytes apart: numpy < 2 leaves its vector loop where output ends at input's start
             nonlocal position
-            size = k
-            for length in shape:
-                size *= length
-            start, position = position, position + size + 8
-            return buffer[start:start + size].reshape(*shape, k)
+            start, position = position, position + number * k + 8
+            return buffer[start:start + number * k]
 
-        self.index = rows(count).view(np.intp)
-        self.nodes, self.work = rows(3, number), rows(3, number)
-        self.weights, self.double = rows(number if exact or fans == 2 else 1), rows(fans)
-        self.det = rows(fans) if exact else self.weights[:4:2]
-        start = position
-        self.corners, self.edges = rows(3, count), rows(3, count - 1)
-        self.normals, self.minus = rows(3, fans), rows(3, fans)
-        position = start
-        self.products = rows(6, number)
+        self.index = rows(count).view(np.intp).reshape(count, k)
+        self.corners, self.weights = rows(3 * count).reshape(3, count, k), rows(count).reshape(count, k)
+        self.det, self.double = rows(fans).reshape(fans, k), rows(fans).reshape(fans, k)
+        self.middle, self.both, self.all = rows(3).reshape(3, k), rows(3).reshape(3, k), rows(3).reshape(3, k)
+        room = rows(max(3 * count - 3, 6))
+        self.edges = room[:3 * (count - 1) * k].reshape(3, count - 1, k)
+        self.tensors = room[:6 * k].reshape(6, k)
+        room = rows(3 * count)
+        self.weighted, self.heavy = room.reshape(3, count, k), room[:6 * fans * k].reshape(6, fans, k)
+        self.single = room.view(np.float32)[:3 * count * k].reshape(3, count, k)
+        room = rows(6 * fans)
+        self.normals, self.minus = room.reshape(2, 3, fans, k)
+        self.local = room.reshape(6, fans, k)
+        self.offsets = room[:count * k].view(np.intp).reshape(count, k)
+        self.tips = rows(3 * fans).reshape(3, fans, k) if exact else None
         self.apex, self.first, self.second = self.corners[:, :1], self.edges[:, :-1], self.edges[:, 1:]
-        self.offsets = self.normals.reshape(-1)[:count * k].view(np.intp).reshape(count, k)
-        self.single = self.edges.reshape(-1).view(np.float32)[:3 * count * k].reshape(3, count, k)
         self.chunk = min(k, CHUNK)
 
     def chunks(self, rows: NDArray) -> NDArray[np.float64]:
@@ -107,41 +97,36 @@ class _Scratch:
         return rows.reshape(*rows.shape[:-1], -1, self.chunk)
 
 
-def _nodes(count: int, exact: bool) -> int:
-    return 4 * (count - 2) if exact else 2 * count - 3
-
-
 class Faces:
     """The loop body for blocks of up to `triangles` triangles.
 
     points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. area: whether doubled areas are
-    wanted, shell: also their power sums. exact: whether the nodes are those of the rule for third order.
+    wanted, shell: also their moments. exact: whether the third order is.
     """
 
     def __init__(self, points: NDArray, center: NDArray, triangles: int, *, area: bool, shell: bool, exact: bool):
         self.points, self.flat, self.center = points, points.reshape(-1), center
         self.area, self.shell, self.exact = area, shell, exact
-        self.buffer = np.empty(self.size(triangles + 2 * CHUNK, exact) + 16 * 10)
+        self.buffer = np.empty(self.size(triangles + 2 * CHUNK) + 16 * 8)
         self.scratch: dict[tuple[int, int], _Scratch] = {}
         self.flipped: list[NDArray] = []
 
     @staticmethod
-    def size(triangles: int, exact: bool) -> int:
+    def size(triangles: int) -> int:
         """The numbers that the scratch for so many triangles holds."""
-        return (61 if exact else 46) * triangles
+        return 50 * triangles
 
     def block(self, faces: Sequence[NDArray], quads: bool = False) -> Rows:
         """The sums over some faces.
 
-        faces: the vertices of their first, second, third and perhaps fourth corners, (k,) each. quads: leave those out
-        that Blender cuts along the other diagonal, and append them to `flipped`, turned by one corner; otherwise the
-        first diagonal is taken.
+        faces: the vertices a, b, c and perhaps d, (k,) each. quads: leave those out that Blender cuts along the other
+        diagonal, and append them to `flipped`, turned by one corner; otherwise the first diagonal is taken.
         """
         k = len(faces[0])
         own = self._shaped(len(faces), k)
         for row, corner in zip(own.index, faces):
-            row[:len(corner)] = corner
-            row[len(corner):] = faces[0][0]  # filled up with faces that are a point
+            row[:k] = corner
+            row[k:] = faces[0][0]  # filled up with faces that are a point
         self._gather(own)
         normals = own.normals
         np.subtract(own.corners[:, 1:], own.apex, out=own.edges)
@@ -163,11 +148,13 @@ class Faces:
             np.sqrt(own.double, out=own.double)
         if len(flipped):
             own.det[:, flipped] = own.double[:, flipped] = 0.0
-        sizes = np.zeros((2, *largest.shape[1:]))[:, 1:]
+        sizes = np.zeros((2, len(own.det), largest.shape[2]))
         np.add.reduce(own.chunks(np.abs(own.det, out=own.minus[0])), axis=2, out=sizes[0])
         if self.area:
             np.add.reduce(own.chunks(own.double), axis=2, out=sizes[1])
-        (self._exact_nodes if self.exact else self._midpoints)(own)
+        if self.exact:
+            self._prepare(own)
+        np.add(own.corners[:, 0], own.corners[:, 2], out=own.middle)
         sums = self._summed(own, own.det)
         areas = self._summed(own, own.double) if self.shell else None
         return Rows(sums, areas, largest, sizes, np.minimum(np.arange(k, 0, -own.chunk), own.chunk))
@@ -214,38 +201,48 @@ class Faces:
         self.flipped.append(np.roll(quads[:, turn], -1, axis=0))
         return suspects[turn]
 
-    def _midpoints(self, own: _Scratch) -> None:
-        """The nodes of the plain rule, twice as far out as they are: those of edges 0-1, 1-2, ... and the diagonal."""
-        corners, nodes, count = own.corners, own.nodes, len(own.index)
-        np.add(corners[:, :-1], corners[:, 1:], out=nodes[:, :count - 1])
-        np.add(corners[:, -1], corners[:, 0], out=nodes[:, count - 1])
-        if count == 4:
-            np.add(corners[:, 0], corners[:, 2], out=nodes[:, 4])
-
-    def _exact_nodes(self, own: _Scratch) -> None:
-        """The nodes of the exact rule, fifteen times as far out as they are: for each triangle 3 (s + 2 corner) and
-        last 5 s, s being the sum of its corners."""
-        corners, nodes = own.corners, own.nodes
-        np.add(corners[:, 1:-1], corners[:, 2:], out=nodes[:, 3::4])
-        np.add(nodes[:, 3::4], own.apex, out=nodes[:, 3::4])
-        np.multiply(corners, 6.0, out=corners)
-        for node, corner in ((2, corners[:, 2:]), (1, corners[:, 1:-1]), (0, own.apex)):
-            np.multiply(nodes[:, 3::4], 3.0, out=nodes[:, node::4])
-            np.add(nodes[:, node::4], corner, out=nodes[:, node::4])
-        np.multiply(nodes[:, 3::4], 5.0, out=nodes[:, 3::4])
+    def _prepare(self, own: _Scratch) -> None:
+        """`tips`, the vectors f, and `local`, f f' + e e', of every triangle."""
+        base, squares = own.edges[:, 1], own.heavy[:, 0]
+        np.add(own.edges[:, ::2], own.edges[:, ::2], out=own.tips)
+        np.subtract(own.tips, base[:, None], out=own.tips)
+        for vectors, tensors in ((own.tips, own.local), (base, squares)):
+            np.multiply(vectors, vectors[0], out=tensors[:3])
+            np.multiply(vectors[1:], vectors[1], out=tensors[3:5])
+            np.multiply(vectors[2], vectors[2], out=tensors[5])
+        np.add(own.local, squares[:, None], out=own.local)
 
     def _summed(self, own: _Scratch, weights: NDArray) -> NDArray[np.float64]:
-        """(20,) the power sums over the nodes with the weights of the triangles, and the weights' own sum."""
-        fans, k = weights.shape
-        total = np.add.reduce(np.add.reduce(weights, axis=1))
-        if self.exact:
-            np.multiply(weights[:, None], EXACT, out=own.weights.reshape(fans, 4, k))
+        """(20,) the block's sums with these weights of its triangles."""
+        total = np.empty(20)
+        corners, weighted = own.corners, own.weighted
+        total[0] = np.add.reduce(np.add.reduce(weights, axis=1))
+        np.add(weights, weights, out=own.weights[1::2])
+        if len(weights) == 2:
+            np.add(weights[0], weights[1], out=own.weights[0])
         else:
-            if weights is not own.det:
-                own.det[...] = weights
-            if fans == 2:  # of the midpoints the first two belong to the first triangle, the next two to the second
-                own.weights[1:4:2] = weights
-                np.add(weights[0], weights[1], out=own.weights[4])
-        sums = power_sums(own.weights, own.nodes, own.work, own.products)
-        sums[0] = total
-        return sums
+            own.weights[0] = weights[0]
+        own.weights[2] = own.weights[0]
+        np.multiply(corners, own.weights, out=weighted)
+        np.einsum("nk,dnk->dk", weighted[0], corners, out=own.tensors[:3])
+        np.einsum("nk,dnk->dk", weighted[1], corners[1:], out=own.tensors[3:5])
+        np.einsum("nk,nk->k", weighted[2], corners[2], out=own.tensors[5])
+        np.add(weighted[:, 0], weighted[:, 2], out=own.both)
+        np.add(own.both, weighted[:, 1], out=own.all)
+        if len(weights) == 2:
+            np.add(own.all, weighted[:, 3], out=own.all)
+        total[1:4] = np.add.reduce(own.all, axis=1) + np.add.reduce(own.both, axis=1)
+        mixed = _products(own.middle, own.all)
+        total[4:10] = np.add.reduce(own.tensors, axis=1) + 0.5 * np.add.reduce(mixed.take(SQUARE), axis=1)
+        third = 10.0 * _products(own.middle, own.tensors)
+        if self.exact:
+            np.multiply(own.local, weights, out=own.heavy)
+            third += _products(own.tips.reshape(3, -1), own.heavy.reshape(6, -1))
+        np.add.reduce(third.take(CUBE), axis=1, out=total[10:])
+        return total
+
+
+def _products(vectors: NDArray, others: NDArray) -> NDArray[np.float64]:
+    """(m, n) the scalar products of (m, k) rows with (n, k) rows."""
+    return np.add.reduce(np.einsum("cjk,pjk->cpk", vectors.reshape(len(vectors), SLICES, -1),
+                                   others.reshape(len(others), SLICES, -1)), axis=2)

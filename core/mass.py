@@ -87,7 +87,9 @@ def combined(bodies: Sequence[tuple[Moments, float]], prefer: NDArray | None = N
 def _bounds(moments: Moments, density: float, delta: NDArray, rounded: bool) -> dict[str, float]:
     """First-order propagation with the divisor at its smallest: bounds of what moments off by `delta` change."""
     total = moments.raw[0]
-    least = max(total - delta[0], np.finfo(float).tiny)
+    if not total > 2.0 * delta[0]:  # then nothing bounds a quotient
+        return {"mass": float(abs(density) * delta[0]), "center": float("inf"), "inertia": float("inf")}
+    least = total - delta[0]
     first, shift = np.abs(moments.raw[1:4]), np.abs(moments.raw[1:4]) / total
     center = np.linalg.norm((delta[1:4] + shift * delta[0]) / least)
     cross = np.outer(delta[1:4], shift)

@@ -210,12 +210,12 @@ def _bounds_of_one(moments: Moments, linear: NDArray, offset: NDArray, slack: ND
     """As `_bounds` for one map, moment by moment: the recursion itself on absolute values."""
     order, reach = moments.order, (np.abs(linear), np.abs(offset))
     error, mapped_input = (_horner(bound, order, *reach)[:, 0] for bound in (moments.error, moments.input))
-    size = _horner(np.abs(moments.raw) + moments.error + moments.input, order, reach[0], reach[1] + slack)[:, 0]
+    size = _horner(np.abs(moments.raw) + moments.error, order, reach[0], reach[1] + slack)[:, 0]
     rounding = weight * error + weight_error * size
     for axis, raised in enumerate(_raised(order) if order else ()):
         moved = monomials(order)[raised, axis] * slack * weight * size[:len(raised)]
         rounding[raised] += moved
-    return rounding, weight * (mapped_input + deviation * size)
+    return rounding, weight * (mapped_input + deviation * (size + mapped_input))
 
 
 def _bounds(moments: Moments, stretch: NDArray, reach: NDArray, slack: NDArray, weight: NDArray,

@@ -4,13 +4,15 @@
 
 The divergence theorem turns a body into cones from a reference point over its faces. Over the cone on a triangle
 a, b, c with determinant w = a·((b-a) x (c-a)) a monomial f of degree n integrates to w / (2n + 6) · E[f], where E[f] is
-its mean over the triangle; over the triangle itself to half its doubled area times E[f]. To second order the mean is
-that of the midpoints of the edges, exactly (it is the formula of Sheynin and Tuzikov, 2001, for those orders). So the
-moments of a body are those of point masses at its edges, and two triangles that share an edge share a point. In third
-order this leaves out 3/40 Σ (corner - centroid)^3, of the order of an edge cubed, which is added to `error`. Small
-meshes, and large ones on request, take a rule that is exact to third order: with y = (3 centroid + 2 corner) / 5
+its mean over the triangle; over the triangle itself to half its doubled area times E[f]. To second order that is the
+formula of Sheynin and Tuzikov (2001), put so that triangles which share an edge share work (see `blocks`). In third
+order everything follows from lower ones about the middle of an edge but the third moments about that middle: for a
+triangle with edge e and f from the middle to the third corner
 
-    E[f] = 25/48 (f(y_a) + f(y_b) + f(y_c)) - 27/48 f(centroid).
+    E[x x' x''] = f f' f'' / 10 + (f e' e'' + e f' e'' + e e' f'') / 120.
+
+They are of the order of an edge cubed: large meshes leave them out, and add their bound to `error`; small ones, and
+large ones on request, take them along.
 
 Rounding. Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the
 product of its edges, not to the body's size cubed; that keeps the bound small for fine meshes and far from the origin.
@@ -27,14 +29,13 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import CHUNK, Faces, Rows
+from .blocks import CHUNK, TRIPLES, Faces, Rows
 from .moments import Moments, U, monomials
 from .surface import Surface
 
 BLOCK = 32768  # triangles at most: by then calls cost little, and more would leave the cache
-EXACT_BLOCK = 8192  # triangles at most, with more nodes each
 MEMORY = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
-EXACT = 20000  # triangles up to which the exact third order costs less than finding out that it is needed
+EXACT = 100_000  # triangles up to which the exact third order, half as much again, costs no time to speak of
 PAIRED = 1000  # triangles below which looking for pairs costs more than it saves
 LEAST = 16384  # triangles that are worth a thread
 CHUNK_POINTS = 512  # points whose coordinates are compared as one row
@@ -42,10 +43,8 @@ RANGE = 2.0 ** 100  # reaches beyond this, or below its inverse, are scaled, les
 PAIRWISE = 64  # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
-FACTORS = np.where(np.arange(3) < EXPONENTS[:, :, None], np.arange(3)[:, None] + 1, 0)  # rows of [1, x, y, z]
-# Divisors of the power sums over twice the midpoints and over fifteen times the nodes of the exact rule.
-MIDPOINTS = np.array([6.0, 48.0, 120.0, 288.0])[DEGREE]
-NODES = np.array([6.0, 8 * 48 * 15, 10 * 48 * 15 ** 2, 12 * 48 * 15 ** 3])[DEGREE]
+FACTORS = np.sort([[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS])  # of 1, x, y, z
+DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # of the sums of `blocks`
 CONE = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 TO_AREA = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
 
@@ -103,13 +102,13 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
 
 def _bounding_box(points: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The least and the largest coordinates, compared along rows of many points: far faster than along three."""
-    whole = len(points) // CHUNK_POINTS * CHUNK_POINTS
-    low = high = points[whole:]
-    if whole:
-        wide = points[:whole].reshape(-1, 3 * CHUNK_POINTS)
-        low = np.concatenate([low, wide.min(axis=0).reshape(-1, 3)])
-        high = np.concatenate([high, wide.max(axis=0).reshape(-1, 3)])
-    return low.min(axis=0).astype(np.float64), high.max(axis=0).astype(np.float64)
+    low = high = points
+    if len(points) > CHUNK_POINTS:
+        whole = len(points) // CHUNK_POINTS * CHUNK_POINTS
+        wide, rest = points[:whole].reshape(-1, 3 * CHUNK_POINTS), points[whole:]
+        low = np.concatenate([rest, np.minimum.reduce(wide).reshape(-1, 3)])
+        high = np.concatenate([rest, np.maximum.reduce(wide).reshape(-1, 3)])
+    return np.minimum.reduce(low).astype(np.float64), np.maximum.reduce(high).astype(np.float64)
 
 
 def _rescaled(surface: Surface, exponent: int, threads: int, **options: bool) -> tuple[Moments, Moments]:
@@ -154,7 +153,7 @@ class _Job:
     def block(self, threads: int) -> int:
         """The number of triangles in a block: as many as the memory allows, and a share for every thread."""
         memory = (MEMORY[0] * self.count + MEMORY[1]) // threads
-        size = min(EXACT_BLOCK if self.exact else BLOCK, memory // (8 * Faces.size(1, self.exact)))
+        size = min(BLOCK, memory // (8 * Faces.size(1)))
         return max(1, min(size // CHUNK * CHUNK or size, -(-self.count // threads)))
 
     def run(self, blocks: list[tuple[NDArray, bool]], threads: int) -> list[Rows]:
@@ -176,14 +175,13 @@ class _Job:
     def moments(self, rows: list[Rows]) -> tuple[Moments, Moments]:
         """Volume and area, with their bounds."""
         bounds = _Bounds(self, rows)
-        divisors = NODES if self.exact else MIDPOINTS
-        raw = np.add.reduce(np.array([row.sums for row in rows])) / divisors
+        raw = np.add.reduce(np.array([row.sums for row in rows])) / DIVISORS
         volume = Moments(raw, self.center, "volume", *bounds.volume(raw))
         if not self.area:
             return volume, Moments(np.zeros(1), self.center, "area")
         raw = np.array([bounds.double / 2.0])
         if self.shell:
-            raw = np.add.reduce(np.array([row.areas for row in rows])) / (divisors / TO_AREA)
+            raw = np.add.reduce(np.array([row.areas for row in rows])) / (DIVISORS / TO_AREA)
         return volume, Moments(raw, self.center, "area", *bounds.area(raw))
 
 
@@ -194,13 +192,14 @@ class _Bounds:
     """
 
     def __init__(self, job: _Job, rows: list[Rows]):
-        fans = [(row.edges[:, i], row.edges[:, i + 1], row.sizes[:, i], row.counts[None])
+        fans = [(row.edges[:, 2 * i], row.edges[:, 1], row.sizes[:, i], row.counts[None])
                 for row in rows for i in range(row.sizes.shape[1])]
-        self.first, self.second, self.sizes, counts = (np.concatenate(column, axis=1) for column in zip(*fans))
+        self.side, self.base, self.sizes, counts = fans[0] if len(fans) == 1 else (
+            np.concatenate(column, axis=1) for column in zip(*fans))
         self.job, self.counts, self.blocks = job, counts[0], len(rows)
         self.double = float(np.add.reduce(self.sizes[1]))
-        tau = self.first[[1, 2, 0]] * self.second[[2, 0, 1]] + self.first[[2, 0, 1]] * self.second[[1, 2, 0]]
-        self.tau = tau @ self.counts
+        (a, b, c), (x, y, z) = self.side, self.base
+        self.tau = np.array([b * z + c * y, c * x + a * z, a * y + b * x]) @ self.counts
 
     def volume(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(20,) and (20,) `error` and `input` of volume moments."""
@@ -226,21 +225,18 @@ class _Bounds:
         job, size = self.job, sizes.sum() * (1.0 + 1e-9)
         rounding = U * (8.0 * DEGREE + PAIRWISE + self.blocks)
         if job.exact:
-            rounding *= 3.0  # that rule's weights are not all positive
+            rounding[10:] *= 2.0  # the third moments about the middles come to as much again at most
         error = (weight + rounding * (size + weight) + 1e-290 * self.counts.sum()) * _powers(job.reach)
         if not job.exact:
-            # Seen from the centroid the corners are at most as far as a third of these sums of edges.
-            cubes = np.zeros((10, len(self.counts)))
-            for a, b in ((1.0, 1.0), (2.0, 1.0), (1.0, 2.0)):
-                x, y, z = (a * self.first + b * self.second) / 3.0
-                cubes += [x * x * x, x * x * y, x * x * z, x * y * y, x * y * z, x * z * z, y * y * y, y * y * z,
-                          y * z * z, z * z * z]
-            error[10:] += 3.0 / 40.0 * (1.0 + 1e-9) * (cubes @ sizes)
+            e, f = self.base, self.side + self.base / 2.0
+            rest = [f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
+                    for i, j, k in TRIPLES]
+            error[10:] += (1.0 + 1e-9) * (np.array(rest) @ sizes)
         return error[:len(raw)]
 
     def _edges(self) -> float:
         """What bounds the sum of the lengths of the edges at the triangles' first corners."""
-        return (np.sqrt((self.first ** 2).sum(axis=0)) + np.sqrt((self.second ** 2).sum(axis=0))) @ self.counts
+        return (np.sqrt((self.side ** 2).sum(axis=0)) + np.sqrt((self.base ** 2).sum(axis=0))) @ self.counts
 
     def _swept(self) -> float:
         """The volume that the surface sweeps when its points move by their half ulps, for a closed surface."""
@@ -251,7 +247,7 @@ class _Bounds:
 
 def _powers(reach: NDArray) -> NDArray[np.float64]:
     """(20,) the largest value of each monomial within reach."""
-    return np.multiply.reduce(np.append(1.0, reach)[FACTORS].reshape(20, 9), axis=1)
+    return np.multiply.reduce(np.array([1.0, *reach]).take(FACTORS), axis=1)
 
 
 def _pairs(triangles: NDArray) -> list[NDArray] | None:

@@ -63,19 +63,25 @@ def principal_frame(moments: Moments, prefer: NDArray | None = None,
     second = moments.raw[SECOND] / total - np.outer(shift, shift)
     scale = np.trace(second) or 1.0  # keeps eigh clear of overflow and denormals
     spread, vectors = np.linalg.eigh(second / scale)
-    spread, axes = np.maximum(spread[::-1], 0.0), vectors[:, ::-1]  # covariances are never negative
-
-    # What the float32 coordinates leave undecided is no more than the body's thinness lets them move the volume.
-    relative_input = moments.input[0] / total
+    spread, axes = spread[::-1], vectors[:, ::-1]
     rounding = 4.0 * moments.error[SECOND].max() / (total * scale) + 8.0 * np.finfo(float).eps
+    if spread[2] < -rounding:
+        raise ValueError("It intersects itself, and parts of it count with the opposite sign, so that its moments are "
+                         "those of no body; unite its shells, or mend it.")
+    spread = np.maximum(spread, 0.0)
+
+    size = np.sqrt(np.maximum(spread, 1e-30 * spread[0]))  # a lamina has no extent along an axis, and no skewness
+    # How far float32 has moved the points: the share of the volume that this moves, times the thinnest extent.
+    step = moments.input[0] / total * size[2]
     gaps = np.array([spread[0] - spread[1], spread[1] - spread[2]])
-    equal = gaps <= (EQUAL + 2.0 * relative_input) * spread[:2] + rounding
+    equal = gaps <= EQUAL * spread[:2] + 2.0 * step * size[:2] + rounding
     symmetry = ("isotropic" if equal.all() else "oblate" if equal[0] else "prolate" if equal[1] else "asymmetric")
 
     free = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}[symmetry]
     scores = np.zeros(3)
     if len(free) < 3:
-        scores = _scores(moments, shift, spread * scale, axes, free, SKEWED + 4.0 * relative_input, refine)
+        noise = SKEWED + 4.0 * step / np.minimum(size[:, None], _partners(size))
+        scores = _scores(moments, shift, size * np.sqrt(scale), axes, free, noise, refine)
     axes, decided = _oriented(axes, scores, free, prefer)
     unique = not free and decided
     return PrincipalFrame(
@@ -83,21 +89,28 @@ def principal_frame(moments: Moments, prefer: NDArray | None = None,
         unique=unique, note="" if unique else NOTES[symmetry])
 
 
-def _scores(moments: Moments, shift: NDArray, spread: NDArray, axes: NDArray, free: tuple[int, ...],
-            noise: float, refine: Callable[[], Moments] | None) -> NDArray[np.float64]:
-    """(3,) how clearly third moments point along each axis, signed; zero where they do not, and for free axes."""
-    scores, doubt = _third_scores(moments, shift, spread, axes)
+def _partners(size: NDArray) -> NDArray[np.float64]:
+    """(3, 3) for each axis i the extents along i, j and k, the axes that its third moments M_iii, M_ijj, M_ikk pair."""
+    return np.array([np.roll(size, -i) for i in range(3)])
+
+
+def _scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray, free: tuple[int, ...],
+            noise: NDArray, refine: Callable[[], Moments] | None) -> NDArray[np.float64]:
+    """(3,) how clearly third moments point along each axis, signed; zero where they do not, and for free axes.
+
+    size: (3,) the extents (standard deviations) along the axes. noise: (3, 3) below which a score is none."""
+    scores, doubt = _third_scores(moments, shift, size, axes)
     fixed = [i for i in range(3) if i not in free]
-    if refine is not None and not _decided(np.abs(scores[fixed]), doubt[fixed], noise):
-        scores, doubt = _third_scores(refine(), shift, spread, axes)
+    if refine is not None and not _decided(np.abs(scores[fixed]), doubt[fixed], noise[fixed]):
+        scores, doubt = _third_scores(refine(), shift, size, axes)
     result = np.zeros(3)
     for i in fixed:
-        usable = [value for value, error in zip(scores[i], doubt[i]) if abs(value) > noise + error]
+        usable = [value for value, least in zip(scores[i], noise[i] + doubt[i]) if abs(value) > least]
         result[i] = usable[0] if usable else 0.0
     return result
 
 
-def _decided(size: NDArray, doubt: NDArray, noise: float) -> bool:
+def _decided(size: NDArray, doubt: NDArray, noise: NDArray) -> bool:
     """Whether better third moments could neither change which scores count, nor their signs, nor their order."""
     clear = size - doubt > noise
     below = size + doubt <= noise
@@ -107,7 +120,7 @@ def _decided(size: NDArray, doubt: NDArray, noise: float) -> bool:
     return len(size) < 3 or size[last[1], 0] - size[last[0], 0] > 2.0 * doubt[last, 0].sum()
 
 
-def _third_scores(moments: Moments, shift: NDArray, spread: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
+def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
     """(3, 3) for each axis i its skewness and the two normalised third moments odd in i and even in another axis,
     M_iii, M_ijj and M_ikk; and the bounds of their errors."""
     total = moments.raw[0]
@@ -117,7 +130,6 @@ def _third_scores(moments: Moments, shift: NDArray, spread: NDArray, axes: NDArr
     third = third - cross - cross.transpose(1, 0, 2) - cross.transpose(1, 2, 0) + 2.0 * shift[:, None, None] * outer
     error = (moments.error[THIRD] + 3.0 * np.abs(shift).max() * moments.error[SECOND].max()) / total
     turned, turned_error = np.einsum("abc,ai->ibc", third, axes), np.einsum("abc,ai->ibc", error, np.abs(axes))
-    size = np.sqrt(np.maximum(spread, 1e-30 * spread[0]))  # a lamina has no extent along an axis, and no skewness
     scores, doubt = np.zeros((2, 3, 3))
     for i in range(3):
         for column, j in enumerate((i, (i + 1) % 3, (i + 2) % 3)):

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from . import polyhedron
 from .flatness import examine
 from .mending import Mended, counted, listed, mend
-from .moments import Moments
+from .moments import SECOND, Moments
 from .nesting import decide, relate, sort_shells
 from .surface import Surface
 from .topology import closed_sides, components, mesh_faces
@@ -153,7 +153,8 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     elif volume.total < 0.0:
         volume = replace(volume, raw=-volume.raw)
     flipped, inverted = _turned_faces(body, turn)
-    if open_parts or not solid:
+    impossible = solid and not _possible(volume, surface.points, size)
+    if open_parts or not solid or impossible:
         method = "open"
     elif caps.any():
         method = "capped"
@@ -162,6 +163,9 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     notes = [*body.notes, *_turned_told(body, flipped, inverted), *_capped_told(*caps[:2].astype(int), cap_share)]
     if compared is not None:
         notes += _compared_told(body, compared)
+    if impossible:
+        notes.append("It intersects itself, and parts of it count with the opposite sign: these are the moments of no "
+                     "body. Unite its shells, or mend it.")
     if not solid:
         notes.append("It is flat and encloses no volume: measure a shell.")
     elif flatness.spread > SPREAD * volume.total > 0.0:
@@ -176,6 +180,21 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
         faults=Faults(**faults, flipped_faces=flipped, degenerate_faces=flatness.without_area))
     return SolidMeasure(volume=volume, area=area, health=health, method=method, warnings=tuple(notes),
                         mended=measured)
+
+
+def _possible(volume: Moments, points: NDArray, size: float) -> bool:
+    """Whether a body within the points' bounding box, `size` across, can have these moments: its center is inside, and
+    its second central moments are those of a positive mass. Where a surface intersects itself, they need not be."""
+    total, first = volume.raw[0], volume.raw[1:4]
+    if not total > 0.0:
+        return True  # an open surface's sum, which is told as such
+    second = volume.raw[SECOND] / total - np.outer(first, first) / total**2
+    scale = np.trace(second)
+    rounding = 8.0 * (volume.error[SECOND].max() / total + np.finfo(float).eps * np.abs(second).max())
+    slack = 1e-6 * size + volume.error[1:4].max() / total
+    center = volume.center
+    inside = all(column.min() - slack <= x <= column.max() + slack for x, column in zip(center, points.T))
+    return bool(inside and scale > 0.0 and np.linalg.eigvalsh(second)[0] >= -rounding)
 
 
 def _used(surface: Surface) -> tuple[Surface, NDArray[np.intp] | None, float]:
@@ -281,7 +300,7 @@ def _to_measure(surface: Surface, body: Mended, turn: NDArray[np.bool_], solid: 
         triangles[rows] = triangles[rows][:, ::-1]
         return replace(surface, quads=quads, triangles=triangles)
     triangles = np.where(turn[body.shell][:, None], body.triangles[:, ::-1], body.triangles)
-    return Surface(body.points, triangles if kept.all() else triangles[kept])
+    return Surface(body.points, triangles if kept.all() else triangles[kept], moved=surface.moved)
 
 
 def _turned_faces(body: Mended, turn: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:

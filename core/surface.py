@@ -8,6 +8,7 @@ the diagonal that Blender draws, so that the body measured is the body seen.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -27,6 +28,7 @@ class Surface:
     triangle_faces, quad_faces: the mesh face each one belongs to; None where face i is simply row i.
     corner_vertices, corner_edges, edges: (c,), (c,), (e, 2), the mesh's own corners and edges. They prove closedness
         without sorting; None where the source has none.
+    moved: (3,) see `coordinate_error`.
     """
 
     points: NDArray[np.floating]
@@ -37,11 +39,14 @@ class Surface:
     corner_vertices: NDArray[np.integer] | None = None
     corner_edges: NDArray[np.integer] | None = None
     edges: NDArray[np.integer] | None = None
+    moved: NDArray[np.float64] | None = None
 
     @property
     def coordinate_error(self) -> NDArray[np.float64]:
         """(3,) half an ulp of the largest float32 coordinate on each axis: what storing the points may have moved
-        them by. Zero for float64 points."""
+        them by. `moved` says it for points that were float32 once; else it is zero for float64 points."""
+        if self.moved is not None:
+            return self.moved
         if self.points.dtype != np.float32 or not len(self.points):
             return np.zeros(3)
         # Column by column: numpy is twenty times as slow along rows of three.
@@ -57,7 +62,8 @@ class Surface:
         triangles, faces = self.all_triangles()
         if np.linalg.det(linear) < 0.0:
             triangles = triangles[:, ::-1]
-        return replace(self, points=points, triangles=triangles, triangle_faces=faces, quads=NO_QUADS, quad_faces=None)
+        return replace(self, points=points, triangles=triangles, triangle_faces=faces, quads=NO_QUADS, quad_faces=None,
+                       moved=np.abs(linear) @ self.coordinate_error)
 
     @classmethod
     def from_triangles(cls, points: NDArray, triangles: NDArray) -> Surface:
@@ -76,6 +82,35 @@ class Surface:
         cut = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
         quad_faces = np.arange(len(quads)) if self.quad_faces is None else self.quad_faces
         return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
+
+
+def joined(surfaces: Sequence[Surface]) -> Surface:
+    """Several surfaces, in the same coordinates, as one of triangles in float64. Faces are numbered one surface after
+    the other."""
+    points, triangles, faces, start, face = [], [], [], 0, 0
+    for surface in surfaces:
+        cut, own = surface.all_triangles()
+        points.append(surface.points.astype(np.float64))
+        triangles.append(cut + start)
+        faces.append(own + face)
+        start, face = start + len(surface.points), face + int(own.max(initial=-1)) + 1
+    return Surface(np.concatenate(points), np.concatenate(triangles), triangle_faces=np.concatenate(faces),
+                   moved=np.max([surface.coordinate_error for surface in surfaces], axis=0))
+
+
+def boxes_meet(centers: NDArray, extents: NDArray) -> bool:
+    """Whether any two of k boxes share more than a rim of rounding. centers, extents: (k, 3), half the sides."""
+    axis = int(np.argmax(np.ptp(centers, axis=0)))
+    order = np.argsort(centers[:, axis] - extents[:, axis])
+    centers, extents = centers[order], extents[order] * (1.0 - 1e-6)
+    low, high = centers - extents, centers + extents
+    for step in range(1, len(low)):  # neighbours first: where boxes meet, some of them are found soon
+        near = low[step:, axis] < high[:-step, axis]
+        if not near.any():
+            return False
+        if ((low[step:] < high[:-step]) & (low[:-step] < high[step:])).all(axis=1).any():
+            return True
+    return False
 
 
 def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:

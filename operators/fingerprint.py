@@ -42,7 +42,8 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
 def effective_hash(kind: str, density: float | None, mass: float | None, thickness: float, overlap: str,
                    unit_scale: float) -> str:
     """A digest of settings as they were used; what a kind has no use for does not count."""
-    used = [kind, density, mass, round(thickness, 12) if kind == "SHELL" else None,
+    density, mass = (None if value is None else decimal(value) for value in (density, mass))  # as a setting holds it
+    used = [kind, density, mass, float("{:.6g}".format(thickness)) if kind == "SHELL" else None,
             overlap if kind == "SOLID" else None, round(unit_scale, 12)]
     return _digest(repr(used).encode())
 

@@ -20,17 +20,21 @@ from ..core.mass import MassProperties
 from ..core.measurement import Measurement
 from ..core.moments import Moments, are_similarities, map_sum, sum_moments
 from ..core.polyhedron import solid_and_area
-from ..core.solid import Health, SolidMeasure, measure_solid
+from ..core.solid import Faults, Health, SolidMeasure, measure_solid
+from ..core.surface import Surface, boxes_meet, joined
 from .fingerprint import effective_hash, fingerprint, matrix_hash
 from .read import Part, Reading, Unreadable, read_object
 from .read.union import union_surface
+
+COMPARED = 200_000  # triangles up to which instances are compared with each other as shells of one mesh
 
 
 @dataclass(frozen=True)
 class MeasureOptions:
     """What overrides the objects' own settings; None leaves the setting. SI units.
 
-    kind: "solid" or "shell"; density: kg/m³; mass: kg; thickness: m; overlap: "signed" or "union".
+    kind: "solid" or "shell"; density: kg/m³; mass: kg; thickness: m; overlap: "signed" or "union"; unit_scale: metres
+    per Blender unit, else the scene's.
     """
 
     kind: str | None = None
@@ -38,6 +42,7 @@ class MeasureOptions:
     mass: float | None = None
     thickness: float | None = None
     overlap: str | None = None
+    unit_scale: float | None = None
     threads: int = 1
 
 
@@ -48,7 +53,7 @@ def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     Raises `Unreadable`, with the reason and the remedy, where there is nothing to measure.
     """
     scene = depsgraph.scene
-    unit = decimal(scene.unit_settings.scale_length)
+    unit = options.unit_scale or decimal(scene.unit_settings.scale_length)
     options = _resolved(options, obj, unit)
     reading = read_object(obj, depsgraph)
     shell = options.kind == "shell"
@@ -92,7 +97,14 @@ def _resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> Me
 
 def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> _Body:
     """Each part measured once in its own coordinates, and mapped to wherever it stands."""
-    volumes, areas, healths, methods, warnings, parts = [], [], [], [], [], []
+    note = ()
+    if not shell and reading.places > 1 and _boxes_meet(reading):
+        if sum(len(part.surface.triangles) + 2 * len(part.surface.quads) for part in reading.parts
+               for _ in part.matrices) <= COMPARED:
+            return _as_one(reading, unit, threads)
+        note = ("Overlap was not looked for between its {:d} instances, and boxes around some of them overlap; what "
+                "those share counts twice.".format(reading.places),)
+    volumes, areas, healths, methods, warnings, parts = [], [], [], [], list(note), []
     for part in reading.parts:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
         matrices = _scaled(part.matrices, unit)
@@ -101,6 +113,8 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> _Body:
         stretch = volumes[-1].total / solid.volume.total if solid.volume.total else 0.0  # Σ |det|
         healths.append((replace(solid.health, volume_spread=solid.health.volume_spread * stretch), len(matrices)))
         methods.append(solid.method)
+        if shell and solid.health.duplicate_faces:
+            warnings.append("{:d} faces are copies of others and count with them.".format(solid.health.duplicate_faces))
         if not shell:  # a shell is measured as it is
             warnings.extend(w for w in solid.warnings if w not in warnings)
         parts.append((solid, matrices))
@@ -109,12 +123,35 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> _Body:
                  tuple(warnings), tuple(parts))
 
 
+def _as_one(reading: Reading, unit: float, threads: int) -> _Body:
+    """All parts where they stand as one surface, so that they are compared as the shells of one mesh are."""
+    solid = measure_solid(_realized(reading), threads=threads)
+    scale = np.diag([unit, unit, unit, 1.0])
+    health = replace(solid.health, volume_spread=solid.health.volume_spread * unit**3, faults=Faults())
+    return _Body(solid.volume.mapped(scale), solid.area.mapped(scale), health, solid.method, solid.warnings,
+                 ((solid, scale[None]),))
+
+
+def _realized(reading: Reading) -> Surface:
+    return joined([part.surface.mapped(matrix[:3, :3], matrix[:3, 3])
+                   for part in reading.parts for matrix in part.matrices])
+
+
+def _boxes_meet(reading: Reading) -> bool:
+    """Whether the boxes around any two of the places where parts stand share more than a rim."""
+    centers, extents = [], []
+    for part in reading.parts:
+        low, high = part.surface.points.min(axis=0), part.surface.points.max(axis=0)
+        linear = part.matrices[:, :3, :3]
+        centers.append(linear @ ((low + high) / 2.0).astype(np.float64) + part.matrices[:, :3, 3])
+        extents.append(np.abs(linear) @ ((high - low) / 2.0).astype(np.float64))
+    return boxes_meet(np.concatenate(centers), np.concatenate(extents))
+
+
 def _united(reading: Reading, unit: float, threads: int) -> _Body:
     """All parts where they stand as one surface, overlaps removed by Blender's exact boolean."""
-    surfaces = [part.surface.mapped(matrix[:3, :3], matrix[:3, 3])
-                for part in reading.parts for matrix in _scaled(part.matrices, 1.0)]
     before = _summed(reading, unit, False, threads)
-    surface = union_surface(surfaces)
+    surface = union_surface(_realized(reading))
     solid = measure_solid(surface, threads=threads)
     if solid.method == "open":
         raise ValueError("Blender's boolean could not unite its shells; close and clean the mesh, or count each.")

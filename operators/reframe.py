@@ -84,6 +84,11 @@ def check(obj: Object) -> None:
         raise Refused(
             "it shows its children on its vertices or faces; make the instances real first"
         )
+    unseen = [modifier.name for modifier in obj.modifiers if modifier.show_render and not modifier.show_viewport
+              and modifier.type not in INDIFFERENT]
+    if unseen:
+        raise Refused("what its modifier {:s} renders is not shown, and may depend on the origin; show it in viewports "
+                      "or remove it first".format(unseen[0]))
     if abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
         raise Refused("its scale is zero along an axis; set the scale first")
 

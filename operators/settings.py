@@ -12,6 +12,7 @@ import numpy as np
 from bpy.props import EnumProperty, FloatProperty, PointerProperty, StringProperty
 from bpy.types import Context, Object, PropertyGroup, Scene
 
+from ..core.decimal import decimal
 from ..core.materials import BY_NAME
 
 COPIED = ("kind", "thickness", "mass_from", "density", "material", "mass", "overlap")
@@ -30,6 +31,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
 
     kind: EnumProperty(
         name="Kind",
+        override={"LIBRARY_OVERRIDABLE"},
         description="What the surface stands for",
         items=(
             ("SOLID", "Solid", "The surface bounds a body that is filled with the material"),
@@ -39,6 +41,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     mass_from: EnumProperty(
         name="Mass From",
+        override={"LIBRARY_OVERRIDABLE"},
         description="Which of mass and density is given; the other follows from the geometry",
         items=(
             ("DENSITY", "Density", "The density is given, the mass follows"),
@@ -48,6 +51,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     density: FloatProperty(
         name="Density",
+        override={"LIBRARY_OVERRIDABLE"},
         description="Density in kg/m³",
         default=1000.0,
         min=0.0,
@@ -59,6 +63,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     mass: FloatProperty(
         name="Mass",
+        override={"LIBRARY_OVERRIDABLE"},
         description="Mass in kilograms, whatever the scene's units are",
         default=1.0,
         min=0.0,
@@ -67,6 +72,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     thickness: FloatProperty(
         name="Thickness",
+        override={"LIBRARY_OVERRIDABLE"},
         description="Thickness of the sheet",
         default=0.001,
         min=0.0,
@@ -75,6 +81,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     overlap: EnumProperty(
         name="Overlaps",
+        override={"LIBRARY_OVERRIDABLE"},
         description=(
             "What is measured where shells of this object overlap or lie inside one another"
         ),
@@ -90,6 +97,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     material: StringProperty(
         name="Material",
+        override={"LIBRARY_OVERRIDABLE"},
         description="Name of the material that the density was taken from",
     )
 
@@ -121,13 +129,28 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
     return changed
 
 
+def keep(settings: PropertyGroup, options, scene: Scene) -> None:
+    """Make those options (`measure.MeasureOptions`, SI) the object's settings that are not None."""
+    for name in ("kind", "overlap"):
+        if getattr(options, name) is not None:
+            setattr(settings, name, getattr(options, name).upper())
+    if options.density is not None:
+        settings.mass_from, settings.density = "DENSITY", options.density
+    if options.mass is not None:
+        settings.mass_from, settings.mass = "MASS", options.mass
+    if options.thickness is not None:
+        settings.thickness = options.thickness / decimal(scene.unit_settings.scale_length)
+
+
 CLASSES = (BodyMomentsObjectSettings, BodyMomentsSceneSettings)
 
 
 def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    Object.body_moments = PointerProperty(name="Body Moments", type=BodyMomentsObjectSettings)
+    Object.body_moments = PointerProperty(
+        name="Body Moments", type=BodyMomentsObjectSettings, override={"LIBRARY_OVERRIDABLE"}
+    )
     Scene.body_moments = PointerProperty(name="Body Moments", type=BodyMomentsSceneSettings)
 
 

@@ -248,7 +248,8 @@ def instances(count: int, rounds: int) -> None:
     depsgraph = bpy.context.evaluated_depsgraph_get()
 
     def floor() -> None:
-        cloud = ground.evaluated_get(depsgraph).evaluated_geometry().instances_pointcloud()
+        geometry = ground.evaluated_get(depsgraph).evaluated_geometry()  # owns the cloud
+        cloud = geometry.instances_pointcloud()
         matrices = np.empty(16 * len(cloud.points), np.float32)
         cloud.attributes["instance_transform"].data.foreach_get("value", matrices)
         mesh_surface(source.evaluated_get(depsgraph).data)

@@ -53,11 +53,8 @@ def suffix(path: str) -> str:
     return next((end for end in _ARRAYS if name.endswith(end)), Path(name).suffix)
 
 
-def open_file(path: str, unit_scale: float) -> None:
-    """Make a file the open scene. unit_scale: meters per unit, where the file does not say.
-
-    Raises Unusable.
-    """
+def open_file(path: str) -> None:
+    """Make a file the open scene. Raises Unusable."""
     kind = suffix(path)
     _check(path, kind)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
@@ -70,8 +67,6 @@ def open_file(path: str, unit_scale: float) -> None:
         if kind in (".glb", ".gltf"):
             # An add-on that comes with Blender, and may be switched off.
             addon_utils.enable("io_scene_gltf2")
-        if kind in UNITLESS:
-            bpy.context.scene.unit_settings.scale_length = unit_scale
         _IMPORTERS[kind](absolute)
     except AttributeError as error:
         raise Unusable(

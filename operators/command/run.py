@@ -24,6 +24,7 @@ import bpy
 
 from ...core.measurement import Measurement
 from ...core.moments import Moments
+from .. import settings
 from ..measure import MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
 from ..write import record
@@ -68,11 +69,14 @@ class Run:
         try:
             self._open(path, file)
             note = _unit_note(path, self.options.unit_scale)
+            # Not by way of the scene, whose unit scale is a float32 with limits.
+            unit = (self.options.unit_scale or 1.0) if _unitless(path) else None
+            wanted = replace(self._wanted, unit_scale=unit)
             chosen, errors = _chosen(self.options.object)
             errors.extend(_missing_links())
             for label, obj in chosen:
                 try:
-                    one, surface = self._measure(obj)
+                    one, surface = self._measure(obj, wanted)
                     told = replace(one, name=label, warnings=one.warnings + note)
                     objects.append(
                         record.record(told, self.options.frame, self.options.order, surface)
@@ -83,7 +87,7 @@ class Run:
                 except Exception as error:
                     errors.append(self._fault(label, error))
             if self.options.write:
-                errors.extend(_store(path, measured))
+                errors.extend(_store(path, measured, wanted))
         except Unusable as refusal:
             errors.append(_error(None, refusal))
         except Exception as error:
@@ -102,21 +106,21 @@ class Run:
 
     def _open(self, path: str | None, file: str | None) -> None:
         if path is not None:
-            open_file(path, self.options.unit_scale or 1.0)
+            open_file(path)
         elif file and not bpy.data.filepath:
             raise Unusable("Blender could not open the file; check that it is there, and whole.")
 
-    def _measure(self, obj: bpy.types.Object) -> tuple[Measurement, Moments | None]:
+    def _measure(
+        self, obj: bpy.types.Object, wanted: MeasureOptions
+    ) -> tuple[Measurement, Moments | None]:
         """The object's measurement and, where they are asked for, its area moments to order 3."""
         depsgraph = bpy.context.evaluated_depsgraph_get()
-        one = measure_object(obj, depsgraph, self._wanted)
+        one = measure_object(obj, depsgraph, wanted)
         if not self.options.surface_moments:
             return one, None
         if one.kind == "shell":
             return one, one.area_moments
-        as_shell = MeasureOptions(
-            kind="shell", density=1.0, thickness=1.0, threads=self._wanted.threads
-        )
+        as_shell = replace(wanted, kind="shell", density=1.0, mass=None, thickness=1.0)
         return one, measure_object(obj, depsgraph, as_shell).area_moments
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
@@ -187,9 +191,13 @@ def _asked_for() -> str | None:
     return None
 
 
+def _unitless(path: str | None) -> bool:
+    return path is not None and suffix(path) in UNITLESS
+
+
 def _unit_note(path: str | None, scale: float | None) -> tuple[str, ...]:
     """The decision about the file's unit, where there was one."""
-    unitless = path is not None and suffix(path) in UNITLESS
+    unitless = _unitless(path)
     if unitless and scale is None:
         return ("The file carries no unit; 1 unit is taken as 1 m (set --unit-scale).",)
     if not unitless and scale is not None:
@@ -198,10 +206,12 @@ def _unit_note(path: str | None, scale: float | None) -> tuple[str, ...]:
 
 
 def _store(
-    path: str | None, measured: list[tuple[bpy.types.Object, Measurement]]
+    path: str | None,
+    measured: list[tuple[bpy.types.Object, Measurement]],
+    wanted: MeasureOptions,
 ) -> Iterator[dict[str, Any]]:
     """Store the results, once all of them are there: drivers may read them and change what is
-    measured next.
+    measured next. The settings that were given go with them, or the results would be out of date.
     """
     if path is not None and suffix(path) != BLEND:
         raise Unusable("Only a .blend file can keep the results; --write did nothing here.")
@@ -212,4 +222,6 @@ def _store(
             store(obj, one)
         except RuntimeError as refusal:
             yield _error(obj.name, refusal)
+            continue
+        settings.keep(obj.body_moments, wanted, bpy.context.scene)
     save_file(bpy.data.filepath)

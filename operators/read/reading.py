@@ -50,7 +50,7 @@ class Reading:
     rotation: (3, 3), orthonormal to float64, and location: (3,), Blender units, as
         `matrix_world.decompose()` gives them: the object frame.
     flattened: how many of the places have a matrix that flattens the surface, so that it encloses nothing.
-    singular: all of them have.
+    singular: all of them have. places: how many surfaces stand where, instances counted each.
     warnings: sentences without the object's name, one for each decision that was taken.
     """
 
@@ -68,7 +68,11 @@ class Reading:
 
     @property
     def singular(self) -> bool:
-        return self.flattened == sum(len(part.matrices) for part in self.parts)
+        return self.flattened == self.places
+
+    @property
+    def places(self) -> int:
+        return sum(len(part.matrices) for part in self.parts)
 
 
 def flattens(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -8,7 +8,7 @@ own that nobody sees, and all of it is gone when the call returns.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -17,15 +17,12 @@ from ...core.surface import Surface
 from .mesh import mesh_surface
 
 
-def union_surface(surfaces: Sequence[Surface]) -> Surface:
-    """One surface around the union of all shells of `surfaces`, in float32 coordinates as Blender computes it.
+def union_surface(surface: Surface) -> Surface:
+    """The surface around the union of all shells of `surface`, in float32 coordinates as Blender computes it.
 
-    The shells are taken about the middle of their common bounding box, so that nothing is lost far from the origin.
+    The shells are taken about the middle of their bounding box, so that nothing is lost far from the origin.
     """
-    triangles = [surface.all_triangles()[0] for surface in surfaces]
-    starts = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
-    points = np.concatenate([surface.points for surface in surfaces]).astype(np.float64)
-    faces = np.concatenate([part + start for part, start in zip(triangles, starts)])
+    points, faces = surface.points.astype(np.float64), surface.all_triangles()[0]
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
 
     made = []
@@ -50,7 +47,9 @@ def union_surface(surfaces: Sequence[Surface]) -> Surface:
     finally:
         for data in reversed(made):
             _remove(data)
-    return united.mapped(np.eye(3), middle)
+    # Blender rounds the points to float32 before its boolean and after it, and the points themselves were rounded once.
+    moved = 2.0 * united.coordinate_error + surface.coordinate_error
+    return replace(united.mapped(np.eye(3), middle), moved=moved)
 
 
 def _mesh(points: np.ndarray, triangles: np.ndarray) -> bpy.types.Mesh:

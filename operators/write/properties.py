@@ -83,6 +83,8 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     }
     for key, value in values.items():
         obj[key] = value
+        if obj.override_library is not None:  # or it would be lost with the file
+            obj.property_overridable_library_set('["{:s}"]'.format(key), True)
         if not isinstance(value, str):
             obj.id_properties_ui(key).update(description=DESCRIPTIONS[key], precision=6)
     obj.update_tag()  # drivers that read them follow

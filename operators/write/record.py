@@ -61,6 +61,7 @@ def record(
         "mass": properties.mass,
         "volume": measurement.volume,
         "area": measurement.area,
+        **({"thickness": measurement.thickness} if measurement.kind == "shell" else {}),
         **_inertial(properties),
     }
     if order is not None:

@@ -6,6 +6,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
+import numpy as np
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured, run
@@ -59,11 +60,19 @@ def test_settings_workspaces_and_other_scenes_are_still_there(tmp_path):
     assert "My Workspace" in bpy.data.workspaces and "Second" in bpy.data.scenes
 
 
-def test_options_of_the_command_line_do_not_become_settings(tmp_path):
+def test_what_is_written_is_not_out_of_date_when_the_file_is_opened(tmp_path):
+    """The options that the numbers came from are written as settings with them."""
+    from body_moments.operators import staleness
+
     path = files.box_file(tmp_path / "part.blend")
-    measured(path, "--write", "--density", "5")
+    measured(path, "--write", "--density", "5.123456789")
     box = reopened(path)[files.BOX_NAME]
-    assert box["body_density"] == 5.0 and box.body_moments.density == 1000.0
+    assert box["body_density"] == 5.123456789 and box.body_moments.density == np.float32(5.123456789)
+    assert staleness.reason(box, bpy.context.scene) == ""
+    measured(path, "--write", "--kind", "shell", "--thickness", "0.002", "--mass", "3")
+    box = reopened(path)[files.BOX_NAME]
+    assert box.body_moments.kind == "SHELL" and box.body_moments.mass_from == "MASS"
+    assert staleness.reason(box, bpy.context.scene) == ""
 
 
 def test_relative_paths_stay_as_they_are(tmp_path):

@@ -217,3 +217,72 @@ def test_principal_frames_of_copies_turn_with_the_copies():
     turn = second.rotation
     assert np.allclose(turn.T @ second.mass_properties.principal.axes, first.mass_properties.principal.axes, atol=1e-5)
     assert np.allclose(second.in_object_frame().inertia, first.in_object_frame().inertia, rtol=1e-5, atol=1e-2)
+
+
+def collection_of(*objects):
+    """An empty that shows a collection with these objects."""
+    members = bpy.data.collections.new("Members")
+    for obj in objects:
+        bpy.context.scene.collection.objects.unlink(obj)
+        members.objects.link(obj)
+    empty = bpy.data.objects.new("Instancer", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", members
+    bpy.context.scene.collection.objects.link(empty)
+    bpy.context.view_layer.update()
+    return empty
+
+
+def test_members_of_a_collection_are_compared_as_shells_of_one_mesh_are():
+    unit = box((0, 0, 0), (1, 1, 1))
+    apart = measure(collection_of(add(unit), add(unit, location=(3, 0, 0))))
+    assert apart.volume == pytest.approx(2.0) and not apart.warnings
+    overlapping = measure(collection_of(add(unit), add(unit, location=(0.5, 0, 0))))
+    assert overlapping.volume == pytest.approx(2.0) and overlapping.health.overlapping_components
+    assert overlapping.warnings
+    outer, inner = add(box((0, 0, 0), (4, 4, 4))), add(box((1, 1, 1), (3, 3, 3), turned=True))
+    assert measure(collection_of(outer, inner)).volume == pytest.approx(56.0)
+
+
+def test_touching_instances_are_not_called_overlapping():
+    unit = box((0, 0, 0), (1, 1, 1))
+    found = measure(collection_of(*(add(unit, location=(i, 0, 0)) for i in range(5))))
+    assert found.volume == pytest.approx(5.0) and not found.warnings
+
+
+def test_a_body_that_intersects_itself_into_negative_inertia_is_refused():
+    outline = [(1, -1), (1, 1), (-0.04, -0.04), (-10, -0.04), (-10, 0.04), (-0.04, 0.04)]
+    points = [(x, y, z) for z in (0, 1) for x, y in outline] + [(0.3, 0, 0), (0.3, 0, 1)]
+    n = len(outline)
+    faces = [(i, (i + 1) % n, (i + 1) % n + n, i + n) for i in range(n)]
+    faces += [face for i in range(n) for face in (((i + 1) % n, i, 2 * n), (i + n, (i + 1) % n + n, 2 * n + 1))]
+    with pytest.raises(Unreadable, match="intersects itself"):
+        measure(add({"points": points, "faces": faces}))
+
+
+def test_a_thin_plate_keeps_its_axes_apart():
+    """What float32 leaves of its thickness says nothing of the moments in its plane."""
+    turn = (0.3, 0.5, 0.7)
+    found = measure(add(box((0, 0, 0), (1, 2, 1e-5)), rotation_euler=turn)).mass_properties
+    assert found.principal.symmetry == "asymmetric"
+    axes = found.principal.axes
+    assert np.allclose(axes.T @ found.inertia @ axes, np.diag(found.principal.moments), atol=1e-9 * found.inertia.max())
+
+
+def test_bounds_are_never_nan_and_an_unevenly_scaled_shell_has_them():
+    far = measure(add(box((2e6, 4e6, 4e6), (2e6 + 1, 4e6 + 1, 4e6 + 1))))
+    assert not np.isnan([far.error_bound["input"][name] for name in far.error_bound["input"] if name != "input"]).any()
+    uneven = measure(add(box((1 / 3,) * 3, (4 / 3,) * 3), scale=(1, 2, 3)), kind="shell", thickness=0.01)
+    assert abs(uneven.area - 22.0) < uneven.error_bound["input"]["area"] < 1e-4
+    assert uneven.error_bound["input"]["inertia"] > 0.0
+
+
+def test_the_bound_of_a_union_covers_blenders_rounding():
+    obj = add(box((0, 0, 0), (1, 1, 1)), rotation_euler=(0.3, 0.5, 0.7))
+    found = measure(obj, overlap="union")
+    assert abs(found.volume - abs(np.linalg.det(world(obj)[:3, :3]))) < found.error_bound["input"]["volume"] < 1e-5
+
+
+def test_a_unit_scale_is_used_in_double_precision():
+    foot = 0.3048006096012192
+    assert measure(add(box()), unit_scale=foot).volume == pytest.approx(6 * foot**3, rel=1e-13)
+    assert measure(add(box()), unit_scale=1e-10).volume == pytest.approx(6e-30, rel=1e-13)

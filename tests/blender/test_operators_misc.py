@@ -226,7 +226,7 @@ def test_materials_are_many_sourced_and_plausible():
             "METRIC",
             "MILLIMETERS",
             "GRAMS",
-            ("1500 mm", "200 mm²", "8000000000 mm³", "250 g", "0.00785 g/mm³", "200000 g·mm²"),
+            ("1500 mm", "200 mm²", "8000000000 mm³", "250 g", "7850 kg/m³", "200000 g·mm²"),
         ),
         (
             "IMPERIAL",
@@ -237,7 +237,7 @@ def test_materials_are_many_sourced_and_plausible():
                 "0.310001 in²",
                 "488190 in³",
                 "0.551156 lb",
-                "0.283599 lb/in³",
+                "490.059 lb/ft³",
                 "0.683434 lb·in²",
             ),
         ),

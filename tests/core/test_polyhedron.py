@@ -21,11 +21,10 @@ TETRAHEDRON = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 @pytest.fixture(params=["exact", "fast"])
 def path(request, monkeypatch):
     """Both ways through the third order, in blocks of a few faces."""
-    monkeypatch.setattr(polyhedron, "BLOCK", 16)
-    monkeypatch.setattr(polyhedron, "EXACT_BLOCK", 16)
+    monkeypatch.setattr(polyhedron, "BLOCK", 32)
     monkeypatch.setattr(polyhedron, "PAIRED", 0)
-    monkeypatch.setattr(blocks, "CHUNK", 8)
-    monkeypatch.setattr(polyhedron, "CHUNK", 8)
+    monkeypatch.setattr(blocks, "CHUNK", 16)
+    monkeypatch.setattr(polyhedron, "CHUNK", 16)
     monkeypatch.setattr(polyhedron, "LEAST", 8)
     if request.param == "fast":
         monkeypatch.setattr(polyhedron, "EXACT", 0)
