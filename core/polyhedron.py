@@ -224,9 +224,8 @@ class _Bounds:
         what underflow may lose and the rest of the third order."""
         job, size = self.job, sizes.sum() * (1.0 + 1e-9)
         rounding = U * (8.0 * DEGREE + PAIRWISE + self.blocks)
-        if job.exact:
-            rounding[10:] *= 2.0  # the third moments about the middles come to as much again at most
         error = (weight + rounding * (size + weight) + 1e-290 * self.counts.sum()) * _powers(job.reach)
+        error[10:] *= 2.0  # the third moments about the middles come to as much again at most
         if not job.exact:
             e, f = self.base, self.side + self.base / 2.0
             rest = [f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
