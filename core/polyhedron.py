@@ -115,7 +115,7 @@ def _rescaled(surface: Surface, exponent: int, threads: int, **options: bool) ->
     """The moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
     triangles, faces = surface.all_triangles()
     points = np.ldexp(surface.points.astype(np.float64), -exponent)
-    small = _Scaled(points, triangles, triangle_faces=faces, half_ulp=np.ldexp(surface.coordinate_error, -exponent))
+    small = Surface(points, triangles, triangle_faces=faces, moved=np.ldexp(surface.coordinate_error, -exponent))
     results = []
     for moments in _measure(small, threads, **options):
         powers = exponent * (DEGREE[:len(moments.raw)] + (3 if moments.of == "volume" else 2))
@@ -123,17 +123,6 @@ def _rescaled(surface: Surface, exponent: int, threads: int, **options: bool) ->
             moments, raw=np.ldexp(moments.raw, powers), about=np.ldexp(moments.about, exponent),
             error=np.ldexp(moments.error, powers) + np.finfo(float).tiny, input=np.ldexp(moments.input, powers)))
     return results[0], results[1]
-
-
-@dataclass(frozen=True, eq=False)
-class _Scaled(Surface):
-    """A surface in float64 whose source may have been float32."""
-
-    half_ulp: NDArray[np.float64] | None = None
-
-    @property
-    def coordinate_error(self) -> NDArray[np.float64]:
-        return self.half_ulp
 
 
 @dataclass(frozen=True, eq=False)

@@ -108,9 +108,9 @@ class SolidMeasure:
     warnings: tuple[str, ...]
     mended: Surface
 
-    def refined(self) -> Moments:
+    def refined(self, threads: int = 1) -> Moments:
         """`volume` with its third order exact to rounding, for what its bounds leave undecided."""
-        exact = polyhedron.third_moments_exact(self.mended)
+        exact = polyhedron.third_moments_exact(self.mended, threads)
         return exact if exact.total > 0.0 else replace(exact, raw=-exact.raw)
 
 

@@ -201,9 +201,9 @@ def _together(healths: Iterable[tuple[Health, int]]) -> Health:
     return Health(**total)
 
 
-def _refined(body: _Body) -> Moments:
+def _refined(body: _Body, threads: int) -> Moments:
     """The volume moments with exact third order, for a frame that the cheap bounds left undecided."""
-    return sum_moments([map_sum(solid.refined(), matrices) for solid, matrices in body.parts])
+    return sum_moments([map_sum(solid.refined(threads), matrices) for solid, matrices in body.parts])
 
 
 def _flattened(reading: Reading, shell: bool) -> tuple[str, ...]:
@@ -223,7 +223,7 @@ def _told(obj: bpy.types.Object, reading: Reading, body: _Body, options: Measure
         raise ValueError("Its {:s} is zero; give it one.".format("density" if options.mass is None else "mass"))
     rotation, location = np.asarray(reading.rotation, np.float64), np.asarray(reading.location, np.float64) * unit
     properties = MassProperties.from_moments(
-        moments, density * size, prefer=rotation, refine=None if shell else lambda: _refined(body))
+        moments, density * size, prefer=rotation, refine=None if shell else lambda: _refined(body, options.threads))
     volume = body.area * options.thickness if shell else body.volume
 
     def bounds(of: str, delta: dict[str, float]) -> dict[str, float]:
