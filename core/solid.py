@@ -98,7 +98,7 @@ class SolidMeasure:
     method: "exact", "capped", "reoriented" or "open". warnings: one sentence for each decision taken.
 
     Of a body that is flat the volume's moments are zero; of an open one they depend on the reference point.
-    mended: the surface whose signed sum `volume` is, up to its sign.
+    mended: the surface whose signed sum `volume` is.
     """
 
     volume: Moments
@@ -110,8 +110,7 @@ class SolidMeasure:
 
     def refined(self, threads: int = 1) -> Moments:
         """`volume` with its third order exact to rounding, for what its bounds leave undecided."""
-        exact = polyhedron.third_moments_exact(self.mended, threads)
-        return exact if exact.total > 0.0 else replace(exact, raw=-exact.raw)
+        return polyhedron.third_moments_exact(self.mended, threads)
 
 
 def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) -> SolidMeasure:
@@ -152,6 +151,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
         volume = replace(volume, raw=np.zeros_like(volume.raw), error=volume.error + np.abs(volume.raw))
     elif volume.total < 0.0:
         volume = replace(volume, raw=-volume.raw)
+        measured = replace(measured, quads=measured.quads[:, [0, 3, 2, 1]], triangles=measured.triangles[:, ::-1])
     flipped, inverted = _turned_faces(body, turn)
     impossible = solid and not _possible(volume, surface.points, size)
     if open_parts or not solid or impossible:

@@ -151,14 +151,20 @@ def _boxes_meet(reading: Reading) -> bool:
 def _united(reading: Reading, unit: float, threads: int) -> _Body:
     """All parts where they stand as one surface, overlaps removed by Blender's exact boolean."""
     before = _summed(reading, unit, False, threads)
-    surface = union_surface(_realized(reading))
-    solid = measure_solid(surface, threads=threads)
+    mended = [solid.mended.mapped(matrix[:3, :3], matrix[:3, 3])
+              for solid, matrices in before.parts for matrix in matrices]
+    solid = measure_solid(union_surface(joined(mended)), threads=threads)
     if solid.method == "open":
         raise ValueError("Blender's boolean could not unite its shells; close and clean the mesh, or count each.")
-    scale = np.diag([unit, unit, unit, 1.0])
-    note = "Its shells were united by Blender's exact boolean."
-    return _Body(solid.volume.mapped(scale), solid.area.mapped(scale), before.health, "union", (note, *solid.warnings),
-                 ((solid, scale[None]),))
+    notes = ["Its shells were united by Blender's exact boolean, which rounds to 7 digits."]
+    if before.method == "capped":
+        notes.append("Its holes were capped before; the caps are {:.3g} % of its area.".format(
+            100.0 * before.health.cap_area_share))
+    elif before.method != "exact":
+        notes.append("Its faces were turned outward before." if before.method == "reoriented" else
+                     "Some of its parts are open, so that their union need not be the body that is meant.")
+    return _Body(solid.volume, solid.area, before.health, "union", (*notes, *solid.warnings),
+                 ((solid, np.eye(4)[None]),))
 
 
 def _scaled(matrices: NDArray, unit: float) -> NDArray[np.float64]:

@@ -24,6 +24,7 @@ from bpy.types import Context, Depsgraph, Object, Scene
 from .fingerprint import matrix_hash, settings_hash
 
 # session uid → the fingerprints that were current when the geometry changed
+_settings: dict[int, str] = {}  # session uid → digest of the settings at the last update
 _edited: dict[int, set[str]] = {}
 _undone = False
 _paused = False
@@ -44,6 +45,7 @@ def mark_fresh(obj: Object) -> None:
     global _generation
     _generation += 1
     _edited.pop(obj.session_uid, None)
+    _settings.pop(obj.session_uid, None)
 
 
 @contextmanager
@@ -70,17 +72,25 @@ def reason(obj: Object, scene: Scene) -> str:
     parts = stored.split(":")
     if len(parts) != 4:
         return ""
+    if parts[3] != settings_hash(obj, scene):
+        return "Settings Changed"
     if stored in _edited.get(obj.session_uid, ()):
         return "Geometry Changed"
     if parts[2] != matrix_hash(obj):
         return "Transform Changed"
-    if parts[3] != settings_hash(obj, scene):
-        return "Settings Changed"
     return ""
 
 
+def _settings_edited(obj: Object, fingerprint: str, scene: Scene) -> bool:
+    """Whether this update is one of the object's settings: Blender reports those as changes of its geometry."""
+    now = settings_hash(obj, scene)
+    before = _settings.get(obj.session_uid, fingerprint.rpartition(":")[2])
+    _settings[obj.session_uid] = now
+    return now != before
+
+
 @persistent
-def _note(_scene: Scene, depsgraph: Depsgraph | None = None) -> None:
+def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
     global _generation, _undone
     _generation += 1
     if _paused or depsgraph is None or depsgraph.mode != "VIEWPORT":
@@ -93,7 +103,7 @@ def _note(_scene: Scene, depsgraph: Depsgraph | None = None) -> None:
             continue
         obj = update.id.original
         fingerprint = obj.get("body_fingerprint")
-        if fingerprint is not None:
+        if fingerprint is not None and not _settings_edited(obj, str(fingerprint), scene):
             _edited.setdefault(obj.session_uid, set()).add(str(fingerprint))
 
 
@@ -110,6 +120,7 @@ def _load(*_args) -> None:
     _generation += 1
     _undone = False
     _edited.clear()
+    _settings.clear()
 
 
 HANDLERS = (
@@ -130,3 +141,4 @@ def unregister() -> None:
     for name, function in reversed(HANDLERS):
         getattr(bpy.app.handlers, name).remove(function)
     _edited.clear()
+    _settings.clear()

@@ -99,15 +99,16 @@ class Units:
         """One SI value: "1.5 kg", "12.3457 cm²"."""
         return self.texts(quantity, (value,))[0]
 
-    def texts(self, quantity: str, values: Sequence[float]) -> list[str]:
-        """SI values of one quantity, all in the unit that suits the largest of them."""
+    def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
+        """SI values of one quantity, all in the unit that suits the largest of them. size: of the body that they belong
+        to; what is rounding beside it is told as 0."""
         largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
+        noise = max(1e-12 * largest, 1e-7 * size)
         factor, name = self.unit(quantity, largest)
-        # Beside a largest value, what is left of a cancelled one is noise: 1e-17 kg·m² is told as
-        # 0.
+        # Beside a largest value, what is left of a cancelled one is noise: 1e-17 kg·m² is told as 0.
         return [
             "{:s} {:s}".format(
-                number(0.0 if abs(value) < 1e-12 * largest else value / factor), name
+                number(0.0 if abs(value) < noise else value / factor), name
             ).rstrip()
             for value in values
         ]

@@ -20,7 +20,7 @@ from . import rows
 # method: (headline, icon, explanation)
 VERDICTS = {
     "exact": ("Exact, Closed Surface", "CHECKMARK", ""),
-    "union": ("Exact, United Shells", "CHECKMARK", ""),
+    "union": ("United Shells", "INFO", "By Blender's exact boolean, to 7 digits"),
     "shell": ("Shell", "MOD_SOLIDIFY", "The mass is in the surface"),
     "reoriented": ("Reoriented", "INFO", "Closed after flipped faces were turned"),
     "capped": ("Capped", "ERROR", "The surface is open; its holes were capped"),
@@ -28,6 +28,7 @@ VERDICTS = {
 }
 AXES = ("X", "Y", "Z")
 NUMBERS = ("1", "2", "3")
+EQUAL = 1e-6  # moments closer than this, relatively, are told as equal
 BOUNDS = (("Rounding, at Most", None), ("Coordinates Stored as Float32, at Most", "input"))
 BOUNDED = {
     "volume": ("Volume", "volume"),
@@ -58,6 +59,8 @@ class BodyPanel:
         row.scale_y = 1.4
         row.operator("object.body_moments_measure", icon="PHYSICS")
         row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
+        if len(context.selected_objects) > 1:
+            layout.operator("object.body_moments_copy_settings", icon="PASTEDOWN")
         if found is not None:
             _numbers(layout, scene, units, found)
             _more(layout, units, found)
@@ -65,7 +68,7 @@ class BodyPanel:
             row = layout.row(align=True)
             row.operator("object.body_moments_copy_report", icon="COPYDOWN")
             row.operator("object.body_moments_clear", icon="TRASH")
-        _actions(layout)
+        _actions(layout, obj)
         _totals(layout, context, units)
 
 
@@ -108,8 +111,6 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
         column.prop(settings, "density", text="Density kg/m³")
     else:
         column.prop(settings, "mass", text="Mass kg")
-    if len(context.selected_objects) > 1:
-        column.operator("object.body_moments_copy_settings", icon="PASTEDOWN")
 
 
 def _numbers(layout: UILayout, scene, units: Units, found: properties.Stored) -> None:
@@ -121,14 +122,25 @@ def _numbers(layout: UILayout, scene, units: Units, found: properties.Stored) ->
     layout.row().prop(scene.body_moments, "frame", expand=True)
     column = layout.column(align=True)
     rows.heading(column, "Center of Mass", "length", found.body.center)
-    rows.values(column, units, AXES, "length", found.body.center)
+    rows.values(column, units, AXES, "length", found.body.center, found.body.radii_of_gyration.max())
     column = layout.column(align=True)
     rows.heading(column, "Principal Moments", "inertia", found.body.principal.moments)
     rows.values(column, units, NUMBERS, "inertia", found.body.principal.moments)
     column = layout.column(align=True)
-    rows.heading(column, "Principal Axes", "", found.body.principal.axes)
+    rows.heading(column, "Principal Axes", "", found.body.principal.axes.T)
     for label, axis in zip(NUMBERS, found.body.principal.axes.T):
         rows.direction(column, label, axis)
+    free = _free_axes(found.body.principal.moments)
+    if free:
+        column.label(text=free, icon="INFO")
+
+
+def _free_axes(moments: np.ndarray) -> str:
+    """What equal moments leave to choose."""
+    first, second = (np.diff(moments) <= EQUAL * moments[2]).tolist()
+    if first and second:
+        return "Free: the object's own axes"
+    return "Axes 1 and 2 are free" if first else "Axes 2 and 3 are free" if second else ""
 
 
 def _more(layout: UILayout, units: Units, found: properties.Stored) -> None:
@@ -176,7 +188,7 @@ def _warnings(layout: UILayout, context: Context, obj: Object) -> None:
             rows.sentence(body, context, warning, icon="DOT")
 
 
-def _actions(layout: UILayout) -> None:
+def _actions(layout: UILayout, obj: Object) -> None:
     header, body = layout.panel("body_moments_snap", default_closed=False)
     header.label(text="Snap")
     if body is None:
@@ -193,7 +205,8 @@ def _actions(layout: UILayout) -> None:
         text="Transform Orientation",
         icon="ORIENTATION_LOCAL",
     )
-    column.operator("object.body_moments_set_rigid_body_mass", icon="RIGID_BODY")
+    text = "Set Rigid Body Mass" if obj.rigid_body else "Add Rigid Body with Mass"
+    column.operator("object.body_moments_set_rigid_body_mass", text=text, icon="RIGID_BODY").add = not obj.rigid_body
 
 
 def _totals(layout: UILayout, context: Context, units: Units) -> None:

@@ -19,6 +19,7 @@ class OBJECT_MT_body_moments_materials(Menu):
 
     bl_idname = "OBJECT_MT_body_moments_materials"
     bl_label = "Materials"
+    bl_options = {"SEARCH_ON_KEY_PRESS"}
 
     def draw(self, _context: Context) -> None:
         layout = self.layout

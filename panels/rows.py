@@ -25,10 +25,15 @@ def value(layout: UILayout, units: Units, label: str, quantity: str, si: float) 
 
 
 def values(
-    layout: UILayout, units: Units, labels: Sequence[str], quantity: str, si: Sequence[float]
+    layout: UILayout,
+    units: Units,
+    labels: Sequence[str],
+    quantity: str,
+    si: Sequence[float],
+    size: float = 0.0,
 ) -> None:
-    """A row for each value, all in the same unit."""
-    for label, text, one in zip(labels, units.texts(quantity, si), si):
+    """A row for each value, all in the same unit. size: as for `Units.texts`."""
+    for label, text, one in zip(labels, units.texts(quantity, si, size), si):
         texts(layout, label, text, repr(float(one)), SI_UNITS[quantity])
 
 

@@ -20,14 +20,16 @@ from .mesh import mesh_surface
 def union_surface(surface: Surface) -> Surface:
     """The surface around the union of all shells of `surface`, in float32 coordinates as Blender computes it.
 
-    The shells are taken about the middle of their bounding box, so that nothing is lost far from the origin.
+    The shells are taken about the middle of their bounding box and at about unit size, so that nothing is lost far from
+    the origin, and no threshold of Blender's meets a tiny part.
     """
     points, faces = surface.points.astype(np.float64), surface.all_triangles()[0]
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    scale = 2.0 ** np.ceil(np.log2(np.abs(points - middle).max()))  # a power of two rounds nothing
 
     made = []
     try:
-        mesh = _mesh(points - middle, faces)
+        mesh = _mesh((points - middle) / scale, faces)
         made.append(mesh)
         body = bpy.data.objects.new(mesh.name, mesh)
         made.append(body)
@@ -48,8 +50,8 @@ def union_surface(surface: Surface) -> Surface:
         for data in reversed(made):
             _remove(data)
     # Blender rounds the points to float32 before its boolean and after it, and the points themselves were rounded once.
-    moved = 2.0 * united.coordinate_error + surface.coordinate_error
-    return replace(united.mapped(np.eye(3), middle), moved=moved)
+    united = united.mapped(scale * np.eye(3), middle)
+    return replace(united, moved=2.0 * united.coordinate_error + surface.coordinate_error)
 
 
 def _mesh(points: np.ndarray, triangles: np.ndarray) -> bpy.types.Mesh:

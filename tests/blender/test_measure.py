@@ -286,3 +286,41 @@ def test_a_unit_scale_is_used_in_double_precision():
     foot = 0.3048006096012192
     assert measure(add(box()), unit_scale=foot).volume == pytest.approx(6 * foot**3, rel=1e-13)
     assert measure(add(box()), unit_scale=1e-10).volume == pytest.approx(6e-30, rel=1e-13)
+
+
+def test_out_of_date_names_what_has_changed():
+    from body_moments.operators import staleness
+
+    scene, obj = bpy.context.scene, add(box())
+    obj.select_set(True)
+    bpy.ops.object.body_moments_measure()
+
+    def reason():
+        bpy.context.view_layer.update()
+        return staleness.reason(obj, scene)
+
+    assert reason() == ""
+    obj.body_moments.density = 500.0
+    assert reason() == "Settings Changed"
+    obj.body_moments.density = 1000.0
+    assert reason() == ""
+    obj.location.x = 1.0
+    assert reason() == "Transform Changed"
+    obj.location.x = 0.0
+    assert reason() == ""
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    assert reason() == "Geometry Changed"
+
+
+def test_an_inside_out_or_open_body_is_mended_before_it_is_united():
+    assert measure(add(box(turned=True)), overlap="union").volume == pytest.approx(6.0, rel=1e-6)
+    open_box = box((0, 0, 0), (1, 1, 1))
+    open_box["faces"] = open_box["faces"][:-1]
+    found = measure(add(open_box), overlap="union")
+    assert found.volume == pytest.approx(1.0, rel=1e-6) and any("capped" in warning for warning in found.warnings)
+
+
+def test_a_tiny_union_is_as_right_as_a_large_one():
+    obj = add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)), scale=(1e-6, 1e-6, 1e-6))
+    assert measure(obj, overlap="union").volume == pytest.approx(1.5e-18, rel=1e-6)
