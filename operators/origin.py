@@ -5,7 +5,7 @@ the data.
 """
 
 import numpy as np
-from bpy.types import Context, Operator
+from bpy.types import Context, Object, Operator
 
 from . import reframe, selection, snapping
 from .channels import world
@@ -28,29 +28,22 @@ class OBJECT_OT_body_moments_origin_to_center(Operator):
         return selection.poll_selected(cls, context)
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected(context)
-        plans: list[reframe.Plan] = []
-
-        def plan(obj) -> bool:
-            reframe.check(obj)
-            body = snapping.body_of(context, obj)
-            target = world(obj)
-            if np.abs(target[:3, 3] - body.center).max() > reframe.location_tolerance(
-                obj, body.size
-            ):
-                target[:3, 3] = body.center
-                plans.append(reframe.Plan(obj, target, body.size, move_only=True))
-            return True
-
-        _, failures = selection.each(self, objects, plan, snapping.REFUSALS)
-        return snapping.carry_out(
+        return snapping.reframe_selected(
             self,
             context,
-            objects,
-            plans,
-            failures,
+            _at_center,
             "Moved the origin of {count} to the center of mass",
+            move_only=True,
         )
+
+
+def _at_center(obj: Object, body: snapping.Body) -> np.ndarray | None:
+    target = world(obj)
+    off = np.abs(target[:3, 3] - body.center).max()
+    if off <= reframe.location_tolerance(obj, body.size):
+        return None
+    target[:3, 3] = body.center
+    return target
 
 
 CLASSES = (OBJECT_OT_body_moments_origin_to_center,)

@@ -7,7 +7,7 @@ After this they are right to do so.
 """
 
 import numpy as np
-from bpy.types import Context, Operator
+from bpy.types import Context, Object, Operator
 
 from . import reframe, selection, snapping
 from .channels import world
@@ -32,27 +32,21 @@ class OBJECT_OT_body_moments_axes_to_principal(Operator):
         return selection.poll_selected(cls, context)
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected(context)
-        plans: list[reframe.Plan] = []
-
-        def plan(obj) -> bool:
-            reframe.check(obj)
-            body = snapping.body_of(context, obj)
-            if not _is_there(obj, body):
-                target = np.eye(4)
-                target[:3, :3], target[:3, 3] = body.axes, body.center
-                plans.append(reframe.Plan(obj, target, body.size, move_only=False))
-            return True
-
-        _, failures = selection.each(self, objects, plan, snapping.REFUSALS)
-        return snapping.carry_out(
+        return snapping.reframe_selected(
             self,
             context,
-            objects,
-            plans,
-            failures,
+            _along_axes,
             "Made the principal frame the own frame of {count}",
+            move_only=False,
         )
+
+
+def _along_axes(obj: Object, body: snapping.Body) -> np.ndarray | None:
+    if _is_there(obj, body):
+        return None
+    target = np.eye(4)
+    target[:3, :3], target[:3, 3] = body.axes, body.center
+    return target
 
 
 def _is_there(obj, body: snapping.Body) -> bool:

@@ -11,6 +11,7 @@ between two measured frames.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -99,15 +100,28 @@ def refresh(context: Context, objects: list[Object]) -> None:
     staleness.settle(context, fresh)
 
 
-def carry_out(
+def reframe_selected(
     operator: Operator,
     context: Context,
-    objects: list[Object],
-    plans: list[reframe.Plan],
-    failures: list[tuple[str, str]],
+    wanted: Callable[[Object, Body], NDArray | None],
     text: str,
+    move_only: bool,
 ) -> set[str]:
-    """Reframe what was planned and report it; objects without plan or failure were right before."""
+    """Give each selected object the matrix that `wanted` tells for it, while nothing visible moves,
+    and report it. `wanted` tells None where the object is right as it is.
+    """
+    objects = selection.selected(context)
+    plans: list[reframe.Plan] = []
+
+    def plan(obj: Object) -> bool:
+        reframe.check(obj)
+        body = body_of(context, obj)
+        target = wanted(obj, body)
+        if target is not None:
+            plans.append(reframe.Plan(obj, target, body.size, move_only=move_only))
+        return True
+
+    _, failures = selection.each(operator, objects, plan, REFUSALS)
     with staleness.paused(), selection.progress(len(plans)) as step:
         done, refused = reframe.reframe(context, plans, step)
     failures += [(obj.name, reason) for obj, reason in refused]

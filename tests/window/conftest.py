@@ -4,6 +4,7 @@
 
 import os
 import subprocess
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -65,13 +66,20 @@ def cube_file(run_blender, tmp_path_factory) -> Path:
     return file
 
 
-@pytest.fixture(scope="module")
-def window(run_blender, cube_file, tmp_path_factory):
-    """Blender's window with the cube in it."""
+@contextmanager
+def open_window(run_blender, file: Path, folder: Path):
+    """Blender's window with a file in it; skips where there is no screen to show it on."""
     if missing := harness.missing_tools():
         pytest.skip("no screen for Blender's window: {} not found".format(", ".join(missing)))
     artefacts = ROOT / "tests" / "window" / "artefacts"
     artefacts.mkdir(exist_ok=True)
-    log = tmp_path_factory.mktemp("log") / "blender.log"
-    with harness.Window(run_blender.blender, run_blender.user, cube_file, log, artefacts) as opened:
+    log = folder / "blender.log"
+    with harness.Window(run_blender.blender, run_blender.user, file, log, artefacts) as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def window(run_blender, cube_file, tmp_path_factory):
+    """Blender's window with the cube in it."""
+    with open_window(run_blender, cube_file, tmp_path_factory.mktemp("log")) as opened:
         yield opened

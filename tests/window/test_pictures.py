@@ -9,8 +9,7 @@ They are left among the artefacts; the README shows copies of them (tests/window
 import pytest
 
 from tests import demo
-from tests.window import harness
-from tests.window.conftest import ROOT
+from tests.window.conftest import ROOT, open_window
 
 BRACKET = "bpy.data.objects['Bracket']"
 
@@ -25,12 +24,7 @@ def bracket_file(run_blender, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def window(run_blender, bracket_file, tmp_path_factory):
-    if missing := harness.missing_tools():
-        pytest.skip("no screen for Blender's window: {} not found".format(", ".join(missing)))
-    artefacts = ROOT / "tests" / "window" / "artefacts"
-    artefacts.mkdir(exist_ok=True)
-    log = tmp_path_factory.mktemp("log") / "blender.log"
-    with harness.Window(run_blender.blender, run_blender.user, bracket_file, log, artefacts) as opened:
+    with open_window(run_blender, bracket_file, tmp_path_factory.mktemp("log")) as opened:
         yield opened
 
 
