@@ -116,8 +116,12 @@ def _decided(size: NDArray, doubt: NDArray, noise: NDArray) -> bool:
     below = size + doubt <= noise
     if not (clear[:, 0] | (clear | below).all(axis=1)).all():
         return False
-    last = np.argsort(size[:, 0])[:2]  # only which of three scores is the last one matters
-    return len(size) < 3 or size[last[1], 0] - size[last[0], 0] > 2.0 * doubt[last, 0].sum()
+    if len(size) < 3 or not clear.any(axis=1).all():
+        return True
+    rows, first = np.arange(3), clear.argmax(axis=1)
+    size, doubt = size[rows, first], doubt[rows, first]
+    last = np.argsort(size)[:2]  # of three scores, which one is the last
+    return size[last[1]] - size[last[0]] > 2.0 * doubt[last].sum()
 
 
 def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:

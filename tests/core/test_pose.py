@@ -158,3 +158,10 @@ def test_doubtful_third_moments_are_refined_and_only_then():
     cube = box((0, 0, 0), (1, 1, 1))
     principal_frame(Moments(cube.raw, cube.about, error=np.where(np.arange(20) > 9, 1.0, 0.0)), refine=refine)
     assert not asked
+
+
+def test_noise_below_the_threshold_is_not_refined_whatever_its_order():
+    cube = box((0, 0, 0), (3, 2, 1))
+    doubt = np.where(np.arange(20) > 9, 1e-9, 0.0)
+    noisy = Moments(cube.raw * (1 + 1e-9 * np.arange(20)), cube.about, error=doubt)
+    assert not principal_frame(noisy, refine=lambda: pytest.fail("asked for better moments")).unique
