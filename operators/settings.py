@@ -31,7 +31,6 @@ class BodyMomentsObjectSettings(PropertyGroup):
 
     kind: EnumProperty(
         name="Kind",
-        override={"LIBRARY_OVERRIDABLE"},
         description="What the surface stands for",
         items=(
             ("SOLID", "Solid", "The surface bounds a body that is filled with the material"),
@@ -41,7 +40,6 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     mass_from: EnumProperty(
         name="Mass From",
-        override={"LIBRARY_OVERRIDABLE"},
         description="Which of mass and density is given; the other follows from the geometry",
         items=(
             ("DENSITY", "Density", "The density is given, the mass follows"),
@@ -51,7 +49,6 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     density: FloatProperty(
         name="Density",
-        override={"LIBRARY_OVERRIDABLE"},
         description="Density in kg/m³",
         default=1000.0,
         min=0.0,
@@ -63,7 +60,6 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     mass: FloatProperty(
         name="Mass",
-        override={"LIBRARY_OVERRIDABLE"},
         description="Mass in kilograms, whatever the scene's units are",
         default=1.0,
         min=0.0,
@@ -72,7 +68,6 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     thickness: FloatProperty(
         name="Thickness",
-        override={"LIBRARY_OVERRIDABLE"},
         description="Thickness of the sheet",
         default=0.001,
         min=0.0,
@@ -81,7 +76,6 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     overlap: EnumProperty(
         name="Overlaps",
-        override={"LIBRARY_OVERRIDABLE"},
         description=(
             "What is measured where shells of this object overlap or lie inside one another"
         ),
@@ -97,7 +91,6 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     material: StringProperty(
         name="Material",
-        override={"LIBRARY_OVERRIDABLE"},
         description="Name of the material that the density was taken from",
     )
 
@@ -148,9 +141,7 @@ CLASSES = (BodyMomentsObjectSettings, BodyMomentsSceneSettings)
 def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    Object.body_moments = PointerProperty(
-        name="Body Moments", type=BodyMomentsObjectSettings, override={"LIBRARY_OVERRIDABLE"}
-    )
+    Object.body_moments = PointerProperty(name="Body Moments", type=BodyMomentsObjectSettings)
     Scene.body_moments = PointerProperty(name="Body Moments", type=BodyMomentsSceneSettings)
 
 

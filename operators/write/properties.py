@@ -64,8 +64,10 @@ class Stored:
 def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     """Writes all results on the object, or none. RuntimeError, with the remedy, where the object cannot hold them."""
     if not obj.is_editable:
-        raise RuntimeError("It is linked from another file; make it local or a library override to store results on "
-                           "it.")
+        raise RuntimeError("It is linked from another file; make it local to store results on it.")
+    if obj.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
+        raise RuntimeError("It is a library override, which would lose its results with the file; make it local to "
+                           "store results on it.")
     body, bound = measurement.in_object_frame(), measurement.error_bound
     values = {
         "body_mass": body.mass,
@@ -83,8 +85,6 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     }
     for key, value in values.items():
         obj[key] = value
-        if obj.override_library is not None:  # or it would be lost with the file
-            obj.property_overridable_library_set('["{:s}"]'.format(key), True)
         if not isinstance(value, str):
             obj.id_properties_ui(key).update(description=DESCRIPTIONS[key], precision=6)
     obj.update_tag()  # drivers that read them follow

@@ -324,3 +324,20 @@ def test_an_inside_out_or_open_body_is_mended_before_it_is_united():
 def test_a_tiny_union_is_as_right_as_a_large_one():
     obj = add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)), scale=(1e-6, 1e-6, 1e-6))
     assert measure(obj, overlap="union").volume == pytest.approx(1.5e-18, rel=1e-6)
+
+
+def test_a_library_override_is_refused_because_it_would_lose_its_results(tmp_path):
+    add(box(), name="Part")
+    library = tmp_path / "library.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(library))
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
+        wanted.objects = ["Part"]
+    bpy.context.scene.collection.objects.link(wanted.objects[0])
+    override = wanted.objects[0].override_create(remap_local_usages=True)
+    bpy.context.view_layer.update()
+    from body_moments.operators.write import properties
+
+    with pytest.raises(RuntimeError, match="make it local"):
+        properties.store(override, measure(override))
+    assert not properties.is_stored(override)
