@@ -97,14 +97,14 @@ def _resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> Me
 
 def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> _Body:
     """Each part measured once in its own coordinates, and mapped to wherever it stands."""
-    note = ()
+    volumes, areas, healths, methods, warnings, parts = [], [], [], [], [], []
     if not shell and reading.places > 1 and _boxes_meet(reading):
-        if sum(len(part.surface.triangles) + 2 * len(part.surface.quads) for part in reading.parts
-               for _ in part.matrices) <= COMPARED:
+        if sum((len(part.surface.triangles) + 2 * len(part.surface.quads)) * len(part.matrices)
+               for part in reading.parts) <= COMPARED:
             return _as_one(reading, unit, threads)
-        note = ("Overlap was not looked for between its {:d} instances, and boxes around some of them overlap; what "
-                "those share counts twice.".format(reading.places),)
-    volumes, areas, healths, methods, warnings, parts = [], [], [], [], list(note), []
+        warnings.append(
+            "Overlap was not looked for between its {:d} instances, and boxes around some of them overlap; what "
+            "those share counts twice.".format(reading.places))
     for part in reading.parts:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
         matrices = _scaled(part.matrices, unit)
