@@ -22,6 +22,7 @@ class Measurement:
     density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area
     in m².
     volume_moments: None for a shell; area_moments: to order 3 for a shell, else order 0.
+    mass_moments: the moments that carry the mass, and the mass in kg per unit of them.
     rotation, location: (3, 3) and (3,) the object frame, its unit scale.
     error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"
         for what storing coordinates as float32 may have moved.
@@ -40,6 +41,7 @@ class Measurement:
     mass_properties: MassProperties
     volume_moments: Moments | None
     area_moments: Moments
+    mass_moments: tuple[Moments, float]
     health: Health
     warnings: tuple[str, ...]
     rotation: NDArray[np.float64]
@@ -50,10 +52,3 @@ class Measurement:
     def in_object_frame(self) -> MassProperties:
         """The mass properties in the object's own frame."""
         return self.mass_properties.in_frame(self.rotation, self.location)
-
-    @property
-    def mass_moments(self) -> tuple[Moments, float]:
-        """The moments that carry the mass, and the mass per unit of them."""
-        if self.volume_moments is None:
-            return self.area_moments, self.density * self.thickness
-        return self.volume_moments, self.density

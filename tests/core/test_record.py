@@ -60,6 +60,7 @@ def box(
         mass_properties=MassProperties.from_moments(moments, density),
         volume_moments=moments,
         area_moments=Moments(np.array([2.0 * (a * b + b * c + c * a)]), np.zeros(3), "area"),
+        mass_moments=(moments, density),
         health=SimpleNamespace(as_record=lambda: dict(HEALTH)),
         warnings=("It is a box",),
         rotation=np.asarray(rotation, float),
