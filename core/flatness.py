@@ -43,7 +43,8 @@ def examine(surface: Surface, error: float) -> Flatness:
     # Differences of float32 points in float32 err by no more than the points do. The body is brought to size 1, lest
     # sixth powers of small lengths underflow.
     columns = np.array(surface.points.T, order="C")
-    size = max(max(float(column.max()) - float(column.min()) for column in columns), np.finfo(np.float32).tiny)
+    low, high = surface.box
+    size = max(float((high - low).max()), np.finfo(np.float32).tiny)
     size = 2.0 ** np.ceil(np.log2(size))
     columns *= columns.dtype.type(1.0 / size)
     error = error / size

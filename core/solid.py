@@ -23,7 +23,7 @@ from .flatness import examine
 from .mending import Mended, counted, listed, mend
 from .moments import SECOND, Moments
 from .nesting import decide, relate, sort_shells
-from .surface import Surface
+from .surface import Surface, all_there
 from .topology import closed_sides, components, mesh_faces
 from .weld import TOLERANCE
 
@@ -122,11 +122,12 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     surface, vertices, size = _used(surface)
     error = float(np.linalg.norm(surface.coordinate_error))
     tolerance = max(TOLERANCE * size, 4.0 * error)
-    if threads > 1:
+    own = None
+    if threads > 1:  # most surfaces turn out to be measured as they are, and the area always is
         with ThreadPoolExecutor(1) as pool:
-            waiting = pool.submit(examine, surface, error)
-            body = _proven(surface)
-        flatness = waiting.result()
+            waiting = pool.submit(polyhedron.solid_and_area, surface, 1, shell)
+            flatness, body = examine(surface, error), _proven(surface)
+        own = waiting.result()
     else:
         flatness, body = examine(surface, error), _proven(surface)
     proven = body is not None
@@ -135,9 +136,9 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     compared = _compared(body, tolerance, error) if body.number > 1 else None
     turn = np.zeros(body.number, bool) if compared is None else compared.turned
     measured = _to_measure(surface, body, turn, np.ones(1, bool) if compared is None else compared.solid, proven)
-    volume, area = polyhedron.solid_and_area(measured, threads, shell)
+    volume, area = own if own and measured is surface else polyhedron.solid_and_area(measured, threads, shell)
     if body.changed:  # caps are no part of the area, and left out faces are
-        area = polyhedron.solid_and_area(surface, threads, shell)[1]
+        area = (own or polyhedron.solid_and_area(surface, threads, shell))[1]
     if compared is None:
         solid = bool(abs(volume.total) > _noise(size, area.total, body.caps.any(), error))
         turn = turn | (solid and volume.total < 0.0)
@@ -153,7 +154,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
         volume = replace(volume, raw=-volume.raw)
         measured = replace(measured, quads=measured.quads[:, [0, 3, 2, 1]], triangles=measured.triangles[:, ::-1])
     flipped, inverted = _turned_faces(body, turn)
-    impossible = solid and not _possible(volume, surface.points, size)
+    impossible = solid and not _possible(volume, surface, size)
     if open_parts or not solid or impossible:
         method = "open"
     elif caps.any():
@@ -182,7 +183,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
                         mended=measured)
 
 
-def _possible(volume: Moments, points: NDArray, size: float) -> bool:
+def _possible(volume: Moments, surface: Surface, size: float) -> bool:
     """Whether a body within the points' bounding box, `size` across, can have these moments: its center is inside, and
     its second central moments are those of a positive mass. Where a surface intersects itself, they need not be."""
     total, first = volume.raw[0], volume.raw[1:4]
@@ -193,7 +194,8 @@ def _possible(volume: Moments, points: NDArray, size: float) -> bool:
     rounding = 8.0 * (volume.error[SECOND].max() / total + np.finfo(float).eps * np.abs(second).max())
     slack = 1e-6 * size + volume.error[1:4].max() / total
     center = volume.center
-    inside = all(column.min() - slack <= x <= column.max() + slack for x, column in zip(center, points.T))
+    low, high = surface.box
+    inside = bool((low - slack <= center).all() and (center <= high + slack).all())
     return bool(inside and scale > 0.0 and np.linalg.eigvalsh(second)[0] >= -rounding)
 
 
@@ -204,7 +206,7 @@ def _used(surface: Surface) -> tuple[Surface, NDArray[np.intp] | None, float]:
     if not faces:
         raise ValueError("It has no faces. Give it faces, or choose an object that has some.")
     points = surface.points
-    if any(corners.min() < 0 or corners.max() >= len(points) for corners in faces):
+    if not all(all_there(corners, len(points)) for corners in faces):
         raise ValueError("Its faces use vertices that do not exist. Run Mesh > Validate on it.")
     used = np.zeros(len(points), bool)
     for column in (0, 2, 1, 3):  # opposite corners first: they reach most vertices
@@ -221,16 +223,16 @@ def _used(surface: Surface) -> tuple[Surface, NDArray[np.intp] | None, float]:
             surface, points=points[used], triangles=number[surface.triangles], quads=number[surface.quads],
             corner_vertices=None if surface.corner_vertices is None else number[surface.corner_vertices],
             edges=None if surface.edges is None else number[surface.edges])
-    points = surface.points
+    low, high = surface.box
     with np.errstate(invalid="ignore", over="ignore"):
-        size = float(np.linalg.norm([float(points[:, k].max()) - float(points[:, k].min()) for k in range(3)]))
+        size = float(np.linalg.norm(high - low))
     if not np.isfinite(size):
-        astray = np.flatnonzero(~np.isfinite(points).all(axis=1))
+        astray = np.flatnonzero(~np.isfinite(surface.points).all(axis=1))
         if len(astray):
             raise ValueError(
                 "{:d} of its vertices have no finite position: {:s}. Delete them, or repair what moves them."
                 .format(len(astray), listed(astray if vertices is None else vertices[astray])))
-    if not max(size, float(np.abs(points).max())) < LARGEST:
+    if not max(size, float(np.abs([low, high]).max())) < LARGEST:
         raise ValueError("It is too large for its moments to be numbers. Scale it down.")
     return surface, vertices, size
 

@@ -92,10 +92,10 @@ def _boxes_meet(reading: Reading) -> bool:
     """Whether the boxes around any two of the places where parts stand share more than a rim."""
     centers, extents = [], []
     for part in reading.parts:
-        low, high = part.surface.points.min(axis=0), part.surface.points.max(axis=0)
+        low, high = part.surface.box
         linear = part.matrices[:, :3, :3]
-        centers.append(linear @ ((low + high) / 2.0).astype(np.float64) + part.matrices[:, :3, 3])
-        extents.append(np.abs(linear) @ ((high - low) / 2.0).astype(np.float64))
+        centers.append(linear @ ((low + high) / 2.0) + part.matrices[:, :3, 3])
+        extents.append(np.abs(linear) @ ((high - low) / 2.0))
     return boxes_meet(np.concatenate(centers), np.concatenate(extents))
 
 

@@ -46,10 +46,10 @@ def mesh_surface(mesh) -> Surface:
 
     mesh.calc_loop_triangles()
     owners = _array(mesh.loop_triangle_polygons, "value", (len(mesh.loop_triangles),), np.int32)
-    # The even places alone would also accept a triangle followed by a pentagon.
+    # Both triangles of each face at once: the even places alone would accept a triangle followed by a pentagon.
     if (
         len(corners) == 4 * faces
-        and (owners.reshape(-1, 2) == np.arange(faces, dtype=np.int32)[:, None]).all()
+        and np.array_equal(owners.view(np.int64), np.arange(faces) * ((1 << 32) + 1))
     ):
         return Surface(points, quads=corners.reshape(-1, 4), **topology)
 

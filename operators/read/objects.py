@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.rotation import rotation_matrix
+from ...core.surface import Surface
 from .decisions import decisions, why_empty
 from .instances import Gathered
 from .reading import Reading, Unreadable, float64_matrix
@@ -43,7 +44,7 @@ def read_object(obj, depsgraph) -> Reading:
     if not parts:
         raise Unreadable(obj.name, why_empty(obj, gathered, depsgraph))
     for part in parts:
-        _require_finite(obj.name, part.surface.points)
+        _require_finite(obj.name, part.surface)
     location, rotation, _scale = evaluated.matrix_world.decompose()
     return Reading(
         name=obj.name,
@@ -63,10 +64,10 @@ def _require_readable_mode(obj) -> None:
         )
 
 
-def _require_finite(name: str, points: np.ndarray) -> None:
-    # A NaN comes through both, an infinity through one; no array of truth values for the good case.
-    if np.isfinite(points.min()) and np.isfinite(points.max()):
+def _require_finite(name: str, surface: Surface) -> None:
+    if np.isfinite(surface.box).all():
         return
+    points = surface.points
     count = int((~np.isfinite(points).all(axis=1)).sum())
     raise Unreadable(
         name,
