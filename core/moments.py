@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
-BLOCK = 1024  # maps at a time: their functionals stay in the cache
+BLOCK = 2048  # maps at a time: their functionals stay in the cache
 SIMILARITY = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
 
 

@@ -71,8 +71,9 @@ def _new_empty(context: Context, obj: Object) -> Object:
     empty.show_in_front = True  # the center of mass is mostly inside
     empty.rotation_mode = "QUATERNION"
     empty[OF] = obj
-    visible = [collection for collection in obj.users_collection if collection.library is None]
-    (visible[0] if visible else context.scene.collection).objects.link(empty)
+    own = [collection for collection in obj.users_collection
+           if collection.library is None and collection.override_library is None]  # others take no objects
+    (own[0] if own else context.scene.collection).objects.link(empty)
     return empty
 
 

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import bpy
 
 from .measure import Measurement, Unreadable, measure_object
+from .results import refuse
 from .staleness import settle
 from .write import properties
 
@@ -79,6 +80,9 @@ class OBJECT_OT_body_moments_measure(bpy.types.Operator):
                 self._found.append((obj, measure_object(obj, depsgraph)))
             except Unreadable as error:
                 self._failed.append(str(error))
+                refuse(obj, error.reason)
+            else:
+                refuse(obj, None)
             yield obj
 
     def _end(self, context: bpy.types.Context) -> None:

@@ -35,6 +35,21 @@ class Total:
     outdated: tuple[str, ...]
 
 
+def refuse(obj: Object, reason: str | None) -> None:
+    """Keep, until Blender ends, why the object could not be measured; None forgets it."""
+    _refusals.pop(obj.session_uid, None)
+    if reason is not None:
+        _refusals[obj.session_uid] = reason
+
+
+def refusal(obj: Object) -> str:
+    """Why the object could not be measured when that was last tried, or nothing."""
+    return _refusals.get(obj.session_uid, "")
+
+
+_refusals: dict[int, str] = {}
+
+
 def of_object(obj: Object, scene: Scene) -> properties.Stored | None:
     """The stored results in the frame that the scene shows; None where there are none, or not all of them."""
     rows = properties.numbers(obj)

@@ -74,6 +74,8 @@ class BodyPanel:
 
 def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> None:
     column = layout.column(align=True)
+    if reason := results.refusal(obj):
+        rows.sentence(column, context, reason, icon="CANCEL")
     if not measured:
         column.label(text="Not Measured", icon="RADIOBUT_OFF")
         return

@@ -18,9 +18,14 @@ from pathlib import Path
 
 
 def claim_stdout() -> int:
-    """A descriptor of the standard output, which nothing else in this process reaches any more."""
-    sys.stdout.flush()
-    channel = os.dup(1)
+    """A descriptor of the standard output, which nothing else in this process reaches any more; -1 where it is closed.
+    """
+    try:
+        channel = os.dup(1)
+    except OSError:
+        channel = -1
+    else:
+        sys.stdout.flush()
     try:
         os.dup2(2, 1)
     except OSError:  # there is no standard error

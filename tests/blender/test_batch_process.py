@@ -53,6 +53,17 @@ def test_nothing_but_the_document_is_on_the_standard_output(folder, name):
     assert found["objects"][0]["volume"] == pytest.approx(6.0, rel=1e-6)
 
 
+def test_a_closed_standard_output_is_told_and_does_not_matter_where_there_is_an_output_file(folder, tmp_path):
+    def closed(*words):
+        shell = ("sh", "-c", 'exec "$@" >&-', "sh")
+        return process(*shell, sys.executable, SCRIPT, "measure", folder / "part.glb", *words)
+
+    ended = closed()
+    assert ended.returncode == 70 and b"cannot be written" in ended.stderr and b"Traceback" not in ended.stderr
+    assert closed("--output", tmp_path / "out.json").returncode == 0
+    assert json.loads((tmp_path / "out.json").read_text())["objects"]
+
+
 def test_a_broken_file_gives_1_and_the_others_are_there(folder):
     ended = script(
         "measure", "part.glb", "bad.blend", "gone.stl", "part.stl", "--format", "jsonl", cwd=folder

@@ -90,6 +90,19 @@ def test_both_panels_draw_and_an_object_without_results_is_told_as_such():
     assert bpy.types.OBJECT_PT_body_moments.bl_context == "object"
 
 
+def test_why_an_object_could_not_be_measured_is_shown_until_it_is():
+    flat = bpy.data.meshes.new("Wire")
+    flat.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+    obj = add(flat)
+    bpy.ops.object.body_moments_measure()
+    shown = " ".join(labels(drawn()))
+    assert "Not Measured" in shown and "face" in shown
+    obj.data = mesh_body()
+    bpy.ops.object.body_moments_measure()
+    assert "Not Measured" not in labels(drawn())
+    assert "Exact, Closed Surface" in labels(drawn())
+
+
 def test_every_kind_of_object_can_be_active():
     for kind in ("CAMERA", "EMPTY", "LIGHT", "ARMATURE"):
         data = {
