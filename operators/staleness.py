@@ -5,7 +5,8 @@
 Transform and settings are compared by their digests in the fingerprint. A digest of the geometry
 would need measuring, so a handler notes, in memory only, which objects' geometry Blender
 re-evaluated after their numbers were stored: a note is the pair of the object's session uid and the
-fingerprint that it then carried. Nothing is written to any data.
+fingerprint that it then carried. Nothing is written to any data, until a file is saved: then the geometry's
+digest in the fingerprints of noted objects becomes EDITED, so that the file knows when it is opened.
 
 Undo re-evaluates what it brings back, which is no edit: the one update that follows it is not
 noted. An edit that undo brings back again was noted when it was made. Reading a file reports no
@@ -23,9 +24,10 @@ from bpy.types import Context, Depsgraph, Object, Scene
 
 from .fingerprint import matrix_hash, settings_hash
 
-# session uid → the fingerprints that were current when the geometry changed
+EDITED = "edited"
+
 _settings: dict[int, str] = {}  # session uid → digest of the settings at the last update
-_edited: dict[int, set[str]] = {}
+_edited: dict[int, set[str]] = {}  # session uid → the fingerprints that were current when the geometry changed
 _undone = False
 _paused = False
 _generation = 0
@@ -74,7 +76,7 @@ def reason(obj: Object, scene: Scene) -> str:
         return ""
     if parts[3] != settings_hash(obj, scene):
         return "Settings Changed"
-    if stored in _edited.get(obj.session_uid, ()):
+    if parts[1] == EDITED or stored in _edited.get(obj.session_uid, ()):
         return "Geometry Changed"
     if parts[2] != matrix_hash(obj):
         return "Transform Changed"
@@ -123,12 +125,22 @@ def _load(*_args) -> None:
     _settings.clear()
 
 
+@persistent
+def _save(*_args) -> None:
+    for obj in bpy.data.objects:
+        stored = str(obj.get("body_fingerprint", ""))
+        parts = stored.split(":")
+        if len(parts) == 4 and obj.is_editable and stored in _edited.get(obj.session_uid, ()):
+            obj["body_fingerprint"] = ":".join([parts[0], EDITED, *parts[2:]])
+
+
 HANDLERS = (
     ("depsgraph_update_post", _note),
     ("frame_change_post", _note),
     ("undo_post", _undo),
     ("redo_post", _undo),
     ("load_post", _load),
+    ("save_pre", _save),
 )
 
 

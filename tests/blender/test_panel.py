@@ -297,6 +297,21 @@ def test_a_saved_file_is_up_to_date_when_opened_and_out_of_date_when_edited(tmp_
     assert outdated()
 
 
+def test_a_file_saved_after_an_edit_is_out_of_date_when_opened(tmp_path):
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    bpy.context.view_layer.update()
+    path = str(tmp_path / "a.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    assert outdated()
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert outdated()
+    bpy.ops.object.body_moments_measure()
+    assert not outdated()
+
+
 def test_the_presets_panel_draws_without_presets(monkeypatch):
     from body_moments.panels.materials import (
         OBJECT_MT_body_moments_materials,
