@@ -74,10 +74,12 @@ class BodyPanel:
 
 def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> None:
     column = layout.column(align=True)
-    if reason := results.refusal(obj):
-        rows.sentence(column, context, reason, icon="CANCEL")
+    refusal = results.refusal(obj)
+    if refusal or not measured:
+        column.label(text="Not Measured", icon="CANCEL" if refusal else "RADIOBUT_OFF")
+    if refusal:
+        rows.sentence(column, context, refusal, icon="BLANK1")
     if not measured:
-        column.label(text="Not Measured", icon="RADIOBUT_OFF")
         return
     method, _ = properties.method_and_warnings(obj)
     *before, last = method.split() or [""]

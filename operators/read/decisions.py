@@ -33,7 +33,7 @@ def why_empty(obj, gathered: Gathered, depsgraph) -> str:
         )
     if vertices:
         return (
-            "It has no faces, only {:d} vertices and {:d} edges; fill the faces, or give it "
+            "It has no faces, only vertices ({:d}) and edges ({:d}); fill the faces, or give it "
             "thickness by a modifier."
         ).format(vertices, edges)
     if obj.instance_type == "COLLECTION":

@@ -149,7 +149,7 @@ def test_an_empty_without_instances_is_refused():
 
 def test_what_has_no_faces_is_refused_with_what_it_has():
     wire = link("Wire", mesh("Wire", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1), (1, 2)]))
-    assert "only 3 vertices and 2 edges" in refused(wire)
+    assert "only vertices (3) and edges (2)" in refused(wire)
     assert "has no geometry" in refused(link("Nothing", mesh("Nothing", [], [])))
     bpy.ops.curve.primitive_bezier_circle_add()
     assert "bevel" in refused(bpy.context.object)
