@@ -10,6 +10,7 @@ from dataclasses import fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.images import area_of_images
 from ..core.moments import Moments, are_similarities, map_sum, sum_moments
 from ..core.polyhedron import solid_and_area
 from ..core.solid import Faults, Health, SolidMeasure, measure_solid
@@ -126,17 +127,21 @@ def _scaled(matrices: NDArray, unit: float) -> NDArray[np.float64]:
 
 
 def _mapped_areas(part: Part, area: Moments, matrices: NDArray, shell: bool, threads: int) -> Iterator[Moments]:
-    """The area moments of a part's images. Areas do not follow a map that stretches unevenly, so there the mapped
-    surface is measured, once for each different map."""
+    """The area moments of a part's images. Those of a shell do not follow a map that stretches unevenly, so there the
+    mapped surface is measured, once for each different map."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield map_sum(area, matrices[even])
     if even.all():
         return
-    linear, which = np.unique(matrices[~even, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
+    linear = matrices[~even, :3, :3]
+    if not shell:
+        yield area_of_images(part.surface, linear)
+        return
+    linear, which = np.unique(linear.reshape(-1, 9), axis=0, return_inverse=True)
     places = matrices[~even, :3, 3]
     for i, row in enumerate(linear):
-        mapped = solid_and_area(part.surface.mapped(row.reshape(3, 3)), threads, shell=shell)[1]
+        mapped = solid_and_area(part.surface.mapped(row.reshape(3, 3)), threads, shell=True)[1]
         moved = np.tile(np.eye(4), (np.count_nonzero(which.ravel() == i), 1, 1))
         moved[:, :3, 3] = places[which.ravel() == i]
         yield map_sum(mapped, moved)
