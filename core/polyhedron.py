@@ -31,11 +31,14 @@ from numpy.typing import NDArray
 
 from .blocks import CHUNK, TRIPLES, Faces, Rows
 from .moments import Moments, U, monomials
+from .small import few
 from .surface import Surface, all_there
 
 BLOCK = 32768  # triangles at most: by then calls cost little, and more would leave the cache
 MEMORY = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
 EXACT = 100_000  # triangles up to which the exact third order, half as much again, costs no time to speak of
+FEW = 1024  # triangles up to which `small` is faster
+NO_VERTEX = "a face names a vertex that does not exist"
 PAIRED = 1000  # triangles below which looking for pairs costs more than it saves
 LEAST = 16384  # triangles that are worth a thread
 RANGE = 2.0 ** 100  # reaches beyond this, or below its inverse, are scaled, lest a product of six overflow or vanish
@@ -86,6 +89,11 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
     if largest and not 1.0 / RANGE < largest < RANGE:
         return _rescaled(surface, int(np.log2(largest)), threads, area=area, shell=shell, exact=exact)
     job = _Job(points, center, reach, surface.coordinate_error, count, area, shell, exact or count <= EXACT)
+    if count <= FEW:
+        if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
+            raise ValueError(NO_VERTEX)
+        triangles, _ = surface.all_triangles()
+        return job.moments([few(points, center, triangles, area=area, shell=shell)])
     threads = max(1, min(threads, count // LEAST))
     size = job.block(threads)
     blocks = [(surface.triangles[i:i + size], False) for i in range(0, len(surface.triangles), size)]
@@ -140,7 +148,7 @@ class _Job:
         rows = []
         for block, quads in blocks:
             if not all_there(block, len(self.points)):
-                raise ValueError("a face names a vertex that does not exist")
+                raise ValueError(NO_VERTEX)
             pairs = None if quads or len(block) < PAIRED else _pairs(block)
             rows.append(faces.block(pairs or list(block.T), quads))
         if faces.flipped:
@@ -200,7 +208,8 @@ class _Bounds:
         """The error of Σ w E[f]: the weights are off by `weight` in all; then their products with the nodes, the sums,
         what underflow may lose and the rest of the third order."""
         job, size = self.job, sizes.sum() * (1.0 + 1e-9)
-        rounding = U * (8.0 * DEGREE + PAIRWISE + self.blocks)
+        # A product of matrices may add up one by one.
+        rounding = U * (8.0 * DEGREE + (3.0 * job.count if job.count <= FEW else PAIRWISE + self.blocks))
         error = (weight + rounding * (size + weight) + 1e-290 * self.counts.sum()) * _powers(job.reach)
         error[10:] *= 2.0  # the third moments about the middles come to as much again at most
         if not job.exact:

@@ -52,7 +52,8 @@ class Surface:
             wide, rest = self.points[:whole].reshape(-1, 3 * ROW), self.points[whole:]
             low = np.concatenate([rest, np.minimum.reduce(wide).reshape(-1, 3)])
             high = np.concatenate([rest, np.maximum.reduce(wide).reshape(-1, 3)])
-        return np.minimum.reduce(low).astype(np.float64), np.maximum.reduce(high).astype(np.float64)
+        low, high = (np.ascontiguousarray(points.T) for points in (low, high))
+        return np.minimum.reduce(low, axis=1).astype(np.float64), np.maximum.reduce(high, axis=1).astype(np.float64)
 
     @property
     def coordinate_error(self) -> NDArray[np.float64]:

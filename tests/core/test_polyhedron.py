@@ -18,9 +18,12 @@ L_CAPS = [(0, 1, 2, 3), (0, 3, 4, 5)]
 TETRAHEDRON = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 
 
-@pytest.fixture(params=["exact", "fast"])
+@pytest.fixture(params=["exact", "fast", "few"])
 def path(request, monkeypatch):
-    """Both ways through the third order, in blocks of a few faces."""
+    """Both ways through the third order, in blocks of a few faces, and the way of small bodies."""
+    if request.param == "few":
+        return request.param
+    monkeypatch.setattr(polyhedron, "FEW", 0)
     monkeypatch.setattr(polyhedron, "BLOCK", 32)
     monkeypatch.setattr(polyhedron, "PAIRED", 0)
     monkeypatch.setattr(blocks, "CHUNK", 16)
@@ -156,6 +159,7 @@ def test_the_bound_holds_for_slivers(path, seed):
 
 @pytest.mark.parametrize("seed", range(12))
 def test_exact_third_moments_are_right_to_their_rounding_bound(monkeypatch, seed):
+    monkeypatch.setattr(polyhedron, "FEW", 0)
     monkeypatch.setattr(polyhedron, "EXACT", 0)
     points, quads = grid_torus(10, 6, noise=0.05, seed=seed)
     surface = Surface(points, Surface(points, quads=quads).all_triangles()[0])
@@ -337,6 +341,7 @@ def test_pairs_of_triangles_are_found_however_their_corners_are_turned(path, fir
 
 
 def test_threads_give_the_serial_result_to_the_bound(monkeypatch):
+    monkeypatch.setattr(polyhedron, "FEW", 0)
     monkeypatch.setattr(polyhedron, "BLOCK", 64)
     monkeypatch.setattr(polyhedron, "LEAST", 64)
     monkeypatch.setattr(polyhedron, "EXACT", 0)
@@ -350,6 +355,7 @@ def test_threads_give_the_serial_result_to_the_bound(monkeypatch):
 
 
 def test_errors_in_threads_reach_the_caller(monkeypatch):
+    monkeypatch.setattr(polyhedron, "FEW", 0)
     monkeypatch.setattr(polyhedron, "LEAST", 64)
     points, quads = grid_torus(30, 20)
     quads[-1, -1] = 600
