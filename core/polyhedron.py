@@ -60,9 +60,13 @@ def solid_moments(surface: Surface, threads: int = 1) -> Moments:
     return _measure(surface, threads, area=False, shell=False, exact=False)[0]
 
 
-def solid_and_area(surface: Surface, threads: int = 1, shell: bool = False) -> tuple[Moments, Moments]:
-    """The volume moments as `solid_moments`, and the area: its moments to third order where `shell`, else order 0."""
-    return _measure(surface, threads, area=True, shell=shell, exact=False)
+def solid_and_area(surface: Surface, threads: int = 1, shell: bool = False, *, exact: bool = False,
+                   about: NDArray | None = None) -> tuple[Moments, Moments]:
+    """The volume moments as `solid_moments`, and the area: its moments to third order where `shell`, else order 0.
+
+    exact: the third order to rounding whatever the size of the mesh. about: (3,) the reference point, if another.
+    """
+    return _measure(surface, threads, area=True, shell=shell, exact=exact, about=about)
 
 
 def third_moments_exact(surface: Surface, threads: int = 1) -> Moments:
@@ -70,24 +74,22 @@ def third_moments_exact(surface: Surface, threads: int = 1) -> Moments:
     return _measure(surface, threads, area=False, shell=False, exact=True)[0]
 
 
-def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: bool) -> tuple[Moments, Moments]:
+def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: bool,
+             about: NDArray | None = None) -> tuple[Moments, Moments]:
     count = len(surface.triangles) + 2 * len(surface.quads)
     if not count:
-        zero = Moments(np.zeros(20), np.zeros(3), "volume")
-        return zero, Moments(np.zeros(20 if shell else 1), np.zeros(3), "area")
+        about = np.zeros(3) if about is None else about
+        return Moments(np.zeros(20), about, "volume"), Moments(np.zeros(20 if shell else 1), about, "area")
     points = np.ascontiguousarray(surface.points)
     if points.dtype != np.float32:
         points = points.astype(np.float64, copy=False)
-    low, high = surface.box
-    if not all(map(isfinite, [*low, *high])):
-        raise ValueError("the coordinates are not all finite")
-    center = low / 2.0 + high / 2.0
-    if points.dtype == np.float32:
-        center = center.astype(np.float32).astype(np.float64)  # then subtracting it is exact
+    low, high = finite_box(surface)
+    center = middle(low, high, points.dtype) if about is None else np.asarray(about, np.float64)
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
     largest = reach.max()
     if largest and not 1.0 / RANGE < largest < RANGE:
-        return _rescaled(surface, int(np.log2(largest)), threads, area=area, shell=shell, exact=exact)
+        return _rescaled(surface, int(np.log2(largest)), threads, about, area=area, shell=shell,
+                         exact=exact)
     job = _Job(points, center, reach, surface.coordinate_error, count, area, shell, exact or count <= EXACT)
     if count <= FEW:
         if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
@@ -107,13 +109,29 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
         return job.moments([row for part in parts for row in part])
 
 
-def _rescaled(surface: Surface, exponent: int, threads: int, **options: bool) -> tuple[Moments, Moments]:
+def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The least and the largest coordinates. ValueError where they are not finite."""
+    low, high = surface.box
+    if not all(map(isfinite, [*low, *high])):
+        raise ValueError("the coordinates are not all finite")
+    return low, high
+
+
+def middle(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
+    """The centre of a bounding box of points of this type, put where subtracting it from float32 is exact."""
+    center = low / 2.0 + high / 2.0
+    return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
+
+
+def _rescaled(surface: Surface, exponent: int, threads: int, about: NDArray | None, **options: bool
+              ) -> tuple[Moments, Moments]:
     """The moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
     triangles, faces = surface.all_triangles()
     points = np.ldexp(surface.points.astype(np.float64), -exponent)
     small = Surface(points, triangles, triangle_faces=faces, moved=np.ldexp(surface.coordinate_error, -exponent))
     results = []
-    for moments in _measure(small, threads, **options):
+    about = None if about is None else np.ldexp(about, -exponent)
+    for moments in _measure(small, threads, about=about, **options):
         powers = exponent * (DEGREE[:len(moments.raw)] + (3 if moments.of == "volume" else 2))
         results.append(replace(
             moments, raw=np.ldexp(moments.raw, powers), about=np.ldexp(moments.about, exponent),
@@ -149,8 +167,8 @@ class _Job:
         for block, quads in blocks:
             if not all_there(block, len(self.points)):
                 raise ValueError(NO_VERTEX)
-            pairs = None if quads or len(block) < PAIRED else _pairs(block)
-            rows.append(faces.block(pairs or list(block.T), quads))
+            halves = None if quads or len(block) < PAIRED else pairs(block)
+            rows.append(faces.block(halves or list(block.T), quads))
         if faces.flipped:
             flipped = np.concatenate(faces.flipped, axis=1)
             half = max(size // 2, 1)
@@ -235,7 +253,7 @@ def _powers(reach: NDArray) -> NDArray[np.float64]:
     return np.multiply.reduce(np.array([1.0, *reach]).take(FACTORS), axis=1)
 
 
-def _pairs(triangles: NDArray) -> list[NDArray] | None:
+def pairs(triangles: NDArray) -> list[NDArray] | None:
     """The four corners, (k/2,) each, of quads where triangles 2i and 2i+1 are halves of one for every i; else None.
 
     Meshes that were triangulated from quads are like that, and two triangles that share an edge cost less than two

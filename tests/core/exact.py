@@ -13,38 +13,51 @@ from fractions import Fraction
 from math import factorial, isqrt, lcm
 
 Vector = tuple[Fraction, Fraction, Fraction]
-MONOMIALS = [(n - s, s - r, r) for n in range(4) for s in range(n + 1) for r in range(s + 1)]
 
 
-def volume_moments(points, triangles, about=(0.0, 0.0, 0.0)) -> list[Fraction]:
-    """The 20 moments ∫ x^p y^q z^r dV to third order about a point, of the cones from that point over the triangles.
+def monomials(order: int) -> list[tuple[int, int, int]]:
+    """The exponents of all monomials to an order, in the order of `moments.monomials`."""
+    return [(n - s, s - r, r) for n in range(order + 1) for s in range(n + 1) for r in range(s + 1)]
+
+
+MONOMIALS = monomials(3)
+
+
+def volume_moments(points, triangles, about=(0.0, 0.0, 0.0), order: int = 3, absolute: bool = False) -> list[Fraction]:
+    """The moments ∫ x^p y^q z^r dV to an order about a point, of the cones from that point over the triangles.
+
+    absolute: ∫ |x^p y^q z^r| |dV| instead, where no triangle crosses a coordinate plane (else more than that).
 
     points: n rows of 3 numbers, taken exactly. triangles: rows of 3 indices, outward faces counter-clockwise.
     """
     integers, scale = _integers(points, about)
-    sums = [0] * len(MONOMIALS)
+    table = monomials(order)
+    sums = [0] * len(table)
     for triangle in triangles:
         a, b, c = (integers[int(i)] for i in triangle)
         det = _dot(a, _cross(b, c))
+        if absolute:
+            det, (a, b, c) = abs(det), (tuple(map(abs, v)) for v in (a, b, c))
         if det:
-            for i, value in enumerate(_means(a, b, c)):
+            for i, value in enumerate(_means(a, b, c, table)):
                 sums[i] += det * value
-    return [Fraction(total, factorial(sum(m) + 3) * scale ** (sum(m) + 3)) for m, total in zip(MONOMIALS, sums)]
+    return [Fraction(total, factorial(sum(m) + 3) * scale ** (sum(m) + 3)) for m, total in zip(table, sums)]
 
 
-def area_moments(points, triangles, about=(0.0, 0.0, 0.0), digits: int = 40) -> list[Fraction]:
-    """The 20 moments ∫ x^p y^q z^r dA, right to `digits` digits (areas are square roots)."""
+def area_moments(points, triangles, about=(0.0, 0.0, 0.0), digits: int = 40, order: int = 3) -> list[Fraction]:
+    """The moments ∫ x^p y^q z^r dA, right to `digits` digits (areas are square roots)."""
     integers, scale = _integers(points, about)
     root = 10 ** digits
-    sums = [0] * len(MONOMIALS)
+    table = monomials(order)
+    sums = [0] * len(table)
     for triangle in triangles:
         a, b, c = (integers[int(i)] for i in triangle)
         normal = _cross(_minus(b, a), _minus(c, a))
         double = isqrt(_dot(normal, normal) * root * root)
         if double:
-            for i, value in enumerate(_means(a, b, c)):
+            for i, value in enumerate(_means(a, b, c, table)):
                 sums[i] += double * value
-    return [Fraction(total, factorial(sum(m) + 2) * root * scale ** (sum(m) + 2)) for m, total in zip(MONOMIALS, sums)]
+    return [Fraction(total, factorial(sum(m) + 2) * root * scale ** (sum(m) + 2)) for m, total in zip(table, sums)]
 
 
 def _integers(points, about) -> tuple[list[tuple[int, int, int]], int]:
@@ -54,15 +67,15 @@ def _integers(points, about) -> tuple[list[tuple[int, int, int]], int]:
     return [tuple(int(value * scale) for value in row) for row in rows], scale
 
 
-def _means(a, b, c) -> list[int]:
-    """p! q! r! times the coefficients of 1 / ((1 - a·t)(1 - b·t)(1 - c·t)) to third order."""
-    table = {(0, 0, 0): 1, **{m: 0 for m in MONOMIALS[1:]}}
+def _means(a, b, c, exponents) -> list[int]:
+    """p! q! r! times the coefficients of 1 / ((1 - a·t)(1 - b·t)(1 - c·t))."""
+    table = {(0, 0, 0): 1, **{m: 0 for m in exponents[1:]}}
     for vertex in (a, b, c):
-        for p, q, r in MONOMIALS[1:]:  # in this order the lower ones are already multiplied
+        for p, q, r in exponents[1:]:  # in this order the lower ones are already multiplied
             table[p, q, r] += ((vertex[0] * table[p - 1, q, r] if p else 0)
                                + (vertex[1] * table[p, q - 1, r] if q else 0)
                                + (vertex[2] * table[p, q, r - 1] if r else 0))
-    return [factorial(p) * factorial(q) * factorial(r) * table[p, q, r] for p, q, r in MONOMIALS]
+    return [factorial(p) * factorial(q) * factorial(r) * table[p, q, r] for p, q, r in exponents]
 
 
 def _minus(u, v):
@@ -77,14 +90,14 @@ def _dot(u, v):
     return sum(x * y for x, y in zip(u, v))
 
 
-def box_moments(low, high) -> list[Fraction]:
-    """The 20 volume moments of an axis-aligned box about the origin."""
+def box_moments(low, high, order: int = 3) -> list[Fraction]:
+    """The volume moments of an axis-aligned box about the origin."""
     low, high = ([Fraction(value) for value in corner] for corner in (low, high))
 
     def one(axis: int, n: int) -> Fraction:
         return (high[axis] ** (n + 1) - low[axis] ** (n + 1)) / (n + 1)
 
-    return [one(0, p) * one(1, q) * one(2, r) for p, q, r in MONOMIALS]
+    return [one(0, p) * one(1, q) * one(2, r) for p, q, r in monomials(order)]
 
 
 def corner_tetrahedron_moments(a, b, c) -> list[Fraction]:

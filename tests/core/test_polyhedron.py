@@ -332,12 +332,12 @@ def test_pairs_of_triangles_are_found_however_their_corners_are_turned(path, fir
     points, quads = grid_torus(noise=0.05)
     triangles = np.stack([np.roll(quads[:, [0, 1, 2]], first, axis=1), np.roll(quads[:, [0, 2, 3]], second, axis=1)],
                          axis=1).reshape(-1, 3)
-    assert polyhedron._pairs(triangles) is not None
+    assert polyhedron.pairs(triangles) is not None
     paired = polyhedron.solid_moments(Surface(points, triangles))
     assert_within(paired, exact.volume_moments(points, triangles, paired.about))
     broken = triangles.copy()
     broken[-1] = np.roll(broken[-1], 1)
-    assert polyhedron._pairs(broken) is None
+    assert polyhedron.pairs(broken) is None
 
 
 def test_threads_give_the_serial_result_to_the_bound(monkeypatch):

@@ -1,0 +1,263 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Volume and surface moments of any order of triangles and quads, in memory or as a stream, with rigorous bounds.
+
+Sheynin and Tuzikov (*Explicit formulae for polyhedra moments*, Pattern Recognition Letters 22, 2001): with the
+coefficients S_pqr of 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)), over the cone from the origin on a triangle a, b, c with determinant
+w and over the triangle itself, of doubled area A,
+
+    ∫ x^p y^q z^r dV = w p! q! r! / (p+q+r+3)! S_pqr,    ∫ x^p y^q z^r dA = A p! q! r! / (p+q+r+2)! S_pqr.
+
+Their explicit sum for S has binomial(n+9, 9) terms up to order n; the recursion of `levels` takes the generating
+function factor by factor, some 14 operations for each moment and triangle. Coordinates are taken about a point of the
+body, and scaled by a power of two to at most about 1, lest their 20th powers lose every digit or leave the range.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import lru_cache
+from math import factorial, frexp
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .levels import LENGTH, TINY, Levels, Sums, predecessors, rows_of
+from .moments import Moments, U, monomial_count, monomials
+from .polyhedron import finite_box, middle, pairs, solid_and_area
+from .surface import Surface, all_there, flipped_quads
+
+FAST = 3  # orders up to this one have their own kernel
+NUMBERS = 120_000  # that a block's rows of one degree may hold: then calls are long, and all of it is near the cache
+FEWEST, MOST = 256, 4096  # faces in a block
+BATCH = 8  # blocks that are handed to a thread at once
+RANGE = 1000.0  # powers of two beyond which a moment is no number
+
+
+def moments_to_order(body: Surface | Iterable[Surface | NDArray], order: int, *, area: bool = False, threads: int = 1,
+                     progress: Callable[[int], None] | None = None, about: ArrayLike | None = None,
+                     reach: float | None = None) -> tuple[Moments, Moments | None]:
+    """All moments of p+q+r ≤ order of the body that a closed surface bounds, and of the surface itself where `area`.
+
+    body: a Surface; or an iterable of pieces of one body, in the same coordinates, of which only a few are held at a
+        time: Surfaces, or (m, 3, 3) arrays of the corners of outward counter-clockwise triangles.
+    progress: called now and then with the number of faces done.
+    about: (3,) the reference point, by default the middle of the bounding box; of a stream that can be read only once,
+        the middle of its first piece. Far from the body digits are lost, and `error` says how many: give a point in it.
+    reach: how far the body extends from there, roughly; of such a stream by default what its first piece does.
+
+    `error` bounds the rounding of every moment, `input` what storing coordinates as float32 may have changed (of a
+    closed surface). Memory: a block's scratch for each thread, about 10 MB, beside what `body` holds. ValueError where
+    coordinates are not finite, a face names no vertex, or a moment would be beyond the range of numbers.
+    """
+    if order < 0:
+        raise ValueError("The order of moments is 0 or more.")
+    pieces = [body] if isinstance(body, Surface) else body
+    if isinstance(pieces, (list, tuple)) and about is None:
+        about = _middle_of([_as_surface(piece) for piece in pieces])
+    stream = (_as_surface(piece) for piece in pieces)
+    if order <= FAST:
+        return _fast(stream, order, area, threads, progress, about)
+    return _Stream(order, area, threads, progress, about, reach).measured(stream)
+
+
+def _as_surface(piece: Surface | NDArray) -> Surface:
+    if isinstance(piece, Surface):
+        return piece
+    corners = np.asarray(piece)
+    if corners.ndim != 3 or corners.shape[1:] != (3, 3):
+        raise ValueError("Triangles are an array of shape (m, 3, 3): corners, and their coordinates.")
+    return Surface(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+
+
+def _middle_of(surfaces: list[Surface]) -> NDArray[np.float64] | None:
+    """(3,) the middle of the box around all of them; None where there is nothing."""
+    boxes = [finite_box(surface) for surface in surfaces if len(surface.points)]
+    if not boxes:
+        return None
+    lows, highs = zip(*boxes)
+    dtype = np.result_type(*(surface.points for surface in surfaces))
+    return middle(np.min(lows, axis=0), np.max(highs, axis=0), dtype)
+
+
+def _fast(stream: Iterable[Surface], order: int, area: bool, threads: int, progress: Callable[[int], None] | None,
+          about: ArrayLike | None) -> tuple[Moments, Moments | None]:
+    """By the kernel for low orders, piece by piece."""
+    volume = shell = None
+    done, exact = 0, order == FAST
+    for surface in stream:
+        if about is None:
+            about = _middle_of([surface])
+        one, other = solid_and_area(surface, threads, area, exact=exact, about=about)
+        volume = one if volume is None else volume + one
+        shell = other if shell is None else shell + other
+        done += len(surface.triangles) + len(surface.quads)
+        if progress is not None:
+            progress(done)
+    if volume is None:
+        volume, shell = _nothing(order, "volume"), _nothing(order, "area")
+    return volume.truncated(order), shell.truncated(order) if area else None
+
+
+def _nothing(order: int, of: str) -> Moments:
+    return Moments(np.zeros(monomial_count(order)), np.zeros(3), of)
+
+
+@lru_cache
+def _factors(order: int) -> NDArray[np.float64]:
+    """(K,) p! q! r! / (p+q+r+2)!"""
+    return np.array([float(factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 2))
+                     for p, q, r in monomials(order).tolist()])
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """Some faces, (m, 3) or (m, 4), of a piece of the body. half_ulp: (3,) as of its points."""
+
+    points: NDArray
+    faces: NDArray
+    half_ulp: NDArray[np.float64]
+
+
+class _Total:
+    """A running sum of arrays with what each addition rounds off kept beside it (Neumaier), and its plain sizes."""
+
+    def __init__(self):
+        self.high = self.low = self.sizes = np.zeros(())
+        self.faces = 0
+
+    def add(self, part: Sums) -> None:
+        for row in part.sums:
+            total = self.high + row
+            grown = total - self.high
+            self.low = self.low + ((self.high - (total - grown)) + (row - grown))
+            self.high = total
+        self.sizes = self.sizes + part.sizes
+        self.faces += part.faces
+
+
+class _Stream:
+    """One body being measured, piece by piece."""
+
+    def __init__(self, order: int, area: bool, threads: int, progress: Callable[[int], None] | None,
+                 about: ArrayLike | None, reach: float | None):
+        self.order, self.area, self.threads, self.progress = order, area, max(1, threads), progress
+        self.center = None if about is None else np.array(about, np.float64)
+        self.exponent = None if reach is None else frexp(reach)[1]
+        self.size = min(max(NUMBERS // rows_of(order) // 64 * 64, FEWEST), MOST)
+        self.idle: list[Levels] = []
+        self.half_ulp = np.zeros(3)
+
+    def measured(self, stream: Iterable[Surface]) -> tuple[Moments, Moments | None]:
+        """Volume and, where wanted, area."""
+        total = _Total()
+        for part in self._parts(self._tasks(stream)):
+            total.add(part)
+            if self.progress is not None:
+                self.progress(total.faces)
+        if not total.faces:
+            return _nothing(self.order, "volume"), _nothing(self.order, "area") if self.area else None
+        return self._moments(total, "volume"), self._moments(total, "area") if self.area else None
+
+    def _parts(self, tasks: Iterator[_Task]) -> Iterator[Sums]:
+        """The results in the order of the tasks, whoever finishes first; a few are under way at a time."""
+        if self.threads == 1:
+            yield from map(self._run, tasks)
+            return
+        with ThreadPoolExecutor(self.threads) as pool:
+            waiting: deque = deque()
+            for task in tasks:
+                waiting.append(pool.submit(self._run, task))
+                if len(waiting) > 2 * self.threads:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
+
+    def _tasks(self, stream: Iterable[Surface]) -> Iterator[_Task]:
+        for surface in stream:
+            if not len(surface.triangles) + len(surface.quads):
+                continue
+            points = np.ascontiguousarray(surface.points)
+            if points.dtype != np.float32:
+                points = points.astype(np.float64, copy=False)
+            self._settle(surface)
+            half_ulp = surface.coordinate_error
+            self.half_ulp = np.maximum(self.half_ulp, half_ulp)
+            for faces in (surface.triangles, surface.quads):
+                size = self.size * (2 if faces.shape[1] == 3 else 1)  # where two triangles make one face of ours
+                blocks = -(-len(faces) // size)
+                step = size * max(1, min(BATCH, -(-blocks // (4 * self.threads))))
+                for start in range(0, len(faces), step):
+                    yield _Task(points, faces[start:start + step], half_ulp)
+
+    def _settle(self, surface: Surface) -> None:
+        """The reference point and the scale, by the first piece where nobody has given them."""
+        low, high = finite_box(surface)
+        if self.center is None:
+            self.center = middle(low, high, surface.points.dtype)
+        largest = float(np.maximum(high - self.center, self.center - low).max())
+        if self.exponent is None:
+            self.exponent = frexp(largest)[1] if largest else 0
+        beyond = frexp(largest)[1] - self.exponent
+        if (max(beyond, 0) + 2) * (self.order + 3) > RANGE:
+            raise ValueError("A piece of the body reaches much farther than the first. Give a point of the body, and "
+                             "how far it reaches from there.")
+        if (max(beyond, 0) + self.exponent) * (self.order + 3) > RANGE:
+            raise ValueError("It is too large for moments of order {:d} to be numbers. Scale it down."
+                             .format(self.order))
+
+    def _run(self, task: _Task) -> Sums:
+        """One task, in whatever thread."""
+        if not all_there(task.faces, len(task.points)):
+            raise ValueError("a face names a vertex that does not exist")
+        levels = self.idle.pop() if self.idle else Levels(self.order, self.area)
+        found = levels.run(task.points, self.center, 2.0 ** -self.exponent, task.half_ulp, self._blocks(task))
+        self.idle.append(levels)
+        return found
+
+    def _blocks(self, task: _Task) -> list[list[NDArray]]:
+        """The corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles."""
+        faces, size, blocks = task.faces, self.size, []
+        if faces.shape[1] == 4:
+            faces = np.where(flipped_quads(task.points, faces)[:, None], np.roll(faces, -1, axis=1), faces)
+        else:
+            halves = pairs(faces)
+            faces = faces if halves is None else np.stack(halves, axis=1)
+        for start in range(0, len(faces), size):
+            blocks.append(list(faces[start:start + size].T))
+        return blocks
+
+    def _moments(self, total: _Total, of: str) -> Moments:
+        """What the sums come to, in the body's own unit, with its bounds."""
+        degree = monomials(self.order).sum(axis=1)
+        row, dimension = (0, 3) if of == "volume" else (1, 2)
+        factors = _factors(self.order) / ((degree + 3.0) if of == "volume" else 1.0)
+        sizes = total.sizes[3 * row:3 * row + 3]
+        raw = (total.high[row] + total.low[row]) * factors
+        mean = 2.0 * ((degree + 3.0) if of == "volume" else 1.0)  # ∫ |x^α| is at most weight reach^α / this
+        rounding = U * (8.0 * degree + LENGTH + 100.0)
+        error = (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean + 8.0 * U * np.abs(raw) + TINY * total.faces
+        moved = self._moved(total, of) if self.half_ulp.any() else np.zeros(len(raw))
+        powers = self.exponent * (degree + dimension)
+        return Moments(np.ldexp(raw, powers), self.center, of, np.ldexp(error, powers) + np.finfo(float).tiny,
+                       np.ldexp(moved, powers))
+
+    def _moved(self, total: _Total, of: str) -> NDArray[np.float64]:
+        """What moving the vertices by their half ulps may change: over the volume that they sweep; of areas, over what
+        is added, and by the change of the integrand."""
+        swept = total.sizes[2] * (1.0 + 1e-9)
+        if of == "volume":
+            return swept
+        moved = total.sizes[5] * (1.0 + 1e-9)
+        half_ulp = np.ldexp(self.half_ulp, -self.exponent)
+        table = monomials(self.order)
+        for degree in range(1, self.order + 1):
+            known, below = monomial_count(degree - 1), monomial_count(degree - 2)
+            lower = np.append(swept[below:known], 0.0) / np.linalg.norm(half_ulp)
+            for axis, places in enumerate(predecessors(degree, rows_of(degree - 1))):
+                moved[known:monomial_count(degree)] += (
+                    table[known:monomial_count(degree), axis] * half_ulp[axis] * lower[places])
+        return moved
