@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """D'Urso's moments of polyhedra from the edges of their planar faces (Atti della IX Conferenza ASITA, 2005).
 
-With n the unit normal of a face, p⊥ the foot of the perpendicular from the origin on its plane and, for each of its edges,
-c_j = (p_j x p_{j+1})·n, the paper gives M_0 (eq. 6), M_2 and M_3 as sums over edges of c_j (p⊥·n) times tensor products
-of p_j, p_{j+1} and p⊥; M_1 (D'Urso 2004) is of the same form. No face is cut into triangles.
+With n the unit normal of a face, p⊥ the foot of the perpendicular from the origin on its plane and, for each of its
+edges, c_j = (p_j x p_{j+1})·n, the paper gives M_0 (eq. 6), M_2 and M_3 as sums over edges of c_j (p⊥·n) times tensor
+products of p_j, p_{j+1} and p⊥; M_1 (D'Urso 2004) is of the same form. No face is cut into triangles.
 
 - The printed M_3 is wrong. In its first bracket of 1/3 the third product reads p_{j+1} ⊗ p_j ⊗ p_{j+1}, which stands
   in the second bracket already; it must be p_{j+1} ⊗ p_j ⊗ p_j. As printed the result is not even symmetric. `THIRD` is
@@ -30,7 +30,8 @@ from numpy.typing import NDArray
 from .sheynin_tuzikov import Number, Vector, cross, dot, exponents_to, sigma
 
 # (divisor of the sum of c_j (p⊥·n) times these products; the products: a is p_j, b is p_{j+1}, p is p⊥, with an integer
-# multiple each). The paper's fractions are brought to one denominator: 1/5 · 1/12 · {1, 1/2}, 1/6 · 1/20 · {1, 1/3, 1/6}.
+# multiple each). The paper's fractions are brought to one denominator: 1/5 · 1/12 · {1, 1/2}, 1/6 · 1/20 · {1, 1/3,
+# 1/6}.
 ZEROTH = (6, {"": 1})
 FIRST = (24, {"a": 1, "b": 1, "p": 1})
 SECOND = (120, {"aa": 2, "ab": 1, "ba": 1, "bb": 2, "ap": 1, "pa": 1, "pp": 2, "bp": 1, "pb": 1})

@@ -6,9 +6,9 @@ Sheynin and Tuzikov's formulae hold in any dimension. Over the simplex of the or
 
     ∫ x^α = det(v_1 … v_n) · S_α · α! / (|α|+n)!,    S_α the coefficient of ξ^α in Π_i 1 / (1 - v_i·ξ),
 
-and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, for det and |α|+n-1 for |α|+n. Each factor
-is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), here a degree at a time over blocks of simplices.
-det = v_1·N, with N, the generalised cross product of the facet's edges, from minors, largest first.
+and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, for det and |α|+n-1 for |α|+n. Each
+factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), here a degree at a time over blocks of
+simplices. det = v_1·N, with N, the generalised cross product of the facet's edges, from minors, largest first.
 
 Bounds. Nothing but products and sums: each step's rounding is relative to the same expression in absolute values,
 which the recursion computes beside the value. So `error` is rigorous, and tight to the number of operations.
@@ -73,15 +73,16 @@ def enclosed_moments(points: ArrayLike, simplices: ArrayLike, order: int, about:
     """The moments of the n-volume that the simplices enclose, positive where the boundary is oriented outward.
 
     points: (m, n). simplices: (k, n) indices, outward where det(v_1, …, v_n) > 0 for a body around the origin: edges
-    counter-clockwise in the plane, triangles counter-clockwise from outside in space. about: (n,), by default the centre of
-    the points' box. signs: (k,) 1 or -1, the orientation of each simplex beside the order of its corners; on a line,
-    where a corner alone has none, it tells the upper ends from the lower ones.
-    ValueError for coordinates that are not finite and for indices that name no point.
+    counter-clockwise in the plane, triangles counter-clockwise from outside in space. about: (n,), by default the
+    centre of the points' box. signs: (k,) 1 or -1, the orientation of each simplex beside the order of its corners; on
+    a line, where a corner alone has none, it tells the upper ends from the lower ones. ValueError for coordinates that
+    are not finite and for indices that name no point.
     """
     return _measure(points, simplices, order, about, signs, enclosed=True)
 
 
-def facet_moments(points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
+def facet_moments(points: ArrayLike, simplices: ArrayLike, order: int,
+                  about: ArrayLike | None = None) -> SimplexMoments:
     """The moments of the boundary itself by its (n-1)-measure: length in the plane, area in space, the number of
     points on a line. Arguments as for `enclosed_moments`."""
     return _measure(points, simplices, order, about, None, enclosed=False)

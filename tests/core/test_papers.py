@@ -138,7 +138,7 @@ def test_many_triangles_at_once_in_floats_agree_with_fractions_and_with_the_add_
     scale = float(truth[0]) * reach ** monomials(5).sum(axis=1)
     assert np.abs(volume - np.array(truth, float)).max() / scale.min() < 1e-13
     assert (np.abs(volume - np.array(truth, float)) <= 1e-14 * scale).all()
-    areas = sheynin_tuzikov.surface_moments(exactly, cut, 5, about=[F(x) for x in about], root=lambda s: float(s) ** 0.5)
+    areas = sheynin_tuzikov.surface_moments(exactly, cut, 5, [F(x) for x in about], root=lambda s: float(s) ** 0.5)
     assert (np.abs(surface - np.array(areas, float)) <= 1e-14 * surface[0] * reach ** monomials(5).sum(axis=1)).all()
     measured = solid_moments(Surface.from_triangles(floats, np.array(cut))).shifted(about)
     assert (np.abs(measured.raw - volume[:20]) <= measured.error + 1e-14 * scale[:20]).all()
@@ -226,6 +226,7 @@ def test_the_tetrahedron_has_the_moments_that_the_papers_print():
     y = [corner[1] for corner in (a, b, c)]
     assert volume == moments[0, 0, 0] > 0
     assert moments[1, 0, 0] == volume / 4 * sum(x)
-    assert moments[2, 0, 0] == volume / 10 * (x[0] ** 2 + x[1] ** 2 + x[2] ** 2 + x[0] * x[1] + x[1] * x[2] + x[2] * x[0])
+    squares = x[0] ** 2 + x[1] ** 2 + x[2] ** 2 + x[0] * x[1] + x[1] * x[2] + x[2] * x[0]
+    assert moments[2, 0, 0] == volume / 10 * squares
     mixed = x[0] * (y[1] + y[2]) + x[1] * (y[0] + y[2]) + x[2] * (y[0] + y[1])
     assert moments[1, 1, 0] == volume / 10 * (x[0] * y[0] + x[1] * y[1] + x[2] * y[2] + mixed / 2)
