@@ -10,13 +10,14 @@ one another, is found by `flaws`: no sum over edges would show it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .simplex import SimplexMoments, enclosed_moments, facet_moments
+from .topology import components
 
 SAMPLES = 16  # midpoints of an outline's edges that are asked what it lies in
 PAIRS = 10_000_000  # midpoints times edges of which winding numbers are taken; more midpoints are thinned out
@@ -90,24 +91,12 @@ def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
     way: as often as one direction is more frequent."""
     ahead = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)
     low, high = ahead.min(axis=1), ahead.max(axis=1)
+    ahead, low, high = (rows[low != high] for rows in (ahead, low, high))
     keys, which = np.unique(low * count + high, return_inverse=True)
     net = np.bincount(which.ravel(), np.where(ahead[:, 0] == low, 1.0, -1.0), minlength=len(keys)).astype(np.int64)
     edges = np.stack([keys // count, keys % count], axis=1) if len(keys) else np.empty((0, 2), np.int64)
     edges = np.where(net[:, None] < 0, edges[:, ::-1], edges)
     return np.repeat(edges, np.abs(net), axis=0).astype(np.intp)
-
-
-def outlines(edges: NDArray, count: int) -> NDArray[np.intp]:
-    """(m,) for each edge the smallest point that it is connected with: edges of one outline have it in common."""
-    label = np.arange(count)
-    while True:  # halves the length of every path to its smallest point
-        least = label[edges].min(axis=1)
-        following = label.copy()
-        np.minimum.at(following, label[edges].ravel(), np.repeat(least, 2))
-        following = following[following]
-        if np.array_equal(following, label):
-            return label[edges[:, 0]]
-        label = following
 
 
 def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
@@ -116,8 +105,9 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
         return np.zeros(0)
     origin = points[edges[0, 0]]
     a, b = (points[edges[:, i]] - origin for i in (0, 1))
-    names, which = np.unique(outlines(edges, len(points)), return_inverse=True)
-    return np.bincount(which.ravel(), (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0, minlength=len(names))
+    outline = components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]
+    sums = np.bincount(outline, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0)
+    return sums[np.unique(outline)]
 
 
 def flaws(points: NDArray, edges: NDArray) -> Flaws:
@@ -127,25 +117,33 @@ def flaws(points: NDArray, edges: NDArray) -> Flaws:
     points = points - points[edges.ravel()].min(axis=0)
     size = float(points[edges.ravel()].max())
     crossings, lost = _crossings(points, edges, TOUCH * size)
-    middles = points[edges[::max(1, len(edges) * len(edges) // PAIRS)]].mean(axis=1)
-    # Half a turn at an edge with the inside on its left and nothing on its right; up to half more or less where
-    # another edge runs along it.
-    turns = winding_numbers(points, edges, middles)
-    return Flaws(crossings, lost, bool((np.abs(turns - 0.5) > 0.75).any()))
+    sampled = edges[::max(1, len(edges) * len(edges) // PAIRS)]
+    directions = points[edges[:, 1]] - points[edges[:, 0]]
+    doubled = False
+    for part, turns, on in _turns(points, edges, points[sampled].mean(axis=1)):
+        ahead = np.sign((points[sampled[part, 1]] - points[sampled[part, 0]]) @ directions.T)
+        step = (on * ahead).sum(axis=1) / 2.0  # from an edge's middle to its left, past all edges that lie on it
+        sides = np.round(np.stack([turns - step, turns + step]))
+        doubled |= bool((sides[0] > sides[1]).any() or sides.min() < 0.0 or sides.max() > 1.0)
+    return Flaws(crossings, lost, doubled)
 
 
 def winding_numbers(points: NDArray, edges: NDArray, places: NDArray) -> NDArray[np.float64]:
     """(k,) how often the edges go round each place; at a place on an edge the mean of both sides."""
-    turns = np.zeros(len(places))
-    for start in range(0, len(places), max(1, BLOCK // max(1, len(edges)))):
-        part = slice(start, start + max(1, BLOCK // max(1, len(edges))))
+    return np.concatenate([turns for _, turns, _ in _turns(points, edges, places)] or [np.zeros(0)])
+
+
+def _turns(points: NDArray, edges: NDArray, places: NDArray) -> Iterator[tuple[slice, NDArray, NDArray]]:
+    """For blocks of places: which, their winding numbers, and (k, m) whether a place lies on an edge."""
+    block = max(1, BLOCK // max(1, len(edges)))
+    for start in range(0, len(places), block):
+        part = slice(start, start + block)
         spans = points[edges] - places[part, None, None]  # (k, m, 2 ends, 2)
         a, b = spans[:, :, 0], spans[:, :, 1]
         cross, along = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=2)
         # A place on an edge sees its ends in opposite directions, with a sign that is rounding.
-        on = np.abs(cross) <= 1e-12 * np.abs(along)
-        turns[part] = np.where(on & (along <= 0.0), 0.0, np.arctan2(cross, along)).sum(axis=1)
-    return turns / (2.0 * np.pi)
+        on = (np.abs(cross) <= 1e-12 * np.abs(along)) & (along <= 0.0)
+        yield part, np.where(on, 0.0, np.arctan2(cross, along)).sum(axis=1) / (2.0 * np.pi), on
 
 
 def _signed_area(points: NDArray, edges: NDArray) -> float:

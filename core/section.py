@@ -11,15 +11,16 @@ corner), exact as corners are what is outermost.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import atan2, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .moments import U
-from .polygon import Flaws, area_moments, flaws, outline_areas, outline_moments
+from .polygon import area_moments, boundary_edges, outline_areas, outline_moments
 from .simplex import SimplexMoments
+from .weld import equal_positions
 
 FLAT = 1e-5  # of a region's size: points farther off their plane are not planar; an area is off by the square of this
 EQUAL = 1e-6  # principal moments closer than this, relatively, are equal
@@ -111,8 +112,9 @@ def principal_angle(second: NDArray, noise: float) -> float:
     return 0.5 * atan2(-2.0 * mixed, first - last)
 
 
-def fit_plane(points: NDArray, triangles: NDArray, prefer: NDArray, origin: NDArray, error: float = 0.0) -> Plane:
-    """The plane of triangles over (n, 3) points, facing as most of their area does.
+def fit_plane(points: NDArray, triangles: NDArray, prefer: NDArray, origin: NDArray, error: float = 0.0,
+              facing: NDArray | None = None) -> Plane:
+    """The plane of triangles over (n, 3) points, facing as most of their area does, or as `facing`.
 
     prefer: (3, 3) columns, axes that the plane's x is to be near to: the first, or where that stands upright on the
     plane the second. origin: (3,) a point whose foot on the plane becomes its origin. error: how far the points may be
@@ -130,7 +132,7 @@ def fit_plane(points: NDArray, triangles: NDArray, prefer: NDArray, origin: NDAr
     side = np.sign(normals @ normals[largest])
     total = (normals * side[:, None]).sum(axis=0)
     normal = total / np.sqrt(total @ total)
-    if (normals @ normal).sum() < 0.0:
+    if (normals @ normal).sum() < 0.0 if facing is None else facing @ normal < 0.0:
         normal = -normal
     middle = used.min(axis=0) / 2.0 + used.max(axis=0) / 2.0
     heights = (used - middle) @ normal
@@ -153,8 +155,27 @@ def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
     return np.stack([x, np.cross(normal, x), normal], axis=1) + 0.0, "XY"[first]
 
 
-def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0) -> tuple[Section, Flaws]:
-    """The properties of the region left of directed edges over (n, 3) points near the plane, and what is wrong with it.
+def region(plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray,
+           error: float = 0.0) -> tuple[NDArray[np.intp], int]:
+    """(m, 2) the directed edges of the region that triangles near the plane cover, points at one place taken as one,
+    and how many faces look against the plane and were turned.
+
+    faces: (k,) the face of each triangle; a face is turned as a whole.
+    """
+    triangles = equal_positions(points)[triangles]
+    a, b, c = (plane.flat(points)[triangles[:, i]] for i in range(3))
+    areas = np.bincount(faces, ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2.0)
+    longest = np.abs(np.stack([b - a, c - a])).max(axis=(0, 2))
+    noise = np.zeros(len(areas))
+    np.maximum.at(noise, faces, longest)  # slivers have no side to look to
+    turned = areas < -(4.0 * error + 1e-12 * noise) * noise
+    triangles = np.where(turned[faces][:, None], triangles[:, ::-1], triangles)
+    return boundary_edges(triangles, len(points)), int(np.count_nonzero(turned))
+
+
+def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0) -> Section:
+    """The properties of the region left of directed edges over (n, 3) points near the plane. Whether that is one region
+    `polygon.flaws` tells.
 
     error: how far storing the points as float32 may have moved each of them.
     ValueError where the edges enclose no area, or do not close.
@@ -185,8 +206,7 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
     x, y = (used - centroid).T
     sine, cosine = np.sin(section.angle), np.cos(section.angle)
     reach = np.array([np.abs(row).max() for row in (y, x, y * cosine - x * sine, x * cosine + y * sine)])
-    return Section(plane, area, section.perimeter, centroid, second, reach, section.outlines, section.holes,
-                   *bounds), flaws(flat, edges)
+    return replace(section, reach=reach)
 
 
 def _moved(points: NDArray, edges: NDArray, about: NDArray, step: float) -> NDArray[np.float64]:

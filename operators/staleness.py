@@ -23,6 +23,7 @@ from bpy.app.handlers import persistent
 from bpy.types import Context, Depsgraph, Object, Scene
 
 from .fingerprint import matrix_hash, settings_hash
+from .write import section
 
 EDITED = "edited"
 
@@ -37,9 +38,22 @@ def settle(context: Context, objects: list[Object]) -> None:
     """Call after results were stored: evaluates what storing itself has tagged, then takes the
     objects as up to date.
     """
+    sections = {obj: _section_edited(obj) for obj in objects}
     context.view_layer.update()
     for obj in objects:
         mark_fresh(obj)
+        if sections[obj]:  # measuring the body has not measured its section again
+            _edited[obj.session_uid] = {section.fingerprint(obj)}
+
+
+def settle_sections(context: Context, objects: list[Object]) -> None:
+    """Call after sections were stored, and nothing else was changed: takes those as up to date."""
+    global _generation
+    with paused():
+        context.view_layer.update()
+    _generation += 1
+    for obj in objects:
+        _edited.get(obj.session_uid, set()).discard(section.fingerprint(obj))
 
 
 def mark_fresh(obj: Object) -> None:
@@ -83,6 +97,20 @@ def reason(obj: Object, scene: Scene) -> str:
     return ""
 
 
+def section_reason(obj: Object) -> str:
+    """Why the stored section is out of date, "" where it is not or there is none."""
+    parts = section.fingerprint(obj).split(":")
+    if len(parts) != 4:
+        return ""
+    if _section_edited(obj):
+        return "Geometry Changed"
+    return "Transform Changed" if parts[2] != matrix_hash(obj) else ""
+
+
+def _section_edited(obj: Object) -> bool:
+    return section.fingerprint(obj) in _edited.get(obj.session_uid, ())
+
+
 def _settings_edited(obj: Object, fingerprint: str, scene: Scene) -> bool:
     """Whether this update is one of the object's settings: Blender reports those as changes of its geometry."""
     now = settings_hash(obj, scene)
@@ -104,9 +132,9 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
         if not update.is_updated_geometry or not isinstance(update.id, Object):
             continue
         obj = update.id.original
-        fingerprint = obj.get("body_fingerprint")
-        if fingerprint is not None and not _settings_edited(obj, str(fingerprint), scene):
-            _edited.setdefault(obj.session_uid, set()).add(str(fingerprint))
+        found = [str(mark) for mark in (obj.get("body_fingerprint"), section.fingerprint(obj)) if mark]
+        if found and not _settings_edited(obj, found[0], scene):
+            _edited.setdefault(obj.session_uid, set()).update(found)
 
 
 @persistent

@@ -63,11 +63,7 @@ class Stored:
 
 def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     """Writes all results on the object, or none. RuntimeError, with the remedy, where the object cannot hold them."""
-    if not obj.is_editable:
-        raise RuntimeError("It is linked from another file; make it local to store results on it.")
-    if obj.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
-        raise RuntimeError("It is a library override, which would lose its results with the file; make it local to "
-                           "store results on it.")
+    require_storable(obj)
     body, bound = measurement.in_object_frame(), measurement.error_bound
     values = {
         "body_mass": body.mass,
@@ -88,6 +84,15 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
         if not isinstance(value, str):
             obj.id_properties_ui(key).update(description=DESCRIPTIONS[key], precision=6)
     obj.update_tag()  # drivers that read them follow
+
+
+def require_storable(obj: bpy.types.Object) -> None:
+    """RuntimeError, with the remedy, for an object that cannot hold results."""
+    if not obj.is_editable:
+        raise RuntimeError("It is linked from another file; make it local to store results on it.")
+    if obj.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
+        raise RuntimeError("It is a library override, which would lose its results with the file; make it local to "
+                           "store results on it.")
 
 
 def clear(obj: bpy.types.Object) -> bool:

@@ -131,6 +131,8 @@ def test_regions_on_one_another_are_found_where_no_edges_cross():
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(1, 1, 1, 1))
     assert flaws(points, directed(loops)) == flaws(points, directed(loops)[::-1])
     assert flaws(points, directed(loops)).doubled and not flaws(points, directed(loops)).crossings
+    points, loops = shape(rectangle(0, 0, 4, 4), rectangle(0, 0, 4, 4), rectangle(0, 0, 4, 2))
+    assert flaws(points, directed(loops[:2])).doubled and flaws(points, directed(loops[1:])).doubled
     # Through a corner of the other, so that no edge crosses another in its inside.
     points, loops = shape([(0, 0), (4, 0), (4, 2), (4, 4), (0, 4)], [(2, 2), (4, 2), (6, 0), (6, 4)])
     assert flaws(points, directed(loops)).doubled

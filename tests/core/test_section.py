@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.polygon import nested
+from body_moments.core.polygon import Flaws, flaws, nested
 from body_moments.core.section import Plane, fit_plane, measure_section
 
 from tests.core import bodies, rational
@@ -23,9 +23,8 @@ def lifted(points):
 def measured(*outlines, offset=(0.0, 0.0)):
     points, loops = shape(*outlines)
     points = points + offset
-    section, flaws = measure_section(LEVEL, lifted(points), nested(points, loops))
-    assert not flaws.crossings and not flaws.doubled
-    return section
+    assert flaws(points, nested(points, loops)) == Flaws(0, False, False)
+    return measure_section(LEVEL, lifted(points), nested(points, loops))
 
 
 def i_beam(b=0.1, h=0.2, web=0.0056, flange=0.0085):
@@ -139,7 +138,7 @@ def test_bounds_hold_against_rationals(size, offset):
     points, loops = shape(np.array(i_beam()) @ np.array([[0.9, 0.2], [-0.4, 1.3]]).T * size)
     points = points + np.array(offset) * size
     edges = nested(points, loops)
-    section, _ = measure_section(LEVEL, lifted(points), edges)
+    section = measure_section(LEVEL, lifted(points), edges)
     exactly = rational.fractions(points)
     area, *first = (rational.enclosed(exactly, edges.tolist(), row) for row in ((0, 0), (1, 0), (0, 1)))
     center = [value / area for value in first]
@@ -158,9 +157,9 @@ def test_float32_coordinates_move_a_section_by_no_more_than_is_told():
     points, loops = shape(np.array(i_beam()) + 3.0)
     edges = nested(points, loops)
     step = 1e-7
-    section, _ = measure_section(LEVEL, lifted(points), edges, error=step)
+    section = measure_section(LEVEL, lifted(points), edges, error=step)
     for _ in range(50):
-        moved, _ = measure_section(LEVEL, lifted(points + rng.choice([-step, step], size=points.shape)), edges)
+        moved = measure_section(LEVEL, lifted(points + rng.choice([-step, step], size=points.shape)), edges)
         assert abs(moved.area - section.area) <= section.input["area"]
         assert np.hypot(*(moved.centroid - section.centroid)) <= section.input["centroid"]
         assert np.abs(moved.second - section.second).max() <= section.input["second"]
@@ -180,7 +179,7 @@ def test_a_section_in_any_plane_has_the_properties_that_it_has_flat(seed):
     plane = fit_plane(points, triangles, rotation, offset)
     assert plane.named == "X" and np.abs(plane.axes - rotation).max() < 1e-13
     assert np.linalg.det(plane.axes) == pytest.approx(1.0, abs=1e-14)
-    section, _ = measure_section(plane, points, edges)
+    section = measure_section(plane, points, edges)
     truth = measured(i_beam())
     assert section.area == pytest.approx(truth.area, rel=1e-12)
     assert section.second[:2] == pytest.approx(truth.second[:2], rel=1e-12)
