@@ -110,17 +110,20 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
     return sums[np.unique(outline)]
 
 
-def flaws(points: NDArray, edges: NDArray) -> Flaws:
-    """What of the edges leaves it open which side is inside. Outlines may touch, at corners and along edges."""
+def flaws(points: NDArray, edges: NDArray, error: float = 0.0) -> Flaws:
+    """What of the edges leaves it open which side is inside. Outlines may touch, at corners and along edges.
+
+    error: how far the points may be from where they were meant; what overlaps by no more touches.
+    """
     if not len(edges):
         return Flaws(0, False, False)
     points = points - points[edges.ravel()].min(axis=0)
-    size = float(points[edges.ravel()].max())
-    crossings, lost = _crossings(points, edges, TOUCH * size)
+    touch = TOUCH * float(points[edges.ravel()].max()) + 4.0 * error
+    crossings, lost = _crossings(points, edges, touch)
     sampled = edges[::max(1, len(edges) * len(edges) // PAIRS)]
     directions = points[edges[:, 1]] - points[edges[:, 0]]
     doubled = False
-    for part, turns, on in _turns(points, edges, points[sampled].mean(axis=1)):
+    for part, turns, on in _turns(points, edges, points[sampled].mean(axis=1), touch):
         ahead = np.sign((points[sampled[part, 1]] - points[sampled[part, 0]]) @ directions.T)
         step = (on * ahead).sum(axis=1) / 2.0  # from an edge's middle to its left, past all edges that lie on it
         sides = np.round(np.stack([turns - step, turns + step]))
@@ -133,8 +136,11 @@ def winding_numbers(points: NDArray, edges: NDArray, places: NDArray) -> NDArray
     return np.concatenate([turns for _, turns, _ in _turns(points, edges, places)] or [np.zeros(0)])
 
 
-def _turns(points: NDArray, edges: NDArray, places: NDArray) -> Iterator[tuple[slice, NDArray, NDArray]]:
-    """For blocks of places: which, their winding numbers, and (k, m) whether a place lies on an edge."""
+def _turns(points: NDArray, edges: NDArray, places: NDArray,
+           touch: float = 0.0) -> Iterator[tuple[slice, NDArray, NDArray]]:
+    """For blocks of places: which, their winding numbers, and (k, m) whether a place is on an edge, or as near to it as
+    `touch`."""
+    lengths = touch * np.hypot(*(points[edges[:, 1]] - points[edges[:, 0]]).T)
     block = max(1, BLOCK // max(1, len(edges)))
     for start in range(0, len(places), block):
         part = slice(start, start + block)
@@ -142,7 +148,7 @@ def _turns(points: NDArray, edges: NDArray, places: NDArray) -> Iterator[tuple[s
         a, b = spans[:, :, 0], spans[:, :, 1]
         cross, along = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=2)
         # A place on an edge sees its ends in opposite directions, with a sign that is rounding.
-        on = (np.abs(cross) <= 1e-12 * np.abs(along)) & (along <= 0.0)
+        on = (np.abs(cross) <= np.maximum(1e-12 * np.abs(along), lengths)) & (along <= 0.0)
         yield part, np.where(on, 0.0, np.arctan2(cross, along)).sum(axis=1) / (2.0 * np.pi), on
 
 

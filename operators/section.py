@@ -46,7 +46,7 @@ def _measured(reading: SectionReading, unit: float) -> tuple[Section, list[str]]
         edges, turned = region(plane, points, reading.triangles, reading.faces, error)
         if turned:
             warnings.append("{:d} of its faces look the other way and count with the others.".format(turned))
-    found = flaws(flat, edges)
+    found = flaws(flat, edges, error)
     if reading.loops is not None and (found.crossings or found.doubled):
         raise ValueError(
             "Its outlines cross or overlap{:s}, so that it is open what is inside; move them apart, or convert it to a "

@@ -8,6 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.polygon import (
+    Flaws,
     area_moments,
     boundary_edges,
     directed,
@@ -103,6 +104,13 @@ def test_outlines_that_touch_along_edges_and_at_corners_are_no_flaw():
     assert area_moments(points, edges, 0).raw[0] == 16 + 4 + 1 + 1
     found = flaws(points, edges)
     assert not found.crossings and not found.doubled and not found.lost
+
+
+def test_what_overlaps_by_its_coordinates_errors_touches():
+    points, loops = shape(rectangle(0, 0, 4, 4), rectangle(4 - 1e-6, 1, 2, 2))
+    edges = nested(points, loops)
+    assert flaws(points, edges).doubled and flaws(points, edges).crossings == 2
+    assert flaws(points, edges, error=1e-6) == Flaws(0, False, False)
 
 
 def test_a_hole_that_touches_its_outline_from_within_is_a_hole():
