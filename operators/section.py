@@ -53,9 +53,9 @@ def _measured(reading: SectionReading, unit: float) -> tuple[Section, list[str]]
             "mesh and unite its faces.".format(" at {:d} places".format(found.crossings) if found.crossings else ""))
     section = measure_section(plane, points, edges, error)
     if found.crossings or found.doubled:
-        warnings.append("Its faces overlap; what they share counts as often as there are faces on it.")
+        warnings.append("Its faces overlap or cross themselves; what they share counts once for each of them.")
     if found.lost:
-        warnings.append("Overlap was not looked for: it has too many long edges.")
+        warnings.append("It has too many edges to compare all of them; overlaps may have been missed.")
     if plane.off > 4.0 * error:
         warnings.append("Its points are up to {:.2g} of its size off one plane; they were projected on it.".format(
             plane.off / np.sqrt(section.area)))
@@ -139,16 +139,11 @@ class OBJECT_OT_body_moments_copy_section(Operator):
 
 def _chosen(context: Context) -> list[Object]:
     """The meshes being edited, else the selected objects that may have a section."""
-    objects = list(context.view_layer.objects)
-    edited = [obj for obj in objects if obj.type == "MESH" and obj.data.is_editmode]
-    if edited:
-        return _with_selection(edited)
-    return [obj for obj in context.view_layer.objects.selected if obj.type in SECTION_TYPES]
-
-
-def _with_selection(objects: list[Object]) -> list[Object]:
-    """Those with selected faces; all where none has, so that the reason is told."""
-    return [obj for obj in objects if obj.data.total_face_sel] or objects
+    if context.mode != "EDIT_MESH":
+        return [obj for obj in context.view_layer.objects.selected if obj.type in SECTION_TYPES]
+    edited = [obj for obj in context.view_layer.objects if obj.type == "MESH" and obj.data.is_editmode]
+    # Where none has selected faces, each is told so.
+    return [obj for obj in edited if obj.data.total_face_sel] or edited
 
 
 CLASSES = (OBJECT_OT_body_moments_measure_section, OBJECT_OT_body_moments_copy_section)

@@ -102,7 +102,7 @@ def section_reason(obj: Object) -> str:
     parts = section.fingerprint(obj).split(":")
     if len(parts) != 4:
         return ""
-    if _section_edited(obj):
+    if parts[1] == EDITED or _section_edited(obj):
         return "Geometry Changed"
     return "Transform Changed" if parts[2] != matrix_hash(obj) else ""
 
@@ -156,10 +156,14 @@ def _load(*_args) -> None:
 @persistent
 def _save(*_args) -> None:
     for obj in bpy.data.objects:
-        stored = str(obj.get("body_fingerprint", ""))
-        parts = stored.split(":")
-        if len(parts) == 4 and obj.is_editable and stored in _edited.get(obj.session_uid, ()):
-            obj["body_fingerprint"] = ":".join([parts[0], EDITED, *parts[2:]])
+        edited = _edited.get(obj.session_uid, ())
+        if not edited or not obj.is_editable:
+            continue
+        for stored, group, key in ((str(obj.get("body_fingerprint", "")), obj, "body_fingerprint"),
+                                   (section.fingerprint(obj), obj.get(section.KEY), "fingerprint")):
+            parts = stored.split(":")
+            if len(parts) == 4 and stored in edited:
+                group[key] = ":".join([parts[0], EDITED, *parts[2:]])
 
 
 HANDLERS = (

@@ -54,9 +54,9 @@ class SectionPanel:
 
 def _verdict(layout: UILayout, found: record.StoredSection, outdated: str) -> None:
     column = layout.column(align=True)
-    holes = found.section.holes
-    text = "1 Hole" if holes == 1 else "{:d} Holes".format(holes)
-    column.label(text=", ".join([found.what, text]) if holes else found.what, icon="CHECKMARK")
+    counts = ((found.section.outlines, "1 Outline", "{:d} Outlines"), (found.section.holes, "1 Hole", "{:d} Holes"))
+    parts = [one if count == 1 else many.format(count) for count, one, many in counts if count]
+    column.label(text="{:s}: {:s}".format(found.what, ", ".join(parts)), icon="CHECKMARK")
     if outdated:
         row = column.row()
         row.alert = True

@@ -63,11 +63,15 @@ def read_section(obj, depsgraph) -> SectionReading:
     if obj.type in {"CURVE", "FONT"} and not any(modifier.show_viewport for modifier in obj.modifiers):
         return _outlines(obj, depsgraph)
     reading = read_object(obj, depsgraph)
+    warnings = list(reading.warnings)
+    if obj.type in {"CURVE", "FONT"}:
+        warnings.append("What its modifiers make of Blender's fill was measured, at a resolution of {:s}.".format(
+            _resolution(obj) or str(obj.data.resolution_u)))
     surface = joined([part.surface.mapped(matrix[:3, :3], matrix[:3, 3])
                       for part in reading.parts for matrix in part.matrices])
     return SectionReading(
         obj.name, "All Faces", surface.points, surface.triangles, surface.triangle_faces,
-        float(np.linalg.norm(surface.coordinate_error)), reading.rotation, reading.location, warnings=reading.warnings)
+        float(np.linalg.norm(surface.coordinate_error)), reading.rotation, reading.location, warnings=warnings)
 
 
 def _selected_faces(obj, depsgraph) -> SectionReading:
@@ -111,8 +115,6 @@ def _outlines(obj, depsgraph) -> SectionReading:
     facing = np.cross(linear[:, 0], linear[:, 1]) * np.sign(np.linalg.det(linear) or 1.0)
     filled = _filled(obj, depsgraph)
     warnings = list(_said(obj, sum(map(len, loops)), open_splines))
-    count = len(loops)
-    what = "1 Outline" if count == 1 else "{:d} Outlines".format(count)
     drawn = None
     if obj.type == "FONT" and obj.data.follow_curve is not None:
         # Only the evaluated text follows its curve, and only its fill is there to be read.
@@ -131,8 +133,8 @@ def _outlines(obj, depsgraph) -> SectionReading:
             drawn = float(np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum() / 2.0 * np.sqrt(facing @ facing))
     _require_finite(obj, surface.points)
     return SectionReading(
-        obj.name, what, surface.points, triangles, faces, float(np.linalg.norm(surface.coordinate_error)), rotation,
-        location, loops, facing, drawn, warnings)
+        obj.name, "Text" if obj.type == "FONT" else "Curve", surface.points, triangles, faces,
+        float(np.linalg.norm(surface.coordinate_error)), rotation, location, loops, facing, drawn, warnings)
 
 
 def _said(obj, corners: int, open_splines: int) -> Iterator[str]:

@@ -154,7 +154,7 @@ def test_a_bezier_circle_is_measured_as_its_polygon_and_says_the_resolution():
     obj = add(curve)
     bpy.context.view_layer.update()
     section, what, warnings = section_of(obj)
-    assert what == "1 Outline" and section.area == pytest.approx(math.pi, rel=3e-3)
+    assert what == "Curve" and section.area == pytest.approx(math.pi, rel=3e-3)
     assert len(warnings) == 1 and "96 corners at a resolution of 24" in warnings[0]
 
 
@@ -254,6 +254,23 @@ def selected(obj, chosen):
     for face in mesh.faces:
         face.select_set(chosen(face))
     bmesh.update_edit_mesh(obj.data)
+
+
+def test_a_text_in_edit_mode_is_measured_as_it_is_now():
+    obj = add(text_of("A"))
+    single, _, _ = section_of(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.font.text_insert(text="A")
+    double, _, _ = section_of(obj)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert double.area == pytest.approx(2 * single.area, rel=1e-6)
+
+
+def test_a_curve_with_modifiers_is_measured_as_they_leave_it():
+    obj = add(curve_of(square(0, 0, 2)))
+    obj.modifiers.new("Array", "ARRAY").relative_offset_displace = 1.5, 0, 0
+    section, what, warnings = section_of(obj)
+    assert what == "All Faces" and section.area == 8 and "modifiers" in warnings[-1]
 
 
 def edited(obj):
@@ -429,6 +446,13 @@ def test_a_section_survives_the_file_and_clear_takes_it_away(tmp_path):
     bpy.ops.wm.open_mainfile(filepath=path)
     obj = bpy.context.object
     assert stored(obj).section.area == I_AREA and outdated(obj) == ""
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    bpy.context.view_layer.update()
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.context.object
+    assert outdated(obj) == "Geometry Changed"
     bpy.ops.object.body_moments_clear()
     assert stored(obj) is None and "body_section" not in obj
 

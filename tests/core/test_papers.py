@@ -12,6 +12,7 @@ import pytest
 from body_moments.core import durso, sheynin_tuzikov, zhang_chen
 from body_moments.core.moments import monomials
 from body_moments.core.polyhedron import solid_moments
+from body_moments.core.recursion import moments_to_order
 from body_moments.core.surface import Surface
 
 from tests.core import exact, rational
@@ -86,6 +87,24 @@ def test_sheynin_tuzikov_agrees_exactly_with_plain_integration_to_sixth_order(bo
     chosen = rows if body == "tetrahedron" else rows[:20] + rows[20::7]  # the others share all code
     for row in chosen:
         assert values[rows.index(row)] == rational.enclosed(points, cut, row)
+
+
+def test_sheynin_tuzikov_and_the_recursion_in_rationals_agree_exactly_to_sixth_order():
+    points, faces = prism()
+    floats = np.array(points, float)
+    cut = triangles(points, faces)
+    truth = exact.volume_moments(floats, cut, order=6)
+    assert sheynin_tuzikov.volume_moments(rational.fractions(floats), cut, 6) == truth
+
+
+def test_the_add_ons_recursion_is_within_its_bounds_of_sheynin_tuzikov_to_sixth_order():
+    points, faces = prism()
+    floats = np.array(points, float)
+    cut = triangles(points, faces)
+    found, _ = moments_to_order(Surface.from_triangles(floats, np.array(cut)), 6)
+    truth = sheynin_tuzikov.volume_moments(rational.fractions(floats), cut, 6, [F(x) for x in found.about])
+    for value, bound, exactly in zip(found.raw, found.error, truth):
+        assert abs(F(value) - exactly) <= F(bound)
 
 
 def test_sheynin_tuzikov_gives_the_closed_form_of_a_box_to_eighth_order():

@@ -172,3 +172,28 @@ def test_the_boundary_of_triangles_is_what_no_neighbour_shares():
     assert found == {(0, 1), (1, 2), (2, 5), (5, 4), (4, 3), (3, 0)}
     twice = boundary_edges(np.array([[0, 1, 2], [0, 1, 2]]), 3)
     assert sorted(map(tuple, twice.tolist())) == [(0, 1), (0, 1), (1, 2), (1, 2), (2, 0), (2, 0)]
+
+
+def lattice_polygon(rng, size):
+    """A triangle or quad, counter-clockwise, with corners on a coarse lattice."""
+    while True:
+        corners = rng.integers(0, size, (int(rng.integers(3, 5)), 2))
+        to = corners - corners.mean(axis=0)
+        corners = corners[np.argsort(np.arctan2(to[:, 1], to[:, 0]))]
+        if area_moments(corners, directed([np.arange(len(corners))]), 0).raw[0] > 0.4:
+            return corners
+
+
+@pytest.mark.parametrize("size", [4, 9])
+def test_flaws_of_random_regions_are_those_that_winding_numbers_show(size):
+    """On a lattice many outlines touch, share edges and corners, or lie on one another."""
+    rng = np.random.default_rng(size)
+    at = rng.uniform(0, size, (1000, 2))
+    seen = []
+    for _ in range(100):
+        points, loops = shape(*(lattice_polygon(rng, size) for _ in range(int(rng.integers(1, 4)))))
+        edges = directed(loops)
+        seen.append(bool((np.round(winding_numbers(points, edges, at)) > 1).any()))
+        found = flaws(points, edges)
+        assert (found.doubled or found.crossings > 0) == seen[-1]
+    assert 20 < sum(seen) < 80
