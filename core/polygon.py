@@ -101,7 +101,7 @@ def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
 
 
 def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
-    """(k,) the signed area of each outline: negative ones are holes."""
+    """(k,) the signed area of each outline: negative ones are holes. Outlines that share a point count as one."""
     if not len(edges):
         return np.zeros(0)
     origin = points[edges[0, 0]]

@@ -428,6 +428,18 @@ def test_body_and_section_grow_old_apart():
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
+def test_a_section_that_is_refused_leaves_results_up_to_date():
+    from body_moments.operators import staleness
+
+    obj = add(curve_of(square(0, 0, 4), square(2, 2, 4)))
+    obj.body_moments.kind = "SHELL"
+    bpy.context.view_layer.update()
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    assert bpy.ops.object.body_moments_measure_section() == {"CANCELLED"}
+    bpy.context.view_layer.update()
+    assert staleness.reason(obj, bpy.context.scene) == ""
+
+
 def test_measuring_the_body_does_not_put_its_section_out_of_date():
     obj = add(flat_mesh(I_BEAM))
     obj.body_moments.kind = "SHELL"
