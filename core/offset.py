@@ -1,0 +1,337 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Walls: the material between a surface and its offset, with moments that are polynomials in the thickness.
+
+Every vertex v moves along a direction d that moves the planes of its faces by one: n·d = 1 for each normal n around it
+(Blender's Solidify calls that even thickness; on a cube it is the mitre). Where three planes or fewer meet, that is
+solved exactly, by the shortest d. Where more do, no d may do it, and d is the least-squares solution, each face
+weighed by its angle at the vertex, which does not depend on how flat faces are cut. Planes that differ by less than
+about one degree count as one: to meet them all, d would have to run far along the crease between them.
+
+Triangle a, b, c then sweeps the prism x = p + s d, both linear on the triangle, with Jacobian J = Σ λ_k N(s)·d_k,
+where N(s) = (e + s f) × (e' + s f') is the normal of the triangle moved by s, e, e' its edges and f, f' the
+differences of its directions. J x^α is a polynomial of degree |α| + 2 in s and |α| + 1 in the barycentric coordinates
+λ: six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate it exactly over the triangle, coefficient by
+coefficient. Neighbouring prisms share the ruled surface over their edge, so that their sum is the wall, with no gap.
+
+J is linear in λ, hence positive on a prism exactly where its three quadratics N(s)·d_k in s are: their first roots are
+the thickness at which the offset folds over. That is a local test; material that meets other material far along the
+surface is not found by it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .moments import Moments, U, index, monomial_count, monomials
+from .polyhedron import PAIRWISE
+from .surface import Surface
+from .topology import find_edges
+from .weld import equal_positions
+
+ORDER = 3
+POWERS = ORDER + 3  # coefficients in s: degrees 0 to 5
+BLOCK = 4096  # triangles at a time
+ONE_PLANE = 1e-4  # of the largest eigenvalue of Σ θ n n': planes that span less are one, φ²/4 for two φ apart
+SLIVER = 1e-9  # of the longest side: a lower triangle has no normal to speak of
+NOISY = 1e3  # times what storing moved the points by: a lower triangle's normal is known to 1e-3 only
+UNEVEN = 1e-6  # relative deviation from the thickness that counts as one
+ROUNDED = 20.0  # u: what rounds a Jacobian, relative to the product of the lengths in it
+INNER, OUTER = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
+NODES = np.concatenate([np.full((3, 3), outer) + (inner - outer) * np.eye(3) for inner, outer in zip(INNER, OUTER)])
+WEIGHTS = np.repeat([0.11169079483900573, 0.054975871827660933], 3)
+
+
+@dataclass(frozen=True, eq=False)
+class Directions:
+    """Where the vertices go for a unit of thickness.
+
+    vectors: (n, 3), unit of the points per unit of thickness. rounding, storing: (n,) what rounding, and storing the
+    points as float32, may have moved them by, to first order and as long as the same planes are told apart.
+    solid: (m,) whether a triangle has a normal that is known; the others were not asked.
+    """
+
+    vectors: NDArray[np.float64]
+    rounding: NDArray[np.float64]
+    storing: NDArray[np.float64]
+    solid: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """What a surface sweeps when it moves along its directions by s, per unit of s, as polynomials in s.
+
+    coefficients, error, input: (20, 6) of s^0 to s^5 for each moment to third order about `about`: what they are, and
+        bounds for positive and negative s of what rounding and storing the points as float32 may have changed.
+    outward, inward: how far the surface can move before a prism folds over, infinite where none does.
+    outward_at, inward_at: the triangles that fold first, -1 for none.
+    uneven: (k,) the vertices at which no direction moves all faces alike. least, most: the thickness there, by the
+        thickness asked for. ignored: triangles without a known normal, which are swept but ask for nothing.
+    """
+
+    about: NDArray[np.float64]
+    coefficients: NDArray[np.float64]
+    error: NDArray[np.float64]
+    input: NDArray[np.float64]
+    outward: float
+    inward: float
+    outward_at: int
+    inward_at: int
+    uneven: int
+    least: float
+    most: float
+    ignored: int
+
+    def moments(self, inward: float, outward: float) -> Moments:
+        """The volume moments to third order of the wall from `inward` below the surface to `outward` above it.
+
+        ValueError where the wall folds over.
+        """
+        if not (inward < self.inward or inward == 0.0) or not (outward < self.outward or outward == 0.0):
+            raise ValueError("the offset folds over")
+        degree = np.arange(1, POWERS + 1)
+        up, down = outward ** degree / degree, -(-inward) ** degree / degree
+        both = outward ** degree / degree + inward ** degree / degree
+        raw = self.coefficients @ (up + down)
+        error = self.error @ both + 16.0 * U * (np.abs(self.coefficients) @ both)
+        return Moments(raw, self.about, "volume", error, self.input @ both)
+
+    def largest(self, side: str) -> float:
+        """The thickness from which the wall on that side folds over: "inward", "outward" or "centered"."""
+        return {"inward": self.inward, "outward": self.outward, "centered": 2.0 * min(self.inward, self.outward)}[side]
+
+
+def share(side: str, thickness: float) -> tuple[float, float]:
+    """How much of a thickness is inside the surface and outside."""
+    return {"inward": (thickness, 0.0), "outward": (0.0, thickness),
+            "centered": (thickness / 2.0, thickness / 2.0)}[side]
+
+
+def sweep(surface: Surface) -> Sweep:
+    """The walls of a surface, closed or open, whose faces agree which side is outward.
+
+    Points at exactly the same place are one. ValueError, with what to do, where faces disagree or more than two meet
+    in an edge.
+    """
+    points, triangles = _joined(surface)
+    stored = float(np.linalg.norm(surface.coordinate_error))
+    low, high = points.min(axis=0), points.max(axis=0)
+    about = low / 2.0 + high / 2.0
+    directions = offset_directions(points, triangles, stored)
+    vectors = directions.vectors
+    reach = np.abs(points - about).max(axis=0) * (1.0 + 4.0 * U), np.abs(vectors).max(axis=0)
+    sums, bounds, tested, blocks = np.zeros((20, POWERS)), np.zeros((3, 7)), [], 0
+    for part in _blocks(triangles):
+        prisms = _Prisms(points[part], about, vectors[part])
+        sums += prisms.sums()
+        bounds += prisms.bounds(np.array([directions.rounding[part].max(axis=1),
+                                          directions.storing[part].max(axis=1)]), stored)
+        tested.append(prisms.jacobians())
+        blocks += 1
+    jacobian, doubt, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
+    solid = directions.solid
+    rest = np.flatnonzero(solid)
+    outward, inward = (_first_fold(jacobian[:, :, solid] * signs[:, None, None], doubt[:, solid])
+                       for signs in (np.array([1.0, 1.0, 1.0]), np.array([1.0, -1.0, 1.0])))
+    height = jacobian[0, :, solid] / double[solid, None]
+    uneven = np.abs(height - 1.0) > UNEVEN
+    error, moved = _propagated(bounds, reach, blocks, stored)
+    return Sweep(
+        about, sums, error, moved, outward.min(initial=np.inf), inward.min(initial=np.inf),
+        *(int(rest[np.argmin(limit)]) if np.isfinite(limit.min(initial=np.inf)) else -1 for limit in (outward, inward)),
+        uneven=len(np.unique(triangles[solid][uneven])), least=height.min(initial=1.0), most=height.max(initial=1.0),
+        ignored=int(np.count_nonzero(~solid)))
+
+
+def _blocks(triangles: NDArray) -> Iterator[NDArray]:
+    return (triangles[start:start + BLOCK] for start in range(0, len(triangles), BLOCK))
+
+
+def _joined(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+    """Points and triangles with one vertex for each place."""
+    triangles, _ = surface.all_triangles()
+    first = equal_positions(surface.points)
+    triangles = first[triangles.astype(np.intp)]
+    triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+    if not len(triangles):
+        raise ValueError("Its faces have no area; there is nothing to make thick.")
+    used, number = np.unique(triangles, return_inverse=True)
+    triangles = number.reshape(-1, 3)
+    edges = find_edges(triangles)
+    if (edges.count > 2).any():
+        raise ValueError("{:d} of its edges have more than two faces, where a wall has no inside. Separate the parts, "
+                         "or measure it as a thin shell.".format(int(np.count_nonzero(edges.count > 2))))
+    against = (edges.count == 2) & (edges.balance(np.zeros(len(triangles), bool)) != 0.0)
+    if against.any():
+        raise ValueError("Its faces do not agree which side is outward at {:d} edges. Recalculate Outside, or measure "
+                         "it as a thin shell.".format(int(np.count_nonzero(against))))
+    return surface.points[used].astype(np.float64), triangles
+
+
+def offset_directions(points: NDArray[np.float64], triangles: NDArray[np.integer], stored: float = 0.0) -> Directions:
+    """The direction of every vertex. points: (n, 3) float64, triangles: (m, 3), stored: what storing the points may
+    have moved them by."""
+    count = len(points)
+    normals, angles, noise, solid = (np.concatenate(column) for column in zip(
+        *(_corners(points[part], stored) for part in _blocks(triangles))))
+    corner = triangles[solid].ravel()
+    weight, normals = angles[solid].ravel(), np.repeat(normals[solid], 3, axis=0)
+    total = np.maximum(np.bincount(corner, weight, count), np.finfo(float).tiny)
+
+    def mean(values: NDArray) -> NDArray[np.float64]:
+        return np.bincount(corner, weight * values, count) / total
+
+    middle = np.stack([mean(column) for column in normals.T], axis=1)
+    length = np.linalg.norm(middle, axis=1)
+    middle /= np.where(length > 0.0, length, 1.0)[:, None]
+    # With d = m + c, m the mean normal: Σ θ n n'·c = Σ θ n (1 - n·m), and 1 - n·m = |n - m|² / 2 does not cancel.
+    short = ((normals - middle[corner]) ** 2).sum(axis=1) / 2.0
+    system = np.empty((count, 3, 3))
+    for i in range(3):
+        for j in range(i, 3):
+            system[:, i, j] = system[:, j, i] = mean(normals[:, i] * normals[:, j])
+    right = np.stack([mean(short * column) for column in normals.T], axis=1)
+    values, axes = np.linalg.eigh(system)
+    kept = values > ONE_PLANE * values[:, 2:]
+    inverse = np.where(kept, 1.0 / np.where(kept, values, 1.0), 0.0)
+    vectors = middle + np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right)
+    # A mean normal that has a part along a crease that was left out has no use for it.
+    lost = np.where(kept | (values[:, 2:] <= 0.0), 0.0, 1.0)
+    vectors -= np.einsum("nij,nj,nkj,nk->ni", axes, lost, axes, vectors)
+    off = np.sqrt(mean((np.einsum("ij,ij->i", normals, vectors[corner]) - 1.0) ** 2))
+    gain = np.sqrt(inverse.max(axis=1))
+    gain = 2.0 * gain * np.linalg.norm(vectors, axis=1) + gain ** 2 * off  # Wedin, to first order
+    tilt = np.zeros((2, count))
+    for row, own in zip(tilt, noise[solid].T):
+        order = np.argsort(own, kind="stable").repeat(3)  # of equal indices the last is kept: the largest
+        row[triangles[solid][order[::3]].ravel()] = own[order]
+    return Directions(vectors, gain * tilt[0] + 8.0 * U * gain, gain * tilt[1], solid)
+
+
+def _corners(points: NDArray, stored: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+    """(m, 3) unit normals, (m, 3) angles, (m, 2) what rounding and storing may turn the normal by, and (m,) whether
+    there is a normal, of (m, 3, 3) corners."""
+    sides = points[:, [1, 2, 0]] - points
+    normal = np.cross(sides[:, 0], sides[:, 1])
+    double = np.linalg.norm(normal, axis=1)
+    longest = np.linalg.norm(sides, axis=2).max(axis=1)
+    solid = double > longest * np.maximum(SLIVER * longest, NOISY * stored)
+    double = np.where(solid, double, 1.0)
+    dots = -np.einsum("mki,mki->mk", sides, sides[:, [2, 0, 1]])
+    angles = np.arctan2(double[:, None], dots)
+    noise = np.stack([8.0 * U * longest ** 2 / double, 2.0 * stored * longest / double], axis=1)
+    return normal / double[:, None], angles, noise, solid
+
+
+class _Prisms:
+    """What (m, 3, 3) corners sweep along their (m, 3, 3) directions; columns are prisms."""
+
+    def __init__(self, points: NDArray, about: NDArray, vectors: NDArray):
+        a, b, c = points.transpose(1, 2, 0)  # corner, axis, prism
+        u, v, w = self.vectors = vectors.transpose(1, 2, 0)
+        self.points = points.transpose(1, 2, 0) - about[:, None]
+        self.edges, self.turns = (b - a, c - a), (v - u, w - u)
+        normals = (_cross(b - a, c - a), _cross(b - a, w - u) + _cross(v - u, c - a), _cross(v - u, w - u))
+        # power of s, corner, prism
+        self.own = np.array([[np.einsum("im,im->m", normal, vector) for vector in self.vectors] for normal in normals])
+        self.double = np.sqrt(np.einsum("im,im->m", normals[0], normals[0]))
+        self.long, self.turned, self.far = (
+            np.sqrt(np.max([np.einsum("im,im->m", row, row) for row in rows], axis=0))
+            for rows in (self.edges, self.turns, self.vectors))
+
+    def jacobians(self) -> tuple[NDArray, NDArray, NDArray]:
+        """(3, 3, m) coefficients in s of J at each corner, (3, m) what rounding may have changed them by, and (m,)
+        |N(0)|."""
+        return self.own, ROUNDED * U * self._sizes(), self.double
+
+    def _sizes(self) -> NDArray[np.float64]:
+        """(3, m) bounds of the coefficients of J."""
+        return np.array([self.long ** 2, 2.0 * self.long * self.turned, self.turned ** 2]) * self.far
+
+    def sums(self) -> NDArray[np.float64]:
+        """(20, 6) the coefficients of the moments."""
+        sums, count = np.zeros((monomial_count(ORDER), POWERS)), self.points.shape[2]
+        place, step = (np.einsum("nk,kim->inm", NODES, rows).reshape(3, 6 * count)
+                       for rows in (self.points, self.vectors))
+        table = {(0, 0, 0): (np.einsum("nk,pkm->pnm", NODES, self.own) * WEIGHTS[:, None]).reshape(3, 6 * count)}
+        for exponents in map(tuple, monomials(ORDER).tolist()):
+            if exponents not in table:
+                axis = next(i for i in range(3) if exponents[i])
+                lower = table[tuple(n - (i == axis) for i, n in enumerate(exponents))]
+                product = np.zeros((len(lower) + 1, 6 * count))
+                np.multiply(lower, place[axis], out=product[:-1])
+                product[1:] += lower * step[axis]
+                table[exponents] = product
+            values = np.add.reduce(table[exponents], axis=1)
+            sums[index(*exponents), :len(values)] = values
+        return sums
+
+    def bounds(self, moved: NDArray, stored: float) -> NDArray[np.float64]:
+        """(3, 7) sums over the prisms: of the sizes of J, three coefficients and four of no use; of what moving the
+        directions by moved[0], (m,), changes J by, three, and of the sizes of J times that move of x, four; the same
+        where directions move by moved[1] and points by `stored`."""
+        sizes, rows = self._sizes(), [np.zeros((7, len(self.double)))]
+        rows[0][:3] = sizes
+        long, turned, far = self.long, self.turned, self.far
+        for delta, step in zip(moved, (0.0, stored)):
+            change = [2.0 * long * 2.0 * step * far + long ** 2 * delta,
+                      (4.0 * turned * step + 4.0 * long * delta) * far + 2.0 * long * turned * delta,
+                      4.0 * turned * delta * far + turned ** 2 * delta]
+            place = [sizes[0] * step, sizes[0] * delta + sizes[1] * step, sizes[1] * delta + sizes[2] * step,
+                     sizes[2] * delta]
+            rows.append(np.array(change + place))
+        return np.add.reduce(np.array(rows), axis=2) / 2.0
+
+
+def _cross(u: NDArray, v: NDArray) -> NDArray[np.float64]:
+    """The vector products of (3, m) columns."""
+    return np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+
+
+def _propagated(bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
+                ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(20, 6) and (20, 6) `error` and `input` from the sums of `_Prisms.bounds`, with every point within reach[0] of
+    the middle and every direction within reach[1], by axis."""
+    place, step = reach[0] + stored, reach[1]
+
+    def times(row: NDArray, exponents: list[int]) -> NDArray[np.float64]:
+        for axis, power in enumerate(exponents):
+            for _ in range(power):
+                row = np.convolve(row, (place[axis], step[axis]))
+        return row
+
+    error, moved = np.zeros((2, monomial_count(ORDER), POWERS))
+    for i, exponents in enumerate(monomials(ORDER).tolist()):
+        degree = sum(exponents)
+        rounded = (ROUNDED + 8.0 * degree + PAIRWISE + blocks) * U
+        error[i, :degree + 3] = times(rounded * bounds[0, :3], exponents)
+        for target, row in ((error, bounds[1]), (moved, bounds[2])):
+            target[i, :degree + 3] += times(row[:3], exponents)
+            for axis, power in enumerate(exponents):
+                if power:
+                    lower = [n - (k == axis) for k, n in enumerate(exponents)]
+                    target[i, :degree + 3] += power * times(row[3:], lower)
+    return error, moved
+
+
+def _first_fold(jacobian: NDArray, doubt: NDArray) -> NDArray[np.float64]:
+    """(m,) up to which s the (3, 3, m) quadratics a + b s + c s² are all positive for sure, infinite where for ever.
+
+    Each is lowered by what rounding may have raised it by, and a double root counts as one though its discriminant be
+    rounded below zero. The largest root of a y² + b y + c is 1 / s.
+    """
+    a, b, c = jacobian - doubt[:, None]
+    dead = ~(a > 0.0)
+    a = np.where(dead, 1.0, a)
+    size = b * b + np.abs(4.0 * a * c)
+    square = b * b - 4.0 * a * c
+    real = square >= -16.0 * U * size
+    root = np.sqrt(np.maximum(square, 0.0) + 16.0 * U * size)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        largest = np.where(b > 0.0, -2.0 * c / (b + root), (root - b) / (2.0 * a))
+        largest = np.where(dead, np.inf, np.where(real & (largest > 0.0), largest, 0.0))
+        return (1.0 / largest).min(axis=0) * (1.0 - 16.0 * U)
