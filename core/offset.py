@@ -4,9 +4,11 @@
 
 Every vertex v moves along a direction d that moves the planes of its faces by one: n·d = 1 for each normal n around it
 (Blender's Solidify calls that even thickness; on a cube it is the mitre). Where three planes or fewer meet, that is
-solved exactly, by the shortest d. Where more do, no d may do it, and d is the least-squares solution, each face
-weighed by its angle at the vertex, which does not depend on how flat faces are cut. Planes that differ by less than
-about one degree count as one: to meet them all, d would have to run far along the crease between them.
+solved exactly, by the shortest d; planes that differ by less than about one degree count as one, for d would have to
+run far along the crease between them to meet both. Where more than three meet, there may be no such d: it is then the
+least-squares solution, each face weighed by its angle at the vertex, which does not depend on how flat faces are cut,
+and planes within about 15 degrees are taken as the round surface that they stand for: the vertex goes along their mean
+normal, and none of it slides along the surface.
 
 Triangle a, b, c then sweeps the prism x = p + s d, both linear on the triangle, with Jacobian J = Σ λ_k N(s)·d_k,
 where N(s) = (e + s f) × (e' + s f') is the normal of the triangle moved by s, e, e' its edges and f, f' the
@@ -37,6 +39,7 @@ ORDER = 3
 POWERS = ORDER + 3  # coefficients in s: degrees 0 to 5
 BLOCK = 4096  # triangles at a time
 ONE_PLANE = 1e-4  # of the largest eigenvalue of Σ θ n n': planes that span less are one, φ²/4 for two φ apart
+ROUND = 2e-2  # the same where not all planes can be met
 SLIVER = 1e-9  # of the longest side: a lower triangle has no normal to speak of
 NOISY = 1e3  # times what storing moved the points by: a lower triangle's normal is known to 1e-3 only
 UNEVEN = 1e-6  # relative deviation from the thickness that counts as one
@@ -188,7 +191,8 @@ def offset_directions(points: NDArray[np.float64], triangles: NDArray[np.integer
     middle = np.stack([mean(column) for column in normals.T], axis=1)
     length = np.linalg.norm(middle, axis=1)
     middle /= np.where(length > 0.0, length, 1.0)[:, None]
-    # With d = m + c, m the mean normal: Σ θ n n'·c = Σ θ n (1 - n·m), and 1 - n·m = |n - m|² / 2 does not cancel.
+    # With d = m + c, m the mean normal: Σ θ n n'·c = Σ θ n (1 - n·m), and 1 - n·m = |n - m|² / 2 does not cancel. Of m,
+    # too, a part along a crease that is left out has to go.
     short = ((normals - middle[corner]) ** 2).sum(axis=1) / 2.0
     system = np.empty((count, 3, 3))
     for i in range(3):
@@ -196,19 +200,28 @@ def offset_directions(points: NDArray[np.float64], triangles: NDArray[np.integer
             system[:, i, j] = system[:, j, i] = mean(normals[:, i] * normals[:, j])
     right = np.stack([mean(short * column) for column in normals.T], axis=1)
     values, axes = np.linalg.eigh(system)
-    kept = values > ONE_PLANE * values[:, 2:]
-    inverse = np.where(kept, 1.0 / np.where(kept, values, 1.0), 0.0)
-    vectors = middle + np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right)
-    # A mean normal that has a part along a crease that was left out has no use for it.
-    lost = np.where(kept | (values[:, 2:] <= 0.0), 0.0, 1.0)
-    vectors -= np.einsum("nij,nj,nkj,nk->ni", axes, lost, axes, vectors)
-    off = np.sqrt(mean((np.einsum("ij,ij->i", normals, vectors[corner]) - 1.0) ** 2))
-    gain = np.sqrt(inverse.max(axis=1))
-    gain = 2.0 * gain * np.linalg.norm(vectors, axis=1) + gain ** 2 * off  # Wedin, to first order
     tilt = np.zeros((2, count))
     for row, own in zip(tilt, noise[solid].T):
         order = np.argsort(own, kind="stable").repeat(3)  # of equal indices the last is kept: the largest
         row[triangles[solid][order[::3]].ravel()] = own[order]
+
+    def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
+        """(n, 3) directions across the planes that the eigenvalues above `least` span, (n,) how far from 1 n·d is on
+        average, and (n,) what moving the normals by one moves d by (Wedin, to first order)."""
+        kept = values > least * values[:, 2:]
+        inverse = np.where(kept, 1.0 / np.where(kept, values, 1.0), 0.0)
+        across = np.where(kept | (values[:, 2:] <= 0.0), 1.0, 0.0)
+        vectors = (np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right)
+                   + np.einsum("nij,nj,nkj,nk->ni", axes, across, axes, middle))
+        off = np.sqrt(mean((np.einsum("ij,ij->i", normals, vectors[corner]) - 1.0) ** 2))
+        gain = np.sqrt(inverse.max(axis=1))
+        return vectors, off, 2.0 * gain * np.linalg.norm(vectors, axis=1) + gain ** 2 * off
+
+    vectors, off, gain = solved(ONE_PLANE)
+    rough = off > UNEVEN + 4.0 * (tilt[0] + tilt[1]) * np.linalg.norm(vectors, axis=1)
+    if rough.any():
+        smooth, _, slack = solved(ROUND)
+        vectors[rough], gain[rough] = smooth[rough], slack[rough]
     return Directions(vectors, gain * tilt[0] + 8.0 * U * gain, gain * tilt[1], solid)
 
 

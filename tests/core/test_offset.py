@@ -139,7 +139,7 @@ def test_where_more_than_three_planes_meet_the_wall_is_told_to_be_uneven():
 
 def test_the_planes_of_a_fine_sphere_are_kept_at_the_thickness():
     found = sweep(bodies.surface(bodies.sphere(4)))
-    assert 0.995 < found.least and found.most < 1.005
+    assert found.least > 0.995 and found.most < 1.005
     thick = found.moments(0.1, 0.0)
     assert abs(thick.total / (4 / 3 * pi * (1 - 0.9 ** 3)) - 1.0) < 5e-3
 
