@@ -98,7 +98,7 @@ def _gradient(surface: Surface, about: NDArray, *, area: bool) -> Gradient:
         if area:  # a normal's direction is the less certain the thinner its triangle
             double = np.sqrt(np.einsum("im,im->m", normal, normal))
             bound = 2.0 * size * np.maximum(1.0, bound / np.where(double > 0.0, double, bound + 1.0))
-        for k, (own, values) in enumerate(zip(place.T, rows)):
+        for own, values in zip(place.T, rows):
             for row, target in zip(values.reshape(3 * COUNT, -1), out.reshape(3 * COUNT, -1)):
                 target[low:low + count] += np.bincount(own, row, count)
             scale[low:low + count] += np.bincount(own, bound, count)

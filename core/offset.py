@@ -138,7 +138,7 @@ def sweep(surface: Surface) -> Sweep:
     jacobian, doubt, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
     solid = directions.solid
     rest = np.flatnonzero(solid)
-    outward, inward = (_first_fold(jacobian[:, :, solid] * signs[:, None, None], doubt[:, solid])
+    outward, inward = (first_fold(jacobian[:, :, solid] * signs[:, None, None], doubt[:, solid])
                        for signs in (np.array([1.0, 1.0, 1.0]), np.array([1.0, -1.0, 1.0])))
     height = jacobian[0, :, solid] / double[solid, None]
     uneven = np.abs(height - 1.0) > UNEVEN
@@ -331,7 +331,7 @@ def _propagated(bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, st
     return error, moved
 
 
-def _first_fold(jacobian: NDArray, doubt: NDArray) -> NDArray[np.float64]:
+def first_fold(jacobian: NDArray, doubt: NDArray) -> NDArray[np.float64]:
     """(m,) up to which s the (3, 3, m) quadratics a + b s + c s² are all positive for sure, infinite where for ever.
 
     Each is lowered by what rounding may have raised it by, and a double root counts as one though its discriminant be
