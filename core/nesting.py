@@ -153,6 +153,18 @@ def relate(points: NDArray[np.floating], shells: Shells, ask: NDArray[np.bool_],
     return Relations(pair[inside], pair[through], skipped + int(np.count_nonzero(unsure & ~through)))
 
 
+def pierced(points: NDArray[np.floating], triangles: NDArray[np.integer], shell: NDArray[np.intp],
+            pairs: NDArray[np.integer], tolerance: float) -> bool:
+    """Whether surfaces go through each other, or through themselves, by more than the tolerance, as far as is found
+    within bounds of time.
+
+    triangles: (m, 3), shell: (m,) the surface that each belongs to, ascending; pairs: (k, 2) of surfaces.
+    """
+    shells = sort_shells(points, triangles, shell, int(shell[-1]) + 1)
+    tree = Tree(points, shells, np.ones(len(shells.volume), bool))
+    return bool(_pierced(tree, pairs[:, 0], pairs[:, 1], tolerance)[0].any())
+
+
 class Tree:
     """One bounding-volume tree for each wanted shell: perfect binary trees over triangles in Morton order.
 

@@ -17,19 +17,20 @@ differences of its directions. J x^α is a polynomial of degree |α| + 2 in s an
 coefficient. Neighbouring prisms share the ruled surface over their edge, so that their sum is the wall, with no gap.
 
 J is linear in λ, hence positive on a prism exactly where its three quadratics N(s)·d_k in s are: their first roots are
-the thickness at which the offset folds over. That is a local test; material that meets other material far along the
-surface is not found by it.
+the thickness at which the offset folds over. That is a local test: walls that run into each other far along the surface
+are looked for separately, one thickness at a time, and what two share counts twice.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .moments import Moments, U, index, monomial_count, monomials
+from .nesting import pierced
 from .polyhedron import PAIRWISE
 from .surface import Surface
 from .topology import find_edges
@@ -43,6 +44,7 @@ ROUND = 2e-2  # the same where not all planes can be met
 SLIVER = 1e-9  # of the longest side: a lower triangle has no normal to speak of
 NOISY = 1e3  # times what storing moved the points by: a lower triangle's normal is known to 1e-3 only
 UNEVEN = 1e-6  # relative deviation from the thickness that counts as one
+TOUCHING = 1e-6  # of the size: nearer sides touch
 ROUNDED = 20.0  # u: what rounds a Jacobian, relative to the product of the lengths in it
 INNER, OUTER = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
 NODES = np.concatenate([np.full((3, 3), outer) + (inner - outer) * np.eye(3) for inner, outer in zip(INNER, OUTER)])
@@ -68,6 +70,7 @@ class Directions:
 class Sweep:
     """What a surface sweeps when it moves along its directions by s, per unit of s, as polynomials in s.
 
+    points, vectors, triangles: (n, 3), (n, 3) and (m, 3), what moves where.
     coefficients, error, input: (20, 6) of s^0 to s^5 for each moment to third order about `about`: what they are, and
         bounds for positive and negative s of what rounding and storing the points as float32 may have changed.
     outward, inward: how far the surface can move before a prism folds over, infinite where none does.
@@ -76,6 +79,9 @@ class Sweep:
         thickness asked for. ignored: triangles without a known normal, which are swept but ask for nothing.
     """
 
+    points: NDArray[np.float64]
+    vectors: NDArray[np.float64]
+    triangles: NDArray[np.integer]
     about: NDArray[np.float64]
     coefficients: NDArray[np.float64]
     error: NDArray[np.float64]
@@ -102,6 +108,20 @@ class Sweep:
         raw = self.coefficients @ (up + down)
         error = self.error @ both + 16.0 * U * (np.abs(self.coefficients) @ both)
         return Moments(raw, self.about, "volume", error, self.input @ both)
+
+    def meets_itself(self, inward: float, outward: float) -> bool:
+        """Whether the two sides of the wall go through each other or through themselves, as far as is found within
+        bounds of time."""
+        count = len(self.points)
+        points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
+        triangles = np.concatenate([self.triangles, self.triangles + count])
+        shell = np.repeat([0, 1], len(self.triangles))
+        tolerance = min(TOUCHING * float(np.ptp(points, axis=0).max()), 1e-3 * (inward + outward))
+        return pierced(points, triangles, shell, np.array([[0, 1], [0, 0], [1, 1]]), tolerance)
+
+    def without_surface(self) -> Sweep:
+        """The same without what is as large as the mesh."""
+        return replace(self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0])
 
     def largest(self, side: str) -> float:
         """The thickness from which the wall on that side folds over: "inward", "outward" or "centered"."""
@@ -144,7 +164,7 @@ def sweep(surface: Surface) -> Sweep:
     uneven = np.abs(height - 1.0) > UNEVEN
     error, moved = _propagated(bounds, reach, blocks, stored)
     return Sweep(
-        about, sums, error, moved, outward.min(initial=np.inf), inward.min(initial=np.inf),
+        points, vectors, triangles, about, sums, error, moved, outward.min(initial=np.inf), inward.min(initial=np.inf),
         *(int(rest[np.argmin(limit)]) if np.isfinite(limit.min(initial=np.inf)) else -1 for limit in (outward, inward)),
         uneven=len(np.unique(triangles[solid][uneven])), least=height.min(initial=1.0), most=height.max(initial=1.0),
         ignored=int(np.count_nonzero(~solid)))

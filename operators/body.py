@@ -22,6 +22,7 @@ class Body:
 
     volume, area: their moments, the volume's to order 3 at least. mass: of a body whose density is not one number, its
     moments in kg; else None.
+    wall: of a shell of real thickness, the volume moments of its material; None of a thin one.
     method, warnings: as in `Measurement`.
     refined: gives what the principal frame is made from, with exact third order, where its bounds leave it undecided.
     solids: the surfaces that were measured, and the (k, 4, 4) maps to where each stands.
@@ -33,5 +34,6 @@ class Body:
     method: str
     warnings: tuple[str, ...]
     mass: Moments | None = None
+    wall: Moments | None = None
     refined: Callable[[], Moments] | None = None
     solids: tuple[tuple[SolidMeasure, NDArray], ...] = ()

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from bpy.types import Context, Object, Panel, UILayout
 
-from ..operators import results, staleness
+from ..operators import results, staleness, wall_slider
 from ..operators.units import SI_UNITS, Units
 from ..operators.write import properties
 from . import rows
@@ -100,7 +100,9 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
     column.use_property_split = True
     column.row().prop(settings, "kind", expand=True)
     if settings.kind == "SHELL":
+        column.prop(settings, "wall")
         column.prop(settings, "thickness")
+        _largest(column, context, obj)
     else:
         column.prop(settings, "overlap")
     column.row().prop(settings, "mass_from", text="Given", expand=True)
@@ -115,6 +117,18 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
         column.prop(settings, "density", text="Density kg/m³")
     else:
         column.prop(settings, "mass", text="Mass kg")
+
+
+def _largest(layout: UILayout, context: Context, obj: Object) -> None:
+    """How thick the wall may be, once that is known."""
+    limit = wall_slider.largest(obj)
+    if limit is None:
+        return
+    units = Units.of(context.scene.unit_settings)
+    row = layout.row()
+    row.alert = wall_slider.folds(obj)
+    text = "Folds Over from {:s}" if row.alert else "Good up to {:s}"
+    row.label(text=text.format(units.text("length", limit)), icon="ERROR" if row.alert else "INFO")
 
 
 def _numbers(layout: UILayout, scene, units: Units, found: properties.Stored) -> None:

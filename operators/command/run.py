@@ -120,7 +120,7 @@ class Run:
             return one, None
         if one.kind == "shell":
             return one, one.area_moments
-        as_shell = replace(wanted, kind="shell", density=1.0, mass=None, thickness=1.0)
+        as_shell = replace(wanted, kind="shell", density=1.0, mass=None, thickness=1.0, wall="thin")
         return one, measure_object(obj, depsgraph, as_shell).area_moments
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
