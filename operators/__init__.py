@@ -28,6 +28,7 @@ def _parts() -> tuple[ModuleType, ...]:
         principal_axes,
         rigid_body,
         section,
+        sculpt_balance,
         select_faults,
         settings,
         staleness,
@@ -49,6 +50,7 @@ def _parts() -> tuple[ModuleType, ...]:
         cursor,
         orientation,
         rigid_body,
+        sculpt_balance,
         batch,
     )
 

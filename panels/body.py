@@ -225,6 +225,7 @@ def _actions(layout: UILayout, obj: Object) -> None:
     )
     text = "Set Rigid Body Mass" if obj.rigid_body else "Add Rigid Body with Mass"
     column.operator("object.body_moments_set_rigid_body_mass", text=text, icon="RIGID_BODY").add = not obj.rigid_body
+    body.operator("object.body_moments_sculpt_balance", icon="SCULPTMODE_HLT")
 
 
 def _totals(layout: UILayout, context: Context, units: Units) -> None:
