@@ -4,8 +4,10 @@
 
 Some vertices may move. With the derivative G of the center at the start, the moves v that bring it there with the least
 Σ a |v|² / m are v = (m / a) G' λ, with one λ for each coordinate of the center. Here a is the area that a vertex stands
-for, a third of its triangles', so that the shape found does not depend on how finely the mesh is cut, and m ≤ 1 how
+for, an equal share of its faces', so that the shape found does not depend on how finely the mesh is cut, and m ≤ 1 how
 willingly it moves. Moves longer than a limit are cut to it, which is what the same least problem with that limit says.
+For G and a, every face is taken as the fan around its middle, so that the diagonals it is cut by show in the shape as
+little as they can: the center itself is that of the faces as they are cut.
 
 The center is no linear function of the moves, so λ is found by Newton's method, with the exact derivative at every
 step, until the center is there to rounding. The moves are then least to first order: those of the least sum differ by
@@ -55,7 +57,8 @@ def balance(surface: Surface, movable: NDArray[np.integer], target: NDArray, *, 
     movable = np.asarray(movable, np.intp)
     willing = np.ones(len(movable)) if willing is None else np.asarray(willing, np.float64)
     problem = _Problem(surface, shell, across, np.asarray(target, np.float64))
-    area = problem.areas()[movable]
+    fans = _Fans(surface, shell)
+    area = fans.areas[movable]
     used = (area > 0.0) & (willing > 0.0)
     if not used.any():
         raise ValueError("None of the vertices that may move belongs to a face with an area; select others.")
@@ -64,7 +67,8 @@ def balance(surface: Surface, movable: NDArray[np.integer], target: NDArray, *, 
     if start is None:
         raise ValueError("It has no {:s}.".format("area" if shell else "volume that its faces enclose"))
     before, residual, gradient = start
-    pull = gradient[:, movable] * (willing[used] / area[used])[:, None]
+    pull = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
+    pull *= (willing[used] / area[used])[:, None]
     if not _strong(np.einsum("rnk,snk->rs", pull, gradient[:, movable])):
         raise ValueError("The vertices that may move cannot bring the center there, however far they go; select more.")
     points, center, multiplier, cut = problem.start, before, np.zeros(len(across)), False
@@ -159,16 +163,6 @@ class _Problem:
         return center, self.across @ (self.target - center), np.einsum(
             "ri,nik->rnk", self.across, gradient.center(moments.total))
 
-    def areas(self) -> NDArray[np.float64]:
-        """(n,) a third of the area of the triangles at each vertex."""
-        double = np.linalg.norm(self._normals(self.start, self.triangles), axis=1)
-        return np.bincount(self.triangles.ravel(), np.repeat(double / 6.0, 3), len(self.start))
-
-    @staticmethod
-    def _normals(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
-        a, b, c = (points[triangles[:, k]] for k in range(3))
-        return np.cross(b - a, c - a)
-
     def check(self, points: NDArray, movable: NDArray) -> None:
         """ValueError where a triangle turns by a right angle or more on its way: N(s)·N(0), a quadratic in s, must stay
         positive to s = 1."""
@@ -191,3 +185,65 @@ class _Problem:
         if folded:
             raise ValueError("It would turn {:d} of its faces over; select more vertices, or a point that is nearer."
                              .format(folded))
+
+
+class _Fans:
+    """The faces of a surface as triangles around the mean of each face's vertices; triangles stay as they are.
+
+    areas: (n,) what each vertex stands for, an equal share of each of its faces.
+    """
+
+    def __init__(self, surface: Surface, shell: bool):
+        triangles, faces = surface.all_triangles()
+        self.shell, self.count = shell, len(surface.points)
+        points = surface.points.astype(np.float64)
+        faces = np.unique(faces, return_inverse=True)[1].ravel()
+        number = int(faces.max(initial=-1)) + 1
+        normals = _normals(points, triangles)
+        corner = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
+        self.owner, self.vertex = corner // self.count, corner % self.count
+        self.share = 1.0 / np.bincount(self.owner, minlength=number)[self.owner]
+        area = np.bincount(faces, np.linalg.norm(normals, axis=1) / 2.0, number)
+        self.areas = np.bincount(self.vertex, area[self.owner] * self.share, self.count)
+        middles = np.stack([np.bincount(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)],
+                           axis=1)
+        whole = np.bincount(faces, minlength=number)[faces] == 1
+        rims, owners = _rims(triangles[~whole], faces[~whole], self.count)
+        fan = np.concatenate([triangles[whole], np.concatenate([rims, self.count + owners[:, None]], axis=1)])
+        owners = np.concatenate([faces[whole], owners])
+        self.points = np.concatenate([points, middles])
+        facing = np.stack([np.bincount(faces, column, number) for column in normals.T], axis=1)[owners]
+        self.against = (_normals(self.points, fan) * facing).sum(axis=1) < 0.0  # where a face is not convex
+        self.fan = fan
+
+    def center_gradient(self, center: NDArray) -> NDArray[np.float64]:
+        """(n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its vertices."""
+        if self.shell:  # signed as the faces' own areas are
+            parts = [area_gradient(Surface(self.points, rows), center).by_vertex[:, 1:4]
+                     for rows in (self.fan[~self.against], self.fan[self.against])]
+            gradient, total = parts[0] - parts[1], self.areas.sum()
+        else:
+            surface = Surface(self.points, self.fan)
+            gradient, total = volume_gradient(surface, center).by_vertex[:, 1:4], solid_and_area(surface)[0].total
+        gradient /= total
+        own, middle = gradient[:self.count].reshape(-1, 9), gradient[self.count:].reshape(-1, 9)
+        for column, shared in zip(own.T, middle.T):
+            column += np.bincount(self.vertex, shared[self.owner] * self.share, self.count)
+        return own.reshape(-1, 3, 3)
+
+
+def _normals(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
+    """(m, 3) the normals of triangles, twice as long as their areas."""
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    return np.cross(b - a, c - a)
+
+
+def _rims(triangles: NDArray, faces: NDArray, count: int) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """(k, 2) the sides of triangles that no other triangle of the same face runs along the other way, and (k,) the face
+    of each."""
+    start, stop = triangles.ravel().astype(np.int64), np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
+    owner = np.repeat(faces, 3).astype(np.int64)
+    edge = np.unique(np.minimum(start, stop) * count + np.maximum(start, stop), return_inverse=True)[1].ravel()
+    _, key, uses = np.unique(owner * (int(edge.max(initial=0)) + 1) + edge, return_inverse=True, return_counts=True)
+    rim = uses[key.ravel()] == 1
+    return np.stack([start[rim], stop[rim]], axis=1), owner[rim]

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bmesh
 import bpy
@@ -235,8 +235,7 @@ def _balance(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, wa
             if off <= tolerance:
                 done.append(True)
                 break
-            cut = _read(context, obj, None).surface.mapped(linear, offset).triangles
-            surface = Surface(start.points, cut)
+            surface = replace(_read(context, obj, None).surface.mapped(linear, offset), points=start.points)
         else:
             raise Refused("its faces that are not flat are cut differently with every change; triangulate them first")
     units = Units.of(context.scene.unit_settings)

@@ -86,6 +86,8 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
     headline, icon, explanation = VERDICTS.get(last, (method.title(), "INFO", ""))
     outdated = staleness.reason(obj, context.scene)
     column.label(text=" ".join([*before, headline]), icon=icon)
+    if last == "shell" and obj.body_moments.wall != "THIN":
+        explanation = "The mass is in walls of real thickness"
     if explanation:
         rows.sentence(column, context, explanation, icon="BLANK1")
     if outdated:

@@ -4,9 +4,10 @@
 
 import numpy as np
 import pytest
-from body_moments.core.balance import balance
+from body_moments.core.balance import _Fans, balance
 from body_moments.core.gradient import area_gradient, volume_gradient
 from body_moments.core.polyhedron import solid_and_area
+from body_moments.core.surface import Surface
 
 from tests.core import bodies
 
@@ -155,3 +156,39 @@ def test_a_tiny_body_and_a_large_one_are_the_same_problem():
         target = center(*body) + np.array([0.02, 0.01, 0.0]) * scale
         shapes.append(balance(bodies.surface(body), upper(part), target).points / scale)
     assert np.abs(shapes[0] - shapes[1]).max() < 1e-8 and np.abs(shapes[2] - shapes[1]).max() < 1e-8
+
+
+@pytest.mark.parametrize("sides", [4, 5, 8])
+def test_the_diagonals_that_cut_a_face_do_not_show_in_what_the_moves_follow(shell, sides):
+    angle = np.arange(sides) * 2 * np.pi / sides
+    ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    points = np.concatenate([np.column_stack([ring, np.full(sides, z)]) for z in (0.0, 1.0, 2.0)])
+    faces = [list(range(sides))[::-1], list(range(2 * sides, 3 * sides))]
+    faces += [[k + i, k + (i + 1) % sides, k + sides + (i + 1) % sides, k + sides + i]
+              for k in (0, sides) for i in range(sides)]
+    fans = _Fans(bodies.mesh(points, faces), shell)
+    gradient = fans.center_gradient(np.array([0.0, 0.0, 1.0]))
+    mirror = np.concatenate([k + (-np.arange(sides)) % sides for k in (0, sides, 2 * sides)])  # y → -y
+    flip = np.diag([1.0, -1.0, 1.0])
+    assert np.abs(flip @ gradient[mirror] @ flip - gradient).max() < 1e-15
+    turned = np.concatenate([k + (np.arange(sides) + 1) % sides for k in (0, sides, 2 * sides)])
+    turn = np.array([[np.cos(angle[1]), -np.sin(angle[1]), 0], [np.sin(angle[1]), np.cos(angle[1]), 0], [0, 0, 1]])
+    assert np.abs(turn @ gradient @ turn.T - gradient[turned]).max() < 1e-15
+    assert np.abs(fans.areas - fans.areas[turned]).max() < 1e-15
+
+
+def test_a_face_that_is_not_convex_pulls_as_it_is(shell):
+    outline = np.array([[0, 0], [2, 0], [2, 1], [1, 0.2], [0, 1]], float)
+    points = np.concatenate([np.column_stack([outline, np.full(5, z)]) for z in (0.0, 1.0)])
+    faces = [[0, 4, 3, 2, 1], [5, 6, 7, 8, 9]] + [[i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5] for i in range(5)]
+    cut = np.array([[3, 0, 1], [3, 1, 2], [3, 4, 0]])
+    triangles = np.concatenate([cut[:, ::-1], cut + 5, bodies.split(faces[2:])])
+    owner = np.array([0] * 3 + [1] * 3 + [2, 2, 3, 3, 4, 4, 5, 5, 6, 6])
+    fans = _Fans(Surface(points, triangles, triangle_faces=owner), shell)
+    assert fans.against.sum() > 0 or not shell
+    middle = center(points, triangles, shell)
+    total = fans.center_gradient(middle).sum(axis=0)
+    assert np.abs(total - np.eye(3)).max() < 1e-14  # moving everything moves the center as far
+    turned = np.einsum("nik,nk->i", fans.center_gradient(middle), np.cross([0, 0, 1.0], points))
+    assert np.abs(turned - np.cross([0, 0, 1.0], middle)).max() < 1e-14
+    assert abs(fans.areas.sum() - solid_and_area(bodies.surface((points, triangles)))[1].total) < 1e-14
