@@ -49,37 +49,22 @@ def test_the_center_comes_to_the_point_and_nothing_else_moves(shell, across, pla
     assert np.abs(found.before - start).max() < 1e-12
 
 
-@pytest.mark.parametrize("size", [0.001, 0.02])
-def test_no_other_move_is_smaller_to_first_order(shell, size):
+def test_no_other_move_is_smaller_to_first_order(shell):
     part = bodies.moved(bodies.sphere(1), SHEAR)
     movable = upper(part, 0.4)
-    target = center(*part, shell) + size * np.array([1.0, 0.5, 0.0])
-    found = balance(bodies.surface(part), movable, target, across=HORIZONTAL, shell=shell)
-    weight = np.repeat(areas(part)[movable], 3)
+    moments = solid_and_area(bodies.surface(part), shell=True)[shell]
     derive = area_gradient if shell else volume_gradient
-
-    def placed(moves):
-        points = part[0].copy()
-        points[movable] += moves.reshape(-1, 3)
-        return points
-
-    def miss(moves):
-        return (center(placed(moves), part[1], shell) - target)[:2]
-
-    def slope(moves):
-        points = placed(moves)
-        moments = solid_and_area(bodies.surface((points, part[1])), shell=True)[shell]
-        rows = derive(bodies.surface((points, part[1])), moments.center).center(moments.total)[movable, :2]
-        return rows.transpose(1, 0, 2).reshape(2, -1)
-
-    optimize = pytest.importorskip("scipy.optimize")
-    ours = (found.points - part[0])[movable].ravel()
-    held = {"type": "eq", "fun": lambda u: miss(u) / size, "jac": lambda u: slope(u) / size}
-    best = optimize.minimize(lambda u: (weight * u * u).sum() / size**2, ours, jac=lambda u: 2 * weight * u / size**2,
-                             constraints=held, method="SLSQP", options={"ftol": 1e-12, "maxiter": 300})
-    assert best.success and np.abs(miss(best.x)).max() < 1e-6 * size
-    cost = (weight * ours**2).sum() / size**2
-    assert best.fun * (1 - 1e-6) <= cost <= best.fun * (1 + 200 * size**2 + 1e-5)
+    slope = derive(bodies.surface(part), moments.center).center(moments.total)[movable, :2]
+    root = np.sqrt(np.repeat(areas(part)[movable], 3))
+    rows = slope.transpose(1, 0, 2).reshape(2, -1) / root
+    off = []
+    for size in (1e-3, 1e-4):
+        step = size * np.array([1.0, 0.5, 0.0])
+        found = balance(bodies.surface(part), movable, moments.center + step, across=HORIZONTAL, shell=shell)
+        ours = (found.points - part[0])[movable].ravel() * root
+        least = np.linalg.lstsq(rows, step[:2], rcond=None)[0]  # of all that bring it there, the shortest
+        off.append(np.linalg.norm(ours - least) / np.linalg.norm(least))
+    assert off[0] < 100 * 1e-3 and 8.0 < off[0] / off[1] < 12.0
 
 
 def test_a_finer_mesh_is_moved_alike():

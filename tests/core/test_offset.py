@@ -3,7 +3,7 @@
 """Walls of real thickness against closed forms and rational arithmetic."""
 
 from fractions import Fraction
-from math import factorial, pi, sqrt
+from math import pi, sqrt
 
 import numpy as np
 import pytest
@@ -29,15 +29,10 @@ def wall(part, side, thickness, **more):
 def exact_difference(part, vectors, low, high, about):
     """The 20 moments of what is between a closed surface moved by `low` and by `high`, as Fractions."""
     def moved(s):
-        rows = [[Fraction(float(x)) + Fraction(float(s)) * Fraction(float(d)) - Fraction(float(o))
-                 for x, d, o in zip(*row, about)] for row in zip(part[0], vectors)]
-        sums = [Fraction(0)] * 20
-        for triangle in part[1]:
-            a, b, c = (rows[int(i)] for i in triangle)
-            det = exact._dot(a, exact._cross(b, c))
-            for i, value in enumerate(exact._means(a, b, c)):
-                sums[i] += det * value / factorial(sum(exact.MONOMIALS[i]) + 3)
-        return sums
+        points = [[Fraction(float(x)) + Fraction(float(s)) * Fraction(float(d)) for x, d in zip(*row)]
+                  for row in zip(part[0], vectors)]
+        return exact.volume_moments(points, part[1], about)
+
     return [one - other for one, other in zip(moved(high), moved(low))]
 
 
