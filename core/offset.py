@@ -110,18 +110,25 @@ class Sweep:
         return Moments(raw, self.about, "volume", error, self.input @ both)
 
     def meets_itself(self, inward: float, outward: float) -> bool:
-        """Whether the two sides of the wall go through each other or through themselves, as far as is found within
-        bounds of time."""
+        """Whether the two sides of the wall go through each other, or one that has moved through itself, as far as is
+        found within bounds of time."""
         count = len(self.points)
         points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
         triangles = np.concatenate([self.triangles, self.triangles + count])
         shell = np.repeat([0, 1], len(self.triangles))
         tolerance = min(TOUCHING * float(np.ptp(points, axis=0).max()), 1e-3 * (inward + outward))
-        return pierced(points, triangles, shell, np.array([[0, 1], [0, 0], [1, 1]]), tolerance)
+        pairs = [(0, 1), *((k, k) for k, moved in enumerate((inward, outward)) if moved)]
+        return pierced(points, triangles, shell, np.array(pairs), np.tile(np.arange(count), 2), tolerance)
 
     def without_surface(self) -> Sweep:
         """The same without what is as large as the mesh."""
         return replace(self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0])
+
+    def fold(self, side: str) -> NDArray[np.float64]:
+        """(3,) the middle of the triangle that folds first on that side."""
+        at = {"inward": self.inward_at, "outward": self.outward_at,
+              "centered": self.inward_at if self.inward < self.outward else self.outward_at}[side]
+        return self.points[self.triangles[at]].mean(axis=0)
 
     def largest(self, side: str) -> float:
         """The thickness from which the wall on that side folds over: "inward", "outward" or "centered"."""

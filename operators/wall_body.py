@@ -72,11 +72,16 @@ class Walls:
                        pieces=tuple((piece.without_surface(), places) for piece, places in self.pieces))
 
     def _folded(self, thickness: float) -> str:
+        piece, places = min(self.pieces, key=lambda pair: pair[0].largest(self.side))
+        near = ""
+        if len(piece.points):
+            near = " near ({:.6g}, {:.6g}, {:.6g}) m".format(*(piece.fold(self.side) + places[0]))
         if not self.largest > 0.0:
-            return ("Some of its faces fold back on their neighbours, so that a wall has no place there. Merge or "
-                    "mend them, choose another side, or set Wall to Thin.")
-        return ("A wall of {:.6g} m, {:s}, folds over on itself; the largest that works is {:.4g} m. Choose a thinner "
-                "one, another side, or set Wall to Thin.".format(thickness, self.side, _below(self.largest)))
+            return ("Faces fold back on their neighbours{:s}, so that a wall has no place there. Merge or mend them, "
+                    "choose another side, or set Wall to Thin.".format(near))
+        return ("A wall of {:.6g} m, {:s}, folds over on itself{:s}; the largest that works is {:.4g} m. Choose a "
+                "thinner one, another side, or set Wall to Thin.".format(
+                    thickness, self.side, near, _below(self.largest)))
 
     def _told(self, thickness: float, looked: bool) -> list[str]:
         notes = ["Its wall was measured as real material, {:.6g} m {:s}, with mitred corners.".format(
@@ -102,6 +107,8 @@ class Walls:
 def find_walls(reading: Reading, body: Body, side: str) -> Walls:
     """The walls of an object that was measured as a thin shell. ValueError, with what to do, where a surface has no
     sides."""
+    if body.mass is not None:
+        raise ValueError("Walls of real thickness have one density; set Wall to Thin, or give it one density.")
     pieces, turned = [], False
     for part, (solid, matrices) in zip(reading.parts, body.solids):
         surface, mended = _oriented(part.surface, solid)
