@@ -101,7 +101,7 @@ class Sweep:
         ValueError where the wall folds over.
         """
         if not (inward < self.inward or inward == 0.0) or not (outward < self.outward or outward == 0.0):
-            raise ValueError("the offset folds over")
+            raise ValueError("The offset folds over; choose a thinner wall.")
         degree = np.arange(1, POWERS + 1)
         up, down = outward ** degree / degree, -(-inward) ** degree / degree
         both = outward ** degree / degree + inward ** degree / degree

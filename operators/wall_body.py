@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shells of real thickness: the material between a surface and its offset, of any thickness at once.
 
-Thickness is a length in the world, so every surface is mapped there first: instances that differ only by where they
-stand share their polynomials, others have their own.
+Thickness is a length in the world. Under a similarity an offset stays one, so that a surface and its instances share
+their polynomials; for other maps the surface is mapped to the world first.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from math import floor, inf, isfinite, log10
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.moments import Moments, map_sum, sum_moments
+from ..core.moments import Moments, are_similarities, map_sum, sum_moments
 from ..core.offset import Sweep, share, sweep
 from ..core.polyhedron import solid_and_area
 from ..core.solid import SolidMeasure
@@ -26,25 +26,46 @@ WORTH_TELLING = 0.01  # of the thickness
 WORDS = {"inward": "inward from the faces", "outward": "outward from the faces",
          "centered": "half inward and half outward from the faces"}
 SAME_AREA = 1e-9
+SAME_SCALE = 1e-6  # what float32 matrices leave of one scale
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One surface. sweep: its polynomials. scale: m for each of its units. matrices: (k, 4, 4) to where it stands."""
+
+    sweep: Sweep
+    scale: float
+    matrices: NDArray[np.float64]
+
+    def largest(self, side: str) -> float:
+        """The thickness in m from which the wall folds over."""
+        return self.sweep.largest(side) * self.scale
+
+    def moments(self, side: str, thickness: float) -> Moments:
+        """Of the wall, in SI units."""
+        return map_sum(self.sweep.moments(*share(side, thickness / self.scale)), self.matrices)
+
+    def meets_itself(self, side: str, thickness: float) -> bool:
+        """Whether the wall runs into itself."""
+        return self.sweep.meets_itself(*share(side, thickness / self.scale))
 
 
 @dataclass(frozen=True)
 class Walls:
     """The walls of one object, SI units, world axes.
 
-    thin: the body as a thin shell. side: "inward", "outward" or "centered". pieces: the polynomials of each surface,
-    and the (k, 3) places where it stands. turned: whether faces had to be turned outward.
+    thin: the body as a thin shell. side: "inward", "outward" or "centered". notes: what was decided about the sides.
     """
 
     thin: Body
     side: str
-    pieces: tuple[tuple[Sweep, NDArray], ...]
-    turned: bool
+    pieces: tuple[Piece, ...]
+    notes: tuple[str, ...]
 
     @property
     def largest(self) -> float:
         """The thickness in m from which a wall folds over."""
-        return min(piece.largest(self.side) for piece, _ in self.pieces)
+        return min(piece.largest(self.side) for piece in self.pieces)
 
     def body(self, thickness: float, looked: bool = True) -> Body:
         """The body with walls that thick, m. looked: whether walls that meet are looked for, which takes its time.
@@ -53,29 +74,20 @@ class Walls:
             raise ValueError("It has no thickness; set one.")
         if not thickness < self.largest:
             raise ValueError(self._folded(thickness))
-        inside, outside = share(self.side, thickness)
-        moments = []
-        for piece, places in self.pieces:
-            matrices = np.tile(np.eye(4), (len(places), 1, 1))
-            matrices[:, :3, 3] = places
-            moments.append(map_sum(piece.moments(inside, outside), matrices))
-        wall = sum_moments(moments)
+        wall = sum_moments([piece.moments(self.side, thickness) for piece in self.pieces])
         return replace(self.thin, wall=wall, warnings=(*self.thin.warnings, *self._told(thickness, looked)))
-
-    def moments(self, thickness: float) -> Moments:
-        """The volume moments of the material alone."""
-        return self.body(thickness, looked=False).wall
 
     def without_surfaces(self) -> Walls:
         """The same without what is as large as the mesh."""
         return replace(self, thin=replace(self.thin, solids=(), refined=None),
-                       pieces=tuple((piece.without_surface(), places) for piece, places in self.pieces))
+                       pieces=tuple(replace(piece, sweep=piece.sweep.without_surface()) for piece in self.pieces))
 
     def _folded(self, thickness: float) -> str:
-        piece, places = min(self.pieces, key=lambda pair: pair[0].largest(self.side))
+        piece = min(self.pieces, key=lambda piece: piece.largest(self.side))
         near = ""
-        if len(piece.points):
-            near = " near ({:.6g}, {:.6g}, {:.6g}) m".format(*(piece.fold(self.side) + places[0]))
+        if len(piece.sweep.points):
+            place = piece.matrices[0, :3, :3] @ piece.sweep.fold(self.side) + piece.matrices[0, :3, 3]
+            near = " near ({:.6g}, {:.6g}, {:.6g}) m".format(*place)
         if not self.largest > 0.0:
             return ("Faces fold back on their neighbours{:s}, so that a wall has no place there. Merge or mend them, "
                     "choose another side, or set Wall to Thin.".format(near))
@@ -86,19 +98,18 @@ class Walls:
     def _told(self, thickness: float, looked: bool) -> list[str]:
         notes = ["Its wall was measured as real material, {:.6g} m {:s}, with mitred corners.".format(
             thickness, WORDS[self.side])]
-        if self.turned:
-            notes.append("Its faces were turned outward before.")
-        least, most = (pick(getattr(piece, name) for piece, _ in self.pieces)
-                       for pick, name in ((min, "least"), (max, "most")))
+        notes.extend(self.notes)
+        least = min(piece.sweep.least for piece in self.pieces)
+        most = max(piece.sweep.most for piece in self.pieces)
         if least < 1.0 - WORTH_TELLING or most > 1.0 + WORTH_TELLING:
             notes.append("Where more than three planes meet, no corner keeps all of them at the thickness: the wall is "
                          "{:.3g} to {:.3g} times as thick there.".format(least, most))
-        ignored = sum(piece.ignored for piece, _ in self.pieces)
+        ignored = sum(piece.sweep.ignored for piece in self.pieces)
         if ignored:
             notes.append("{:d} of its faces have no area, and moved along with their neighbours.".format(ignored))
         if not looked:
             notes.append("Whether walls run into each other at this thickness was not looked for; Measure does.")
-        elif any(piece.meets_itself(*share(self.side, thickness)) for piece, _ in self.pieces):
+        elif any(piece.meets_itself(self.side, thickness) for piece in self.pieces):
             notes.append("Its walls run into each other, and what they share counts twice. Choose a thinner one, or "
                          "another side.")
         return notes
@@ -109,24 +120,36 @@ def find_walls(reading: Reading, body: Body, side: str) -> Walls:
     sides."""
     if body.mass is not None:
         raise ValueError("Walls of real thickness have one density; set Wall to Thin, or give it one density.")
-    pieces, turned = [], False
+    pieces, notes = [], []
     for part, (solid, matrices) in zip(reading.parts, body.solids):
-        surface, mended = _oriented(part.surface, solid)
-        turned |= mended and solid.method == "reoriented"
-        linear, which = np.unique(matrices[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
-        for i, row in enumerate(linear):
-            pieces.append((sweep(surface.mapped(row.reshape(3, 3))), matrices[which.ravel() == i, :3, 3]))
-    return Walls(body, side, tuple(pieces), turned)
+        surface = _oriented(part.surface, solid, notes)
+        even = are_similarities(matrices[:, :3, :3])
+        if even.any():
+            swept = sweep(surface)
+            scale = np.cbrt(np.abs(np.linalg.det(matrices[even, :3, :3])))
+            _, which = np.unique(np.round(np.log(scale) / SAME_SCALE), return_inverse=True)
+            for i in range(int(which.max()) + 1):
+                own = which.ravel() == i
+                pieces.append(Piece(swept, float(scale[own].mean()), matrices[even][own]))
+        rows, which = np.unique(matrices[~even, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
+        for i, row in enumerate(rows):
+            places = matrices[~even][which.ravel() == i, :3, 3]
+            moved = np.tile(np.eye(4), (len(places), 1, 1))
+            moved[:, :3, 3] = places
+            pieces.append(Piece(sweep(surface.mapped(row.reshape(3, 3))), 1.0, moved))
+    return Walls(body, side, tuple(pieces), tuple(dict.fromkeys(notes)))
 
 
-def _oriented(surface: Surface, solid: SolidMeasure) -> tuple[Surface, bool]:
-    """The surface with its faces outward where it is closed, else as it is; and whether it is the mended one."""
-    if solid.method not in {"exact", "reoriented"}:
-        return surface, False
-    area = solid_and_area(solid.mended)[1].total
-    if abs(area - solid.area.total) > SAME_AREA * solid.area.total:  # mending has left something out
-        return surface, False
-    return solid.mended, True
+def _oriented(surface: Surface, solid: SolidMeasure, notes: list[str]) -> Surface:
+    """The surface with its faces outward where it is closed, else as it is."""
+    if solid.method in {"exact", "reoriented"}:
+        area = solid_and_area(solid.mended)[1].total
+        if abs(area - solid.area.total) <= SAME_AREA * solid.area.total:  # else mending has left something out
+            if solid.method == "reoriented":
+                notes.append("Its faces were turned outward before.")
+            return solid.mended
+    notes.append("It is not closed, so that inward is what lies behind its faces as they are turned now.")
+    return surface
 
 
 def _below(length: float) -> float:

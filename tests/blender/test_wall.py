@@ -127,7 +127,7 @@ def test_an_open_surface_whose_faces_disagree_is_refused():
         measured(obj)
 
 
-def test_a_horseshoe_whose_walls_meet_says_so():
+def test_a_slit_folds_over_before_its_walls_meet():
     points = ((0, 0, 0), (3, 0, 0), (3, 2, 0), (2, 2, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0))
     obj = add(mesh_body("U", points, 1.0))
     settings = obj.body_moments
@@ -135,14 +135,13 @@ def test_a_horseshoe_whose_walls_meet_says_so():
     assert not any("run into" in warning for warning in measured(obj).warnings)
     settings.wall, settings.thickness = "INWARD", 0.25
     assert not any("run into" in warning for warning in measured(obj).warnings)
-    sphere = mesh_body("Slit", ((0, 0, 0), (4, 0, 0), (4, 1, 0), (1, 1, 0), (1, 1.2, 0), (4, 1.2, 0), (4, 3, 0),
-                                (0, 3, 0)), 1.0)
-    slit = add(sphere, "Slit")
+    points = ((0, 0, 0), (4, 0, 0), (4, 1, 0), (1, 1, 0), (1, 1.2, 0), (4, 1.2, 0), (4, 3, 0), (0, 3, 0))
+    slit = add(mesh_body("Slit", points, 1.0), "Slit")
     settings = slit.body_moments
     settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.09
     assert not any("run into" in warning for warning in measured(slit).warnings)
     settings.thickness = 0.15
-    with pytest.raises(Unreadable, match="folds over"):  # the slit's own end folds first
+    with pytest.raises(Unreadable, match=r"folds over on itself near \("):  # the slit's own end folds first
         measured(slit)
 
 
@@ -176,6 +175,41 @@ def test_instances_have_walls_of_one_thickness():
     found = measured(holder)
     assert abs(found.volume - shell_volume((2, 2, 2), 0.125, 0)) < 1e-13
     assert np.abs(found.mass_properties.center - (6, 1, 1)).max() < 1e-13
+
+
+def test_instances_turned_every_way_share_one_wall():
+    part = box((1.0, 2.0, 0.5), thickness=0.125)
+    collection = bpy.data.collections.new("Parts")
+    collection.objects.link(part)
+    holder = add(None, "Holder")
+    inner = bpy.data.collections.new("All")
+    for k in range(5):
+        one = bpy.data.objects.new("Place", None)
+        one.instance_type, one.instance_collection = "COLLECTION", collection
+        one.location, one.rotation_euler, one.scale = (5 * k, 0, 0), (k, 2 * k, 3), (1 + k % 2, 1 + k % 2, 1 + k % 2)
+        inner.objects.link(one)
+    holder.instance_type, holder.instance_collection = "COLLECTION", inner
+    bpy.context.view_layer.update()
+    settings = holder.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.125
+    truth = 3 * shell_volume((1, 2, 0.5), 0, 0.125) + 2 * shell_volume((2, 4, 1), 0, 0.125)
+    assert measured(holder).volume == pytest.approx(truth, rel=1e-6)
+
+
+def test_an_open_cup_says_that_its_faces_tell_what_is_inward():
+    obj = box()
+    import bmesh
+
+    work = bmesh.new()
+    work.from_mesh(obj.data)
+    work.faces.ensure_lookup_table()
+    bmesh.ops.delete(work, geom=[face for face in work.faces if face.normal.z > 0.5], context="FACES_ONLY")
+    work.to_mesh(obj.data)
+    work.free()
+    found = measured(obj)
+    assert abs(found.volume - (1 - 0.75 ** 2 * 0.875)) < 1e-14  # the rim stays in the plane of the top
+    assert any("not closed" in warning for warning in found.warnings)
+    assert not any("not closed" in warning for warning in measured(box()).warnings)
 
 
 def test_the_command_line_uses_the_objects_wall_and_its_own_thickness():
