@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 
 from .gradient import Gradient, area_gradient, volume_gradient
 from .moments import Moments, U
-from .offset import first_fold
 from .polyhedron import solid_and_area
 from .surface import Surface
+from .wall import first_fold
 
 STEPS = 100
 HALVINGS = 20

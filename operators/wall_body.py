@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.moments import Moments, are_similarities, map_sum, sum_moments
-from ..core.offset import Sweep, share, sweep
 from ..core.polyhedron import solid_and_area
 from ..core.solid import SolidMeasure
 from ..core.surface import Surface
+from ..core.wall import Sweep, share, sweep
 from .body import Body
 from .read import Reading
 

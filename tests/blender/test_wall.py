@@ -326,3 +326,30 @@ def test_an_edit_after_the_slider_is_noticed():
     obj.update_tag(refresh={"DATA"})
     bpy.context.view_layer.update()
     assert staleness.reason(obj, bpy.context.scene) == "Geometry Changed"
+
+
+@pytest.mark.parametrize("size", [(1.0, 2.0, 0.5), (0.3, 0.3, 4.0)])
+def test_the_wall_of_a_box_is_what_blenders_solidify_makes(size):
+    obj = box(size, thickness=0.0625)
+    wall = measured(obj)
+    modifier = obj.modifiers.new("Solidify", "SOLIDIFY")
+    modifier.thickness, modifier.offset, modifier.use_even_offset = 0.0625, -1.0, True
+    bpy.context.view_layer.update()
+    solid = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(kind="solid"))
+    assert solid.health.cavities == 1
+    assert wall.volume == pytest.approx(solid.volume, rel=1e-5)
+    bodies = [one.mass_properties.inertia for one in (wall, solid)]
+    assert np.abs(bodies[0] - bodies[1]).max() < 1e-5 * bodies[0].max()
+
+
+def test_a_head_with_sharp_folds_has_a_thin_wall():
+    bpy.ops.mesh.primitive_monkey_add()
+    obj = bpy.context.object
+    settings = obj.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "INWARD", 0.01
+    found = measured(obj)
+    assert 0.5 < found.volume / (0.01 * found.area) < 1.0
+    assert any("more than three planes" in warning for warning in found.warnings)
+    settings.thickness = 0.1
+    with pytest.raises(Unreadable, match="largest that works"):
+        measured(obj)

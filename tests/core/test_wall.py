@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from body_moments.core.mass import MassProperties
 from body_moments.core.moments import monomials
-from body_moments.core.offset import offset_directions, share, sweep
+from body_moments.core.offset import offset_directions
 from body_moments.core.polyhedron import solid_moments
+from body_moments.core.wall import share, sweep
 
 from tests.core import bodies, exact
 
@@ -101,7 +102,7 @@ def test_directions_move_every_plane_of_a_tilted_box_by_one():
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     heights = np.einsum("mi,mki->mk", normals, found.vectors[part[1]])
     assert np.abs(heights - 1.0).max() < 1e-14
-    assert found.rounding.max() < 1e-13
+    assert found.slide[0].max() < 1e-13
 
 
 def test_the_bound_holds_for_the_directions_too():
@@ -264,3 +265,68 @@ def test_the_inside_wall_up_to_the_limit_fills_a_regular_body():
     assert abs(found.inward - 1 / sqrt(3)) < 1e-7
     full = solid_moments(bodies.surface(part)).total
     assert abs(found.moments(found.inward * (1 - 1e-12), 0.0).total - full) < 1e-9
+
+
+def cone(sides=32):
+    angle = np.arange(sides) * 2 * np.pi / sides
+    ring = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(sides)])
+    points = np.concatenate([ring, [[0.0, 0.0, 2.0]]])
+    lid = [[0, i + 1, i] for i in range(1, sides - 1)]
+    return points, np.array(lid + [[i, (i + 1) % sides, sides] for i in range(sides)])
+
+
+def test_the_wall_of_a_pyramid_of_many_sides_is_the_pyramid_less_a_similar_one():
+    sides, t = 32, 0.02
+    body = wall(cone(sides), "inward", t)
+    apothem = np.cos(np.pi / sides)
+    whole = sides / 2 * np.sin(2 * np.pi / sides) * 2 / 3
+    left = (2 - t - t * np.hypot(apothem, 2) / apothem) / 2
+    assert abs(body.total - whole * (1 - left ** 3)) < 1e-13
+
+
+@pytest.mark.parametrize("part", [cone(), bodies.torus(24, 12), bodies.sphere(3),
+                                  bodies.moved(cube(), bodies.rotation(1) @ SHEAR, (50.0, 20.0, -30.0))])
+@pytest.mark.parametrize("side", ["inward", "centered"])
+@pytest.mark.parametrize("t", [1e-4, 0.05])
+def test_no_float32_rounding_changes_more_than_is_said(part, side, t):
+    rng = np.random.default_rng(5)
+    single = part[0].astype(np.float32)
+    given = sweep(bodies.surface((single, part[1]), np.float32)).moments(*share(side, t))
+    half = np.spacing(np.abs(single).max(axis=0)).astype(float) / 2
+    for _ in range(5):
+        moved = single.astype(float) + half * rng.choice([-1.0, 1.0], single.shape)
+        found = wall((moved, part[1]), side, t).shifted(given.about)
+        assert (np.abs(found.raw - given.raw) <= given.input + 2 * given.error)[:10].all()
+    assert given.input[0] < 0.01 * given.total
+
+
+def test_a_vertex_that_no_mean_is_in_front_of_finds_a_direction_that_is():
+    triangles = np.array([[0, i, i % 7 + 1] for i in range(1, 8)])
+    tries = np.random.default_rng(0).normal(size=(20000, 3))
+    tries /= np.linalg.norm(tries, axis=1)[:, None]
+    hard = 0
+    for seed in range(60):
+        rng = np.random.default_rng(seed)
+        angle, height = np.sort(rng.uniform(0.0, 2 * np.pi, 7)), rng.uniform(-2.5, 2.5, 7)
+        points = np.concatenate([np.zeros((1, 3)), np.column_stack([np.cos(angle), np.sin(angle), height])])
+        corners = points[triangles]
+        normals = np.cross(corners[:, 1], corners[:, 2])
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        cosine = np.einsum("ij,ij->i", corners[:, 1], corners[:, 2])
+        weight = np.arccos(cosine / np.linalg.norm(corners[:, 1], axis=1) / np.linalg.norm(corners[:, 2], axis=1))
+        fitted = np.linalg.lstsq(np.sqrt(weight)[:, None] * normals, np.sqrt(weight), rcond=None)[0]
+        best = (tries @ normals.T).min(axis=1).max()
+        vector = offset_directions(points, triangles).vectors[0]
+        if best > 0.05:
+            assert (normals @ vector).min() > 0.0
+        if best > 0.05 and (normals @ fitted).min() < 0.0:
+            hard += 1
+            assert (normals @ vector).min() / np.linalg.norm(vector) > 0.5 * best
+    assert hard > 3
+
+
+def test_faces_that_fold_back_on_each_other_have_no_wall():
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0], [1, 0, 0]], float)
+    points[4:, 1] = 1e-9
+    found = sweep(bodies.surface((points, bodies.split([[0, 1, 2, 3], [3, 2, 5, 4]]))))
+    assert max(found.inward, found.outward) < 1e-6
