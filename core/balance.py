@@ -159,7 +159,7 @@ class _Problem:
             return None
         center = moments.center
         derive = area_gradient if self.shell else volume_gradient
-        gradient: Gradient = derive(replace(self.surface, points=points), center)
+        gradient: Gradient = derive(replace(self.surface, points=points), center, order=1)
         return center, self.across @ (self.target - center), np.einsum(
             "ri,nik->rnk", self.across, gradient.center(moments.total))
 
@@ -219,12 +219,13 @@ class _Fans:
     def center_gradient(self, center: NDArray) -> NDArray[np.float64]:
         """(n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its vertices."""
         if self.shell:  # signed as the faces' own areas are
-            parts = [area_gradient(Surface(self.points, rows), center).by_vertex[:, 1:4]
+            parts = [area_gradient(Surface(self.points, rows), center, order=1).by_vertex[:, 1:4]
                      for rows in (self.fan[~self.against], self.fan[self.against])]
             gradient, total = parts[0] - parts[1], self.areas.sum()
         else:
             surface = Surface(self.points, self.fan)
-            gradient, total = volume_gradient(surface, center).by_vertex[:, 1:4], solid_and_area(surface)[0].total
+            gradient = volume_gradient(surface, center, order=1).by_vertex[:, 1:4]
+            total = solid_and_area(surface)[0].total
         gradient /= total
         own, middle = gradient[:self.count].reshape(-1, 9), gradient[self.count:].reshape(-1, 9)
         for column, shared in zip(own.T, middle.T):

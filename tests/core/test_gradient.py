@@ -192,3 +192,10 @@ def test_a_mesh_of_many_blocks_is_derived_as_one(monkeypatch):
     monkeypatch.setattr("body_moments.core.gradient.BLOCK", 37)
     pieces = volume_gradient(bodies.surface(part), np.zeros(3)).by_vertex
     assert np.abs(whole - pieces).max() < 1e-16
+
+
+def test_fewer_orders_are_the_same_numbers(kind):
+    part = bodies.moved(bodies.torus(7, 5), SHEAR)
+    whole, first = (KINDS[kind](bodies.surface(part), np.zeros(3), order=order) for order in (2, 1))
+    assert np.array_equal(whole.by_vertex[:, :4], first.by_vertex) and first.error().shape == (35, 4)
+    assert np.array_equal(whole.error()[:, :4], first.error())
