@@ -28,6 +28,7 @@ def _parts() -> tuple[ModuleType, ...]:
         presets,
         principal_axes,
         rigid_body,
+        sculpt_balance,
         section,
         select_faults,
         settings,
@@ -51,6 +52,7 @@ def _parts() -> tuple[ModuleType, ...]:
         cursor,
         orientation,
         rigid_body,
+        sculpt_balance,
         batch,
     )
 

@@ -22,6 +22,7 @@ class Body:
 
     volume, area: their moments, the volume's to order 3 at least. mass: of a body whose density is not one number, its
     moments in kg; else None.
+    wall: of a shell of real thickness, the volume moments of its material; None of a thin one.
     method, warnings: as in `Measurement`.
     refined: gives what the principal frame is made from, with exact third order, where its bounds leave it undecided.
     to_order: gives the volume's and the area's moments to a higher order: (order, area wanted), and None for an area
@@ -35,6 +36,7 @@ class Body:
     method: str
     warnings: tuple[str, ...]
     mass: Moments | None = None
+    wall: Moments | None = None
     refined: Callable[[], Moments] | None = None
     to_order: Callable[[int, bool], tuple[Moments, Moments | None]] | None = None
     solids: tuple[tuple[SolidMeasure, NDArray], ...] = ()

@@ -36,15 +36,17 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     return effective_hash(settings.kind, decimal(settings.density) if settings.mass_from == "DENSITY" else None,
                           decimal(settings.mass) if settings.mass_from == "MASS" else None,
                           decimal(settings.thickness) * unit, settings.overlap,
-                          unit)
+                          unit, settings.wall)
 
 
 def effective_hash(kind: str, density: float | None, mass: float | None, thickness: float, overlap: str,
-                   unit_scale: float) -> str:
+                   unit_scale: float, wall: str = "THIN") -> str:
     """A digest of settings as they were used; what a kind has no use for does not count."""
     density, mass = (None if value is None else decimal(value) for value in (density, mass))  # as a setting holds it
     used = [kind, density, mass, float("{:.6g}".format(thickness)) if kind == "SHELL" else None,
             overlap if kind == "SOLID" else None, round(unit_scale, 12)]
+    if kind == "SHELL" and wall != "THIN":
+        used.append(wall)
     return _digest(repr(used).encode())
 
 

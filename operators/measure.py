@@ -16,10 +16,12 @@ import numpy as np
 from ..core.decimal import decimal
 from ..core.mass import MassProperties
 from ..core.measurement import Measurement
+from . import wall_slider
 from .body import Body
 from .fingerprint import effective_hash, fingerprint, matrix_hash
 from .mesh_body import mesh_body
 from .read import Reading, Unreadable, read_object
+from .wall_body import find_walls
 
 KNOWN = 3  # the order to which every measurement has its moments
 
@@ -28,9 +30,9 @@ KNOWN = 3  # the order to which every measurement has its moments
 class MeasureOptions:
     """What overrides the objects' own settings; None leaves the setting. SI units.
 
-    kind: "solid" or "shell"; density: kg/m³; mass: kg; thickness: m; overlap: "signed" or "union"; unit_scale: metres
-    per Blender unit, else the scene's. order: of the moments that the measurement shall hold; None for what mass
-    properties need. surface: those of the area too.
+    kind: "solid" or "shell"; density: kg/m³; mass: kg; thickness: m; overlap: "signed" or "union"; wall: of a shell,
+    "thin", "inward", "outward" or "centered"; unit_scale: metres per Blender unit, else the scene's. order: of the
+    moments that the measurement shall hold; None for what mass properties need. surface: those of the area too.
     """
 
     kind: str | None = None
@@ -38,6 +40,7 @@ class MeasureOptions:
     mass: float | None = None
     thickness: float | None = None
     overlap: str | None = None
+    wall: str | None = None
     unit_scale: float | None = None
     threads: int = 1
     order: int | None = None
@@ -52,17 +55,24 @@ def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     """
     scene = depsgraph.scene
     unit = options.unit_scale or decimal(scene.unit_settings.scale_length)
-    options = _resolved(options, obj, unit)
+    options = resolved(options, obj, unit)
     reading = read_object(obj, depsgraph)
     try:
         body = mesh_body(reading, unit, shell=options.kind == "shell", union=options.overlap == "union",
                          threads=options.threads)
-        return _to_order(_told(obj, reading, body, options, unit), body, options)
+        if options.kind == "shell" and options.wall != "thin":
+            walls = find_walls(reading, body, options.wall)
+            body = walls.body(options.thickness)
+            measurement = told(obj, reading, body, options, unit)
+            wall_slider.keep(obj, reading, walls, measurement, unit)
+        else:
+            measurement = told(obj, reading, body, options, unit)
+        return _to_order(measurement, body, options)
     except ValueError as error:
         raise Unreadable(obj.name, str(error)) from error
 
 
-def _resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> MeasureOptions:
+def resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> MeasureOptions:
     """The options with every gap filled from the object's settings."""
     settings = obj.body_moments
     density, mass = options.density, options.mass
@@ -72,8 +82,8 @@ def _resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> Me
     return MeasureOptions(
         kind=options.kind or settings.kind.lower(), density=density, mass=mass,
         thickness=decimal(settings.thickness) * unit if options.thickness is None else options.thickness,
-        overlap=options.overlap or settings.overlap.lower(), threads=options.threads,
-        order=options.order, surface=options.surface)
+        overlap=options.overlap or settings.overlap.lower(), wall=options.wall or settings.wall.lower(),
+        threads=options.threads, order=options.order, surface=options.surface)
 
 
 def _to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> Measurement:
@@ -82,17 +92,19 @@ def _to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> 
     if order is None or (order < KNOWN and (shell or not options.surface)):
         return measurement
     if body.to_order is None:
-        if order > KNOWN or options.surface:
-            raise ValueError("Of such a body only volume moments to order {:d} are known; ask for no more."
+        if order > KNOWN or (options.surface and not shell):
+            raise ValueError("Of such a body only moments to order {:d} are known; ask for no more."
                              .format(KNOWN))
         return measurement
     volume, area = body.to_order(order, shell or options.surface)
     return replace(measurement, volume_moments=None if shell else volume, area_moments=area or measurement.area_moments)
 
 
-def _told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOptions, unit: float) -> Measurement:
+def told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOptions, unit: float) -> Measurement:
+    """The body as a measurement. options: resolved. ValueError where it has no mass."""
     shell = options.kind == "shell"
-    volume = body.area * options.thickness if shell else body.volume
+    solid = body.volume if body.wall is None else body.wall
+    volume = body.area * options.thickness if shell and body.wall is None else solid
     if not volume.total > 0.0:
         raise ValueError("It has no thickness; set one." if shell and body.area.total > 0.0 else
                          "Its faces enclose no volume; measure it as a shell, or close it.")
@@ -101,7 +113,8 @@ def _told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureO
         weighed, factor = body.mass, 1.0 if options.mass is None else options.mass / body.mass.total
         density = body.mass.total * factor / volume.total
     else:
-        weighed, factor = (body.area, density * options.thickness) if shell else (body.volume, density)
+        weighed, factor = ((body.area, density * options.thickness) if shell and body.wall is None
+                           else (solid, density))
     if not density > 0.0:
         raise ValueError("Its {:s} is zero; give it one.".format("density" if options.mass is None else "mass"))
     rotation, location = np.asarray(reading.rotation, np.float64), np.asarray(reading.location, np.float64) * unit
@@ -113,11 +126,11 @@ def _told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureO
                 "center_of_mass": delta["center"], "inertia": delta["inertia"]}
 
     settings = effective_hash(options.kind.upper(), options.density, options.mass, options.thickness,
-                              options.overlap.upper(), unit)
+                              options.overlap.upper(), unit, options.wall.upper())
     return Measurement(
         name=obj.name, type=obj.type, kind=options.kind, method="shell" if shell else body.method, density=density,
         thickness=options.thickness if shell else 0.0, volume=volume.total, area=body.area.total,
-        mass_properties=properties, volume_moments=None if shell else body.volume, area_moments=body.area,
+        mass_properties=properties, volume_moments=None if volume is not solid else solid, area_moments=body.area,
         mass_moments=(weighed, factor), health=body.health, warnings=(*reading.warnings, *body.warnings),
         rotation=rotation, location=location,
         error_bound={**bounds("error", properties.error), "input": bounds("input", properties.input)},

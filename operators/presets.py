@@ -113,6 +113,7 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     preset_defines = ["settings = bpy.context.object.body_moments"]
     preset_values = [
         "settings.kind",
+        "settings.wall",
         "settings.thickness",
         "settings.mass_from",
         "settings.mass",

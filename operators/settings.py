@@ -15,8 +15,9 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 from ..core.decimal import decimal
 from ..core.materials import BY_NAME
 from ..core.recursion import MAX_ORDER
+from . import wall_slider
 
-COPIED = ("kind", "thickness", "mass_from", "density", "material", "mass", "overlap")
+COPIED = ("kind", "wall", "thickness", "mass_from", "density", "material", "mass", "overlap")
 
 
 def _forget_material(settings: PropertyGroup, _context: Context) -> None:
@@ -67,6 +68,22 @@ class BodyMomentsObjectSettings(PropertyGroup):
         step=10,
         precision=6,
     )
+    wall: EnumProperty(
+        name="Wall",
+        description="Where the material of the shell is",
+        items=(
+            ("THIN", "Thin", "In the surface itself: area times thickness, good for thin sheets"),
+            ("INWARD", "Inward", "Behind the faces, as real material with mitred corners"),
+            ("OUTWARD", "Outward", "In front of the faces, as real material with mitred corners"),
+            (
+                "CENTERED",
+                "Centered",
+                "Half behind the faces, half in front, as real material with mitred corners",
+            ),
+        ),
+        default="THIN",
+        update=wall_slider.changed,
+    )
     thickness: FloatProperty(
         name="Thickness",
         description="Thickness of the sheet",
@@ -74,6 +91,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
         min=0.0,
         precision=6,
         unit="LENGTH",
+        update=wall_slider.changed,
     )
     overlap: EnumProperty(
         name="Overlaps",

@@ -65,6 +65,12 @@ def mark_fresh(obj: Object) -> None:
     _settings.pop(obj.session_uid, None)
 
 
+def mark_retold(obj: Object) -> None:
+    """As `mark_fresh`, from within the update of a setting: what Blender reports next is that update."""
+    mark_fresh(obj)
+    _settings[obj.session_uid] = ""
+
+
 @contextmanager
 def paused() -> Iterator[None]:
     """Nothing is noted in here: for changes that leave every object's shape as it was."""
@@ -86,6 +92,14 @@ def generation() -> int:
 def geometry_changes(obj: Object) -> int:
     """How often Blender has reported a change of the object's geometry; some settings count as such."""
     return _changes.get(obj.session_uid, 0)
+
+
+def is_edited(obj: Object) -> bool:
+    """Whether geometry or transform have changed since the numbers were stored, whatever the settings are."""
+    stored = str(obj.get("body_fingerprint", ""))
+    parts = stored.split(":")
+    return (len(parts) != 4 or parts[1] == EDITED or stored in _edited.get(obj.session_uid, ())
+            or parts[2] != matrix_hash(obj))
 
 
 def reason(obj: Object, scene: Scene) -> str:

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from bpy.types import Context, Object, Panel, UILayout
 
-from ..operators import results, staleness
+from ..operators import results, staleness, wall_slider
 from ..operators.units import SI_UNITS, Units
 from ..operators.write import properties
 from . import rows
@@ -86,6 +86,8 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
     headline, icon, explanation = VERDICTS.get(last, (method.title(), "INFO", ""))
     outdated = staleness.reason(obj, context.scene)
     column.label(text=" ".join([*before, headline]), icon=icon)
+    if last == "shell" and obj.body_moments.wall != "THIN":
+        explanation = "The mass is in walls of real thickness"
     if explanation:
         rows.sentence(column, context, explanation, icon="BLANK1")
     if outdated:
@@ -100,7 +102,9 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
     column.use_property_split = True
     column.row().prop(settings, "kind", expand=True)
     if settings.kind == "SHELL":
+        column.prop(settings, "wall")
         column.prop(settings, "thickness")
+        _largest(column, context, obj)
     else:
         column.prop(settings, "overlap")
     column.row().prop(settings, "mass_from", text="Given", expand=True)
@@ -115,6 +119,18 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
         column.prop(settings, "density", text="Density kg/m³")
     else:
         column.prop(settings, "mass", text="Mass kg")
+
+
+def _largest(layout: UILayout, context: Context, obj: Object) -> None:
+    """How thick the wall may be, once that is known."""
+    limit = wall_slider.largest(obj)
+    if limit is None:
+        return
+    units = Units.of(context.scene.unit_settings)
+    row = layout.row()
+    row.alert = wall_slider.folds(obj)
+    text = "Folds Over from {:s}" if row.alert else "Good up to {:s}"
+    row.label(text=text.format(units.text("length", limit)), icon="ERROR" if row.alert else "INFO")
 
 
 def _numbers(layout: UILayout, scene, units: Units, found: properties.Stored) -> None:
@@ -211,6 +227,7 @@ def _actions(layout: UILayout, obj: Object) -> None:
     )
     text = "Set Rigid Body Mass" if obj.rigid_body else "Add Rigid Body with Mass"
     column.operator("object.body_moments_set_rigid_body_mass", text=text, icon="RIGID_BODY").add = not obj.rigid_body
+    body.operator("object.body_moments_sculpt_balance", icon="SCULPTMODE_HLT")
 
 
 def _totals(layout: UILayout, context: Context, units: Units) -> None:

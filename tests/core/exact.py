@@ -62,9 +62,13 @@ def area_moments(points, triangles, about=(0.0, 0.0, 0.0), digits: int = 40, ord
 
 def _integers(points, about) -> tuple[list[tuple[int, int, int]], int]:
     origin = [Fraction(float(value)) for value in about]
-    rows = [[Fraction(float(value)) - o for value, o in zip(point, origin)] for point in points]
+    rows = [[_rational(value) - o for value, o in zip(point, origin)] for point in points]
     scale = lcm(*(value.denominator for row in rows for value in row))
     return [tuple(int(value * scale) for value in row) for row in rows], scale
+
+
+def _rational(value) -> Fraction:
+    return value if isinstance(value, Fraction) else Fraction(float(value))
 
 
 def _means(a, b, c, exponents) -> list[int]:
