@@ -26,6 +26,7 @@ from ...core.measurement import Measurement
 from .. import settings
 from ..measure import MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
+from ..staleness import settle
 from ..write import record
 from ..write.properties import store
 from .files import BLEND, UNITLESS, Unusable, open_file, save_file, suffix
@@ -216,4 +217,5 @@ def _store(
             yield _error(obj.name, refusal)
             continue
         settings.keep(obj.body_moments, wanted, bpy.context.scene)
+    settle(bpy.context, [obj for obj, _ in measured])
     save_file(bpy.data.filepath)
