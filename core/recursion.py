@@ -25,8 +25,9 @@ from math import factorial, frexp
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .levels import LENGTH, TINY, Levels, Sums, predecessors, rows_of
-from .moments import Moments, U, monomial_count, monomials
+from .affine import monomial_count, monomials, predecessors, rows_of
+from .levels import LENGTH, TINY, Levels, Sums
+from .moments import Moments, U
 from .polyhedron import finite_box, middle, pairs, solid_and_area
 from .surface import Surface, all_there, flipped_quads
 
