@@ -182,7 +182,7 @@ def central_box(sides, order):
 @pytest.mark.parametrize("by", ["size", "gyration"])
 @pytest.mark.parametrize("size", [1.0, 1e-7, 3e4])
 def test_normalised_moments_have_no_unit_and_know_no_place(by, size):
-    sides, order = (1, 2, 3), 10
+    sides, order = (1, 2, 3), 7
     body = floats(box_moments((5, -3, 2), (6, -1, 5), order)).mapped(np.diag([size, size, size, 1.0]))
     body = Moments(body.raw, body.about, input=1e-9 * np.abs(body.raw) * (body.raw > 0), error=body.error)
     found = body.normalised(by)
