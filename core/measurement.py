@@ -21,7 +21,8 @@ class Measurement:
     kind: "solid" or "shell"; method: "exact", "capped", "reoriented", "open", "shell" or "union".
     density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area
     in m².
-    volume_moments: None for a shell; area_moments: to order 3 for a shell, else order 0.
+    volume_moments: to order 3, None for a shell; area_moments: to order 3 for a shell, else order 0; both to a higher
+        order where that was asked for.
     mass_moments: the moments that carry the mass, and the mass in kg per unit of them.
     rotation, location: (3, 3) and (3,) the object frame, its unit scale.
     error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from .affine import horner, index, monomial_count, monomials, raised_places, shift, turn
 
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
-BLOCK = 2048  # maps at a time: their functionals stay in the cache
+BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
 SIMILARITY = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
 
 
@@ -204,8 +204,9 @@ def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None)
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + places
     about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     raw, error, extra = np.zeros((3, len(moments.raw)))
-    for start in range(0, len(matrices), BLOCK):
-        part = slice(start, start + BLOCK)
+    block = max(BLOCK * 20 // len(moments.raw), 16)
+    for start in range(0, len(matrices), block):
+        part = slice(start, start + block)
         maps = linear[:, :, part]
         weight, weight_error, deviation = _weights(moments.of, maps)
         offset = origins[:, part] - about[:, None]

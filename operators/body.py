@@ -24,6 +24,8 @@ class Body:
     moments in kg; else None.
     method, warnings: as in `Measurement`.
     refined: gives what the principal frame is made from, with exact third order, where its bounds leave it undecided.
+    to_order: gives the volume's and the area's moments to a higher order: (order, area wanted), and None for an area
+        that is not; itself None where only moments to order 3 are known.
     solids: the surfaces that were measured, and the (k, 4, 4) maps to where each stands.
     """
 
@@ -34,4 +36,5 @@ class Body:
     warnings: tuple[str, ...]
     mass: Moments | None = None
     refined: Callable[[], Moments] | None = None
+    to_order: Callable[[int, bool], tuple[Moments, Moments | None]] | None = None
     solids: tuple[tuple[SolidMeasure, NDArray], ...] = ()

@@ -8,7 +8,7 @@ all go through it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -21,13 +21,16 @@ from .fingerprint import effective_hash, fingerprint, matrix_hash
 from .mesh_body import mesh_body
 from .read import Reading, Unreadable, read_object
 
+KNOWN = 3  # the order to which every measurement has its moments
+
 
 @dataclass(frozen=True)
 class MeasureOptions:
     """What overrides the objects' own settings; None leaves the setting. SI units.
 
     kind: "solid" or "shell"; density: kg/m³; mass: kg; thickness: m; overlap: "signed" or "union"; unit_scale: metres
-    per Blender unit, else the scene's.
+    per Blender unit, else the scene's. order: of the moments that the measurement shall hold; None for what mass
+    properties need. surface: those of the area too.
     """
 
     kind: str | None = None
@@ -37,6 +40,8 @@ class MeasureOptions:
     overlap: str | None = None
     unit_scale: float | None = None
     threads: int = 1
+    order: int | None = None
+    surface: bool = False
 
 
 def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
@@ -52,7 +57,7 @@ def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     try:
         body = mesh_body(reading, unit, shell=options.kind == "shell", union=options.overlap == "union",
                          threads=options.threads)
-        return _told(obj, reading, body, options, unit)
+        return _to_order(_told(obj, reading, body, options, unit), body, options)
     except ValueError as error:
         raise Unreadable(obj.name, str(error)) from error
 
@@ -67,7 +72,22 @@ def _resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> Me
     return MeasureOptions(
         kind=options.kind or settings.kind.lower(), density=density, mass=mass,
         thickness=decimal(settings.thickness) * unit if options.thickness is None else options.thickness,
-        overlap=options.overlap or settings.overlap.lower(), threads=options.threads)
+        overlap=options.overlap or settings.overlap.lower(), threads=options.threads,
+        order=options.order, surface=options.surface)
+
+
+def _to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> Measurement:
+    """With moments to the order that was asked for. What a measurement holds anyway is not measured again."""
+    shell, order = options.kind == "shell", options.order
+    if order is None or (order < KNOWN and (shell or not options.surface)):
+        return measurement
+    if body.to_order is None:
+        if order > KNOWN or options.surface:
+            raise ValueError("Of such a body only volume moments to order {:d} are known; ask for no more."
+                             .format(KNOWN))
+        return measurement
+    volume, area = body.to_order(order, shell or options.surface)
+    return replace(measurement, volume_moments=None if shell else volume, area_moments=area or measurement.area_moments)
 
 
 def _told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOptions, unit: float) -> Measurement:

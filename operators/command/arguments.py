@@ -10,9 +10,9 @@ import argparse
 import math
 from pathlib import Path
 
+from ...core.recursion import MAX_ORDER
 from ..write.record import FORMATS, FRAMES
 
-MAX_ORDER = 3  # the measurement carries volume moments to this order
 DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
 
 _LATER_OPTIONS = (
@@ -145,9 +145,9 @@ def _order(text: str) -> int:
     except ValueError:
         value = -1
     if value < 0:
-        raise argparse.ArgumentTypeError("{!r} is not an order: 0, 1, 2 or 3".format(text))
+        raise argparse.ArgumentTypeError("{!r} is not an order, 0 to {}".format(text, MAX_ORDER))
     if value > MAX_ORDER:
-        raise argparse.ArgumentTypeError("orders above {} are not supported yet".format(MAX_ORDER))
+        raise argparse.ArgumentTypeError("{} is too high an order; the highest is {}".format(value, MAX_ORDER))
     return value
 
 

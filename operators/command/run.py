@@ -23,7 +23,6 @@ from typing import Any
 import bpy
 
 from ...core.measurement import Measurement
-from ...core.moments import Moments
 from .. import settings
 from ..measure import MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
@@ -50,7 +49,12 @@ class Run:
             name: getattr(self.options, name)
             for name in ("kind", "density", "mass", "thickness", "overlap")
         }
-        self._wanted = MeasureOptions(**wanted, threads=os.cpu_count() or 1)
+        self._wanted = MeasureOptions(
+            **wanted,
+            order=self.options.order,
+            surface=self.options.surface_moments,
+            threads=os.cpu_count() or 1,
+        )
 
     def measure(self) -> None:
         """Measure every file that was named, or else the one that is open."""
@@ -76,7 +80,8 @@ class Run:
             errors.extend(_missing_links())
             for label, obj in chosen:
                 try:
-                    one, surface = self._measure(obj, wanted)
+                    one = measure_object(obj, bpy.context.evaluated_depsgraph_get(), wanted)
+                    surface = one.area_moments if self.options.surface_moments else None
                     told = replace(one, name=label, warnings=one.warnings + note)
                     objects.append(
                         record.record(told, self.options.frame, self.options.order, surface)
@@ -109,19 +114,6 @@ class Run:
             open_file(path)
         elif file and not bpy.data.filepath:
             raise Unusable("Blender could not open the file; check that it is there, and whole.")
-
-    def _measure(
-        self, obj: bpy.types.Object, wanted: MeasureOptions
-    ) -> tuple[Measurement, Moments | None]:
-        """The object's measurement and, where they are asked for, its area moments to order 3."""
-        depsgraph = bpy.context.evaluated_depsgraph_get()
-        one = measure_object(obj, depsgraph, wanted)
-        if not self.options.surface_moments:
-            return one, None
-        if one.kind == "shell":
-            return one, one.area_moments
-        as_shell = replace(wanted, kind="shell", density=1.0, mass=None, thickness=1.0)
-        return one, measure_object(obj, depsgraph, as_shell).area_moments
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
         self.faults += 1

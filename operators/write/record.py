@@ -19,7 +19,6 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -47,9 +46,9 @@ def record(
 ) -> dict[str, Any]:
     """One object's record.
 
-    frame: "world" or "object". order: adds `moments`, volume moments up to that order (at most 3)
-    about the frame's origin; of a shell, those of its thin volume. surface: area moments of the
-    same object, world frame, added to them.
+    frame: "world" or "object". order: adds `moments`, volume moments up to that order, which the
+    measurement must have, about the frame's origin; of a shell, those of its thin volume. surface:
+    area moments of the same object, world frame, added to them.
     """
     properties = measurement.mass_properties if frame == "world" else measurement.in_object_frame()
     entry = {
@@ -194,14 +193,11 @@ def _about_origin(
     moments: Moments, order: int, measurement: Measurement, frame: str
 ) -> dict[str, float]:
     """World-frame moments by exponents, about the origin of the frame and along its axes."""
+    moments = moments.truncated(order)
     if frame == "object":
-        to_frame = np.eye(4)
-        to_frame[:3, :3] = measurement.rotation.T
-        to_frame[:3, 3] = -to_frame[:3, :3] @ measurement.location
-        # A change of axes stretches nothing, whatever the body measures and however the rotation
-        # was rounded.
-        moments = replace(moments, of="mass").mapped(to_frame)
-    moments = moments.truncated(order).shifted(np.zeros(3))
+        moments = moments.in_frame(measurement.rotation, measurement.location)
+    else:
+        moments = moments.shifted(np.zeros(3))
     return {
         ",".join(map(str, powers)): value
         for powers, value in zip(monomials(order), moments.raw, strict=True)
