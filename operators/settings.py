@@ -9,11 +9,12 @@ property by scale_length³, while a weighed part weighs the same whatever a scen
 
 import bpy
 import numpy as np
-from bpy.props import EnumProperty, FloatProperty, PointerProperty, StringProperty
+from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 from bpy.types import Context, Object, PropertyGroup, Scene
 
 from ..core.decimal import decimal
 from ..core.materials import BY_NAME
+from ..core.recursion import MAX_ORDER
 
 COPIED = ("kind", "thickness", "mass_from", "density", "material", "mass", "overlap")
 
@@ -108,6 +109,38 @@ class BodyMomentsSceneSettings(PropertyGroup):
             ("OBJECT", "Object", "The object's own location and rotation, with unit scale"),
         ),
         default="WORLD",
+    )
+    moments_order: IntProperty(
+        name="Order",
+        description="The highest p + q + r of the moments ∫ x^p y^q z^r that are computed",
+        default=4,
+        min=1,
+        max=MAX_ORDER,
+        soft_max=20,
+    )
+    moments_of: EnumProperty(
+        name="Over",
+        description="What the moments are integrals over; no density is in them",
+        items=(
+            ("VOLUME", "Volume", "The volume; of a shell, its area times its thickness"),
+            ("SURFACE", "Surface", "The area of the faces"),
+        ),
+        default="VOLUME",
+    )
+    moments_about: EnumProperty(
+        name="About",
+        description="The point that coordinates are measured from",
+        items=(
+            ("ORIGIN", "Frame's Origin", "The origin of the frame that is chosen"),
+            ("CENTER", "Center", "The center of the volume, or of the surface: central moments"),
+            (
+                "NORMALIZED",
+                "Center, Normalized",
+                "Central moments of the body scaled to a volume, or an area, of 1: the same for "
+                "every size",
+            ),
+        ),
+        default="ORIGIN",
     )
 
 

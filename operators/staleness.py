@@ -29,6 +29,7 @@ EDITED = "edited"
 
 _settings: dict[int, str] = {}  # session uid → digest of the settings at the last update
 _edited: dict[int, set[str]] = {}  # session uid → the fingerprints that were current when the geometry changed
+_changes: dict[int, int] = {}  # session uid → how often its geometry changed
 _undone = False
 _paused = False
 _generation = 0
@@ -82,6 +83,11 @@ def generation() -> int:
     return _generation
 
 
+def geometry_changes(obj: Object) -> int:
+    """How often Blender has reported a change of the object's geometry; some settings count as such."""
+    return _changes.get(obj.session_uid, 0)
+
+
 def reason(obj: Object, scene: Scene) -> str:
     """Why the stored numbers are out of date, "" where they are not or there are none."""
     stored = str(obj.get("body_fingerprint", ""))
@@ -132,6 +138,7 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
         if not update.is_updated_geometry or not isinstance(update.id, Object):
             continue
         obj = update.id.original
+        _changes[obj.session_uid] = _changes.get(obj.session_uid, 0) + 1
         found = [str(mark) for mark in (obj.get("body_fingerprint"), section.fingerprint(obj)) if mark]
         if found and not _settings_edited(obj, found[0], scene):
             _edited.setdefault(obj.session_uid, set()).update(found)
@@ -151,6 +158,7 @@ def _load(*_args) -> None:
     _undone = False
     _edited.clear()
     _settings.clear()
+    _changes.clear()
 
 
 @persistent
@@ -186,3 +194,4 @@ def unregister() -> None:
         getattr(bpy.app.handlers, name).remove(function)
     _edited.clear()
     _settings.clear()
+    _changes.clear()
