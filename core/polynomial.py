@@ -16,6 +16,7 @@ import ast
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,6 +29,7 @@ BLOCK = 1 << 15  # points that are evaluated together
 HALVINGS = 600  # boxes that are looked at for a bound
 Exponents = tuple[int, int, int]
 AXES: dict[str, Exponents] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
+CORNERS = tuple(product((0, -1), repeat=3))
 ALLOWED = "numbers, x, y, z, +, -, *, / by a number, ** with a whole number, and parentheses"
 
 
@@ -79,26 +81,27 @@ class Polynomial:
         return result
 
     def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
-        """A number that the polynomial is nowhere below on the box, within some 1e-13 of its size there; the better
-        the flatter it is. It stops to look closer where the bound is not negative."""
+        """A number that the polynomial is nowhere below on the box.
+
+        The box is halved as long as that may still prove it not negative, HALVINGS times at most; rounding, some 1e-13
+        of the sum of the terms' sizes, is taken off.
+        """
         low, high = np.asarray(low, float), np.asarray(high, float)
         local = self.shifted(low).coefficients()
         top = monomials(self.degree)
         net = np.zeros((self.degree + 1,) * 3)
         net[tuple(top.T)] = local * np.multiply.reduce((high - low) ** top, axis=1)
-        size = float(np.abs(net).sum())
+        slack = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
         for axis in range(3):
             net = np.moveaxis(np.tensordot(_to_bernstein(self.degree), net, (1, axis)), 0, axis)
-        slack = 64.0 * U * (self.degree + 1) * size
-        found, boxes = np.inf, [(float(net.min()), 0, net)]
+        boxes = [(float(net.min()), 0, net)]
         for _ in range(HALVINGS):
-            least, depth, net = min(boxes, key=lambda box: box[0])
-            if least >= 0.0 or net[0, 0, 0] < 0.0:  # a corner of the net is a value: it gets no better
+            worst = min(range(len(boxes)), key=lambda i: boxes[i][0])
+            least, depth, net = boxes[worst]
+            if least >= slack or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values
                 break
-            boxes = [box for box in boxes if box[2] is not net]
-            boxes += [(float(half.min()), depth + 1, half) for half in _halves(net, depth % 3)]
-        found = min(box[0] for box in boxes)
-        return found - slack
+            boxes[worst:worst + 1] = [(float(half.min()), depth + 1, half) for half in _halves(net, depth % 3)]
+        return min(box[0] for box in boxes) - slack
 
 
 def parse(text: str) -> Polynomial:

@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The closed parts of a body, and one density for each of them from the densities of its faces.
+
+A part is filled with the material of its faces. Where they differ it takes their mean, weighted by area. A cavity has
+no material: what it encloses is taken away from the part that it is cut from, whatever its own faces are painted with.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .moments import Moments
+from .weighted import weighted_solid
+
+
+@dataclass(frozen=True, eq=False)
+class Components:
+    """The triangles whose signed sum is the body, and the closed part that each bounds.
+
+    points: (n, 3); triangles: (t, 3), as measured: turned where that was needed, caps included. face: (t,) the mesh
+    face of each, -1 for a cap. part: (t,), 0 to number - 1. within: (number,) whose material a part counts with: its
+    own, or of a cavity that of the part it is cut from.
+    """
+
+    points: NDArray[np.floating]
+    triangles: NDArray[np.integer]
+    face: NDArray[np.integer]
+    part: NDArray[np.integer]
+    number: int
+    within: NDArray[np.integer]
+
+    def areas(self) -> NDArray[np.float64]:
+        """(t,) of the triangles."""
+        a, b, c = (self.points[self.triangles[:, k]].astype(np.float64) for k in range(3))
+        return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0
+
+    def moments(self, like: Moments) -> list[Moments]:
+        """The volume moments of each part, negative for cavities. like: the whole body's."""
+        return [weighted_solid(self.points, self.triangles[self.part == i], np.ones(int((self.part == i).sum())), like)
+                for i in range(self.number)]
+
+
+@dataclass(frozen=True, eq=False)
+class PartDensities:
+    """density: (number,) of each part. mixed: (number,) whether its own faces differ; first: (number,) one of its mesh
+    faces, -1 where it has none."""
+
+    density: NDArray[np.float64]
+    mixed: NDArray[np.bool_]
+    first: NDArray[np.integer]
+
+
+def part_densities(parts: Components, faces: NDArray[np.float64]) -> PartDensities:
+    """One density for each part. faces: (f,) that of every mesh face."""
+    own = parts.face >= 0
+    part, face, area = parts.part[own], parts.face[own], parts.areas()[own]
+    first = np.full(parts.number, np.iinfo(np.int64).max)
+    least, most = np.full(parts.number, np.inf), np.full(parts.number, -np.inf)
+    np.minimum.at(first, part, face)
+    np.minimum.at(least, part, faces[face])
+    np.maximum.at(most, part, faces[face])
+    total = np.bincount(part, area, minlength=parts.number)
+    sums = np.bincount(part, area * faces[face], minlength=parts.number)
+    with np.errstate(invalid="ignore"):
+        mean = np.divide(sums, total, out=(least + most) / 2.0, where=total > 0.0)
+    there = first < np.iinfo(np.int64).max
+    mixed = there & (most > least)
+    density = np.where(there, np.where(mixed, np.clip(mean, least, most), least), 0.0)
+    return PartDensities(density[parts.within], mixed & (parts.within == np.arange(parts.number)),
+                         np.where(there, first, -1))
