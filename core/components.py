@@ -46,11 +46,12 @@ class Components:
 
 @dataclass(frozen=True, eq=False)
 class PartDensities:
-    """density: (number,) of each part. mixed: (number,) whether its own faces differ; first: (number,) one of its mesh
-    faces, -1 where it has none."""
+    """density: (number,) of each part. mixed: (number,) whether its own faces differ; painted: (number,) cavities with
+    faces of other densities than what they are cut from. first: (number,) a part's first mesh face, -1 for none."""
 
     density: NDArray[np.float64]
     mixed: NDArray[np.bool_]
+    painted: NDArray[np.bool_]
     first: NDArray[np.integer]
 
 
@@ -69,6 +70,8 @@ def part_densities(parts: Components, faces: NDArray[np.float64]) -> PartDensiti
         mean = np.divide(sums, total, out=(least + most) / 2.0, where=total > 0.0)
     there = first < np.iinfo(np.int64).max
     mixed = there & (most > least)
-    density = np.where(there, np.where(mixed, np.clip(mean, least, most), least), 0.0)
-    return PartDensities(density[parts.within], mixed & (parts.within == np.arange(parts.number)),
+    own = np.where(there, np.where(mixed, np.clip(mean, least, most), least), 0.0)
+    cavity = parts.within != np.arange(parts.number)
+    density = own[parts.within]
+    return PartDensities(density, mixed & ~cavity, cavity & there & (mixed | (own != density)),
                          np.where(there, first, -1))

@@ -19,6 +19,7 @@ from .affine import _times, horner, monomial_count, monomials, raised_places
 from .moments import BLOCK, Moments, U, _weights
 from .polynomial import Polynomial
 
+SHEARED = 1e-5  # the cosine of axes that float32 rotations never show
 Terms = dict[tuple[int, int, int], float]
 
 
@@ -132,8 +133,9 @@ def own_axes(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]
     linear = np.asarray(matrices, np.float64)[:, :3, :3]
     length = np.sqrt((linear * linear).sum(axis=1, keepdims=True))
     columns = np.divide(linear, length, out=np.zeros_like(linear), where=length > 0.0)
-    u, spread, v = np.linalg.svd(columns)
-    return u @ v, spread[:, 0] - spread[:, 2] > 1e-5
+    u, _, v = np.linalg.svd(columns)
+    skew = np.abs(columns.transpose(0, 2, 1) @ columns) * (1.0 - np.eye(3))
+    return u @ v, skew.max(axis=(1, 2)) > SHEARED
 
 
 def own_fields(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:

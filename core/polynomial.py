@@ -13,6 +13,7 @@ On a box a polynomial lies between the least and the largest of its Bernstein co
 from __future__ import annotations
 
 import ast
+import heapq
 import math
 from dataclasses import dataclass
 from fractions import Fraction
@@ -94,14 +95,15 @@ class Polynomial:
         slack = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
         for axis in range(3):
             net = np.moveaxis(np.tensordot(_to_bernstein(self.degree), net, (1, axis)), 0, axis)
-        boxes = [(float(net.min()), 0, net)]
-        for _ in range(HALVINGS):
-            worst = min(range(len(boxes)), key=lambda i: boxes[i][0])
-            least, depth, net = boxes[worst]
-            if least >= slack or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values
+        boxes = [(float(net.min()), 0, 0, net)]  # a heap: the least bound first; the number settles ties
+        for number in range(1, 2 * HALVINGS, 2):
+            least, _, depth, net = boxes[0]
+            if least >= -slack or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values
                 break
-            boxes[worst:worst + 1] = [(float(half.min()), depth + 1, half) for half in _halves(net, depth % 3)]
-        return min(box[0] for box in boxes) - slack
+            heapq.heappop(boxes)
+            for i, half in enumerate(_halves(net, depth % 3)):
+                heapq.heappush(boxes, (float(half.min()), number + i, depth + 1, half))
+        return boxes[0][0] - slack
 
 
 def parse(text: str) -> Polynomial:
@@ -119,8 +121,8 @@ def parse(text: str) -> Polynomial:
         tree = ast.parse(text, mode="eval").body
     except SyntaxError as error:
         place = text[max((error.offset or 1) - 1, 0):][:20] if error.lineno in (None, 1) else ""
-        where = " at “{:s}”".format(place) if place else ""
-        raise ValueError("The polynomial cannot be read{:s}; a product needs its *, as in 20*z.".format(where)) from error
+        raise ValueError("The polynomial cannot be read{:s}; a product needs its *, as in 20*z.".format(
+            " at “{:s}”".format(place) if place else "")) from error
     except (ValueError, RecursionError, MemoryError) as error:
         raise ValueError("The polynomial cannot be read; it is nested too deeply or holds odd characters.") from error
     try:

@@ -125,8 +125,9 @@ def test_a_density_in_own_coordinates_moves_turns_and_mirrors_with_the_body(name
     rigid[:3, :3] /= size
     raw = np.array([float(v) for v in truth(scaled, triangles, density.terms, (0, 0, 0))])
     expected = Moments(raw, np.zeros(3), "mass").mapped(rigid).shifted(found.about)
-    scale = np.abs(expected.raw[0]) * max(1e-30, np.abs(np.array(scaled)).max()) ** np.repeat([0, 1, 2, 3], [1, 3, 6, 10])
-    assert (np.abs(found.raw - expected.raw) <= 1e-14 * 30 * scale).all()
+    degree = np.repeat([0, 1, 2, 3], [1, 3, 6, 10])
+    scale = np.abs(expected.raw[0]) * np.abs(np.array(scaled)).max() ** degree
+    assert (np.abs(found.raw - expected.raw) <= 3e-13 * scale).all()
 
 
 def test_own_axes_are_those_that_are_drawn():
@@ -151,7 +152,8 @@ def test_many_images_are_the_sum_of_each_and_a_constant_is_a_factor():
     maps[:, :3, 3] = rng.normal(size=(1500, 3)) * 10.0
     density = parse("50 + x*y - z**2/1000")
     together = graded_sum(volume, density, maps, about=(0, 0, 0))
-    each = [graded_sum(volume, density, maps[i:i + 1], about=(0, 0, 0)) for i in range(1500)]
+    each = [graded_sum(volume, density, maps[part], about=(0, 0, 0)) for part in (
+        slice(0, 1), slice(1, 2), slice(2, 600), slice(600, None))]
     total = np.sum([one.raw for one in each], axis=0)
     bound = together.error + np.sum([one.error for one in each], axis=0)
     assert (np.abs(together.raw - total) <= bound).all() and (bound < 1e-9 * np.abs(total).max()).all()
