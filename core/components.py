@@ -33,15 +33,20 @@ class Components:
     number: int
     within: NDArray[np.integer]
 
-    def areas(self) -> NDArray[np.float64]:
-        """(t,) of the triangles."""
-        a, b, c = (self.points[self.triangles[:, k]].astype(np.float64) for k in range(3))
+    def areas(self, linear: NDArray | None = None) -> NDArray[np.float64]:
+        """(t,) of the triangles under a (3, 3) map, by default as they are."""
+        points = self.points.astype(np.float64)
+        if linear is not None:
+            points = points @ np.asarray(linear).T
+        a, b, c = (points[self.triangles[:, k]] for k in range(3))
         return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0
 
     def moments(self, like: Moments) -> list[Moments]:
         """The volume moments of each part, negative for cavities. like: the whole body's."""
-        return [weighted_solid(self.points, self.triangles[self.part == i], np.ones(int((self.part == i).sum())), like)
-                for i in range(self.number)]
+        order = np.argsort(self.part, kind="stable")
+        ends = np.searchsorted(self.part[order], np.arange(self.number + 1))
+        rows = [order[start:end] for start, end in zip(ends, ends[1:])]
+        return [weighted_solid(self.points, self.triangles[own], np.ones(len(own)), like) for own in rows]
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,10 +60,11 @@ class PartDensities:
     first: NDArray[np.integer]
 
 
-def part_densities(parts: Components, faces: NDArray[np.float64]) -> PartDensities:
-    """One density for each part. faces: (f,) that of every mesh face."""
+def part_densities(parts: Components, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
+    """One density for each part. faces: (f,) that of every mesh face. linear: (3, 3) the map under which areas
+    count."""
     own = parts.face >= 0
-    part, face, area = parts.part[own], parts.face[own], parts.areas()[own]
+    part, face, area = parts.part[own], parts.face[own], parts.areas(linear)[own]
     first = np.full(parts.number, np.iinfo(np.int64).max)
     least, most = np.full(parts.number, np.inf), np.full(parts.number, -np.inf)
     np.minimum.at(first, part, face)

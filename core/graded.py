@@ -45,7 +45,7 @@ def graded_sum(moments: Moments, density: Polynomial, matrices: NDArray, fields:
     about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     homes = (turn * point).sum(axis=1) + shift
     home = homes.mean(axis=1)
-    terms = {powers: float(value) for powers, value in density.shifted(home).terms.items()}
+    terms = density.shifted(home).rounded()
     raw, error, inputs = np.zeros((3, monomial_count(order)))
     for start in range(0, len(matrices), BLOCK):
         part = slice(start, start + BLOCK)

@@ -54,9 +54,16 @@ class Polynomial:
     def coefficients(self) -> NDArray[np.float64]:
         """(K,) in the order of `moments.monomials`, each rounded once."""
         values = np.zeros(monomial_count(self.degree))
-        for powers, value in self.terms.items():
-            values[index(*powers)] = float(value)
+        for powers, value in self.rounded().items():
+            values[index(*powers)] = value
         return values
+
+    def rounded(self) -> dict[Exponents, float]:
+        """The terms, each rounded once. ValueError where one is beyond the range of numbers."""
+        try:
+            return {powers: float(value) for powers, value in self.terms.items()}
+        except OverflowError as error:
+            raise ValueError("The polynomial is beyond the range of numbers there.") from error
 
     def shifted(self, point: ArrayLike) -> Polynomial:
         """The polynomial q with q(u) = p(point + u), exactly."""
@@ -147,7 +154,8 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         if isinstance(node.value, float) and not math.isfinite(node.value):
             raise ValueError("“{:s}” is too large a number.".format(_part(node, text)))
-        return _checked(_only({(0, 0, 0): Fraction(str(node.value))}), node, text)  # the decimal that was typed
+        number = Fraction(node.value if isinstance(node.value, int) else str(node.value))  # the decimal that was typed
+        return _checked(_only({(0, 0, 0): number}), node, text)
     if isinstance(node, ast.Name) and node.id in AXES:
         return {AXES[node.id]: Fraction(1)}
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.UAdd, ast.USub)):

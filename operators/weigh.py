@@ -13,10 +13,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.components import Components, part_densities
+from ..core.components import Components, PartDensities, part_densities
 from ..core.mending import listed
-from ..core.moments import Moments, map_sum, sum_moments
+from ..core.moments import Moments, are_similarities, map_sum, sum_moments
 from ..core.polyhedron import solid_and_area
+from ..core.solid import SolidMeasure
 from ..core.surface import Surface
 from ..core.weighted import as_mass, weighted_sheet, weighted_solid
 from . import weigh_polynomial
@@ -26,6 +27,7 @@ from .mesh_body import in_metres, mapped_areas
 from .read import Reading
 
 MOST_NAMED = 8
+CAVITY = "A cavity takes away the material that it is cut from, whatever its own faces have."
 
 
 @dataclass
@@ -46,7 +48,7 @@ def weigh(reading: Reading, body: Body, density: DensityField, *, unit: float, s
     unit: metres per Blender unit; thickness: of a shell, m; others: kg/m³ of faces whose material has no density.
     ValueError, with what to do, where the density is missing or negative somewhere.
     """
-    if not body.solids:
+    if not body.solids or (density.kind != "polynomial" and any(part.painted is None for part in reading.parts)):
         raise ValueError("Only what polygons bound can have a density that is not one value; set one value.")
     factor = thickness if shell else 1.0
     if density.kind == "polynomial":
@@ -77,14 +79,9 @@ def _by_material(reading: Reading, body: Body, unit: float, shell: bool, factor:
             parts.extend(_sheets(reading, i, values, unit, threads))
     else:
         for (solid, matrices), (values, names) in zip(body.solids, painted.for_solids(body)):
-            components = solid.components()
-            found = part_densities(components, values)
-            weighed = weighted_solid(components.points, components.triangles, found.density[components.part],
-                                     solid.volume)
-            parts.append(map_sum(weighed, matrices))
-            mixed += _mixed(components, found.density, found.mixed, found.first, names)
-            if found.painted.any() and painted.CAVITY not in mixed:
-                mixed.append(painted.CAVITY)
+            weighed, told = _solids(solid, matrices, values, names)
+            parts += weighed
+            mixed += [one for one in told if one not in mixed]
     warnings = [*painted.missing(), *mixed]
     health = body.health
     if not shell and health.nested_components + health.overlapping_components and painted.several:
@@ -95,8 +92,6 @@ def _by_material(reading: Reading, body: Body, unit: float, shell: bool, factor:
 
 class _Painted:
     """The densities of all faces of a reading. values: for each part (f,) of its mesh faces."""
-
-    CAVITY = "A cavity takes away the material that it is cut from, whatever its own faces have."
 
     def __init__(self, reading: Reading, others: float):
         self.reading, self.others = reading, others
@@ -169,21 +164,48 @@ def is_joined(reading: Reading, body: Body) -> bool:
     return sum(len(matrices) for _, matrices in body.solids) != reading.places
 
 
-def _mixed(parts: Components, density: NDArray, mixed: NDArray, first: NDArray, names: list[str] | None) -> list[str]:
+def _solids(solid: SolidMeasure, matrices: NDArray, values: NDArray, names: list[str] | None
+            ) -> tuple[list[Moments], list[str]]:
+    """∫ρ dV of a surface's places, and sentences about its parts. values, names: of its mesh faces."""
+    components = solid.components()
+    moments, told = [], []
+    mixed = part_densities(components, values).mixed.any()
+    for places in _alike(matrices) if mixed else [matrices]:  # a mean by area is that of the areas as they are seen
+        found = part_densities(components, values, places[0, :3, :3])
+        density = found.density[components.part]
+        moments.append(map_sum(weighted_solid(components.points, components.triangles, density, solid.volume), places))
+        told += _mixed(components, found, names)
+    return moments, [*told, *([CAVITY] if found.painted.any() else [])]
+
+
+def _alike(matrices: NDArray) -> Iterator[NDArray]:
+    """The (k, 4, 4) maps in groups that stretch areas alike: similarities together, then each uneven map's places."""
+    even = are_similarities(matrices[:, :3, :3])
+    if even.any():
+        yield matrices[even]
+    rest = matrices[~even]
+    if len(rest):
+        linear, which = np.unique(rest[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
+        for i in range(len(linear)):
+            yield rest[which.ravel() == i]
+
+
+def _mixed(parts: Components, found: PartDensities, names: list[str] | None) -> list[str]:
     """A sentence about parts whose faces have several materials."""
-    which = np.flatnonzero(mixed)
+    which = np.flatnonzero(found.mixed)
     if not len(which):
         return []
     if len(which) > 1:
-        faces = ": those with faces {:s}".format(listed(np.sort(first[which]))) if names else ""
+        faces = ": those with faces {:s}".format(listed(np.sort(found.first[which]))) if names else ""
         return ["{:d} of its {:d} parts have several materials and take their means by area{:s}.".format(
             len(which), parts.number, faces)]
     one = int(which[0])
     own = np.unique(parts.face[(parts.part == one) & (parts.face >= 0)])
     told = " ({:s})".format(_listing(sorted({names[i] for i in own.tolist()}))) if names else ""
     where = "It has" if parts.number == 1 else "One of its parts has" if not names else (
-        "The part with face {:d} has".format(int(first[one])))
-    return ["{:s} several materials{:s} and takes their mean by area, {:.7g} kg/m³.".format(where, told, density[one])]
+        "The part with face {:d} has".format(int(found.first[one])))
+    return ["{:s} several materials{:s} and takes their mean by area, {:.7g} kg/m³.".format(
+        where, told, found.density[one])]
 
 
 def _listing(texts: list[str]) -> str:
@@ -210,7 +232,8 @@ def _sheets(reading: Reading, i: int, values: NDArray, unit: float, threads: int
     def measured(surface: Surface) -> Moments:
         triangles, faces = surface.all_triangles()
         density = values[triangles] if by_vertex else values[faces]
-        return weighted_sheet(surface.points, triangles, density, solid_and_area(surface, threads, shell=True)[1], stored=by_vertex)
+        area = solid_and_area(surface, threads, shell=True)[1]
+        return weighted_sheet(surface.points, triangles, density, area, stored=by_vertex)
 
     return mapped_areas(part.surface, measured(part.surface), in_metres(part.matrices, unit), measured)
 

@@ -7,11 +7,13 @@ import json
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.mass import combined
 from body_moments.operators import staleness
 from body_moments.operators.measure import MeasureOptions, measure_object
 from body_moments.operators.read import Unreadable
 from body_moments.operators.write import properties, record, report
 
+from tests.blender import batch_files
 from tests.blender.test_measure import add, box, measure
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -75,15 +77,15 @@ def test_materials_follow_every_transform(transform):
     """The truth is the sum of two bodies of one density each."""
     obj = dumbbell(**transform)
     found = measure(obj).mass_properties
-    masses, centers = [], []
+    parts = []
     for low, density in (((0, 0, 0), STEEL), ((4, 0, 0), CORK)):
         high = tuple(value + 1 for value in low)
-        one = measure(add(box(low, high), **transform), density=density).mass_properties
-        masses.append(one.mass)
-        centers.append(one.center)
-    assert found.mass == pytest.approx(sum(masses), rel=1e-13)
-    center = np.average(centers, axis=0, weights=masses)
-    assert np.allclose(found.center, center, rtol=1e-12, atol=1e-12)
+        parts.append(measure(add(box(low, high), **transform), density=density).mass_moments)
+    truth = combined(parts)
+    assert abs(found.mass - truth.mass) <= found.error["mass"] + truth.error["mass"] < 1e-12 * truth.mass
+    assert np.linalg.norm(found.center - truth.center) <= found.error["center"] + truth.error["center"] < 1e-9
+    bound = found.error["inertia"] + truth.error["inertia"]
+    assert np.linalg.norm(found.inertia - truth.inertia) <= bound < 1e-9 * np.trace(truth.inertia)
 
 
 def test_materials_at_every_unit_scale():
@@ -130,6 +132,26 @@ def test_a_part_that_mixes_materials_is_named_and_takes_the_mean_by_area():
     by_material(two, bpy.data.materials["Cork"], bpy.data.materials["Steel"], faces=[0] * 6 + [1] * 5 + [0])
     told = [one for one in measure(two).warnings if "mean by area" in one]
     assert len(told) == 1 and told[0].startswith("The part with face 6 has several materials (Cork, Steel)")
+
+
+def test_the_mean_by_area_is_that_of_the_areas_as_they_are_seen():
+    """A unit cube scaled to 1 x 2 x 3 is the box of 1 x 2 x 3, beside another place with another scale."""
+    cork, steel = material("Cork", CORK), material("Steel", STEEL)
+    cube = by_material(add(box((0, 0, 0), (1, 1, 1)), scale=(1, 2, 3)), cork, steel, faces=[1, 0, 0, 0, 0, 0])
+    same = by_material(add(box((0, 0, 0), (1, 2, 3))), cork, steel, faces=[1, 0, 0, 0, 0, 0])
+    mass = measure(same).mass_properties.mass
+    assert measure(cube).mass_properties.mass == pytest.approx(mass, rel=1e-13)
+    group = bpy.data.collections.new("Group")
+    group.objects.link(cube)
+    other = bpy.data.objects.new("Other", cube.data)
+    other.location.x = 10.0
+    group.objects.link(other)
+    empty = bpy.data.objects.new("Instancer", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", group
+    empty.body_moments.density_from = "MATERIALS"
+    bpy.context.scene.collection.objects.link(empty)
+    bpy.context.view_layer.update()
+    assert measure(empty).mass_properties.mass == pytest.approx(mass + (5 * CORK + STEEL) / 6, rel=1e-13)
 
 
 def test_faces_without_a_density_take_the_objects_and_it_is_said():
@@ -621,3 +643,18 @@ def test_the_snapping_operators_use_the_center_of_a_dumbbell():
     bpy.context.view_layer.objects.active = obj
     bpy.ops.object.body_moments_origin_to_center()
     assert obj.location.x == pytest.approx((STEEL * 0.5 + CORK * 4.5) / (STEEL + CORK), rel=1e-6)
+
+
+def test_the_command_line_measures_with_the_file_s_settings_unless_it_gives_a_density(tmp_path):
+    dumbbell()
+    path = batch_files.save(tmp_path / "dumbbell.blend")
+    entry = batch_files.measured(path)
+    assert entry["mass"] == pytest.approx(STEEL + CORK, rel=1e-13)
+    assert entry["density_from"] == "materials: Cork 240 kg/m³, Steel 7820 kg/m³"
+    entry = batch_files.measured(path, "--density", "10")
+    assert entry["mass"] == pytest.approx(20.0, rel=1e-13) and "density_from" not in entry
+    assert batch_files.measured(path, "--mass", "7")["mass"] == pytest.approx(7.0)
+    batch_files.measured(path, "--density", "10", "--write")
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert bpy.data.objects["Box"].body_moments.density_from == "VALUE"
+    assert measure(bpy.data.objects["Box"]).mass_properties.mass == pytest.approx(20.0)

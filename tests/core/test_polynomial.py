@@ -56,6 +56,7 @@ def test_what_is_typed_is_taken_exactly(text, terms):
     ("x := 1", "cannot be read"),
     ("x; y", "cannot be read"),
     ("1e999", "“1e999” is too large"),
+    ("0x" + "f" * 4000, "too large or too small"),
     ("1e-300*x", "too large or too small"),
     ("((9**17)**17)**17", "too large or too small"),
     ("x // 2", "cannot be part"),
@@ -111,6 +112,11 @@ def test_what_is_negative_somewhere_is_never_proven_positive():
     assert parse("x**2 - 1e-6").lower_bound((-1, -1, -1), (1, 1, 1)) < 0.0
     assert parse("1 - x**17").lower_bound((0, 0, 0), (1.001, 0, 0)) < 0.0
     assert parse("x").lower_bound((2, 2, 2), (2, 2, 2)) == pytest.approx(2.0)
+
+
+def test_values_beyond_the_range_of_numbers_are_refused():
+    with pytest.raises(ValueError, match="beyond the range of numbers"):
+        parse("z**17").lower_bound((0, 0, 1e30), (0, 0, 2e30))
 
 
 def test_the_highest_degree_works():

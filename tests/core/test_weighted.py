@@ -24,9 +24,8 @@ def sheet(part, density, dtype=np.float64, **more):
 
 
 def linear_truth(points, triangles, density, about):
-    """∫ ρ x^α dA with ρ linear on each triangle: it is the sum over the corners of ρ_i ∫ λ_i x^α, and ∫ λ_i f over a
-    triangle is that of f over the tetrahedral-degree rule exact for quintics: here by rationals, λ expanded in x', y'
-    coordinates of the triangle: ∫ λ_i λ_0^a λ_1^b λ_2^c = 2 A a! b! c! / (a + b + c + 2)! with one power raised."""
+    """∫ ρ x^α dA with ρ linear on each triangle, by multiplying out: each factor of the integrand is the sum
+    of its corners' values times barycentric coordinates λ, and ∫ λ0^a λ1^b λ2^c dA = 2 A a! b! c! / (a+b+c+2)!."""
     from itertools import product
     from math import factorial, isqrt
 
