@@ -11,6 +11,8 @@ from body_moments.core.graded import graded_sum, own_axes, own_fields, winding
 from body_moments.core.mass import MassProperties
 from body_moments.core.moments import Moments, map_sum
 from body_moments.core.polynomial import Polynomial, parse
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from tests.core import bodies, exact
 
@@ -105,6 +107,21 @@ def test_a_density_in_world_coordinates_stays_where_it_is_when_the_body_moves(na
     points, triangles = prism()
     matrix = np.array(MAPS[name], float)
     density = parse(text)
+    found = graded_sum(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
+    faces = [face[::-1] for face in triangles] if np.linalg.det(matrix) < 0 else triangles
+    assert within(found, truth(placed(points, matrix), faces, density.terms, found.about))
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.lists(st.floats(-1e3, 1e3, width=32), min_size=1, max_size=56),
+       st.lists(st.integers(-24, 24), min_size=9, max_size=9),
+       st.lists(st.integers(-2**12, 2**12), min_size=3, max_size=3))
+def test_the_bound_holds_for_any_density_and_any_map(coefficients, linear, offset):
+    """Maps of eighths and a body of quarters: images need no rounding, and the truth is rational."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = np.reshape(linear, (3, 3)) / 8.0, offset
+    points, triangles = prism()
+    density = Polynomial.from_coefficients(coefficients)
     found = graded_sum(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
     faces = [face[::-1] for face in triangles] if np.linalg.det(matrix) < 0 else triangles
     assert within(found, truth(placed(points, matrix), faces, density.terms, found.about))
