@@ -27,6 +27,7 @@ from .mesh_body import in_metres, mapped_areas
 from .read import Reading
 
 MOST_NAMED = 8
+LARGEST = 1e100  # kg m^n whose squares are still numbers
 CAVITY = "A cavity takes away the material that it is cut from, whatever its own faces have."
 
 
@@ -54,7 +55,10 @@ def weigh(reading: Reading, body: Body, density: DensityField, *, unit: float, s
     if density.kind == "polynomial":
         parts, warnings = weigh_polynomial.weigh(reading, body, density, unit=unit, shell=shell, threads=threads)
         source = "polynomial {:s}, in {:s} coordinates".format(density.text, "world" if density.in_world else "own")
-        return Weighed(sum_moments(parts) * factor, source, warnings)
+        mass = sum_moments(parts) * factor
+        if not np.abs(mass.raw).max() < LARGEST:
+            raise ValueError("Its density makes its mass too large a number; give it a smaller one.")
+        return Weighed(mass, source, warnings)
     if density.kind == "attribute":
         if not shell:
             raise ValueError("A vertex attribute is a density on the surface, not inside it; measure it as a shell, or "

@@ -447,6 +447,8 @@ def test_a_density_that_only_may_be_negative_is_said_and_one_that_touches_zero_i
 def test_a_polynomial_that_cannot_be_read_is_refused_with_the_offending_part():
     with pytest.raises(Unreadable, match="“sin\\(z\\)” cannot be part of a polynomial"):
         measure(by_polynomial(add(box()), "1000 + sin(z)"))
+    with pytest.raises(Unreadable, match="too large a number"):
+        measure(by_polynomial(add(box()), "1e199*x**17 + 1"))
     with pytest.raises(Unreadable, match="density is zero"):
         measure(by_polynomial(add(box()), "0"))
 
