@@ -13,6 +13,8 @@ from .mass import MassProperties
 from .moments import Moments
 from .solid import Health
 
+ONE_DENSITY = ("one value", "given mass")
+
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
@@ -29,6 +31,8 @@ class Measurement:
         for what storing coordinates as float32 may have moved.
     warnings: one sentence for each decision taken on the way.
     fingerprint: of what the numbers were computed from.
+    density_from: "one value", "given mass", or where else the density came from, as a text. materials: names of those
+        that were looked at for it.
     """
 
     name: str
@@ -49,6 +53,13 @@ class Measurement:
     location: NDArray[np.float64]
     error_bound: dict
     fingerprint: str
+    density_from: str = "one value"
+    materials: tuple[str, ...] = ()
+
+    @property
+    def one_density(self) -> bool:
+        """Whether the density is the same everywhere."""
+        return self.density_from in ONE_DENSITY
 
     def in_object_frame(self) -> MassProperties:
         """The mass properties in the object's own frame."""

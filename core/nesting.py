@@ -305,9 +305,7 @@ def decide(shells: Shells, relations: Relations, ask: NDArray[np.bool_]
     sign = given.copy()
     inner, outer = relations.inside.T
     depth = np.bincount(inner, minlength=number)
-    parent = np.full(number, -1)
-    order = np.argsort(depth[outer], kind="stable")
-    parent[inner[order]] = outer[order]  # the last one, the deepest, is kept
+    parent = _parents(relations, number)
     order = np.argsort(depth[inner], kind="stable")
     inner, outer = inner[order], outer[order]
     around = np.zeros(number)
@@ -321,6 +319,31 @@ def decide(shells: Shells, relations: Relations, ask: NDArray[np.bool_]
         astray = at[(sign[at] < 0.0) & (around[at] <= 0.0)]
         sign[astray] = 1.0
     return sign != given, (sign > 0.0) & (around >= 1.0), (sign < 0.0) & (around >= 1.0)
+
+
+def cut_from(relations: Relations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """(c,) for each cavity the shell whose material it takes away: the innermost around it that no other cavity takes
+    away before. For the other shells themselves."""
+    home = np.arange(len(cavity))
+    parent = _parents(relations, len(cavity))
+    asking = np.flatnonzero(cavity)
+    at, layers = parent[asking], np.ones(len(asking), np.intp)
+    while len(asking):
+        layers = layers + np.where(cavity[at], 1, -1)
+        found = (layers == 0) | (parent[at] < 0)
+        home[asking[found]] = at[found]
+        asking, at, layers = asking[~found], parent[at[~found]], layers[~found]
+    return home
+
+
+def _parents(relations: Relations, number: int) -> NDArray[np.intp]:
+    """(number,) the innermost shell around each, -1 for none."""
+    inner, outer = relations.inside.T
+    depth = np.bincount(inner, minlength=number)
+    parent = np.full(number, -1)
+    order = np.argsort(depth[outer], kind="stable")
+    parent[inner[order]] = outer[order]  # the last one, the deepest, is kept
+    return parent
 
 
 def _spread(value: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -15,6 +15,7 @@ import bpy
 import numpy as np
 
 from ..core.decimal import decimal
+from .density import density_key
 
 VERSION = "v1"
 
@@ -35,16 +36,18 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     unit = decimal(scene.unit_settings.scale_length)
     return effective_hash(settings.kind, decimal(settings.density) if settings.mass_from == "DENSITY" else None,
                           decimal(settings.mass) if settings.mass_from == "MASS" else None,
-                          decimal(settings.thickness) * unit, settings.overlap,
-                          unit, settings.wall)
+                          decimal(settings.thickness) * unit, settings.overlap, unit, settings.wall,
+                          density_key(obj, str(obj.get("body_materials", "")).splitlines()))
 
 
 def effective_hash(kind: str, density: float | None, mass: float | None, thickness: float, overlap: str,
-                   unit_scale: float, wall: str = "THIN") -> str:
-    """A digest of settings as they were used; what a kind has no use for does not count."""
+                   unit_scale: float, wall: str = "THIN", varying: str = "") -> str:
+    """A digest of settings as they were used; what a kind has no use for does not count. varying: `density_key`, which
+    takes the place of the density."""
+    density = None if varying else density
     density, mass = (None if value is None else decimal(value) for value in (density, mass))  # as a setting holds it
     used = [kind, density, mass, float("{:.6g}".format(thickness)) if kind == "SHELL" else None,
-            overlap if kind == "SOLID" else None, round(unit_scale, 12)]
+            overlap if kind == "SOLID" else None, round(unit_scale, 12), *([varying] if varying else [])]
     if kind == "SHELL" and wall != "THIN":
         used.append(wall)
     return _digest(repr(used).encode())

@@ -16,12 +16,15 @@ import numpy as np
 from ..core.decimal import decimal
 from ..core.mass import MassProperties
 from ..core.measurement import Measurement
+from ..core.moments import Moments
 from . import wall_slider
 from .body import Body
+from .density import density_field, density_key
 from .fingerprint import effective_hash, fingerprint, matrix_hash
 from .mesh_body import mesh_body
 from .read import Reading, Unreadable, read_object
 from .wall_body import find_walls
+from .weigh import Weighed, weigh
 
 KNOWN = 3  # the order to which every measurement has its moments
 
@@ -55,18 +58,26 @@ def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     """
     scene = depsgraph.scene
     unit = options.unit_scale or decimal(scene.unit_settings.scale_length)
+    given = options.density is not None or options.mass is not None
     options = resolved(options, obj, unit)
-    reading = read_object(obj, depsgraph)
+    shell = options.kind == "shell"
     try:
-        body = mesh_body(reading, unit, shell=options.kind == "shell", union=options.overlap == "union",
-                         threads=options.threads)
-        if options.kind == "shell" and options.wall != "thin":
-            walls = find_walls(reading, body, options.wall)
+        density = None if given else density_field(obj.body_moments)
+        reading = read_object(obj, depsgraph, materials=density is not None and density.kind == "materials",
+                              attribute=density.attribute if density is not None and shell else None)
+        body = mesh_body(reading, unit, shell=shell, union=options.overlap == "union", threads=options.threads)
+        weighed = None
+        if density is not None:
+            _require_volume(body, options)
+            weighed = weigh(reading, body, density, unit=unit, shell=shell, thickness=options.thickness,
+                            others=options.density, threads=options.threads)
+            body = replace(body, mass=weighed.mass, warnings=(*body.warnings, *weighed.warnings))
+        walls = find_walls(reading, body, options.wall) if shell and options.wall != "thin" else None
+        if walls is not None:
             body = walls.body(options.thickness)
-            measurement = told(obj, reading, body, options, unit)
+        measurement = told(obj, reading, body, options, unit, weighed)
+        if walls is not None:
             wall_slider.keep(obj, reading, walls, measurement, unit)
-        else:
-            measurement = told(obj, reading, body, options, unit)
         return _to_order(measurement, body, options)
     except ValueError as error:
         raise Unreadable(obj.name, str(error)) from error
@@ -100,38 +111,49 @@ def _to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> 
     return replace(measurement, volume_moments=None if shell else volume, area_moments=area or measurement.area_moments)
 
 
-def told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOptions, unit: float) -> Measurement:
-    """The body as a measurement. options: resolved. ValueError where it has no mass."""
+def _require_volume(body: Body, options: MeasureOptions) -> Moments:
+    """The volume, of a shell that of its sheet or wall."""
     shell = options.kind == "shell"
-    solid = body.volume if body.wall is None else body.wall
-    volume = body.area * options.thickness if shell and body.wall is None else solid
+    volume = body.area * options.thickness if shell and body.wall is None else body.wall or body.volume
     if not volume.total > 0.0:
         raise ValueError("It has no thickness; set one." if shell and body.area.total > 0.0 else
                          "Its faces enclose no volume; measure it as a shell, or close it.")
+    return volume
+
+
+def told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOptions, unit: float,
+         weighed: Weighed | None = None) -> Measurement:
+    """The body as a measurement. options: resolved. ValueError where it has no mass."""
+    shell = options.kind == "shell"
+    thin, solid = shell and body.wall is None, body.wall or body.volume
+    volume = _require_volume(body, options)
     density = options.density if options.mass is None else options.mass / volume.total
     if body.mass is not None:
-        weighed, factor = body.mass, 1.0 if options.mass is None else options.mass / body.mass.total
-        density = body.mass.total * factor / volume.total
+        moments, factor = body.mass, 1.0
+        density = body.mass.total / volume.total
     else:
-        weighed, factor = ((body.area, density * options.thickness) if shell and body.wall is None
-                           else (solid, density))
+        moments, factor = (body.area, density * options.thickness) if thin else (solid, density)
     if not density > 0.0:
         raise ValueError("Its {:s} is zero; give it one.".format("density" if options.mass is None else "mass"))
     rotation, location = np.asarray(reading.rotation, np.float64), np.asarray(reading.location, np.float64) * unit
     properties = MassProperties.from_moments(
-        weighed, factor, prefer=rotation, refine=None if shell else body.refined)
+        moments, factor, prefer=rotation, refine=None if shell or body.mass is not None else body.refined)
 
     def bounds(of: str, delta: dict[str, float]) -> dict[str, float]:
         return {"volume": float(getattr(volume, of)[0]), "area": float(getattr(body.area, of)[0]),
                 "center_of_mass": delta["center"], "inertia": delta["inertia"]}
 
     settings = effective_hash(options.kind.upper(), options.density, options.mass, options.thickness,
-                              options.overlap.upper(), unit, options.wall.upper())
+                              options.overlap.upper(), unit, options.wall.upper(),
+                              density_key(obj, weighed.materials) if weighed else "")
+    digested = [body.volume, body.area, *([] if body.mass is None else [body.mass])]
     return Measurement(
         name=obj.name, type=obj.type, kind=options.kind, method="shell" if shell else body.method, density=density,
         thickness=options.thickness if shell else 0.0, volume=volume.total, area=body.area.total,
-        mass_properties=properties, volume_moments=None if volume is not solid else solid, area_moments=body.area,
-        mass_moments=(weighed, factor), health=body.health, warnings=(*reading.warnings, *body.warnings),
+        mass_properties=properties, volume_moments=None if thin else solid, area_moments=body.area,
+        mass_moments=(moments, factor), health=body.health, warnings=(*reading.warnings, *body.warnings),
         rotation=rotation, location=location,
         error_bound={**bounds("error", properties.error), "input": bounds("input", properties.input)},
-        fingerprint=fingerprint(body.volume.raw.tobytes() + body.area.raw.tobytes(), matrix_hash(obj), settings))
+        fingerprint=fingerprint(b"".join(one.raw.tobytes() for one in digested), matrix_hash(obj), settings),
+        density_from=weighed.source if weighed else "one value" if options.mass is None else "given mass",
+        materials=weighed.materials if weighed else ())

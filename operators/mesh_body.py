@@ -52,10 +52,10 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
             "those share counts twice.".format(reading.places))
     for part in reading.parts:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
-        matrices = _scaled(part.matrices, unit)
+        matrices = in_metres(part.matrices, unit)
         volumes.append(map_sum(solid.volume, matrices))
         measured = (lambda surface: solid_and_area(surface, threads, shell=True)[1]) if shell else None
-        areas.extend(_mapped_areas(part.surface, solid.area, matrices, measured))
+        areas.extend(mapped_areas(part.surface, solid.area, matrices, measured))
         stretch = volumes[-1].total / solid.volume.total if solid.volume.total else 0.0  # Σ |det|
         healths.append((replace(solid.health, volume_spread=solid.health.volume_spread * stretch), len(matrices)))
         methods.append(solid.method)
@@ -94,7 +94,7 @@ def _to_order(solids: list[tuple[SolidMeasure, NDArray]], surfaces: list[Surface
         volumes.append(map_sum(volume, matrices))
         if area:
             measured = lambda other: moments_to_order(other, order, area=True, threads=threads)[1]  # noqa: E731
-            areas.extend(_mapped_areas(surface, faces or measured(surface), matrices, measured))
+            areas.extend(mapped_areas(surface, faces or measured(surface), matrices, measured))
     return sum_moments(volumes), sum_moments(areas) if area else None
 
 
@@ -144,33 +144,43 @@ def _united(reading: Reading, unit: float, threads: int) -> Body:
                  [(solid, np.eye(4)[None])], [surface], threads)
 
 
-def _scaled(matrices: NDArray, unit: float) -> NDArray[np.float64]:
+def in_metres(matrices: NDArray, unit: float) -> NDArray[np.float64]:
     """World matrices to SI."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit
     return scaled
 
 
-def _mapped_areas(surface: Surface, area: Moments, matrices: NDArray, measured: Callable[[Surface], Moments] | None
-                  ) -> Iterator[Moments]:
+def mapped_areas(surface: Surface, area: Moments, matrices: NDArray, measured: Callable[[Surface], Moments] | None
+                 ) -> Iterator[Moments]:
     """The area moments of a surface's images. They do not follow a map that stretches unevenly, so there the mapped
     surface is `measured`, once for each different map; with None, only the area itself is wanted."""
+    if measured is None:
+        even = are_similarities(matrices[:, :3, :3])
+        if even.any():
+            yield map_sum(area, matrices[even])
+        if not even.all():
+            yield area_of_images(surface, matrices[~even, :3, :3])
+        return
+    for image, places, _ in even_surfaces(surface, matrices):
+        yield map_sum(area if image is surface else measured(image), places)
+
+
+def even_surfaces(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
+    """A surface's images as images under similarities: the surface itself or mapped ones, one for each different uneven
+    map, with the (j, 4, 4) maps that are left and which of `matrices` they stand for, (j,)."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
-        yield map_sum(area, matrices[even])
+        yield surface, matrices[even], np.flatnonzero(even)
     if even.all():
         return
-    linear = matrices[~even, :3, :3]
-    if measured is None:
-        yield area_of_images(surface, linear)
-        return
-    linear, which = np.unique(linear.reshape(-1, 9), axis=0, return_inverse=True)
-    places = matrices[~even, :3, 3]
+    rest = np.flatnonzero(~even)
+    linear, which = np.unique(matrices[rest, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
     for i, row in enumerate(linear):
-        mapped = measured(surface.mapped(row.reshape(3, 3)))
-        moved = np.tile(np.eye(4), (np.count_nonzero(which.ravel() == i), 1, 1))
-        moved[:, :3, 3] = places[which.ravel() == i]
-        yield map_sum(mapped, moved)
+        own = rest[which.ravel() == i]
+        moved = np.tile(np.eye(4), (len(own), 1, 1))
+        moved[:, :3, 3] = matrices[own, :3, 3]
+        yield surface.mapped(row.reshape(3, 3)), moved, own
 
 
 def _together(healths: Iterable[tuple[Health, int]]) -> Health:

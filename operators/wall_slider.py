@@ -73,6 +73,7 @@ def changed(settings: PropertyGroup, context: Context) -> None:
     scene = context.scene
     if (kept is None or settings.kind != "SHELL" or settings.wall == "THIN" or scene is None
             or decimal(scene.unit_settings.scale_length) != kept.unit or staleness.is_edited(obj)
+            or settings.mass_from == "DENSITY" and settings.density_from != "VALUE"
             or not obj.is_editable or obj.override_library is not None):
         return
     options = resolved(MeasureOptions(), obj, kept.unit)

@@ -15,7 +15,7 @@ from bpy.types import Context, Object, Panel, UILayout
 from ..operators import results, staleness, wall_slider
 from ..operators.units import SI_UNITS, Units
 from ..operators.write import properties
-from . import rows
+from . import materials, rows
 
 # method: (headline, icon, explanation)
 VERDICTS = {
@@ -62,7 +62,7 @@ class BodyPanel:
         if len(context.selected_objects) > 1:
             layout.operator("object.body_moments_copy_settings", icon="PASTEDOWN")
         if found is not None:
-            _numbers(layout, scene, units, found)
+            _numbers(layout, context, units, found)
             _more(layout, units, found)
             _warnings(layout, context, obj)
             row = layout.row(align=True)
@@ -108,17 +108,22 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
     else:
         column.prop(settings, "overlap")
     column.row().prop(settings, "mass_from", text="Given", expand=True)
-    if settings.mass_from == "DENSITY":
-        split = column.row(align=True).split(factor=0.4, align=True)
-        label = split.row()
-        label.alignment = "RIGHT"
-        label.label(text="Material")
-        row = split.row(align=True)
-        row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
-        row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
-        column.prop(settings, "density", text="Density kg/m³")
-    else:
+    if settings.mass_from == "MASS":
         column.prop(settings, "mass", text="Mass kg")
+        return
+    column.prop(settings, "density_from", text="From")
+    if settings.density_from == "POLYNOMIAL":
+        column.prop(settings, "density_polynomial", text="kg/m³")
+        column.row().prop(settings, "density_frame", text="x, y, z in m", expand=True)
+    elif settings.density_from == "ATTRIBUTE":
+        if obj.type == "MESH":
+            column.prop_search(settings, "density_attribute", obj.data, "attributes", results_are_suggestions=True)
+        else:
+            column.prop(settings, "density_attribute")
+    elif settings.density_from == "MATERIALS":
+        _materials(layout, obj)
+    else:
+        _one_density(column, settings, "Material")
 
 
 def _largest(layout: UILayout, context: Context, obj: Object) -> None:
@@ -133,10 +138,39 @@ def _largest(layout: UILayout, context: Context, obj: Object) -> None:
     row.label(text=text.format(units.text("length", limit)), icon="ERROR" if row.alert else "INFO")
 
 
-def _numbers(layout: UILayout, scene, units: Units, found: properties.Stored) -> None:
+def _materials(layout: UILayout, obj: Object) -> None:
+    settings = obj.body_moments
+    column = layout.column(align=True)
+    column.label(text="Densities, kg/m³")
+    shown = {slot.material: None for slot in obj.material_slots if slot.material}
+    for material in shown:
+        materials.density_row(column, material, material.name)
+    if not shown:
+        column.label(text="It has no material slots", icon="INFO")
+    column = layout.column()
+    column.use_property_split = True
+    _one_density(column, settings, "Without One")
+
+
+def _one_density(column: UILayout, settings, heading: str) -> None:
+    """The object's own density, with the table and the user's presets."""
+    split = column.row(align=True).split(factor=0.4, align=True)
+    label = split.row()
+    label.alignment = "RIGHT"
+    label.label(text=heading)
+    row = split.row(align=True)
+    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
+    row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
+    column.prop(settings, "density", text="Density kg/m³")
+
+
+def _numbers(layout: UILayout, context: Context, units: Units, found: properties.Stored) -> None:
+    scene, source = context.scene, properties.density_from(context.object)
     column = layout.column(align=True)
     rows.value(column, units, "Mass", "mass", found.body.mass)
     rows.value(column, units, "Density", "density", found.density)
+    if source:
+        rows.sentence(column, context, "The mean, from {:s}".format(source), icon="BLANK1")
     rows.value(column, units, "Volume", "volume", found.volume)
     rows.value(column, units, "Area", "area", found.area)
     layout.row().prop(scene.body_moments, "frame", expand=True)

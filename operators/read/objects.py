@@ -19,8 +19,13 @@ from .reading import Reading, Unreadable, float64_matrix
 from .visibility import NOT_EVALUATED, hidden_reason, require_kind
 
 
-def read_object(obj, depsgraph) -> Reading:
+def read_object(
+    obj, depsgraph, *, materials: bool = False, attribute: str | None = None
+) -> Reading:
     """Read one object, original or evaluated, as the up-to-date viewport `depsgraph` has it.
+
+    materials: with the materials of its faces. attribute: with the values of a float attribute on its
+    vertices.
 
     Raises Unreadable with the reason and the remedy: of a kind without surface, not evaluated,
     nothing with a face, coordinates or transforms that are not finite.
@@ -38,7 +43,7 @@ def read_object(obj, depsgraph) -> Reading:
             "Its transform is not finite; reset its location, rotation and scale, or its parent's.",
         )
 
-    gathered = Gathered(evaluated, depsgraph)
+    gathered = Gathered(evaluated, depsgraph, materials, attribute)
     gathered.gather()
     parts = gathered.parts()
     if not parts:

@@ -29,16 +29,31 @@ class Unreadable(Exception):
         self.reason = reason
 
 
+@dataclass(frozen=True, eq=False)
+class Painted:
+    """What the faces and vertices of a surface carry.
+
+    materials: the original materials of its slots, None for empty ones. faces: (f,) the slot of each
+    mesh face, -1 where there are no slots. vertices: (n,) values of the attribute that was asked for.
+    """
+
+    materials: tuple = ()
+    faces: NDArray[np.integer] | None = None
+    vertices: NDArray[np.float64] | None = None
+
+
 @dataclass
 class Part:
     """One surface and the places where it stands.
 
     matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column
     vectors.
+    painted: what its faces and vertices carry, where that was asked for.
     """
 
     surface: Surface
     matrices: NDArray[np.float64]
+    painted: Painted | None = None
 
 
 @dataclass

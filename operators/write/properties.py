@@ -31,6 +31,8 @@ DESCRIPTIONS = {
     "body_principal_axes": "Quaternion w, x, y, z that turns the object's axes into the principal axes",
     "body_error_bound": "What rounding may have changed: volume, area, center of mass, inertia; "
                         "then the same four for what storing coordinates as float32 may have",
+    "body_density_from": "Where the density came from",
+    "body_materials": "The materials that were looked at for the density, one a line",
     "body_method": "How the numbers came about",
     "body_warnings": "What was decided on the way, one sentence a line",
     "body_fingerprint": "What the numbers were computed from",
@@ -79,6 +81,13 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
         "body_warnings": "\n".join(measurement.warnings),
         "body_fingerprint": measurement.fingerprint,
     }
+    varying = {} if measurement.one_density else {
+        "body_density_from": measurement.density_from, "body_materials": "\n".join(measurement.materials)}
+    for key in ("body_density_from", "body_materials"):
+        if varying.get(key):
+            values[key] = varying[key]
+        elif key in obj:
+            del obj[key]
     for key, value in values.items():
         obj[key] = value
         if not isinstance(value, str):
@@ -113,6 +122,11 @@ def is_stored(obj: bpy.types.Object) -> bool:
 def method_and_warnings(obj: bpy.types.Object) -> tuple[str, list[str]]:
     """How the stored numbers came about, and what was decided on the way."""
     return str(obj.get("body_method", "")), str(obj.get("body_warnings", "")).splitlines()
+
+
+def density_from(obj: bpy.types.Object) -> str:
+    """Where the density of the stored numbers came from, "" where it is the same everywhere."""
+    return str(obj.get("body_density_from", ""))
 
 
 def numbers(obj: bpy.types.Object) -> tuple[tuple[float, ...], ...] | None:

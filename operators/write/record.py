@@ -57,6 +57,7 @@ def record(
         "kind": measurement.kind,
         "method": measurement.method,
         "density": measurement.density,
+        **({} if measurement.one_density else {"density_from": measurement.density_from}),
         "mass": properties.mass,
         "volume": measurement.volume,
         "area": measurement.area,
@@ -217,7 +218,7 @@ _LAST = ("warnings", "error")
 
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
     """A record as one flat row; what a list or a table holds gets a column each."""
-    row = {name: entry[name] for name in _COLUMNS if name in entry}
+    row = {name: entry[name] for name in (*_COLUMNS, "density_from") if name in entry}
     row |= {
         f"center_of_mass_{axis}": value
         for axis, value in zip("xyz", entry["center_of_mass"], strict=True)

@@ -108,6 +108,8 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     yield _line("Mass", _number(entry["mass"]), "kg")
     if "density" in entry:
         yield _line("Density", _number(entry["density"]), "kg/m³")
+    if "density_from" in entry:
+        yield _line("Density from", entry["density_from"])
     yield _line("Volume", _number(entry["volume"]), "m³")
     yield _line("Surface area", _number(entry["area"]), "m²")
     if entry["center_of_mass"] is None or entry["inertia"] is None:
@@ -188,6 +190,7 @@ def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | No
 def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[str, Any]:
     """A record without health, which is not stored."""
     method, warnings = properties.method_and_warnings(obj)
+    source = properties.density_from(obj)
     if outdated:
         warnings.insert(0, "Out of date: the object has changed since it was measured.")
     entry = {
@@ -196,6 +199,7 @@ def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[s
         "kind": "shell" if method == "shell" else "solid",
         "method": method,
         "density": found.density,
+        **({"density_from": source} if source else {}),
         "mass": found.body.mass,
         "volume": found.volume,
         "area": found.area,
