@@ -10,6 +10,10 @@ least-squares solution, each face weighed by its angle at the vertex, which does
 and planes within about 15 degrees are taken as the round surface that they stand for: the vertex goes along their mean
 normal, and none of it slides along the surface. Where that would run behind one of the faces, d is the direction that
 is most in front of all of them (found by multiplicative weights, Arora, Hazan and Kale, Theory of Computing 8, 2012).
+
+Inside a flat side and along a straight edge a vertex may slide: that changes nothing of the planes. There d is made as
+even as it can be, Σ cot |d_i - d_j|² least, lest the finely cut sides of a thick-walled box fold over where its edges
+move inward: with the cotangent weights of Pinkall and Polthier (Experiment. Math. 2, 1993) the side shrinks as a whole.
 """
 
 from __future__ import annotations
@@ -21,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .moments import U
+from .topology import find_edges
 
 BLOCK = 4096  # triangles at a time
 ONE_PLANE = 1e-4  # of the largest eigenvalue of Σ θ n n': planes that span less are one, φ²/4 for two φ apart
@@ -30,6 +35,8 @@ NOISY = 1e3  # times what storing moved the points by: a lower triangle's normal
 UNEVEN = 1e-6  # relative deviation from the thickness that counts as one
 BEHIND = 0.1  # of the thickness: where a face would get less, its vertices look for a better direction
 ROUNDS = 400  # of the search for it
+FLAT = 1e-12  # of the largest eigenvalue: planes that span less are the same to rounding
+SLIDES, EVEN = 400, 1e-12  # steps, and what is left of the unevenness
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,10 +110,61 @@ def offset_directions(points: NDArray[np.float64], triangles: NDArray[np.integer
         behind = np.flatnonzero(rough & (low < BEHIND))
         if len(behind):
             _most_in_front(vectors, behind, low, corner, weight, normals)
+    flat = values <= np.maximum(FLAT, (8.0 * (tilt[0] + tilt[1])) ** 2)[:, None] * values[:, 2:]
+    flat &= (total > np.finfo(float).tiny)[:, None] & ~rough[:, None]
+    if flat.any():
+        vectors = _slid(points, triangles[solid], vectors, np.einsum("nij,nj,nkj->nik", axes, flat, axes))
     far = np.linalg.norm(vectors, axis=1)
     lift = thinnest * (far + gain * off)
     return Directions(vectors, gain * tilt + 8.0 * U * gain * [[1.0], [0.0]],
                       lift * tilt + 8.0 * U * lift * [[1.0], [0.0]], solid)
+
+
+def _slid(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
+    """The vectors, made even by conjugate gradients in the directions that the projections `free`, (n, 3, 3), leave.
+    Vertices of a rim stay. Whatever comes of it is as good a wall: an early end folds sooner, no more."""
+    edges = find_edges(triangles)
+    rims = edges.rims()
+    free[triangles.ravel()[rims]] = free[np.roll(triangles, -1, axis=1).ravel()[rims]] = 0.0
+    able = np.einsum("nii->n", free) > 0.5
+    triangles = triangles[able[triangles].any(axis=1)]
+    if not len(triangles):
+        return vectors
+    used, number = np.unique(triangles, return_inverse=True)
+    triangles, free, count = number.reshape(-1, 3), free[used], len(used)
+    corners = points[used][triangles]
+    sides = corners - np.roll(corners, -1, axis=1)  # from corner k to k + 1, across from corner k + 2
+    double = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    weight = -np.einsum("mki,mki->mk", np.roll(sides, -1, axis=1), np.roll(sides, -2, axis=1)) / double[:, None]
+    start, stop, weight = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel(), weight.ravel()
+
+    def pulled(rows: NDArray) -> NDArray[np.float64]:
+        """Half the gradient of Σ cot |d_i - d_j|², in the free directions."""
+        pull = weight[:, None] * (rows[start] - rows[stop])
+        total = np.stack([np.bincount(start, column, count) - np.bincount(stop, column, count) for column in pull.T],
+                         axis=1)
+        return np.einsum("nij,nj->ni", free, total)
+
+    size = np.bincount(start, np.abs(weight), count) + np.bincount(stop, np.abs(weight), count)
+    size = np.maximum(size, np.finfo(float).tiny)[:, None]
+    rows = vectors[used]
+    rest = -pulled(rows)
+    step = rest / size
+    power = first = np.vdot(rest, step)
+    for _ in range(SLIDES):
+        if not power > EVEN ** 2 * first:
+            break
+        image = pulled(step)
+        curve = np.vdot(step, image)
+        if not curve > 0.0:
+            break
+        rows = rows + power / curve * step
+        rest = rest - power / curve * image
+        before, power = power, np.vdot(rest, rest / size)
+        step = rest / size + power / before * step
+    vectors = vectors.copy()
+    vectors[used] = rows
+    return vectors
 
 
 def _largest(values: NDArray, group: NDArray, count: int) -> NDArray[np.float64]:

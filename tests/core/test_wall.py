@@ -330,3 +330,42 @@ def test_faces_that_fold_back_on_each_other_have_no_wall():
     points[4:, 1] = 1e-9
     found = sweep(bodies.surface((points, bodies.split([[0, 1, 2, 3], [3, 2, 5, 4]]))))
     assert max(found.inward, found.outward) < 1e-6
+
+
+def fine_box(n, size=(1.0, 1.0, 1.0)):
+    """A box whose sides are cut in n x n quads."""
+    faces = [(np.eye(3), (0, 0, 1)), (np.diag([1, -1, -1]), (0, 1, 0)),
+             (np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]), (1, 0, 0)),
+             (np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]), (0, 0, 0)),
+             (np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0]]), (0, 1, 0)),
+             (np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]), (0, 0, 0))]
+    part = bodies.welded(bodies.joined(*(bodies.moved(bodies.grid(n), turn, offset) for turn, offset in faces)))
+    return part[0] * size, part[1]
+
+
+@pytest.mark.parametrize("n", [2, 4, 16])
+@pytest.mark.parametrize("t", [0.05, 0.2, 0.45])
+def test_a_finely_cut_cube_has_the_wall_of_a_cube(n, t):
+    found = sweep(bodies.surface(fine_box(n)))
+    assert found.uneven == 0 and 0.4999 < found.inward <= 0.5
+    body = found.moments(t, 0.0)
+    assert abs(body.total - (1 - (1 - 2 * t) ** 3)) <= 1e-14
+    assert np.abs(bodies.inertia(body) - (1 - (1 - 2 * t) ** 5) / 6).max() <= 1e-14
+
+
+def test_a_finely_cut_box_of_float32_that_is_turned_has_it_too():
+    points, triangles = bodies.moved(fine_box(16, (1.0, 2.0, 3.0)), bodies.rotation(3), (5.0, 7.0, -3.0))
+    found = sweep(bodies.surface((points.astype(np.float32), triangles), np.float32))
+    assert found.inward > 0.49
+    body = found.moments(0.3, 0.0)
+    assert abs(body.total - (6 - 0.4 * 1.4 * 2.4)) < 1e-5
+    assert abs(body.total - (6 - 0.4 * 1.4 * 2.4)) < body.input[0]
+
+
+def test_a_finely_cut_sheet_keeps_its_rim():
+    body = wall(bodies.grid(8), "outward", 0.7)
+    assert abs(body.total - 0.7) < 1e-14
+    other = bodies.moved(bodies.grid(8), offset=(-1.0, 0.0, 0.0))
+    part = bodies.welded(bodies.joined(bodies.grid(8), bodies.moved(other, [[0, 0, -1], [0, 1, 0], [1, 0, 0]])))
+    assert abs(wall(part, "outward", 0.1).total - (0.2 + 0.01)) < 1e-14
+    assert abs(wall(part, "inward", 0.1).total - (0.2 - 0.01)) < 1e-14
