@@ -104,11 +104,11 @@ def box_moments(low, high, order: int = 3) -> list[Fraction]:
     return [one(0, p) * one(1, q) * one(2, r) for p, q, r in monomials(order)]
 
 
-def corner_tetrahedron_moments(a, b, c) -> list[Fraction]:
-    """The 20 volume moments of the tetrahedron (0,0,0), (a,0,0), (0,b,0), (0,0,c): Dirichlet's integral."""
+def corner_tetrahedron_moments(a, b, c, order: int = 3) -> list[Fraction]:
+    """The volume moments of the tetrahedron (0,0,0), (a,0,0), (0,b,0), (0,0,c): Dirichlet's integral."""
     a, b, c = Fraction(a), Fraction(b), Fraction(c)
     return [Fraction(factorial(p) * factorial(q) * factorial(r), factorial(p + q + r + 3))
-            * a ** (p + 1) * b ** (q + 1) * c ** (r + 1) for p, q, r in MONOMIALS]
+            * a ** (p + 1) * b ** (q + 1) * c ** (r + 1) for p, q, r in monomials(order)]
 
 
 BOX_QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
