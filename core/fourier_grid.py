@@ -1,0 +1,226 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Large regular grids of frequencies, to a stated tolerance: points on the faces, and a non-uniform fast transform.
+
+    ∫ exp(-i q·x) dV = i q·S / q²,    S = ∫ n exp(-i q·x) dA ≈ Σ N w exp(-i q·x)
+
+Each triangle takes n² Gauss points (conical rule, exact to degree 2n-1). Over a triangle q·x spans at most g = |q|
+diameter; the best polynomial of degree 2n-1 in q·x is within 2 (g/4)^(2n) / (2n)! of exp(-i q·x), and a rule with
+positive weights errs by no more than twice that. This bound is met by one triangle in the worst direction; the errors
+of many cancel as the waves do. So fewer points are taken where they prove enough: what the triangles err together is
+found at frequencies of all sizes, by the closed form. Only a triangle that a wave may fit into (g > 2π) keeps
+the number by the bound: regular meshes have frequencies at which all of them would err alike. Triangles that would
+need too many points keep their closed form.
+
+The width of the spreading kernel follows from a bound of its aliasing. The error told is found by comparison with the
+closed form at other frequencies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
+from math import factorial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .fourier import Transform, finished
+from .nufft import WIDTHS, Spreading, aliasing
+from .precise import normals
+from .spectrum import APPROXIMATE, Spectrum
+from .surface import Surface
+from .triangle_waves import PAIRS, Means
+from .waves import Grid, ListWaves
+
+CHUNK = 1 << 14  # points that are spread between two steps
+MOST = 24  # Gauss points along a side at most
+DIRECT_COST = 6.0  # of a frequency in closed form, in cells spread
+SAMPLES = 24  # frequencies that are compared with the closed form
+SAFETY = 3.0  # an error told or allowed, by the largest difference found
+SHELLS = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)  # of the largest frequency along an axis, where they are found
+CREDITS = (1e5, 1e4, 1e3, 1e2, 10.0)  # how much larger than in their sum the errors of single triangles may be
+
+
+def grid_transform(surface: Surface, grid: Grid, of: str, tolerance: float, threads: int = 1) -> Spectrum:
+    """The transform "of" the "volume" or the "area", to tolerance times the volume or the area.
+
+    An "approximate" spectrum, or an exact one where that costs less. ValueError as `solid_transform`, and where double
+    precision does not reach the tolerance.
+    """
+    return finished(GridTransform(surface, grid, of, tolerance, threads))
+
+
+class GridTransform(Transform):
+    """As `Transform`, on a grid and to a tolerance."""
+
+    def __init__(self, surface: Surface, grid: Grid, of: str, tolerance: float, threads: int = 1):
+        super().__init__(surface, grid, of, threads)
+        self.surface, faces = surface, self.faces
+        # what a mean over the area may be off by: half of the tolerance each for the points and for the kernel
+        if of == "volume":
+            allowed = tolerance * self.volume.total / faces.scale**3 / (2.0 * faces.area)
+            step, largest = grid.step * faces.scale, np.sqrt(3.0) * grid.largest * faces.scale
+        else:
+            allowed, step, largest = tolerance / 2.0, 1.0, 1.0
+        self.width = _width(grid.half, allowed * step, of == "volume")
+        spans = np.sqrt(3.0) * grid.largest * faces.scale * faces.diameters
+        counts = self._counts(spans, allowed * largest / 2.0, allowed * faces.area / SAFETY)
+        most = int(np.sqrt(DIRECT_COST * len(self.sums) / self.width**3))
+        self.direct = faces.only(np.flatnonzero(counts > min(MOST, most)))
+        self.fine = [(n, np.flatnonzero(counts == n)) for n in np.unique(counts[counts <= most]).tolist() if n <= MOST]
+        self.spreading = Spreading(grid.half, self.width, 3 if of == "volume" else 1) if self.fine else None
+
+    def _counts(self, spans: NDArray, tolerance: float, limit: float) -> NDArray[np.int64]:
+        """(m,) Gauss points along a side of each triangle, for |q| times its diameter, what a D may be off by and what
+        the transform may be."""
+        bound = _points(spans, tolerance)
+        q = _trial(self.q) * self.faces.scale
+        size = np.sqrt((q**2).sum(axis=1)) if self.of == "volume" else 1.0
+        exact = None
+        for credit in CREDITS:
+            fewer = np.where(spans < 2.0 * np.pi, _points(spans, tolerance * credit), bound)
+            tried = np.flatnonzero((fewer < bound) & (fewer <= MOST))
+            if not len(tried):
+                continue
+            if exact is None or len(exact[0]) != len(tried):
+                exact = tried, self._sum_over(tried, q)
+            points = sum(self._points_over(tried[fewer[tried] == n], n, q) for n in np.unique(fewer[tried]).tolist())
+            if (np.abs(points - exact[1]) / size).max() <= limit:
+                return fewer
+        return bound
+
+    def _sum_over(self, rows: NDArray[np.intp], q: NDArray) -> NDArray[np.complex128]:
+        """(k,) Σ (q·N) D / |q|, or Σ |N| D, over some triangles at wave vectors (k, 3), in closed form."""
+        faces, waves, total = self.faces.only(rows), ListWaves(q), np.zeros(len(q), np.complex128)
+        rows = slice(0, len(q))
+        for run in faces.blocks(PAIRS // len(q)):
+            block = faces.block(run)
+            real, imaginary = Means(block, waves, rows)(rows)
+            weights = self._weights(block.normals, waves.q)
+            total += (weights * (real + 0.5)).sum(axis=1) + 1j * (weights * imaginary).sum(axis=1)
+        result = np.empty_like(total)
+        result[waves.order] = total
+        return result
+
+    def _points_over(self, rows: NDArray[np.intp], n: int, q: NDArray) -> NDArray[np.complex128]:
+        """The same by n² points in each triangle."""
+        total, size = np.zeros(len(q), np.complex128), max(1, PAIRS // (len(q) * n * n))
+        for start in range(0, len(rows), size):
+            points, vectors, weights = self._nodes(self.faces.triangles[rows[start:start + size]], n)
+            phases = sum(np.multiply.outer(q[:, axis], points[axis]) for axis in range(3))
+            sources = self._weights(vectors, q.T)[..., None] * weights
+            total += ((np.cos(phases) - 1j * np.sin(phases)) * sources).sum(axis=(1, 2))
+        return total
+
+    def _weights(self, vectors: NDArray, q: NDArray) -> NDArray[np.float64]:
+        """(k, m) (q·N) / |q|, or (1, m) |N|, for normals (3, m) and wave vectors (3, k)."""
+        if self.of == "area":
+            return np.sqrt((vectors**2).sum(axis=0))[None]
+        return sum(np.multiply.outer(a, b) for a, b in zip(q, vectors)) / np.sqrt((q**2).sum(axis=0))[:, None]
+
+    def _nodes(self, triangles: NDArray, n: int) -> tuple[NDArray, NDArray, NDArray]:
+        """(3, m, n²) points in triangles, (3, m) the normals and (n²,) weights."""
+        corners = [self.faces.points[corner].T for corner in triangles.T]
+        shares, weights = _rule(n)
+        return sum(corner[..., None] * share for corner, share in zip(corners, shares)), normals(*corners), weights
+
+    def steps(self) -> Iterator[float]:
+        """Do the work, and tell after each share of it how much is done, from 0 to 1."""
+        direct = len(self.direct.triangles) * len(self.sums) * DIRECT_COST
+        total = direct + self.width**3 * sum(len(rows) * n * n for n, rows in self.fine)
+        done = 0.0
+        for share in super().steps():
+            done = share * direct
+            yield done / total
+        for n, rows in self.fine:
+            size = max(1, CHUNK // (n * n))
+            for start in range(0, len(rows), size):
+                some = rows[start:start + size]
+                self._spread(self.faces.triangles[some], n)
+                done += len(some) * n * n * self.width**3
+                yield done / total
+        if self.fine:
+            self._gather()
+
+    def _spread(self, triangles: NDArray, n: int) -> None:
+        """Put the points of some triangles on the fine grid."""
+        points, strengths, weights = self._nodes(triangles, n)
+        if self.of == "area":
+            strengths = np.sqrt((strengths**2).sum(axis=0))[None]
+        strengths = (strengths[..., None] * weights).reshape(len(strengths), -1)
+        self.spreading.add(points.reshape(3, -1) * (self.q.step * self.faces.scale), strengths)
+
+    def _gather(self) -> None:
+        """Add to the sums what was spread, less the halves that `Transform` takes off."""
+        vectors = self.waves.vectors(slice(0, self.waves.rows))
+        for axis, waves in enumerate(self.spreading.sums()):
+            if self.of == "volume":
+                self.sums += vectors[axis] * (waves.reshape(-1) - waves[self.q.half, self.q.half, 0].real)
+            else:
+                self.sums += waves.reshape(-1) - waves[self.q.half, self.q.half, 0].real
+
+    def result(self) -> Spectrum:
+        """The spectrum, when all steps are done, and how far it is from the closed form at some frequencies."""
+        found = super().result()
+        if not self.fine:
+            return found
+        chosen = _samples(self.q)
+        exact = finished(Transform(self.surface, found.q[chosen], self.of, self.threads))
+        error = SAFETY * np.abs(found.values[chosen] - exact.values).max()
+        return replace(found, error=found.error + error, method=APPROXIMATE)
+
+
+def _width(half: int, tolerance: float, divided: bool) -> int:
+    """The least width of the kernel for an error of tolerance Σ |c|, divided by |k| at each wave vector k or not."""
+    k = np.arange(1, half + 1) if divided else np.ones(half)
+    for width in WIDTHS:
+        if (3.0 * np.maximum.accumulate(aliasing(half, width))[1:] / k).max() <= tolerance:
+            return width
+    raise ValueError("The fast transform does not reach this tolerance on this grid; take the closed form.")
+
+
+def _points(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
+    """(m,) how many Gauss points along a side keep each D within tolerance, for |q| times the diameters; MOST + 1 where
+    MOST do not."""
+    counts = np.full(len(spans), MOST + 1)
+    for n in range(MOST, 0, -1):
+        ratio = (spans / 4.0) / (2 * n + 1)
+        bound = 2.0 * (spans / 4.0)**(2 * n) / factorial(2 * n) / np.maximum(1.0 - ratio, 0.1)
+        counts[(bound <= tolerance) & (ratio < 0.9)] = n
+    return counts
+
+
+@lru_cache
+def _rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(3, n²) barycentric coordinates and (n²,) weights, of sum 1/2: Gauss's rule across a triangle and, for the
+    weight 1 - u that its narrowing brings, Gauss's and Jacobi's towards its tip (from the eigenvalues of their matrix,
+    Golub and Welsch 1969)."""
+    k = np.arange(n)
+    beside = np.sqrt((k[1:] * (k[1:] + 1.0)) / (2.0 * k[1:] + 1.0)**2)
+    u, vectors = np.linalg.eigh(np.diag(-1.0 / ((2.0 * k + 1.0) * (2.0 * k + 3.0))) + np.diag(beside, 1)
+                                + np.diag(beside, -1))
+    u, towards = (u + 1.0) / 2.0, vectors[0]**2 / 2.0
+    v, across = np.polynomial.legendre.leggauss(n)
+    second = np.outer(1.0 - u, (v + 1.0) / 2.0).reshape(-1)
+    first = np.repeat(u, n)
+    return np.stack([1.0 - first - second, first, second]), np.outer(towards, across / 2.0).reshape(-1)
+
+
+def _trial(grid: Grid) -> NDArray[np.float64]:
+    """(k, 3) wave vectors of all sizes in a grid, along its axes and diagonals and between them."""
+    along = np.concatenate([np.eye(3), [[1, 1, 1], [1, -1, 1]], np.random.default_rng(1).uniform(-1.0, 1.0, (3, 3))])
+    shells = [grid.largest * share for share in SHELLS if share * grid.half >= 1.0]
+    return np.concatenate([size * along for size in shells])
+
+
+def _samples(grid: Grid) -> NDArray[np.intp]:
+    """Places on a grid: the ends and beginnings of its axes and diagonals, where faces across them show most, and some
+    anywhere."""
+    h, n = grid.half, grid.count
+    steps = np.concatenate([np.eye(3, dtype=int), np.ones((1, 3), int), 1 - np.eye(3, dtype=int)])
+    places = np.concatenate([h + steps * s for s in (-h, -1, 1)]
+                            + [np.random.default_rng(0).integers(0, n, (SAMPLES, 3))])
+    places = np.unique(np.clip(places, 0, n - 1), axis=0)
+    return (places[:, 0] * n + places[:, 1]) * n + places[:, 2]
