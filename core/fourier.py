@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .moments import U
 from .polyhedron import solid_and_area
-from .precise import wave
+from .precise import two_sum, wave
 from .spectrum import Spectrum
 from .surface import Surface
 from .triangle_waves import BLOCK, PAIRS, Faces, Means
@@ -65,8 +65,8 @@ class Transform:
     def __init__(self, surface: Surface, q: ArrayLike | Grid, of: str, threads: int = 1):
         self.q = q if isinstance(q, Grid) else wave_vectors(q, 3)
         self.of, self.threads = of, threads
-        self.volume, self.area = solid_and_area(surface, threads)
         self.faces = self.direct = Faces(surface)
+        self.volume, self.area = solid_and_area(surface, threads)
         self.gap = 0.0
         if of == "volume":
             self.gap = float(np.linalg.norm(np.cross(ASKEW[0], self._vector_sum()))) / 1.5
@@ -74,7 +74,7 @@ class Transform:
                 raise ValueError("The surface is not closed and bounds no body: close it, or take its area instead.")
         scale = self.faces.scale
         self.waves = GridWaves(q, scale) if isinstance(q, Grid) else ListWaves(self.q * scale)
-        self.sums = np.zeros(self.waves.rows * self.waves.columns, np.complex128)
+        self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)
 
     def _vector_sum(self) -> NDArray[np.complex128]:
         """(3,) ∫ n exp(-i q·x) dA at ASKEW, parallel to it for a closed surface."""
@@ -91,7 +91,7 @@ class Transform:
         if self.threads == 1:
             results = map(self._sum, shares)
             for done, (part, values) in enumerate(results, 1):
-                self.sums[part] += values
+                self._add(part, values)
                 yield done / len(shares)
             return
         with ThreadPoolExecutor(self.threads) as pool:
@@ -100,16 +100,19 @@ class Transform:
                 for done, share in enumerate(shares):
                     waiting.append(pool.submit(self._sum, share))
                     if len(waiting) > 2 * self.threads:
-                        part, values = waiting.pop(0).result()
-                        self.sums[part] += values
+                        self._add(*waiting.pop(0).result())
                         yield (done - len(waiting)) / len(shares)
                 for future in waiting:
-                    part, values = future.result()
-                    self.sums[part] += values
+                    self._add(*future.result())
                 yield 1.0
             finally:
                 for future in waiting:
                     future.cancel()
+
+    def _add(self, part: slice, values: NDArray[np.complex128]) -> None:
+        """Add a share's results, without the rounding that thousands of sums would pile up."""
+        self.sums[part], rest = two_sum(self.sums[part], values)
+        self.rest[part] += rest
 
     def _shares(self) -> list[tuple[slice, slice]]:
         """Runs of triangles and runs of rows of wave vectors: every pair of them once."""
@@ -140,11 +143,11 @@ class Transform:
 
     def result(self) -> Spectrum:
         """The spectrum, when all steps are done."""
-        faces = self.faces
+        faces, values = self.faces, self.sums + self.rest
         if self.of == "area":
-            values, unit, moments = self.sums + faces.area, 2, self.area
+            values, unit, moments = values + faces.area, 2, self.area
         else:
-            values, unit, moments = self._divided(), 3, self.volume
+            values, unit, moments = self._divided(values), 3, self.volume
         if isinstance(self.q, Grid):
             q, values = self.q.vectors(), self.q.whole(values)
         else:
@@ -156,12 +159,12 @@ class Transform:
         error = faces.scale ** unit * (U * ERROR * faces.area + self.gap)
         return Spectrum(q, values * turn, error + 8.0 * U * np.abs(values), float(moments.input[0]))
 
-    def _divided(self) -> NDArray[np.complex128]:
+    def _divided(self, sums: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """F in units of the scale: i/q² times the sums, and the moments where q is nothing."""
         q = self.waves.vectors(slice(0, self.waves.rows))
         square = (q * q).sum(axis=0)
         nothing = square <= NOTHING ** 2
-        values = 1j * self.sums / np.where(nothing, 1.0, square)
+        values = 1j * sums / np.where(nothing, 1.0, square)
         volume = self.volume.mapped(np.block([[np.eye(3), -self.faces.center[:, None]], [np.zeros(3), 1.0]]))
         raw = volume.raw / self.faces.scale ** np.array([3, 4, 4, 4] + [1] * 16)
         about = volume.about / self.faces.scale
