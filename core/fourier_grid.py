@@ -43,27 +43,22 @@ SHELLS = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)  # of the largest frequency along an a
 CREDITS = (1e5, 1e4, 1e3, 1e2, 10.0)  # how much larger than in their sum the errors of single triangles may be
 
 
-def grid_transform(surface: Surface, grid: Grid, of: str, tolerance: float, threads: int = 1) -> Spectrum:
-    """The transform "of" the "volume" or the "area", to tolerance times the volume or the area.
-
-    An "approximate" spectrum, or an exact one where that costs less. ValueError as `solid_transform`, and where double
-    precision does not reach the tolerance.
-    """
-    return finished(GridTransform(surface, grid, of, tolerance, threads))
-
-
 class GridTransform(Transform):
-    """As `Transform`, on a grid and to a tolerance."""
+    """As `Transform`, on a grid and to a tolerance, in the unit of the values.
+
+    The outcome is "approximate", or exact where that costs less. ValueError, also, where double precision does not
+    reach the tolerance.
+    """
 
     def __init__(self, surface: Surface, grid: Grid, of: str, tolerance: float, threads: int = 1):
         super().__init__(surface, grid, of, threads)
         self.surface, faces = surface, self.faces
         # what a mean over the area may be off by: half of the tolerance each for the points and for the kernel
         if of == "volume":
-            allowed = tolerance * self.volume.total / faces.scale**3 / (2.0 * faces.area)
+            allowed = tolerance / faces.scale**3 / (2.0 * faces.area)
             step, largest = grid.step * faces.scale, np.sqrt(3.0) * grid.largest * faces.scale
         else:
-            allowed, step, largest = tolerance / 2.0, 1.0, 1.0
+            allowed, step, largest = tolerance / faces.scale**2 / (2.0 * faces.area), 1.0, 1.0
         self.width = _width(grid.half, allowed * step, of == "volume")
         spans = np.sqrt(3.0) * grid.largest * faces.scale * faces.diameters
         counts = self._counts(spans, allowed * largest / 2.0, allowed * faces.area / SAFETY)

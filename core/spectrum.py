@@ -7,10 +7,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from .moments import U
-from .precise import wave
 
 EXACT, APPROXIMATE = "exact", "approximate"
 
@@ -39,12 +38,7 @@ class Spectrum:
         """Times a positive factor, as the thickness of a sheet."""
         return replace(self, values=self.values * factor, error=self.error * factor, input=self.input * factor)
 
-    def placed(self, offsets: ArrayLike) -> Spectrum:
-        """Of copies moved by offsets (k, 3), all together: F(q) Σ exp(-i q·t)."""
-        offsets = np.asarray(offsets, np.float64)
-        sums = np.zeros(len(self.q), np.complex128)
-        for offset in offsets:
-            sums += wave(self.q, offset)
-        count = len(offsets)
+    def times(self, waves: NDArray[np.complex128], count: int) -> Spectrum:
+        """Of `count` copies together, from the sums (M,) of exp(-i q·t) over where they stand."""
         rounding = (8.0 + count) * count * U * np.abs(self.values)
-        return replace(self, values=self.values * sums, error=count * self.error + rounding, input=count * self.input)
+        return replace(self, values=self.values * waves, error=count * self.error + rounding, input=count * self.input)

@@ -209,17 +209,6 @@ def test_the_shells_of_one_surface_add():
     assert np.abs(found - true).max() <= 2e-15
 
 
-def test_copies_are_factors_of_the_spectrum():
-    q = np.random.default_rng(3).normal(size=(50, 3)) * np.logspace(-9, 3, 50)[:, None]
-    offsets = np.array([[0, 0, 0], [1e4, -3e3, 20.0], [0.1, 0.2, 0.3]])
-    found = solid_transform(bodies.surface(BOX), q).placed(offsets)
-    apart = [solid_transform(bodies.surface(bodies.moved(BOX, None, offset)), q) for offset in offsets]
-    together = apart[0] + apart[1] + apart[2]
-    # the corners of a box that far off are rounded
-    assert np.abs(found.values - together.values).max() <= 1e-11
-    assert np.abs(found.values[:8] - 3.15).max() <= 1e-3
-
-
 def test_what_storing_as_float32_may_have_changed_is_told():
     part = bodies.moved(bodies.sphere(2), None, (100, 0, 0))
     stored = bodies.surface(part, np.float32)
