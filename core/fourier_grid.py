@@ -8,9 +8,9 @@ Each triangle takes n² Gauss points (conical rule, exact to degree 2n-1). Over 
 diameter; the best polynomial of degree 2n-1 in q·x is within 2 (g/4)^(2n) / (2n)! of exp(-i q·x), and a rule with
 positive weights errs by no more than twice that. This bound is met by one triangle in the worst direction; the errors
 of many cancel as the waves do. So fewer points are taken where they prove enough: what the triangles err together is
-found at frequencies of all sizes, by the closed form. Only a triangle that a wave may fit into (g > 2π) keeps
-the number by the bound: regular meshes have frequencies at which all of them would err alike. Triangles that would
-need too many points keep their closed form.
+found at frequencies of all sizes, by the closed form. Only where a wave fits into a triangle, into its height over the
+shortest side, is the bound kept: there regular meshes have frequencies at which all of them would err alike. Triangles
+that would need too many points keep their closed form.
 
 The width of the spreading kernel follows from a bound of its aliasing. The error told is found by comparison with the
 closed form at other frequencies.
@@ -18,7 +18,7 @@ closed form at other frequencies.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import replace
 from functools import lru_cache
 from math import factorial
@@ -40,7 +40,7 @@ DIRECT_COST = 6.0  # of a frequency in closed form, in cells spread
 SAMPLES = 24  # frequencies that are compared with the closed form
 SAFETY = 3.0  # an error told or allowed, by the largest difference found
 SHELLS = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)  # of the largest frequency along an axis, where they are found
-CREDITS = (1e5, 1e4, 1e3, 1e2, 10.0)  # how much larger than in their sum the errors of single triangles may be
+CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)  # how much larger than in their sum the errors of single triangles may be
 
 
 class GridTransform(Transform):
@@ -60,33 +60,40 @@ class GridTransform(Transform):
         else:
             allowed, step, largest = tolerance / faces.scale**2 / (2.0 * faces.area), 1.0, 1.0
         self.width = _width(grid.half, allowed * step, of == "volume")
-        spans = np.sqrt(3.0) * grid.largest * faces.scale * faces.diameters
-        counts = self._counts(spans, allowed * largest / 2.0, allowed * faces.area / SAFETY)
-        most = int(np.sqrt(DIRECT_COST * len(self.sums) / self.width**3))
-        self.direct = faces.only(np.flatnonzero(counts > min(MOST, most)))
-        self.fine = [(n, np.flatnonzero(counts == n)) for n in np.unique(counts[counts <= most]).tolist() if n <= MOST]
-        self.spreading = Spreading(grid.half, self.width, 3 if of == "volume" else 1) if self.fine else None
+        self.each, self.together = allowed * largest / 2.0, allowed * faces.area / SAFETY  # of a D, of the transform
+        self.fine: list[tuple[int, NDArray[np.intp]]] = []
 
-    def _counts(self, spans: NDArray, tolerance: float, limit: float) -> NDArray[np.int64]:
-        """(m,) Gauss points along a side of each triangle, for |q| times its diameter, what a D may be off by and what
-        the transform may be."""
-        bound = _points(spans, tolerance)
+    def _share(self) -> Iterator[float]:
+        """Decide which triangles take how many points, `fine`, and which keep their closed form, `direct`."""
+        counts = yield from self._counts()
+        most = min(MOST, int(np.sqrt(DIRECT_COST * len(self.sums) / self.width**3)))
+        self.direct = self.faces.only(np.flatnonzero(counts > most))
+        self.fine = [(n, np.flatnonzero(counts == n)) for n in np.unique(counts[counts <= most]).tolist()]
+        self.spreading = Spreading(self.q.half, self.width, 3 if self.of == "volume" else 1) if self.fine else None
+
+    def _counts(self) -> Generator[float, None, NDArray[np.int64]]:
+        """(m,) Gauss points along a side of each triangle."""
+        largest = np.sqrt(3.0) * self.q.largest * self.faces.scale
+        spans, regular = largest * self.faces.diameters, largest * self.faces.heights >= 2.0 * np.pi
+        bound = _points(spans, self.each)
         q = _trial(self.q) * self.faces.scale
         size = np.sqrt((q**2).sum(axis=1)) if self.of == "volume" else 1.0
         exact = None
         for credit in CREDITS:
-            fewer = np.where(spans < 2.0 * np.pi, _points(spans, tolerance * credit), bound)
+            fewer = np.where(regular, bound, _points(spans, self.each * credit))
             tried = np.flatnonzero((fewer < bound) & (fewer <= MOST))
             if not len(tried):
                 continue
             if exact is None or len(exact[0]) != len(tried):
-                exact = tried, self._sum_over(tried, q)
-            points = sum(self._points_over(tried[fewer[tried] == n], n, q) for n in np.unique(fewer[tried]).tolist())
-            if (np.abs(points - exact[1]) / size).max() <= limit:
+                exact = tried, (yield from self._sum_over(tried, q))
+            points = np.zeros(len(q), np.complex128)
+            for n in np.unique(fewer[tried]).tolist():
+                points += yield from self._points_over(tried[fewer[tried] == n], n, q)
+            if (np.abs(points - exact[1]) / size).max() <= self.together:
                 return fewer
         return bound
 
-    def _sum_over(self, rows: NDArray[np.intp], q: NDArray) -> NDArray[np.complex128]:
+    def _sum_over(self, rows: NDArray[np.intp], q: NDArray) -> Generator[float, None, NDArray[np.complex128]]:
         """(k,) Σ (q·N) D / |q|, or Σ |N| D, over some triangles at wave vectors (k, 3), in closed form."""
         faces, waves, total = self.faces.only(rows), ListWaves(q), np.zeros(len(q), np.complex128)
         rows = slice(0, len(q))
@@ -95,11 +102,13 @@ class GridTransform(Transform):
             real, imaginary = Means(block, waves, rows)(rows)
             weights = self._weights(block.normals, waves.q)
             total += (weights * (real + 0.5)).sum(axis=1) + 1j * (weights * imaginary).sum(axis=1)
+            yield 0.0
         result = np.empty_like(total)
         result[waves.order] = total
         return result
 
-    def _points_over(self, rows: NDArray[np.intp], n: int, q: NDArray) -> NDArray[np.complex128]:
+    def _points_over(self, rows: NDArray[np.intp], n: int, q: NDArray
+                     ) -> Generator[float, None, NDArray[np.complex128]]:
         """The same by n² points in each triangle."""
         total, size = np.zeros(len(q), np.complex128), max(1, PAIRS // (len(q) * n * n))
         for start in range(0, len(rows), size):
@@ -107,6 +116,7 @@ class GridTransform(Transform):
             phases = sum(np.multiply.outer(q[:, axis], points[axis]) for axis in range(3))
             sources = self._weights(vectors, q.T)[..., None] * weights
             total += ((np.cos(phases) - 1j * np.sin(phases)) * sources).sum(axis=(1, 2))
+            yield 0.0
         return total
 
     def _weights(self, vectors: NDArray, q: NDArray) -> NDArray[np.float64]:
@@ -123,6 +133,7 @@ class GridTransform(Transform):
 
     def steps(self) -> Iterator[float]:
         """Do the work, and tell after each share of it how much is done, from 0 to 1."""
+        yield from self._share()
         direct = len(self.direct.triangles) * len(self.sums) * DIRECT_COST
         total = direct + self.width**3 * sum(len(rows) * n * n for n, rows in self.fine)
         done = 0.0

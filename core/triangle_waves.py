@@ -39,8 +39,9 @@ TINY = 1e-300
 class Faces:
     """The triangles of a surface about its center and at unit size, sorted so that blocks of them are alike.
 
-    center: (3,). scale: a power of two; points: (n, 3), (x - center) / scale, of length 1 at most. triangles: (m, 3),
-    those that span a diameter at all. area: of all of them, diameters: (m,), both in units of the scale.
+    center: (3,). scale: a power of two; points: (n, 3), (x - center) / scale, of length 1 at most. triangles: (m, 3);
+    area: of all of them; diameters: (m,), their longest sides; heights: (m,), those over the shortest; in units of the
+    scale.
     """
 
     def __init__(self, surface: Surface):
@@ -62,21 +63,25 @@ class Faces:
         exponent = int(np.ceil(np.log2(reach))) if reach > 0.0 else 0
         self.scale = float(np.ldexp(1.0, exponent))
         self.points = np.ascontiguousarray(np.ldexp(points.astype(np.float64) - center, -exponent))
-        self.triangles, self.diameters, self.area = self._sorted(triangles)
+        self._sort(triangles)
 
-    def _sorted(self, triangles: NDArray) -> tuple[NDArray, NDArray, float]:
+    def _sort(self, triangles: NDArray) -> None:
         """By diameter to a factor of two, then along a space-filling curve, so that a block's triangles share edges."""
-        keys, diameters, area = [], [], 0.0
+        keys, diameters, heights, self.area = [], [], [], 0.0
         for start in range(0, len(triangles), LARGE):
             a, b, c = (self.points[corner].T for corner in triangles[start:start + LARGE].T)
-            diameter = np.sqrt(np.max([((a - b) ** 2).sum(0), ((b - c) ** 2).sum(0), ((c - a) ** 2).sum(0)], axis=0))
-            area += float(np.sqrt((normals(a, b, c) ** 2).sum(axis=0)).sum()) / 2.0
+            sides = np.sqrt([((a - b) ** 2).sum(axis=0), ((b - c) ** 2).sum(axis=0), ((c - a) ** 2).sum(axis=0)])
+            diameter, shortest = sides.max(axis=0), sides.min(axis=0)
+            double = np.sqrt((normals(a, b, c) ** 2).sum(axis=0))
+            self.area += float(double.sum()) / 2.0
+            heights.append(double / np.maximum(shortest, TINY))
             cell = np.clip(((a + b + c) / 3.0 + 1.0) * (CELLS / 2.0), 0, CELLS).astype(np.int64)
             octave = np.clip(np.frexp(diameter)[1] + 1100, 0, 2000).astype(np.int64)
             keys.append(octave << 30 | _interleaved(cell))
             diameters.append(diameter)
         order = np.argsort(np.concatenate(keys), kind="stable")
-        return triangles[order], np.concatenate(diameters)[order], area
+        self.triangles = triangles[order]
+        self.diameters, self.heights = np.concatenate(diameters)[order], np.concatenate(heights)[order]
 
     def blocks(self, size: int = BLOCK) -> list[slice]:
         """Runs of triangles."""
@@ -85,7 +90,7 @@ class Faces:
     def only(self, rows: NDArray[np.intp]) -> Faces:
         """Some of the triangles, at the same scale."""
         some = copy(self)
-        some.triangles, some.diameters = self.triangles[rows], self.diameters[rows]
+        some.triangles, some.diameters, some.heights = self.triangles[rows], self.diameters[rows], self.heights[rows]
         return some
 
     def block(self, run: slice) -> Block:

@@ -82,6 +82,8 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
         column.use_property_split = True
         for name in ("of", "frame", "count", "largest"):
             column.prop(self, name)
+        if not self.largest:
+            column.label(text="0 rad/m: by the object's size", icon="INFO")
 
     def execute(self, context: Context) -> set[str]:
         settings = {name: getattr(self, name) for name in ("filepath", "of", "frame", "count", "largest")}
@@ -171,7 +173,7 @@ class OBJECT_OT_body_moments_fourier_run(_Settings, Operator):
         for area in context.screen.areas if context.screen else ():
             if area.type == "IMAGE_EDITOR":
                 area.spaces.active.image = image
-        self.report({"WARNING"} if notes else {"INFO"}, " ".join(
+        self.report({"WARNING"} if self._work.warnings else {"INFO"}, " ".join(
             ["Wrote {:d} frequencies to {:s}; the image {:s} shows slices of them.".format(
                 len(found.q), self._path.name, image.name), *notes]))
         return {"FINISHED"}
