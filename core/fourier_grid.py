@@ -4,8 +4,8 @@
 
     ∫ exp(-i q·x) dV = i q·S / q²,    S = ∫ n exp(-i q·x) dA ≈ Σ N w exp(-i q·x)
 
-Each triangle takes n² Gauss points (conical rule, exact to degree 2n-1). Over a triangle q·x spans at most g = |q|
-diameter; the best polynomial of degree 2n-1 in q·x is within 2 (g/4)^(2n) / (2n)! of exp(-i q·x), and a rule with
+Each triangle takes about n² points of a rule that is exact to degree 2n-1. Over a triangle q·x spans g = |q| diameter
+at most; the best polynomial of degree 2n-1 in q·x is within 2 (g/4)^(2n) / (2n)! of exp(-i q·x), and a rule with
 positive weights errs by no more than twice that. This bound is met by one triangle in the worst direction; the errors
 of many cancel as the waves do. So fewer points are taken where they prove enough: what the triangles err together is
 found at frequencies of all sizes, by the closed form. Only where a wave fits into a triangle, into its height over the
@@ -109,7 +109,7 @@ class GridTransform(Transform):
 
     def _points_over(self, rows: NDArray[np.intp], n: int, q: NDArray
                      ) -> Generator[float, None, NDArray[np.complex128]]:
-        """The same by n² points in each triangle."""
+        """The same by points in each triangle."""
         total, size = np.zeros(len(q), np.complex128), max(1, PAIRS // (len(q) * n * n))
         for start in range(0, len(rows), size):
             points, vectors, weights = self._nodes(self.faces.triangles[rows[start:start + size]], n)
@@ -126,7 +126,7 @@ class GridTransform(Transform):
         return sum(np.multiply.outer(a, b) for a, b in zip(q, vectors)) / np.sqrt((q**2).sum(axis=0))[:, None]
 
     def _nodes(self, triangles: NDArray, n: int) -> tuple[NDArray, NDArray, NDArray]:
-        """(3, m, n²) points in triangles, (3, m) the normals and (n²,) weights."""
+        """(3, m, k) points in triangles, (3, m) the normals and (k,) weights."""
         corners = [self.faces.points[corner].T for corner in triangles.T]
         shares, weights = _rule(n)
         return sum(corner[..., None] * share for corner, share in zip(corners, shares)), normals(*corners), weights
@@ -135,17 +135,18 @@ class GridTransform(Transform):
         """Do the work, and tell after each share of it how much is done, from 0 to 1."""
         yield from self._share()
         direct = len(self.direct.triangles) * len(self.sums) * DIRECT_COST
-        total = direct + self.width**3 * sum(len(rows) * n * n for n, rows in self.fine)
+        total = direct + self.width**3 * sum(len(rows) * len(_rule(n)[1]) for n, rows in self.fine)
         done = 0.0
         for share in super().steps():
             done = share * direct
             yield done / total
         for n, rows in self.fine:
-            size = max(1, CHUNK // (n * n))
+            count = len(_rule(n)[1])
+            size = max(1, CHUNK // count)
             for start in range(0, len(rows), size):
                 some = rows[start:start + size]
                 self._spread(self.faces.triangles[some], n)
-                done += len(some) * n * n * self.width**3
+                done += len(some) * count * self.width**3
                 yield done / total
         if self.fine:
             self._gather()
@@ -200,9 +201,16 @@ def _points(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
 
 @lru_cache
 def _rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(3, n²) barycentric coordinates and (n²,) weights, of sum 1/2: Gauss's rule across a triangle and, for the
-    weight 1 - u that its narrowing brings, Gauss's and Jacobi's towards its tip (from the eigenvalues of their matrix,
-    Golub and Welsch 1969)."""
+    """(3, k) barycentric coordinates and (k,) weights, positive and of sum 1/2, exact to degree 2n-1.
+
+    Gauss's rule across a triangle and, for the weight 1 - u that its narrowing brings, Gauss's and Jacobi's towards its
+    tip (from the eigenvalues of their matrix, Golub and Welsch 1969), n² points; for n = 3 Radon's seven (1948).
+    """
+    if n == 3:
+        root = np.sqrt(15.0)
+        places = [[1.0 / 3.0] * 3, *(np.roll([1.0 - 2.0 * a, a, a], k)
+                                     for a in ((6.0 - root) / 21.0, (6.0 + root) / 21.0) for k in range(3))]
+        return np.array(places).T, np.array([270.0, *[155.0 - root] * 3, *[155.0 + root] * 3]) / 2400.0
     k = np.arange(n)
     beside = np.sqrt((k[1:] * (k[1:] + 1.0)) / (2.0 * k[1:] + 1.0)**2)
     u, vectors = np.linalg.eigh(np.diag(-1.0 / ((2.0 * k + 1.0) * (2.0 * k + 3.0))) + np.diag(beside, 1)

@@ -281,3 +281,19 @@ def test_memory_is_bounded_by_blocks():
         tracemalloc.stop()
     assert peak < 60e6  # 8192 faces times 200 frequencies in one array would take 26 MB, and there are a dozen
     assert fourier.SHARE * 16 < 60e6
+
+
+def test_it_is_no_worse_than_libformfactor(truth):
+    """BornAgain's form factors are libformfactor's: ∫ exp(+i q·r) over a tetrahedron that stands on its base. It is
+    optional, and large: pip install bornagain."""
+    bornagain = pytest.importorskip("bornagain")
+    body = bornagain.PlatonicTetrahedron(1.0)
+    around = 2 * np.pi / 3 * np.arange(1, 4)
+    base = np.stack([np.cos(around), np.sin(around), np.zeros(3)], axis=1) / 3**0.5
+    part = np.concatenate([base, [[0, 0, (2 / 3) ** 0.5]]]), TETRAHEDRON[1]
+    for size in (1e-6, 0.01, 0.02, 0.03, 0.1, 1.0, 10.0, 100.0):
+        q = directions(part) * size
+        true = np.array([truth.solid(*part, -row) for row in q])
+        ours = np.abs(solid_transform(bodies.surface(part), -q).values - true).max()
+        peer = np.abs([complex(body.formfactorAtBottom(bornagain.C3(*row))) for row in q.tolist()] - true).max()
+        assert ours <= max(peer, 1e-15 * bodies.volume(part))

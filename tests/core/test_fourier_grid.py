@@ -2,8 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Large grids to a tolerance: the fast transform against sums and closed forms, everywhere on the grid."""
 
+import math
+
 import numpy as np
 import pytest
+from body_moments.core import fourier_grid
 from body_moments.core.fourier import finished, solid_transform, surface_transform
 from body_moments.core.fourier_grid import GridTransform
 from body_moments.core.nufft import Spreading, aliasing
@@ -114,3 +117,30 @@ def test_what_cannot_be_reached_is_refused():
 def test_grids_that_are_none_are_refused(count, largest):
     with pytest.raises(ValueError, match=r"^[A-Z].*\.$"):
         Grid(count, largest)
+
+
+@pytest.mark.parametrize("n", range(1, 25))
+def test_the_rules_on_triangles_are_exact_to_their_degree(n):
+    places, weights = fourier_grid._rule(n)
+    assert (places > 0.0).all() and (weights > 0.0).all()
+    assert places.sum(axis=0) == pytest.approx(1.0)
+    for p in range(2 * n):
+        for q in (0, (2 * n - 1 - p) // 2, 2 * n - 1 - p):
+            true = math.factorial(p) * math.factorial(q) / math.factorial(p + q + 2)
+            assert (weights * places[1]**p * places[2]**q).sum() == pytest.approx(true, rel=1e-12)
+
+
+def test_the_bound_of_the_points_holds():
+    rng = np.random.default_rng(8)
+    for span in (0.1, 1.0, 3.0, 6.0, 12.0):
+        for n in range(1, 9):
+            places, weights = fourier_grid._rule(n)
+            bounded = [tolerance for tolerance in 10.0 ** np.arange(-14, 3)
+                       if fourier_grid._points(np.array([span]), tolerance)[0] <= n]
+            if not bounded:
+                continue
+            phases = rng.uniform(0.0, span, (200, 3))
+            phases -= phases.mean(axis=1)[:, None]
+            fine, more = fourier_grid._rule(24)
+            error = np.exp(-1j * (phases @ places)) @ weights - np.exp(-1j * (phases @ fine)) @ more
+            assert np.abs(error).max() <= bounded[0] + 1e-15
