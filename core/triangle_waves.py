@@ -51,8 +51,10 @@ class Faces:
             raise ValueError("It has no faces. Give it faces, or choose an object that has some.")
         if triangles.min() < 0 or triangles.max() >= len(points):
             raise ValueError("A face names a vertex that does not exist.")
-        used = np.unique(triangles) if len(points) > 3 * len(triangles) else slice(None)
-        low, high = points[used].min(axis=0).astype(np.float64), points[used].max(axis=0).astype(np.float64)
+        used = np.zeros(len(points), bool)
+        used[triangles] = True
+        corners = points[used].astype(np.float64)
+        low, high = corners.min(axis=0), corners.max(axis=0)
         if not (np.isfinite(low).all() and np.isfinite(high).all()):
             raise ValueError("The coordinates are not all finite.")
         center = low / 2.0 + high / 2.0

@@ -186,6 +186,13 @@ def test_a_long_list_in_any_order_is_the_single_ones():
         assert abs(solid_transform(surface, q[i:i + 1]).values[0] - found.values[i]) <= 2e-15
 
 
+def test_points_that_no_face_uses_cost_no_digits():
+    part = np.concatenate([BOX[0], [[1e9, 0, 0]]]), BOX[1]
+    q = np.random.default_rng(3).normal(size=(30, 3)) * 5
+    found = solid_transform(Surface(*part), q).values
+    assert np.abs(found - box_spectrum((0, 0, 0), (1, 1.5, 0.7), q)).max() <= 2e-15
+
+
 def test_threads_change_nothing():
     surface = bodies.surface(bodies.sphere(3))
     for q in (Grid(10, 30.0), np.random.default_rng(1).normal(size=(5000, 3)) * 20):
