@@ -21,6 +21,7 @@ def _parts() -> tuple[ModuleType, ...]:
         clipboard,
         cursor,
         empty,
+        fourier,
         measure_selected,
         moments_table,
         orientation,
@@ -53,6 +54,7 @@ def _parts() -> tuple[ModuleType, ...]:
         orientation,
         rigid_body,
         sculpt_balance,
+        fourier,
         batch,
     )
 

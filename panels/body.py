@@ -69,6 +69,7 @@ class BodyPanel:
             row.operator("object.body_moments_copy_report", icon="COPYDOWN")
             row.operator("object.body_moments_clear", icon="TRASH")
         _actions(layout, obj)
+        _analysis(layout)
         _totals(layout, context, units)
 
 
@@ -262,6 +263,13 @@ def _actions(layout: UILayout, obj: Object) -> None:
     text = "Set Rigid Body Mass" if obj.rigid_body else "Add Rigid Body with Mass"
     column.operator("object.body_moments_set_rigid_body_mass", text=text, icon="RIGID_BODY").add = not obj.rigid_body
     body.operator("object.body_moments_sculpt_balance", icon="SCULPTMODE_HLT")
+
+
+def _analysis(layout: UILayout) -> None:
+    header, body = layout.panel("body_moments_analysis", default_closed=True)
+    header.label(text="Analysis")
+    if body is not None:
+        body.operator("object.body_moments_fourier", text="Fourier Transform…", icon="MOD_WAVE")
 
 
 def _totals(layout: UILayout, context: Context, units: Units) -> None:

@@ -29,6 +29,7 @@ from ..read import Unreadable, measurable, measurable_objects
 from ..staleness import settle
 from ..write import record
 from ..write.properties import store
+from . import fourier
 from .files import BLEND, UNITLESS, Unusable, open_file, save_file, suffix
 
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
@@ -92,6 +93,8 @@ class Run:
                     errors.append(_error(label, refusal.reason))
                 except Exception as error:
                     errors.append(self._fault(label, error))
+            if self.options.fourier:
+                errors.extend(self._fourier(chosen, wanted, objects))
             if self.options.write:
                 errors.extend(_store(path, measured, wanted))
         except Unusable as refusal:
@@ -115,6 +118,32 @@ class Run:
             open_file(path)
         elif file and not bpy.data.filepath:
             raise Unusable("Blender could not open the file; check that it is there, and whole.")
+
+    def _fourier(
+        self,
+        chosen: list[tuple[str, bpy.types.Object]],
+        wanted: MeasureOptions,
+        objects: list[dict[str, Any]],
+    ) -> Iterator[dict[str, Any]]:
+        """Write the Fourier transform of the one object that was measured, and tell what was decided on the way in
+        its record.
+        """
+        if len(chosen) != 1:
+            reason = "A Fourier transform takes one object, and there are {}; name it with --object."
+            yield _error(None, reason.format(len(chosen)))
+            return
+        if not objects:
+            return  # the reason is told already
+        (label, obj), (told,) = chosen[0], objects
+        try:
+            notes = fourier.write(obj, self.options, wanted)
+            told["warnings"] += [note for note in notes if note not in told["warnings"]]
+        except Unreadable as refusal:
+            yield _error(label, "It has no Fourier transform: {}".format(refusal.reason))
+        except OSError as error:
+            yield _error(label, "Its Fourier transform cannot be written: {}.".format(error.strerror or error))
+        except Exception as error:
+            yield self._fault(label, error)
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
         self.faults += 1

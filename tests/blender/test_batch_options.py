@@ -288,7 +288,6 @@ def test_the_rows_of_a_table_hold_the_moments(tmp_path, standard_output):
         ["measure", "--output", "."],
         ["measure", "--dens", "1"],
         ["measure", "--pose"],
-        ["measure", "--fourier=out.npz", "--q", "q.npy"],
     ],
     ids=" ".join,
 )
@@ -296,7 +295,7 @@ def test_wrong_usage_ends_with_2_and_a_sentence(words, capfd, standard_output):
     assert batch.main(words) == 2
     told = capfd.readouterr()
     assert told.out == "" and "error: " in told.err
-    later = {"urdf", "--pose", "--fourier=out.npz"} & set(words)
+    later = {"urdf", "--pose"} & set(words)
     assert ("not supported yet" in told.err) == bool(later)
 
 
