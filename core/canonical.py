@@ -26,6 +26,7 @@ ORDER = 6  # by which the axes of every prism to a hexagon's, of a cube and of a
 NOISE = 1e-5  # a normalised third moment below this is noise: ten times what float32 coordinates make
 GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)  # of it with the degree: as the moments of a normal distribution grow
 CLEAR = 1e-2  # a harmonic above this fixes a direction well; weaker ones only where there is no other
+FLAT = 1e-6  # of the largest extent: along an axis of less, a body is a lamina and has no skewness
 RING = 40  # more directions than these are a circle of them, or all
 
 
@@ -81,26 +82,31 @@ def _candidates(central: Moments, spread: Spread, starts: NDArray) -> tuple[NDAr
         return frames, () if found else (axis,)
     for clear in (CLEAR, 0.0):
         for degree in range(3, central.order + 1):
-            directions = _extreme_directions(central, spread, degree, clear)
+            directions, sign = _extreme_directions(central, spread, degree, clear)
             if not len(directions):
                 continue
             bases = np.array([_completed(direction) for direction in directions])
-            frames, found = _around(central, spread, bases, 2)
+            frames, found = _around(central, spread, bases, 2, sign if degree == 4 else -1.0)
             return frames, () if found else (2,)
     return spread.axes[None], (0, 1, 2)
 
 
-def _around(central: Moments, spread: Spread, bases: NDArray, axis: int) -> tuple[NDArray, bool]:
-    """The bases turned about that axis of theirs as the first clear harmonic asks, and whether there is one."""
+def _around(central: Moments, spread: Spread, bases: NDArray, axis: int,
+            fourfold: float = -1.0) -> tuple[NDArray, bool]:
+    """The bases turned about that axis of theirs as the first clear harmonic asks, and whether there is one.
+
+    fourfold: the sign that a harmonic with m = 4 gets; others get a positive one. E[cos 4φ] is negative for a square
+    whose sides lie along the axes.
+    """
     first, second = (axis + 1) % 3, (axis + 2) % 3
-    order = [first, second, axis]
+    order, size = [first, second, axis], _sizes(spread)
     harmonics = {}
     for degree in range(3, central.order + 1):
         tensor = _rotated(central.raw[tensor_index(degree)], bases[:, :, order])
         noise = _units(central, spread, degree)[1]
         for m in range(1, degree + 1):
             for k in range((degree - m) % 2, degree - m + 1, 2):
-                c = _harmonic(tensor, degree, m, k) / (spread.size[first] ** (degree - k) * spread.size[axis] ** k)
+                c = _harmonic(tensor, degree, m, k) / (size[first] ** (degree - k) * size[axis] ** k)
                 weight = 2.0 ** (degree - k)  # of the sum of moments that a harmonic is
                 powers = np.zeros(3, int)
                 powers[[first, axis]] = degree - k, k
@@ -113,6 +119,7 @@ def _around(central: Moments, spread: Spread, bases: NDArray, axis: int) -> tupl
         return bases, False
     _, m, _ = chosen
     c, noise = harmonics[chosen]
+    c = fourfold * c if m == 4 else c
     angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
     cos, sin = np.cos(angles)[..., None], np.sin(angles)[..., None]
     a, b = bases[:, None, :, first], bases[:, None, :, second]
@@ -131,53 +138,55 @@ def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.comple
     return tensor
 
 
-def _extreme_directions(central: Moments, spread: Spread, degree: int, clear: float) -> NDArray[np.float64]:
-    """(k, 3) the directions u of the largest E[(u·x)^degree], or of the least if they are fewer; of a circle of them
-    its poles. None (0, 3) where the moment is the same in all directions."""
+def _extreme_directions(central: Moments, spread: Spread, degree: int, clear: float) -> tuple[NDArray, float]:
+    """(k, 3) the directions u of the largest E[(u·x)^degree], or of the least if they are fewer, and 1 or -1 for which
+    it is; of a circle of them its poles. None (0, 3) where the moment is the same in all directions."""
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
-    noise = _units(central, spread, degree)[1].max()
+    noise = 2.0 * _units(central, spread, degree)[1].max()
+    least = max(noise, clear)
+    span = np.ptp(_contracted(tensor, degree, _sphere()))
+    if span <= least / 2.0:
+        return np.empty((0, 3)), 1.0
     found = []
     for sign in (1.0, -1.0) if degree % 2 == 0 else (1.0,):
-        points = _climbed(sign * tensor, degree, _sphere())
-        height = _directional(sign * tensor, degree, points)
-        span = height.max() + _directional(-sign * tensor, degree, _sphere()).max()
-        if span <= max(2.0 * noise, clear):
-            return np.empty((0, 3))
-        top = points[height > height.max() - max(2.0 * noise, 1e-6 * span)]
-        alike = np.abs(top[:, None] - top[None]).max(axis=-1) < 1e-4
-        found.append(top[np.argmax(alike, axis=1) == np.arange(len(top))])
-    directions = min(found, key=len)
+        points = _climbed(sign * tensor, degree, span)
+        height = _contracted(sign * tensor, degree, points)
+        if height.max() - _contracted(sign * tensor, degree, _sphere()).min() <= least:
+            return np.empty((0, 3)), sign
+        top = points[height > height.max() - max(noise, 1e-6 * span)]
+        alike = np.abs(top[:, None] - top[None]).max(axis=-1) < 1e-2
+        found.append((top[np.argmax(alike, axis=1) == np.arange(len(top))], sign))
+    directions, sign = min(found, key=lambda pair: len(pair[0]))
     if len(directions) <= RING:
-        return directions
+        return directions, sign
     values, vectors = np.linalg.eigh(directions.T @ directions / len(directions))
     pole = vectors[:, 0] if values[1] - values[0] > values[2] - values[1] else vectors[:, 2]
-    return np.array([pole, -pole]) if values[2] - values[0] > 0.1 else np.empty((0, 3))
+    return (np.array([pole, -pole]) if values[2] - values[0] > 0.1 else np.empty((0, 3))), sign
 
 
-def _climbed(tensor: NDArray, degree: int, points: NDArray) -> NDArray[np.float64]:
-    """The local maxima on the sphere that the points climb to: a shifted power iteration, then Newton's."""
-    shift = degree * np.abs(_directional(tensor, degree, points)).max()
-    for _ in range(150):
-        points = _contracted(tensor, degree - 1, points) * degree + shift * points
-        points /= np.linalg.norm(points, axis=1)[:, None]
-    for _ in range(6):
+def _climbed(tensor: NDArray, degree: int, span: float) -> NDArray[np.float64]:
+    """The local maxima on the sphere that points all over it climb to, the best approached first: steps along the
+    gradient, then Newton's. span: between the largest and the least value."""
+    points, scale = _sphere(), degree ** 2 * span
+    for last in [False] * 200 + [True] * 8:
         gradient = degree * _contracted(tensor, degree - 1, points)
         along = (gradient * points).sum(axis=1)
-        normal = points[:, :, None] * points[:, None, :]
-        flat = np.eye(3) - normal
-        hessian = degree * (degree - 1) * _contracted(tensor, degree - 2, points)
-        hessian = flat @ hessian @ flat - along[:, None, None] * flat
-        curved = np.abs(np.linalg.det(hessian + shift * normal)) > 1e-9 * shift ** 3  # on a circle of maxima it is not
-        hessian[~curved] = np.eye(3)
-        move = np.linalg.solve(hessian + shift * normal, (gradient - along[:, None] * points)[:, :, None])[:, :, 0]
-        near = curved & (np.linalg.norm(move, axis=1) < 0.1)
-        points = points - np.where(near[:, None], move, 0.0)
-        points /= np.linalg.norm(points, axis=1)[:, None]
-    return points
-
-
-def _directional(tensor: NDArray, degree: int, points: NDArray) -> NDArray[np.float64]:
-    return _contracted(tensor, degree, points)
+        uphill = gradient - along[:, None] * points
+        move = uphill / scale
+        if last:
+            normal = points[:, :, None] * points[:, None, :]
+            flat = np.eye(3) - normal
+            hessian = flat @ (degree * (degree - 1) * _contracted(tensor, degree - 2, points)) @ flat
+            hessian -= along[:, None, None] * flat + scale * normal
+            curved = np.abs(np.linalg.det(hessian)) > 1e-6 * scale ** 3  # on a circle of maxima it is not
+            hessian[~curved] = -np.eye(3)
+            newton = np.linalg.solve(hessian, -uphill[:, :, None])[:, :, 0]
+            move = np.where((curved & (np.linalg.norm(newton, axis=1) < 0.1))[:, None], newton, move)
+        points = points + move
+        points = points / np.linalg.norm(points, axis=1)[:, None]
+    steep = np.linalg.norm(uphill, axis=1)
+    order = np.argsort(steep)
+    return points[order[steep[order] <= max(1e-4 * scale, steep.min())]]
 
 
 def _contracted(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
@@ -222,13 +231,18 @@ def _units(central: Moments, spread: Spread, degree: int) -> tuple[NDArray, NDAr
     """For each monomial of a degree the product of the extents along its axes, and what of its normalised moment is
     noise: of float32 coordinates, and of rounding."""
     powers = monomials(degree)[index(degree, 0, 0):]
-    size = np.maximum(spread.size, 1e-12 * spread.size.max())
+    size = _sizes(spread)
     unit = np.prod(size ** powers, axis=1)
     thin = np.min(np.where(powers > 0, size, np.inf), axis=1)
     error = np.abs(_rotated(central.error[tensor_index(degree)], np.abs(spread.axes)[None]))
     if len(spread.free) == 3:  # the frames are none of the spread's axes
         error = np.full_like(error, 3.0 ** (degree / 2.0) * error.max())
     return unit, GROWTH[degree] * (NOISE + 4.0 * spread.step / thin) + error.ravel()[_places(degree)] / unit
+
+
+def _sizes(spread: Spread) -> NDArray[np.float64]:
+    """(3,) the extents; infinite where there is hardly any, lest noise by nothing be a number."""
+    return np.where(spread.size > FLAT * spread.size.max(), spread.size, np.inf)
 
 
 def _largest(frames: NDArray, values: NDArray, noise: NDArray) -> tuple[NDArray, NDArray, NDArray]:
