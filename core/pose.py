@@ -150,7 +150,9 @@ def _fixed(moments: Moments, refine: Callable[[], Moments] | None) -> _Fixed:
     # How far float32 has moved the points: the share of the volume that this moves, times the thinnest extent.
     step = moments.input[0] / total * size[2]
     gaps = np.array([spread[0] - spread[1], spread[1] - spread[2]])
-    equal = gaps <= EQUAL * spread[:2] + 2.0 * step * size[:2] + rounding
+    doubtful = 2.0 * step * size[:2] + rounding
+    equal = gaps <= EQUAL * spread[:2] + doubtful
+    tilt = float(np.max(np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))))
     symmetry = ("isotropic" if equal.all() else "oblate" if equal[0] else "prolate" if equal[1] else "asymmetric")
 
     free = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}[symmetry]
@@ -161,7 +163,7 @@ def _fixed(moments: Moments, refine: Callable[[], Moments] | None) -> _Fixed:
         scores = _scores(moments, shift, real, axes, free, noise, refine)
     skew, doubt = _third_scores(moments, shift, real, axes)
     return _Fixed((spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total),
-                  Spread(axes, real, free, step * np.sqrt(scale)), symmetry, _allowed(axes, scores),
+                  Spread(axes, real, free, step * np.sqrt(scale), tilt), symmetry, _allowed(axes, scores),
                   skew[:, 0], noise[:, 0] + doubt[:, 0])
 
 
