@@ -34,13 +34,15 @@ RING = 40  # more directions than these are a circle of them, or all
 class Spread:
     """What second moments say. axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents
     (standard deviations) along them. free: the axes that equal moments leave free. step: how far float32 has moved
-    the points, as a length. tilt: the angle by which that and rounding may have turned the other axes."""
+    the points, as a length. tilt: the angle by which that and rounding may have turned the other axes. noise: a normalised third moment
+    below this is none."""
 
     axes: NDArray[np.float64]
     size: NDArray[np.float64]
     free: tuple[int, ...]
     step: float
     tilt: float = 0.0
+    noise: float = NOISE
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,7 +240,7 @@ def _units(central: Moments, spread: Spread, degree: int) -> tuple[NDArray, NDAr
     error = np.abs(_rotated(central.error[tensor_index(degree)], np.abs(spread.axes)[None]))
     if len(spread.free) == 3:  # the frames are none of the spread's axes
         error = np.full_like(error, 3.0 ** (degree / 2.0) * error.max())
-    noise = NOISE + 4.0 * spread.step / thin + degree * spread.tilt
+    noise = spread.noise + 4.0 * spread.step / thin + degree * spread.tilt
     return unit, GROWTH[degree] * noise + error.ravel()[_places(degree)] / unit
 
 

@@ -84,9 +84,10 @@ def principal_frame(moments: Moments, prefer: NDArray | None = None, refine: Cal
     return PrincipalFrame(fixed.moments, axes, symmetry, not note, note)
 
 
-def frames_alike(moments: Moments) -> Frames:
-    """The principal frames, to some order of at least 3, in which the body is the same."""
-    fixed = _fixed(moments, None)
+def frames_alike(moments: Moments, noise: float = NOISE) -> Frames:
+    """The principal frames, to some order of at least 3, in which the body is the same. noise: the normalised third
+    moment that is taken for none; what else counts as equal grows with it."""
+    fixed = _fixed(moments, None, noise / NOISE)
     return canonical_frames(moments, fixed.spread, fixed.frames)
 
 
@@ -132,7 +133,7 @@ class _Fixed:
     doubt: NDArray[np.float64]
 
 
-def _fixed(moments: Moments, refine: Callable[[], Moments] | None) -> _Fixed:
+def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float = 1.0) -> _Fixed:
     total = moments.raw[0]
     shift = moments.raw[1:4] / total
     second = moments.raw[SECOND] / total - np.outer(shift, shift)
@@ -151,19 +152,19 @@ def _fixed(moments: Moments, refine: Callable[[], Moments] | None) -> _Fixed:
     step = moments.input[0] / total * size[2]
     gaps = np.array([spread[0] - spread[1], spread[1] - spread[2]])
     doubtful = 2.0 * step * size[:2] + rounding
-    equal = gaps <= EQUAL * spread[:2] + doubtful
+    equal = gaps <= looser * EQUAL * spread[:2] + doubtful
     tilt = float(np.max(np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))))
     symmetry = ("isotropic" if equal.all() else "oblate" if equal[0] else "prolate" if equal[1] else "asymmetric")
 
     free = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}[symmetry]
     scores = np.zeros(3)
-    noise = NOISE + 4.0 * step / np.minimum(size[:, None], _partners(size))
+    noise = looser * NOISE + 4.0 * step / np.minimum(size[:, None], _partners(size))
     real = size * np.sqrt(scale)
     if len(free) < 3:
         scores = _scores(moments, shift, real, axes, free, noise, refine)
     skew, doubt = _third_scores(moments, shift, real, axes)
     return _Fixed((spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total),
-                  Spread(axes, real, free, step * np.sqrt(scale), tilt), symmetry, _allowed(axes, scores),
+                  Spread(axes, real, free, step * np.sqrt(scale), tilt, looser * NOISE), symmetry, _allowed(axes, scores),
                   skew[:, 0], noise[:, 0] + doubt[:, 0])
 
 

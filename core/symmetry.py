@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .canonical import inverted
+from .canonical import NOISE, inverted
 from .moments import Moments
 from .pose import frames_alike
 
@@ -74,10 +74,10 @@ class Symmetry:
         return bool((np.abs(self.operations + np.eye(3)).max(axis=(1, 2)) < ALIKE).any())
 
 
-def symmetry(moments: Moments) -> Symmetry:
-    """What the moments, to third order at least, are compatible with."""
+def symmetry(moments: Moments, noise: float = NOISE) -> Symmetry:
+    """What the moments, to third order at least, are compatible with. noise: as for `frames_alike`."""
     central = moments.about_center()
-    alike, mirrored = frames_alike(central), frames_alike(inverted(central))
+    alike, mirrored = frames_alike(central, noise), frames_alike(inverted(central), noise)
     first = alike.frames[0]
     operations = [frame @ first.T for frame in alike.frames]
     if len(alike.values) == len(mirrored.values) and (np.abs(alike.values - mirrored.values) <= alike.noise).all():
