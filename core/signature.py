@@ -32,7 +32,6 @@ INVARIANT_ORDER = 6
 COUPLED_ORDER = 4  # of the moments that are coupled in threes
 CHIRAL_ORDER = 6
 FREQUENCIES = np.arange(1.0, 13.0)  # what orders to 20 resolve to a millionth
-SAME = 1e-5  # signatures nearer than this are one shape's, as far as float32 coordinates tell
 HANDED = 1e-6  # a chirality below this is noise
 
 

@@ -7,6 +7,7 @@ They need moments of higher order than a measurement carries, of the same body: 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -23,7 +24,7 @@ from ..core.moments import Moments
 from ..core.pose import frames_alike, pose_matrix
 from ..core.recursion import moments_to_order
 from ..core.signature import Signature, signature
-from ..core.surface import joined
+from ..core.surface import Surface, joined
 from ..core.symmetry import symmetry
 from ..core.zernike import BY_MOMENTS, ENOUGH, zernike_quadrature
 from .body import Body
@@ -53,7 +54,15 @@ class Shape:
     @cached_property
     def moments(self) -> Moments:
         """About the center, to the order that a pose needs."""
-        return self.body.to_order(ORDER).about_center()
+        return self.body.to_order(ORDER, self._sheets)[1 if self._sheets else 0].about_center()
+
+    @property
+    def _sheets(self) -> bool:
+        return self.measurement.kind == "shell"
+
+    def pieces(self) -> Iterator[Surface]:
+        """The surfaces of the body, where they stand."""
+        return self.body.pieces(self._sheets)
 
     @cached_property
     def frames(self) -> Frames:
@@ -69,12 +78,12 @@ class Shape:
         """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature."""
         points = self.points_about_center()
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
-        shell = self.measurement.kind == "shell"
-        volume, area = moments_to_order(self.body.pieces(), min(order, BY_MOMENTS), area=shell, threads=self.threads,
+        sheets = self._sheets
+        volume, area = moments_to_order(self.pieces(), min(order, BY_MOMENTS), area=sheets, threads=self.threads,
                                         about=self.center, reach=radius)
-        found = signature(area if shell else volume, radius)
-        if (order > BY_MOMENTS or found.error > ENOUGH) and not shell:
-            whole = joined(list(self.body.pieces()))
+        found = signature(area if sheets else volume, radius)
+        if (order > BY_MOMENTS or found.error > ENOUGH) and not sheets:
+            whole = joined(list(self.pieces()))
             triangles = whole.all_triangles()[0]
             found = signature(volume, radius, zernike_quadrature((whole.points - self.center) / radius, triangles, order))
         return found
@@ -82,7 +91,7 @@ class Shape:
     def points_about_center(self) -> NDArray[np.float64]:
         """(n, 3) the corners of all faces."""
         points = []
-        for piece in self.body.pieces():
+        for piece in self.pieces():
             triangles = piece.all_triangles()[0]
             used = np.zeros(len(piece.points), bool)
             used[triangles] = True
@@ -90,15 +99,24 @@ class Shape:
         return np.concatenate(points)
 
 
+class NoShape(Unreadable):
+    """An object that was measured, but whose shape is not its own."""
+
+    def __init__(self, measurement: Measurement, reason: str):
+        super().__init__(measurement.name, reason)
+        self.measurement = measurement
+
+
 def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
              options: MeasureOptions = MeasureOptions()) -> Shape:
-    """Measure an object for its shape. Raises `Unreadable` where it has none that is known."""
+    """Measure an object for its shape. Raises `Unreadable`, and `NoShape` where it has none."""
     measurement, body = measure_body(obj, depsgraph, replace(options, pose=True))
     if body.to_order is None or body.pieces is None:
-        raise Unreadable(obj.name, "Pose and signature are known of surfaces only; make it a mesh.")
+        raise NoShape(measurement, "Pose and signature are known of surfaces only, without a wall of real thickness; set "
+                                   "Wall to Thin, or make it a mesh.")
     if measurement.method.endswith("open"):
-        raise Unreadable(obj.name, "It is open, so that its shape depends on a reference point; close it, or measure "
-                                   "it as a shell.")
+        raise NoShape(measurement, "It is open, so that its pose and signature would depend on a reference point; close "
+                                   "it, or measure it as a shell.")
     return Shape(measurement, body, options.threads)
 
 
@@ -107,7 +125,7 @@ class Skin:
     as float32, so about the center and by its size."""
 
     def __init__(self, shape: Shape):
-        whole = joined(list(shape.body.pieces()))
+        whole = joined(list(shape.pieces()))
         self._center, self._scale = shape.center, shape.size
         triangles = whole.all_triangles()[0]
         corners = (whole.points - self._center) / self._scale

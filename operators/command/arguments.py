@@ -17,7 +17,7 @@ DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
 
 _LATER_OPTIONS = (
     *("--spacing", "--origin", "--spline-order", "--density-scale", "--fourier", "--q", "--grid"),
-    *("--qmax", "--pose", "--signature"),
+    "--qmax",
 )
 _LATER_FORMATS = ("urdf", "sdf", "mjcf", "usd")
 
@@ -112,6 +112,16 @@ def _parser() -> argparse.ArgumentParser:
         "--surface-moments",
         action="store_true",
         help="add area moments too (up to --order, or {})".format(DEFAULT_ORDER),
+    )
+    add(
+        "--pose",
+        action="store_true",
+        help="add the pose that is the body's own, and its symmetry",
+    )
+    add(
+        "--signature",
+        action="store_true",
+        help="add the numbers by which `similar` finds the shape again",
     )
     add(
         "--format",

@@ -287,7 +287,6 @@ def test_the_rows_of_a_table_hold_the_moments(tmp_path, standard_output):
         ["measure", "--output", "no/such/folder/out.json"],
         ["measure", "--output", "."],
         ["measure", "--dens", "1"],
-        ["measure", "--pose"],
         ["measure", "--fourier=out.npz", "--q", "q.npy"],
     ],
     ids=" ".join,
@@ -296,7 +295,7 @@ def test_wrong_usage_ends_with_2_and_a_sentence(words, capfd, standard_output):
     assert batch.main(words) == 2
     told = capfd.readouterr()
     assert told.out == "" and "error: " in told.err
-    later = {"urdf", "--pose", "--fourier=out.npz"} & set(words)
+    later = {"urdf", "--fourier=out.npz"} & set(words)
     assert ("not supported yet" in told.err) == bool(later)
 
 
