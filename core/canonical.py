@@ -27,6 +27,7 @@ NOISE = 1e-5  # a normalised third moment below this is noise: ten times what fl
 GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)  # of it with the degree: as the moments of a normal distribution grow
 CLEAR = 1e-2  # a harmonic above this fixes a direction well; weaker ones only where there is no other
 FLAT = 1e-6  # of the largest extent: along an axis of less, a body is a lamina and has no skewness
+SHARE = 0.25  # of what tells directions apart: at most that much is taken for equal
 RING = 40  # more directions than these are a circle of them, or all
 
 
@@ -34,8 +35,8 @@ RING = 40  # more directions than these are a circle of them, or all
 class Spread:
     """What second moments say. axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents
     (standard deviations) along them. free: the axes that equal moments leave free. step: how far float32 has moved
-    the points, as a length. tilt: the angle by which that and rounding may have turned the other axes. noise: a normalised third moment
-    below this is none."""
+    the points, as a length. tilt: the angle by which that and rounding may have turned the other axes. noise:
+    normalised third moments that differ by less are equal."""
 
     axes: NDArray[np.float64]
     size: NDArray[np.float64]
@@ -106,7 +107,8 @@ def _around(central: Moments, spread: Spread, bases: NDArray, axis: int,
     harmonics = {}
     for degree in range(3, central.order + 1):
         tensor = _rotated(central.raw[tensor_index(degree)], bases[:, :, order])
-        noise = _units(central, spread, degree)[1]
+        noise = _units(central, replace(spread, noise=NOISE), degree)[1]
+        looser = spread.noise / NOISE
         for m in range(1, degree + 1):
             for k in range((degree - m) % 2, degree - m + 1, 2):
                 c = _harmonic(tensor, degree, m, k) / (size[first] ** (degree - k) * size[axis] ** k)
@@ -116,19 +118,20 @@ def _around(central: Moments, spread: Spread, bases: NDArray, axis: int,
                 harmonics[degree, m, k] = c, weight * noise[index(*powers) - index(degree, 0, 0)]
     chosen = None
     for clear in (CLEAR, 0.0):
-        chosen = chosen or next((key for key, (c, noise) in harmonics.items()
-                                 if np.abs(c).max() > max(noise, clear)), None)
+        chosen = chosen or next((key for key, (c, least) in harmonics.items()
+                                 if np.abs(c).max() > max(least, clear)), None)
     if chosen is None:
         return bases, False
     _, m, _ = chosen
-    c, noise = harmonics[chosen]
+    c, least = harmonics[chosen]
     c = fourfold * c if m == 4 else c
     angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
     cos, sin = np.cos(angles)[..., None], np.sin(angles)[..., None]
     a, b = bases[:, None, :, first], bases[:, None, :, second]
     frames = np.repeat(bases[:, None], m, axis=1)
     frames[..., first], frames[..., second] = cos * a + sin * b, cos * b - sin * a
-    alike = np.abs(c) > np.abs(c).max() - 2.0 * noise  # of several directions, those about which it is the same
+    # Of several directions, those about which it is the same.
+    alike = np.abs(c) > np.abs(c).max() - min(2.0 * looser * least, SHARE * np.abs(c).max())
     return frames[alike].reshape(-1, 3, 3), True
 
 
@@ -146,7 +149,7 @@ def _extreme_directions(central: Moments, spread: Spread, degree: int, clear: fl
     it is; of a circle of them its poles. None (0, 3) where the moment is the same in all directions."""
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _units(central, spread, degree)[1].max()
-    least = max(noise, clear)
+    least = max(2.0 * _units(central, replace(spread, noise=NOISE), degree)[1].max(), clear)
     span = np.ptp(_contracted(tensor, degree, _sphere()))
     if span <= least / 2.0:
         return np.empty((0, 3)), 1.0
@@ -156,7 +159,7 @@ def _extreme_directions(central: Moments, spread: Spread, degree: int, clear: fl
         height = _contracted(sign * tensor, degree, points)
         if height.max() - _contracted(sign * tensor, degree, _sphere()).min() <= least:
             return np.empty((0, 3)), sign
-        top = points[height > height.max() - max(noise, 1e-6 * span)]
+        top = points[height > height.max() - min(noise, SHARE * span)]
         alike = np.abs(top[:, None] - top[None]).max(axis=-1) < 1e-2
         found.append((top[np.argmax(alike, axis=1) == np.arange(len(top))], sign))
     directions, sign = min(found, key=lambda pair: len(pair[0]))

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moments against solid harmonics, ∫ r^(2j) conj(r^l Y_lm) dV, from raw moments: what turns by degrees.
 
-Under a rotation the 2l+1 of them with one j and l mix among themselves only, by Wigner's unitary matrix; so their sum of
-squares is invariant, and so is any coupling of three of them to l = 0 (with 3j symbols). Y_lm are orthonormal, with
+Under a rotation the 2l+1 of them with one j and l mix among themselves only, by Wigner's unitary matrix; so their sum
+of squares is invariant, and so is any coupling of three of them to l = 0 (with 3j symbols). Y_lm are orthonormal, with
 the Condon-Shortley phase, and their polynomials are (Varshalovich et al., Quantum Theory of Angular Momentum, 5.1)
 
     r^l Y_lm = sqrt((2l+1)/4π (l+m)! (l-m)!) Σ_k (-(x+iy)/2)^(k+m) ((x-iy)/2)^k z^(l-m-2k) / ((k+m)! k! (l-m-2k)!).
@@ -29,7 +29,7 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
     """
     result = {}
     for j in range(order // 2 + 1):
-        for l in range(order - 2 * j + 1):  # noqa: E741
+        for l in range(order - 2 * j + 1):
             block = raw[monomial_count(l - 1):monomial_count(l)]
             half = np.add.reduce(_solid(l).conj() * block, axis=1)  # m = 0..l
             result[l + 2 * j, l] = both_signs(half)
@@ -40,7 +40,7 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
 
 def both_signs(half: NDArray) -> NDArray[np.complex128]:
     """(2l+1, …) for m = -l..l from (l+1, …) for m = 0..l: c[-m] = (-1)^m conj(c[m])."""
-    l = len(half) - 1  # noqa: E741
+    l = len(half) - 1
     sign = ((-1.0) ** np.arange(l, 0, -1)).reshape(-1, *[1] * (half.ndim - 1))
     return np.concatenate([half[:0:-1].conj() * sign, half])
 
@@ -48,13 +48,13 @@ def both_signs(half: NDArray) -> NDArray[np.complex128]:
 def coupled(a: NDArray, b: NDArray, c: NDArray) -> float:
     """The scalar that three multiplets have: Σ (l l' l''; m m' m'') a_m b_m' c_m''. It changes its sign in a mirror
     where l + l' + l'' is odd."""
-    l, k, n = ((len(one) - 1) // 2 for one in (a, b, c))  # noqa: E741
+    l, k, n = ((len(one) - 1) // 2 for one in (a, b, c))
     value = np.einsum("ijk,i,j,k->", _three_j(l, k, n), a, b, c)
     return float(value.imag if (l + k + n) % 2 else value.real)
 
 
 @lru_cache
-def _solid(l: int) -> NDArray[np.complex128]:  # noqa: E741
+def _solid(l: int) -> NDArray[np.complex128]:
     """(l+1, (l+1)(l+2)/2) the coefficients of r^l Y_lm for m = 0..l in the monomials of degree l, in their order."""
     start = monomial_count(l - 1)
     table = np.zeros((l + 1, monomial_count(l) - start), complex)

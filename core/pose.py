@@ -36,10 +36,10 @@ NOTES = {
     "asymmetric": "The body looks the same after half a turn; the directions nearest to the object's axes are used",
 }
 OWN_NOTES = {
-    "isotropic": "Every axis through the center is a principal axis; of the body's own axes those nearest to the object's "
-                 "are used",
-    "prolate": "Axes 2 and 3 have equal moments; of the body's own directions those nearest to the object's axes are used",
-    "oblate": "Axes 1 and 2 have equal moments; of the body's own directions those nearest to the object's axes are used",
+    "isotropic": "Every axis through the center is a principal axis; the body's own axes, as near to the object's "
+                 "as can be, are used",
+    "prolate": "Axes 2 and 3 have equal moments; the body's own directions nearest to the object's are used",
+    "oblate": "Axes 1 and 2 have equal moments; the body's own directions nearest to the object's are used",
     "asymmetric": NOTES["asymmetric"],
 }
 
@@ -75,7 +75,7 @@ def principal_frame(moments: Moments, prefer: NDArray | None = None, refine: Cal
     if not free and len(fixed.frames) == 1:
         axes = fixed.frames[0]
     elif higher is None:
-        axes, note = _nearest([_settled(frame, free, prefer) for frame in fixed.frames], prefer), NOTES[symmetry]
+        axes, note = _nearest([settled(frame, free, prefer) for frame in fixed.frames], prefer), NOTES[symmetry]
     else:
         alike = canonical_frames(higher(), fixed.spread, fixed.frames)
         axes = chosen_frame(alike, prefer)
@@ -93,9 +93,10 @@ def frames_alike(moments: Moments, noise: float = NOISE) -> Frames:
 
 def chosen_frame(alike: Frames, prefer: NDArray) -> NDArray[np.float64]:
     """Of the frames in which a body is the same, the one nearest to the axes that are preferred."""
-    free = tuple(i for i in range(3) if i not in alike.round_about) if alike.round_about else ()
-    free = (0, 1, 2) if len(alike.round_about) == 3 else free
-    return _nearest([_settled(frame, free, prefer) for frame in alike.frames], prefer)
+    free = ()
+    if alike.round_about:
+        free = tuple(i for i in range(3) if i not in alike.round_about) or (0, 1, 2)
+    return _nearest([settled(frame, free, prefer) for frame in alike.frames], prefer)
 
 
 def strict_frame(moments: Moments) -> PrincipalFrame:
@@ -163,9 +164,9 @@ def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float
     if len(free) < 3:
         scores = _scores(moments, shift, real, axes, free, noise, refine)
     skew, doubt = _third_scores(moments, shift, real, axes)
-    return _Fixed((spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total),
-                  Spread(axes, real, free, step * np.sqrt(scale), tilt, looser * NOISE), symmetry, _allowed(axes, scores),
-                  skew[:, 0], noise[:, 0] + doubt[:, 0])
+    inertia = (spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total)
+    extents = Spread(axes, real, free, step * np.sqrt(scale), tilt, looser * NOISE)
+    return _Fixed(inertia, extents, symmetry, _allowed(axes, scores), skew[:, 0], noise[:, 0] + doubt[:, 0])
 
 
 def _partners(size: NDArray) -> NDArray[np.float64]:
@@ -232,7 +233,7 @@ def _allowed(axes: NDArray, scores: NDArray) -> NDArray[np.float64]:
                      if np.prod(signs) > 0.0 and all(scores[i] * signs[i] > 0.0 for i in fixed)])
 
 
-def _settled(frame: NDArray, free: tuple[int, ...], prefer: NDArray) -> NDArray[np.float64]:
+def settled(frame: NDArray, free: tuple[int, ...], prefer: NDArray) -> NDArray[np.float64]:
     """The frame with its free axes, if any, turned nearest to the preferred ones."""
     if not free:
         return frame

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers by which a shape is found again, however it is moved, turned, scaled, mirrored or cut into faces.
 
-    invariants   of central moments to sixth order, over V s^n with the radius of gyration s: the products Σ a_m conj(b_m)
-                 of harmonic moments of one degree l, and their couplings to a scalar in threes, which low orders need
-                 (Lo and Don, 3-D moment forms, PAMI 1989).
+    invariants   of central moments to sixth order, over V s^n with the radius of gyration s: the products
+                 Σ a_m conj(b_m) of harmonic moments of one degree l, and their couplings to a scalar in threes (Lo and
+                 Don, 3-D moment forms, PAMI 1989).
     zernike      the norms ‖Ω_nl‖ in the ball about the center that just holds the body (see `zernike`).
     fourier      the mean of |F(q)|² over all directions by V², at q = 1, 2, … over the ball's radius.
-    chirality    couplings in threes whose degrees add up to an odd number: a mirror image has the same with the opposite
-                 sign, and a body that is its own mirror image has none.
+    chirality    couplings in threes whose degrees add up to an odd number: a mirror image has the same with the
+                 opposite sign, and a body that is its own mirror image has none.
 
 Size is told apart, as the radius of gyration. What is compared is smooth in the shape: noise of the points changes it
 little, and nothing switches.

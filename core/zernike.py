@@ -8,8 +8,8 @@ which a full ball has Ω_000 = 1. The descriptor ‖Ω_nl‖ is the same however
 
 To order 20 they are sums of raw moments. These sums cancel, and `loss` estimates what is lost. Above that order, and
 where it is too much, the cones from the center over the triangles are integrated by quadrature. Over a triangle a
-polynomial of degree n takes Gauss's rule; along the cone, with S_k = R_nl / sqrt(2n+3), n = l+2k, partial integration of
-r S_k' against each S_i gives (r d/dr + 3) S_k = (n+3) S_k + Σ_{i<k} (2l+4i+3) S_i, and from that for
+polynomial of degree n takes Gauss's rule; along the cone, with S_k = R_nl / sqrt(2n+3), n = l+2k, partial integration
+of r S_k' against each S_i gives (r d/dr + 3) S_k = (n+3) S_k + Σ_{i<k} (2l+4i+3) S_i, and from that for
 J_k(x) = ∫_0^1 t² S_k(tx) dt the stable recursion
 
     J_k = (S_k - A_k) / (n+3),    A_{k+1} = ((2n+3) S_k - n A_k) / (n+3),    A_0 = 0.
@@ -110,7 +110,7 @@ def _rule(needed: int) -> tuple[NDArray, NDArray, NDArray]:
 def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> None:
     """Add to each (l+1,) for m = 0..l the integrals along the cones to the (k, 3) points."""
     argument = 2.0 * (x * x).sum(axis=1) - 1.0
-    for l, solid in _solid_at(x, order):  # noqa: E741
+    for l, solid in _solid_at(x, order):
         solid = solid.conj()
         lower = 0.0
         for n, radial in zip(range(l, order + 1, 2), _jacobi(l + 0.5, argument)):
@@ -125,7 +125,7 @@ def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex1
     plus, z = x[:, 0] + 1j * x[:, 1], x[:, 2]
     before, now = None, np.full((1, len(x)), 1.0 / sqrt(4.0 * pi), complex)
     yield 0, now
-    for l in range(1, order + 1):  # noqa: E741
+    for l in range(1, order + 1):
         m = np.arange(l)
         a = np.sqrt((4.0 * l * l - 1.0) / (l * l - m * m))[:, None]
         up = a * z * now
@@ -161,7 +161,7 @@ def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np
     order = max(n for n, _ in moments)
     bessel = _spherical_bessel(np.asarray(wave_numbers, np.float64), order + 40)  # j_{n+1}(q)/q
     power = np.zeros(bessel.shape[1])
-    for l in range(order + 1):  # noqa: E741
+    for l in range(order + 1):
         amplitude = sum((-1.0) ** ((n - l) // 2) * sqrt(2 * n + 3) * bessel[n] * moments[n, l][:, None]
                         for n in range(l, order + 1, 2))
         power += (np.abs(amplitude) ** 2).sum(axis=0)
@@ -192,12 +192,13 @@ def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
                 one[..., large] *= 1e-200
     j0, j1 = np.sin(q) / q, np.sin(q) / q ** 2 - np.cos(q) / q
     from_zero = np.abs(rows[0]) > np.abs(rows[1])
-    factor = np.where(from_zero, j0 / np.where(rows[0] == 0.0, 1.0, rows[0]), j1 / np.where(rows[1] == 0.0, 1.0, rows[1]))
+    first, second = (np.where(row == 0.0, 1.0, row) for row in rows[:2])
+    factor = np.where(from_zero, j0 / first, j1 / second)
     return (rows * factor)[1:order + 2] / q
 
 
 @lru_cache
-def _radial(n: int, l: int) -> tuple[Fraction, ...]:  # noqa: E741
+def _radial(n: int, l: int) -> tuple[Fraction, ...]:
     """The coefficients of r^(l+2i), i = 0..k, in R_nl, without the root of 2n+3."""
     k, beta = (n - l) // 2, Fraction(2 * l + 1, 2)
     row, factor = [], Fraction((-1) ** k)

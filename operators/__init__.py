@@ -21,6 +21,9 @@ def _parts() -> tuple[ModuleType, ...]:
         clipboard,
         cursor,
         empty,
+        find_similar,
+        find_symmetry,
+        match_pose,
         measure_selected,
         moments_table,
         orientation,
@@ -53,6 +56,9 @@ def _parts() -> tuple[ModuleType, ...]:
         orientation,
         rigid_body,
         sculpt_balance,
+        match_pose,
+        find_similar,
+        find_symmetry,
         batch,
     )
 

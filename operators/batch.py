@@ -6,9 +6,10 @@
     blender -b -c body_moments measure [options] [FILE ...]
     python operators/batch.py measure [options] FILE ...
 
-and `similar LIBRARY --to NAME` in the place of `measure` compares what was measured. The first and the third (with the bpy module) need no installation: run as a script, this file
-loads the add-on's folder as a package and registers nothing but the settings that objects carry.
-All three reach `main`.
+and `similar LIBRARY --to NAME` in the place of `measure` compares what was measured. The first and the
+third (with the bpy module) need no installation: run as a script, this file loads the add-on's
+folder as a package and registers nothing but the settings that objects carry. All three reach
+`main`.
 """
 
 from __future__ import annotations

@@ -85,7 +85,8 @@ class Shape:
         if (order > BY_MOMENTS or found.error > ENOUGH) and not sheets:
             whole = joined(list(self.pieces()))
             triangles = whole.all_triangles()[0]
-            found = signature(volume, radius, zernike_quadrature((whole.points - self.center) / radius, triangles, order))
+            points = (whole.points - self.center) / radius
+            found = signature(volume, radius, zernike_quadrature(points, triangles, order))
         return found
 
     def points_about_center(self) -> NDArray[np.float64]:
@@ -108,16 +109,16 @@ class NoShape(Unreadable):
 
 
 def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
-             options: MeasureOptions = MeasureOptions()) -> Shape:
+             options: MeasureOptions | None = None) -> Shape:
     """Measure an object for its shape. Raises `Unreadable`, and `NoShape` where it has none."""
-    measurement, body = measure_body(obj, depsgraph, replace(options, pose=True))
+    measurement, body = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
     if body.to_order is None or body.pieces is None:
         raise NoShape(measurement, "Pose and signature are known of surfaces only, without a wall of real thickness; set "
                                    "Wall to Thin, or make it a mesh.")
     if measurement.method.endswith("open"):
-        raise NoShape(measurement, "It is open, so that its pose and signature would depend on a reference point; close "
-                                   "it, or measure it as a shell.")
-    return Shape(measurement, body, options.threads)
+        raise NoShape(measurement, "It is open, so that its pose and signature would depend on a reference point; "
+                                   "close it, or measure it as a shell.")
+    return Shape(measurement, body, options.threads if options else 1)
 
 
 class Skin:

@@ -105,7 +105,7 @@ SYMMETRIC = {
     "icosahedron": (ICOSAHEDRON, "Ih"), "twisted square prism": (prism(4, twist=0.3), "D4"),
     "antiprism": (antiprism(4), "D4d"),
 }
-ROUND = {"torus": (bodies.torus(), "D∞h", "D24h"), "prism of 12 sides": (prism(12), "D∞h", "D12h"),
+ROUND = {"torus": (bodies.torus(12, 6), "D∞h", "D12h"), "prism of 12 sides": (prism(12), "D∞h", "D12h"),
          "pyramid of 9 sides": (prism(9, top=0.3), "C∞v", "C9v"),
          "twisted prism": (prism(9, twist=0.1), "D∞h", "D9"),
          "antiprism of 8": (antiprism(8), "D∞h", "D8d")}

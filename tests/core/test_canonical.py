@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One pose for a body however it lies and whatever its faces; every frame that a symmetric body leaves, and no other."""
+"""One pose for a body however it lies and whatever its faces; every frame that a symmetric body leaves, no other."""
 
 import numpy as np
 import pytest

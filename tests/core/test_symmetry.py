@@ -37,7 +37,7 @@ def test_what_is_round_to_sixth_order_gets_the_folds_that_its_corners_have(name)
 
 
 def test_with_a_tolerance_above_its_facets_a_prism_is_round():
-    part = shapes.prism(200)
+    part = shapes.prism(80)
     found = symmetry(moments(part, 6))
     assert on_geometry(part, found, 1e-3).group == "D∞h"
 
