@@ -20,8 +20,9 @@ from bpy.types import Context, Object, Operator, PropertyGroup
 
 from ..core.canonical import NOISE
 from ..core.symmetry import Symmetry, confirmed, symmetry
-from . import selection, snapping
-from .shape import Skin, shape_of
+from . import selection, snapping, staleness
+from .fingerprint import scale_hash
+from .shape import Shape, Skin, shape_of
 
 KEPT = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
 
@@ -89,15 +90,22 @@ def _find(context: Context, obj: Object, tolerance: float) -> str:
     # Moments are looked at as loosely as the surface.
     allowed = symmetry(shape.moments, max(NOISE, tolerance))
     found = confirmed(allowed, shape.center, skin.points, skin.distance, tolerance * shape.size)
+    with staleness.paused():  # Blender reports what is written here as a change of the object
+        _keep(obj, shape, found, allowed, tolerance)
+        context.view_layer.update()
+    return "{:s}, {:s}".format(found.group, described(found))
+
+
+def _keep(obj: Object, shape: Shape, found: Symmetry, allowed: Symmetry, tolerance: float) -> None:
     kept = obj.body_moments_symmetry
     kept.group, kept.compatible, kept.tolerance = found.group, allowed.group, tolerance
-    kept.fingerprint = shape.measurement.fingerprint
+    version, geometry, _, settings = shape.measurement.fingerprint.split(":")
+    kept.fingerprint = ":".join([version, geometry, scale_hash(obj), settings])
     kept.elements.clear()
     turn = shape.measurement.rotation.T
     for kind, order, direction in _elements(found)[:KEPT]:
         element = kept.elements.add()
         element.kind, element.order, element.direction = kind, order, turn @ _upward(turn, direction)
-    return "{:s}, {:s}".format(found.group, described(found))
 
 
 def _upward(turn: np.ndarray, direction: np.ndarray) -> np.ndarray:

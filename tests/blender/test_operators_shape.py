@@ -262,3 +262,50 @@ def test_nothing_of_the_objects_is_touched():
     for obj in bpy.data.objects:
         assert (place(obj) == before[obj.name][0]).all()
         assert [tuple(vertex.co) for vertex in obj.data.vertices] == before[obj.name][1]
+
+
+def test_a_symmetry_is_out_of_date_after_an_edit_and_not_after_a_motion():
+    from body_moments.operators import staleness
+
+    obj = wedge()
+    run("measure")
+    run("find_symmetry")
+    scene = bpy.context.scene
+    assert staleness.symmetry_reason(obj) == "" and staleness.reason(obj, scene) == ""
+    obj.location.x, obj.rotation_euler.y, obj.scale = 3.0, 1.0, (2, 2, 2)
+    bpy.context.view_layer.update()
+    assert staleness.symmetry_reason(obj) == ""
+    obj.scale.x = 1.5
+    bpy.context.view_layer.update()
+    assert staleness.symmetry_reason(obj) == "Scale Changed"
+    obj.data.vertices[0].co.x += 0.5
+    obj.data.update()
+    bpy.context.view_layer.update()
+    assert staleness.symmetry_reason(obj) == "Geometry Changed"
+    assert obj.body_moments_symmetry.group == "C1"
+
+
+@pytest.mark.parametrize("panel", ["VIEW3D_PT_body_moments_shape", "OBJECT_PT_body_moments_shape"])
+def test_the_panel_shows_what_was_found(panel):
+    from types import SimpleNamespace
+
+    from tests.blender.test_panel import Layout, labels
+
+    def drawn():
+        layout = Layout()
+        layout.use_property_decorate = False
+        getattr(bpy.types, panel).draw(SimpleNamespace(layout=layout), bpy.context)
+        return layout.record
+
+    scene_of_shapes()
+    assert not labels(drawn())
+    run("find_similar")
+    bpy.ops.mesh.primitive_cone_add(vertices=5)
+    run("find_symmetry")
+    record = drawn()
+    text = labels(record)
+    assert "Symmetry C5v" in text and "5-Fold" in text and text.count("Mirror") == 5
+    assert "Similar to Wanted" in text and any(line.startswith("Mirror Image") for line in text)
+    assert any(line.startswith("Scaled Copy ×2") for line in text)
+    names = {entry[2].name for entry in record if entry[0] == "operator" and hasattr(entry[2], "name")}
+    assert names == {"Copy", "Image", "Big", "Other"}
