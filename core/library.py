@@ -51,16 +51,11 @@ def read_library(path: Path) -> tuple[list[Entry], list[str]]:
     return entries, faults
 
 
-def nearest(wanted: Signature, entries: Iterable[Entry]) -> list[tuple[Entry, Likeness]]:
-    """All of them, the most alike first; of equal shapes those of one hand and size first."""
+def nearest(wanted: Signature, entries: Iterable[Entry], any_size: bool = False,
+            any_hand: bool = False) -> list[tuple[Entry, Likeness]]:
+    """All of them, the most alike first."""
     rows = [(entry, compared(wanted, entry.signature)) for entry in entries]
-    return sorted(rows, key=lambda row: _rank(row[1]))
-
-
-def _rank(likeness: Likeness) -> tuple:
-    same = likeness.distance <= SAME
-    return (not same, bool(likeness.mirrored) if same else False, not same_size(likeness) if same else False,
-            likeness.distance)
+    return sorted(rows, key=lambda row: row[1].distance(any_size, any_hand))
 
 
 def same_size(likeness: Likeness) -> bool:
@@ -69,9 +64,9 @@ def same_size(likeness: Likeness) -> bool:
 
 def verdict(likeness: Likeness) -> str:
     """What a shape is to the one that it was compared with, in two words."""
-    if likeness.distance > ALIKE:
+    if likeness.shape > ALIKE:
         return "different"
-    if likeness.distance > SAME:
+    if likeness.shape > SAME:
         return "similar"
     if likeness.mirrored:
         return "mirror image" if same_size(likeness) else "scaled mirror"

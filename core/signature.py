@@ -19,7 +19,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations, combinations_with_replacement
-from math import pi, sqrt
+from math import hypot, log, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,12 +69,18 @@ class Signature:
 
 @dataclass(frozen=True)
 class Likeness:
-    """distance: of the shapes, 0 for the same. scale: the second body's size by the first one's. mirrored: whether it
-    is a mirror image; None where neither has a hand, or the shapes differ too much to tell."""
+    """shape: the difference of the shapes whatever their size and hand, 0 for the same. scale: the second body's size
+    by the first one's. hand: the difference of their chiralities. mirrored: whether it is a mirror image; None where
+    neither has a hand, or the shapes differ too much to tell."""
 
-    distance: float
+    shape: float
     scale: float
+    hand: float
     mirrored: bool | None
+
+    def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
+        """0 for a copy; also for one of another size, and for a mirror image, where that shall not matter."""
+        return hypot(self.shape, 0.0 if any_size else log(self.scale), 0.0 if any_hand else self.hand)
 
 
 def signature(moments: Moments, radius: float, zernike: Multiplets | None = None) -> Signature:
@@ -99,16 +105,16 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
 
 
 def compared(a: Signature, b: Signature) -> Likeness:
-    """How alike two shapes are, whatever their sizes and hands: the relative differences of their descriptors and
-    invariants. Descriptors of orders that one of them lacks are left out."""
+    """How alike two bodies are: the relative differences of their descriptors and invariants, and what sets apart
+    sizes and hands. Descriptors of orders that one of them lacks are left out."""
     n = min(len(a.zernike), len(b.zernike))
-    distance = sqrt((_relative(a.zernike[:n], b.zernike[:n]) ** 2 + _relative(a.invariants, b.invariants) ** 2) / 2.0)
+    shape = sqrt((_relative(a.zernike[:n], b.zernike[:n]) ** 2 + _relative(a.invariants, b.invariants) ** 2) / 2.0)
     same, opposite = np.linalg.norm(a.chirality - b.chirality), np.linalg.norm(a.chirality + b.chirality)
     hand = max(np.linalg.norm(a.chirality), np.linalg.norm(b.chirality))
     mirrored = None
     if hand > HANDED and min(same, opposite) < 0.5 * max(same, opposite):
         mirrored = bool(opposite < same)
-    return Likeness(float(distance), b.size / a.size, mirrored)
+    return Likeness(float(shape), b.size / a.size, float(same), mirrored)
 
 
 def _relative(a: NDArray, b: NDArray) -> float:

@@ -16,7 +16,7 @@ from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerPr
 from bpy.types import Context, Object, Operator, PropertyGroup, Scene
 
 from ..core.library import Entry, nearest, read_library, verdict
-from ..core.signature import Likeness
+from ..core.signature import Likeness, Signature
 from . import selection, snapping
 from .measure import MeasureOptions
 from .read import measurable_objects
@@ -24,6 +24,8 @@ from .shape import shape_of
 
 ORDER = 12  # of the descriptors: more than tell parts apart, a fourth of the time that 20 takes
 LISTED = 20
+MIRRORED = BoolProperty(name="Mirror Images Too", default=False, description="Mirror images are as near as copies")
+SCALED = BoolProperty(name="Other Sizes Too", default=False, description="Copies of another size are as near as others")
 THREADS = os.cpu_count() or 1
 
 
@@ -33,7 +35,7 @@ class BodyMomentsSimilar(PropertyGroup):
     name: StringProperty(name="Name")
     file: StringProperty(name="File")
     verdict: StringProperty(name="Verdict", description="What it is to the object that was looked for")
-    distance: FloatProperty(name="Distance", description="Relative difference of the signatures; 0 is the same shape")
+    distance: FloatProperty(name="Distance", description="Difference of the signatures; 0 for a copy")
     scale: FloatProperty(name="Size", description="Its size by the size of the object that was looked for")
 
 
@@ -60,12 +62,15 @@ class _Find:
             return False
         return True
 
-    def wanted(self, context: Context):
+    def wanted(self, context: Context) -> Signature | None:
         try:
             return _signature(context, context.object)
         except snapping.REFUSALS as error:
             self.report({"ERROR"}, "{:s}: {:s}".format(context.object.name, getattr(error, "reason", str(error))))
             return None
+
+    def ranked(self, wanted: Signature, entries: list[Entry]) -> list[tuple[Entry, Likeness]]:
+        return nearest(wanted, entries, self.scaled, self.mirrored)
 
     def keep(self, context: Context, rows: list[tuple[Entry, Likeness]], looked_at: str) -> None:
         search = context.scene.body_moments_search
@@ -74,7 +79,8 @@ class _Find:
         for entry, likeness in rows[:LISTED]:
             row = search.found.add()
             row.name, row.file, row.verdict = entry.name, entry.file, verdict(likeness)
-            row.distance, row.scale = likeness.distance, likeness.scale
+            row.distance = likeness.distance(self.scaled, self.mirrored)
+            row.scale = likeness.scale
 
     def tell(self, rows: list[tuple[Entry, Likeness]], failures: list[str]) -> set[str]:
         counts: dict[str, int] = {}
@@ -85,7 +91,9 @@ class _Find:
         parts = ["Compared with {:s}".format("1 shape" if len(rows) == 1 else "{:d} shapes".format(len(rows)))]
         parts.append(", ".join(same) if same else "none is similar")
         if rows:
-            parts.append("nearest is {:s}, at {:.2e}".format(rows[0][0].name, rows[0][1].distance))
+            entry, likeness = rows[0]
+            parts.append("nearest is {:s}, at {:.2e}".format(
+                entry.name, likeness.distance(self.scaled, self.mirrored)))
         self.report({"WARNING"} if failures else {"INFO"}, "; ".join(parts + failures[:selection.LISTED]))
         return {"FINISHED"}
 
@@ -103,10 +111,8 @@ class OBJECT_OT_body_moments_find_similar(_Find, Operator):
     select: BoolProperty(
         name="Select Copies", default=True,
         description="Select the copies of the active object's shape, and nothing else")
-    mirrored: BoolProperty(
-        name="Mirror Images Too", default=False, description="Select mirror images as well")
-    scaled: BoolProperty(
-        name="Other Sizes Too", default=False, description="Select copies of another size as well")
+    mirrored: MIRRORED
+    scaled: SCALED
 
     def execute(self, context: Context) -> set[str]:
         wanted = self.wanted(context)
@@ -125,7 +131,7 @@ class OBJECT_OT_body_moments_find_similar(_Find, Operator):
                     entries.append(entry)
                     objects[entry] = obj
                 step()
-        rows = nearest(wanted, entries)
+        rows = self.ranked(wanted, entries)
         self.keep(context, rows, "")
         if self.select:
             chosen = {"copy": True, "mirror image": self.mirrored, "scaled copy": self.scaled,
@@ -146,6 +152,8 @@ class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
         "--signature --format jsonl"
     )
 
+    mirrored: MIRRORED
+    scaled: SCALED
     filepath: StringProperty(subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.jsonl", options={"HIDDEN"})
 
@@ -163,7 +171,7 @@ class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
         wanted = self.wanted(context)
         if wanted is None:
             return {"CANCELLED"}
-        rows = nearest(wanted, entries)
+        rows = self.ranked(wanted, entries)
         self.keep(context, rows, path.name)
         return self.tell(rows, faults)
 
@@ -188,7 +196,7 @@ class OBJECT_OT_body_moments_select_found(Operator):
         return {"FINISHED"}
 
 
-def _signature(context: Context, obj: Object):
+def _signature(context: Context, obj: Object) -> Signature:
     shape = shape_of(obj, context.evaluated_depsgraph_get(), MeasureOptions(threads=THREADS))
     return shape.signature(ORDER)
 

@@ -20,7 +20,7 @@ class Unanswerable(Exception):
 def parse(argv: list[str]) -> argparse.Namespace:
     """The options of `similar`. Raises SystemExit(2), or SystemExit(0) after --help."""
     parser = argparse.ArgumentParser(
-        prog="body_moments", usage="body_moments similar LIBRARY [LIBRARY ...] --to NAME [--count N]",
+        prog="body_moments", usage="body_moments similar LIBRARY [LIBRARY ...] --to NAME [options]",
         description="The bodies of a library that are most like one of them. A library is what `measure --signature "
                     "--format jsonl` writes.",
         epilog="exit code: 0 compared, 1 some records have no signature, 2 wrong usage", allow_abbrev=False)
@@ -28,6 +28,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     parser.add_argument("libraries", nargs="+", type=Path, metavar="LIBRARY")
     parser.add_argument("--to", required=True, metavar="NAME",
                         help="the body's name, or FILE:NAME where several files have one of that name")
+    parser.add_argument("--any-size", action="store_true", help="copies of another size are as near")
+    parser.add_argument("--any-hand", action="store_true", help="mirror images are as near")
     parser.add_argument("--count", type=_count, default=10, metavar="N", help="how many are printed (10)")
     return parser.parse_args(argv)
 
@@ -52,9 +54,11 @@ def answer(options: argparse.Namespace) -> tuple[str, int]:
         sys.stderr.write("body_moments: {}\n".format(fault))
     wanted = _named(entries, options.to)
     rows = [_COLUMNS.format("distance", "size", "", "name")]
-    for entry, likeness in nearest(wanted.signature, [one for one in entries if one is not wanted])[:options.count]:
-        rows.append(_COLUMNS.format("{:.3e}".format(likeness.distance), "{:.4g}".format(likeness.scale),
-                                    verdict(likeness), entry.label))
+    others = [entry for entry in entries if entry is not wanted]
+    ranked = nearest(wanted.signature, others, options.any_size, options.any_hand)
+    for entry, likeness in ranked[:options.count]:
+        distance = "{:.3e}".format(likeness.distance(options.any_size, options.any_hand))
+        rows.append(_COLUMNS.format(distance, "{:.4g}".format(likeness.scale), verdict(likeness), entry.label))
     return "".join(rows), len(faults)
 
 
