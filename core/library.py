@@ -10,11 +10,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from .signature import Likeness, Signature, compared
+from .signature import ALIKE, Likeness, Signature, compared
 
 SAME = 1e-4  # signatures nearer than this are one shape's: some float32 steps, and no more than a careless export
 SAME_SIZE = 1e-4
-ALIKE = 0.1  # beyond this nobody would call two shapes similar
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations, combinations_with_replacement
-from math import hypot, log, pi, sqrt
+from math import hypot, log, pi, sqrt, tanh
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +32,9 @@ INVARIANT_ORDER = 6
 COUPLED_ORDER = 4  # of the moments that are coupled in threes
 CHIRAL_ORDER = 6
 FREQUENCIES = np.arange(1.0, 13.0)  # what orders to 20 resolve to a millionth
+ALIKE = 0.1  # beyond this nobody would call two shapes similar
 HANDED = 1e-6  # a chirality below this is noise
+DOUBT = 0.1  # of the difference of two shapes: what of their chiralities it may be
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,8 +81,10 @@ class Likeness:
     mirrored: bool | None
 
     def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
-        """0 for a copy; also for one of another size, and for a mirror image, where that shall not matter."""
-        return hypot(self.shape, 0.0 if any_size else log(self.scale), 0.0 if any_hand else self.hand)
+        """0 for a copy; also for one of another size, and for a mirror image, where that shall not matter. Where it
+        does, a difference of size or hand counts as much as one of shape, but never for more than ALIKE."""
+        size, hand = (ALIKE * tanh(abs(value) / ALIKE) for value in (log(self.scale), self.hand))
+        return hypot(self.shape, 0.0 if any_size else size, 0.0 if any_hand else hand)
 
 
 def signature(moments: Moments, radius: float, zernike: Multiplets | None = None) -> Signature:
@@ -112,7 +116,7 @@ def compared(a: Signature, b: Signature) -> Likeness:
     same, opposite = np.linalg.norm(a.chirality - b.chirality), np.linalg.norm(a.chirality + b.chirality)
     hand = max(np.linalg.norm(a.chirality), np.linalg.norm(b.chirality))
     mirrored = None
-    if hand > HANDED and min(same, opposite) < 0.5 * max(same, opposite):
+    if hand > HANDED + shape * DOUBT and min(same, opposite) < 0.5 * max(same, opposite):
         mirrored = bool(opposite < same)
     return Likeness(float(shape), b.size / a.size, float(same), mirrored)
 
