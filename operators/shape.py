@@ -113,8 +113,8 @@ def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     """Measure an object for its shape. Raises `Unreadable`, and `NoShape` where it has none."""
     measurement, body = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
     if body.to_order is None or body.pieces is None:
-        raise NoShape(measurement, "Pose and signature are known of surfaces only, without a wall of real thickness; set "
-                                   "Wall to Thin, or make it a mesh.")
+        raise NoShape(measurement, "Pose and signature are known of surfaces only, and not of walls of real thickness; "
+                                   "set Wall to Thin, or make it a mesh.")
     if measurement.method.endswith("open"):
         raise NoShape(measurement, "It is open, so that its pose and signature would depend on a reference point; "
                                    "close it, or measure it as a shell.")

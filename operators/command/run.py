@@ -132,7 +132,10 @@ class Run:
             one = refusal.measurement
             told = replace(one, warnings=(*one.warnings, refusal.reason))
             return told, dict.fromkeys(asked)
-        return shape.measurement, {name: getattr(shape, name)() for name in asked}
+        more = {"pose": shape.pose()} if self.options.pose else {}
+        if self.options.signature:
+            more["signature"] = shape.signature().as_record()
+        return shape.measurement, more
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
         self.faults += 1
