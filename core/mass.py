@@ -36,15 +36,16 @@ class MassProperties:
 
     @classmethod
     def from_moments(cls, moments: Moments, density: float = 1.0, prefer: NDArray | None = None,
-                     refine: Callable[[], Moments] | None = None) -> MassProperties:
+                     refine: Callable[[], Moments] | None = None,
+                     higher: Callable[[], Moments] | None = None) -> MassProperties:
         """From moments to order 3 of a body with constant density.
 
-        prefer, refine: as for `principal_frame`. ValueError where the body has no mass.
+        prefer, refine, higher: as for `principal_frame`. ValueError where the body has no mass.
         """
         total = moments.raw[0]
         if not total > moments.error[0]:
             raise ValueError("The body has no volume.")
-        frame = principal_frame(moments, prefer, refine)
+        frame = principal_frame(moments, prefer, refine, higher)
         shift = moments.raw[1:4] / total
         second = density * (moments.raw[SECOND] - total * np.outer(shift, shift))
         inertia = np.trace(second) * np.eye(3) - second

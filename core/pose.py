@@ -6,8 +6,12 @@ The axes are the eigenvectors of the central second moments, largest first, so t
 inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third moments positive. Their rule fails on
 every body with a mirror plane, where M_300 is noise, so it is made robust: an axis is scored by its skewness, or where
 that is noise by the other third moments odd in that axis only; the two axes with the clearest scores turn positive and
-the third completes a right-handed frame. What is still free (equal moments, 180-degree symmetries) is the body's own
-freedom: there the frame nearest to the axes that the caller prefers is taken, and `note` says so.
+the third completes a right-handed frame. What equal moments or a want of skewness leave, moments to sixth order decide
+(see `canonical`). What is still free is the body's own freedom: there the frame nearest to the axes that the caller
+prefers is taken, and `note` says so.
+
+The pose of a body is its center at the origin and that frame along the axes: two copies of a part, however they lie and
+whatever their faces, have one pose.
 """
 
 from __future__ import annotations
@@ -19,10 +23,10 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from .canonical import NOISE, Frames, Spread, canonical_frames
 from .moments import SECOND, THIRD, Moments
 
 EQUAL = 1e-6  # moments closer than this, relatively, are equal
-SKEWED = 1e-5  # a normalised third moment below this is noise: ten times what float32 coordinates make
 RANKED = 1e-4  # scores closer than this, relatively, are equally clear
 
 NOTES = {
@@ -30,6 +34,13 @@ NOTES = {
     "prolate": "Axes 2 and 3 have equal moments; the directions nearest to the object's axes are used",
     "oblate": "Axes 1 and 2 have equal moments; the directions nearest to the object's axes are used",
     "asymmetric": "The body looks the same after half a turn; the directions nearest to the object's axes are used",
+}
+OWN_NOTES = {
+    "isotropic": "Every axis through the center is a principal axis; the body's own axes, as near to the object's "
+                 "as can be, are used",
+    "prolate": "Axes 2 and 3 have equal moments; the body's own directions nearest to the object's are used",
+    "oblate": "Axes 1 and 2 have equal moments; the body's own directions nearest to the object's are used",
+    "asymmetric": NOTES["asymmetric"],
 }
 
 
@@ -50,20 +61,87 @@ class PrincipalFrame:
         return replace(self, axes=rotation @ self.axes)
 
 
-def principal_frame(moments: Moments, prefer: NDArray | None = None,
-                    refine: Callable[[], Moments] | None = None) -> PrincipalFrame:
+def principal_frame(moments: Moments, prefer: NDArray | None = None, refine: Callable[[], Moments] | None = None,
+                    higher: Callable[[], Moments] | None = None) -> PrincipalFrame:
     """The principal frame of a body with positive total.
 
     moments: to order 3. prefer: (3, 3) rotation whose columns are the axes to stay near to, by default the
     coordinate axes. refine: gives the moments with exact third order; called where their bounds do not decide.
+    higher: gives them to `canonical.ORDER`; called where third order leaves a choice.
     """
     prefer = np.eye(3) if prefer is None else np.asarray(prefer, np.float64)
+    fixed = _fixed(moments, refine)
+    free, symmetry, note = fixed.spread.free, fixed.symmetry, ""
+    if not free and len(fixed.frames) == 1:
+        axes = fixed.frames[0]
+    elif higher is None:
+        axes, note = _nearest([settled(frame, free, prefer) for frame in fixed.frames], prefer), NOTES[symmetry]
+    else:
+        alike = canonical_frames(higher(), fixed.spread, fixed.frames)
+        axes = chosen_frame(alike, prefer)
+        if alike.round_about or len(alike.frames) > 1:
+            note = (NOTES if alike.round_about else OWN_NOTES)[symmetry]
+    return PrincipalFrame(fixed.moments, axes, symmetry, not note, note)
+
+
+def frames_alike(moments: Moments, noise: float = NOISE) -> Frames:
+    """The principal frames, to some order of at least 3, in which the body is the same. noise: the normalised third
+    moment that is taken for none; what else counts as equal grows with it."""
+    fixed = _fixed(moments, None, noise / NOISE)
+    return canonical_frames(moments, fixed.spread, fixed.frames)
+
+
+def chosen_frame(alike: Frames, prefer: NDArray) -> NDArray[np.float64]:
+    """Of the frames in which a body is the same, the one nearest to the axes that are preferred."""
+    free = ()
+    if alike.round_about:
+        free = tuple(i for i in range(3) if i not in alike.round_about) or (0, 1, 2)
+    return _nearest([settled(frame, free, prefer) for frame in alike.frames], prefer)
+
+
+def strict_frame(moments: Moments) -> PrincipalFrame:
+    """Zhang and Chen's own rule (eq. 11): axes 1 and 2 in the direction of positive M_300 and M_030, axis 3 completing
+    a right-handed frame. ValueError where one of these is noise, or second moments are equal: there it has no answer.
+    """
+    fixed = _fixed(moments, None)
+    if fixed.spread.free:
+        raise ValueError("Zhang and Chen's rule does not pose a body with equal principal moments.")
+    if not (np.abs(fixed.skew[:2]) > fixed.doubt[:2]).all():
+        raise ValueError("Zhang and Chen's rule does not pose a body without skewness along axes 1 and 2.")
+    axes = fixed.spread.axes.copy()
+    axes[:, :2] *= np.sign(fixed.skew[:2])
+    axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
+    return PrincipalFrame(fixed.moments, axes, fixed.symmetry, True, "")
+
+
+def pose_matrix(center: NDArray, axes: NDArray) -> NDArray[np.float64]:
+    """(4, 4), column vectors: what lays the center on the origin and the axes, columns, along x, y and z."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = axes.T, -axes.T @ center
+    return matrix + 0.0  # no negative zeros
+
+
+@dataclass(frozen=True, eq=False)
+class _Fixed:
+    """What second and third moments fix. moments: (3,) principal. frames: (k, 3, 3) those they allow: signs of axes
+    only. skew, doubt: (3,) the skewness along the spread's axes and what of it is noise."""
+
+    moments: NDArray[np.float64]
+    spread: Spread
+    symmetry: str
+    frames: NDArray[np.float64]
+    skew: NDArray[np.float64]
+    doubt: NDArray[np.float64]
+
+
+def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float = 1.0) -> _Fixed:
     total = moments.raw[0]
     shift = moments.raw[1:4] / total
     second = moments.raw[SECOND] / total - np.outer(shift, shift)
     scale = np.trace(second) or 1.0  # keeps eigh clear of overflow and denormals
     spread, vectors = np.linalg.eigh(second / scale)
     spread, axes = spread[::-1], vectors[:, ::-1]
+    axes = axes * [1.0, 1.0, np.sign(np.linalg.det(axes))]
     rounding = 4.0 * moments.error[SECOND].max() / (total * scale) + 8.0 * np.finfo(float).eps
     if spread[2] < -rounding:
         raise ValueError("It intersects itself, and parts of it count with the opposite sign, so that its moments are "
@@ -74,19 +152,21 @@ def principal_frame(moments: Moments, prefer: NDArray | None = None,
     # How far float32 has moved the points: the share of the volume that this moves, times the thinnest extent.
     step = moments.input[0] / total * size[2]
     gaps = np.array([spread[0] - spread[1], spread[1] - spread[2]])
-    equal = gaps <= EQUAL * spread[:2] + 2.0 * step * size[:2] + rounding
+    doubtful = 2.0 * step * size[:2] + rounding
+    equal = gaps <= looser * EQUAL * spread[:2] + doubtful
+    tilt = float(np.max(np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))))
     symmetry = ("isotropic" if equal.all() else "oblate" if equal[0] else "prolate" if equal[1] else "asymmetric")
 
     free = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}[symmetry]
     scores = np.zeros(3)
+    noise = looser * NOISE + 4.0 * step / np.minimum(size[:, None], _partners(size))
+    real = size * np.sqrt(scale)
     if len(free) < 3:
-        noise = SKEWED + 4.0 * step / np.minimum(size[:, None], _partners(size))
-        scores = _scores(moments, shift, size * np.sqrt(scale), axes, free, noise, refine)
-    axes, decided = _oriented(axes, scores, free, prefer)
-    unique = not free and decided
-    return PrincipalFrame(
-        moments=(spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total), axes=axes, symmetry=symmetry,
-        unique=unique, note="" if unique else NOTES[symmetry])
+        scores = _scores(moments, shift, real, axes, free, noise, refine)
+    skew, doubt = _third_scores(moments, shift, real, axes)
+    inertia = (spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total)
+    extents = Spread(axes, real, free, step * np.sqrt(scale), tilt, looser * NOISE)
+    return _Fixed(inertia, extents, symmetry, _allowed(axes, scores), skew[:, 0], noise[:, 0] + doubt[:, 0])
 
 
 def _partners(size: NDArray) -> NDArray[np.float64]:
@@ -143,24 +223,22 @@ def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray
     return scores, doubt
 
 
-def _oriented(axes: NDArray, scores: NDArray, free: tuple[int, ...], prefer: NDArray) -> tuple[NDArray, bool]:
-    """The right-handed frame that the scores fix, and whether they fix all of its signs."""
-    if len(free) == 3:
-        return prefer.copy(), False
+def _allowed(axes: NDArray, scores: NDArray) -> NDArray[np.float64]:
+    """(k, 3, 3) the right-handed frames along the axes that agree with the scores."""
     size = np.abs(scores)
     fixed = [i for i in range(3) if scores[i]]
     if len(fixed) == 3:  # the weakest gives way; of equal ones the last
         fixed.remove(max(i for i in fixed if size[i] <= size.min() * (1.0 + RANKED)))
-    parity = np.sign(np.linalg.det(axes))
-    candidates = [_settled(axes * signs, free, prefer) for signs in product((1.0, -1.0), repeat=3)
-                  if parity * np.prod(signs) > 0.0 and all(scores[i] * signs[i] > 0.0 for i in fixed)]
-    return _nearest(candidates, prefer), len(fixed) == 2
+    return np.array([axes * signs for signs in product((1.0, -1.0), repeat=3)
+                     if np.prod(signs) > 0.0 and all(scores[i] * signs[i] > 0.0 for i in fixed)])
 
 
-def _settled(frame: NDArray, free: tuple[int, ...], prefer: NDArray) -> NDArray[np.float64]:
-    """The frame with its two free axes, if any, turned nearest to the preferred ones."""
+def settled(frame: NDArray, free: tuple[int, ...], prefer: NDArray) -> NDArray[np.float64]:
+    """The frame with its free axes, if any, turned nearest to the preferred ones."""
     if not free:
         return frame
+    if len(free) == 3:
+        return prefer.copy()
     first, second = free
     fixed = frame[:, 3 - first - second]
     # (first, second, fixed) is right-handed for both pairs: maximise first·p1 + (fixed x first)·p2 over the plane.

@@ -21,7 +21,10 @@ def _parts() -> tuple[ModuleType, ...]:
         clipboard,
         cursor,
         empty,
+        find_similar,
+        find_symmetry,
         fourier,
+        match_pose,
         measure_selected,
         moments_table,
         orientation,
@@ -55,6 +58,9 @@ def _parts() -> tuple[ModuleType, ...]:
         rigid_body,
         sculpt_balance,
         fourier,
+        match_pose,
+        find_similar,
+        find_symmetry,
         batch,
     )
 

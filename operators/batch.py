@@ -6,9 +6,10 @@
     blender -b -c body_moments measure [options] [FILE ...]
     python operators/batch.py measure [options] FILE ...
 
-The first and the third (with the bpy module) need no installation: run as a script, this file
-loads the add-on's folder as a package and registers nothing but the settings that objects carry.
-All three reach `main`.
+and `similar LIBRARY --to NAME` in the place of `measure` compares what was measured. The first and the
+third (with the bpy module) need no installation: run as a script, this file loads the add-on's
+folder as a package and registers nothing but the settings that objects carry. All three reach
+`main`.
 """
 
 from __future__ import annotations
@@ -35,12 +36,14 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     standard output, which nothing else in this process reaches from then on. file_needed: whether
     no file can be open.
     """
-    from .command import arguments, output
+    from .command import arguments, output, similar
 
     channel = output.claim_stdout() if channel is None else channel
     told = io.StringIO()
     try:
         with redirect_stdout(told):
+            if argv[:1] == ["similar"]:
+                return _similar(similar.parse(argv), channel)
             options = arguments.parse(argv, file_needed)
     except SystemExit as ended:
         output.write(told.getvalue(), None, channel)  # the help, where it was asked for
@@ -62,6 +65,22 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     if run.faults:
         return OUR_FAULT
     return SOME_NOT if run.errors else ALL_MEASURED
+
+
+def _similar(options, channel: int) -> int:
+    """Compare what was measured, and print the nearest."""
+    from .command import output, similar
+
+    try:
+        text, faults = similar.answer(options)
+        output.write(text, None, channel)
+    except similar.Unanswerable as error:
+        sys.stderr.write("body_moments: {}\n".format(error))
+        return WRONG_USAGE
+    except Exception:
+        traceback.print_exc()
+        return OUR_FAULT
+    return SOME_NOT if faults else ALL_MEASURED
 
 
 def register() -> None:

@@ -7,13 +7,14 @@ Each kind has a file that makes one: `mesh_body` for whatever Blender shows as p
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from numpy.typing import NDArray
 
 from ..core.moments import Moments
 from ..core.solid import Health, SolidMeasure
+from ..core.surface import Surface
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,9 @@ class Body:
     to_order: gives the volume's and the area's moments to a higher order: (order, area wanted), and None for an area
         that is not; itself None where only moments to order 3 are known.
     solids: the surfaces that were measured, and the (k, 4, 4) maps to where each stands.
+    pieces: gives the surfaces where they stand, in float64: around what is solid, or the sheets as they are (sheets
+        wanted).
+    faces: how many triangles and quads were measured.
     """
 
     volume: Moments
@@ -40,3 +44,5 @@ class Body:
     refined: Callable[[], Moments] | None = None
     to_order: Callable[[int, bool], tuple[Moments, Moments | None]] | None = None
     solids: tuple[tuple[SolidMeasure, NDArray], ...] = ()
+    pieces: Callable[[bool], Iterator[Surface]] | None = None
+    faces: int = 0

@@ -30,6 +30,14 @@ def matrix_hash(obj: bpy.types.Object) -> str:
     return _digest(np.array(obj.matrix_world, np.float32).tobytes())
 
 
+def scale_hash(obj: bpy.types.Object) -> str:
+    """A digest of how the object is scaled and sheared, wherever it lies."""
+    linear = np.array(obj.matrix_world, np.float64)[:3, :3]
+    products = linear.T @ linear
+    largest = np.abs(products).max() or 1.0
+    return _digest((np.round(products / largest, 5) + 0.0).tobytes())
+
+
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     """A digest of the settings that the numbers of this object depend on."""
     settings = obj.body_moments

@@ -8,11 +8,13 @@ all go through it.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
 
+from ..core.canonical import ORDER
 from ..core.decimal import decimal
 from ..core.mass import MassProperties
 from ..core.measurement import Measurement
@@ -26,6 +28,7 @@ from .read import Reading, Unreadable, read_object
 from .wall_body import find_walls
 from .weigh import Weighed, weigh
 
+AT_ONCE = 20_000  # faces up to which moments of higher order, for a frame that needs them, take no time to speak of
 KNOWN = 3  # the order to which every measurement has its moments
 
 
@@ -36,6 +39,7 @@ class MeasureOptions:
     kind: "solid" or "shell"; density: kg/m³; mass: kg; thickness: m; overlap: "signed" or "union"; wall: of a shell,
     "thin", "inward", "outward" or "centered"; unit_scale: metres per Blender unit, else the scene's. order: of the
     moments that the measurement shall hold; None for what mass properties need. surface: those of the area too.
+    pose: the principal frame follows the body's shape to sixth order however many faces it has.
     """
 
     kind: str | None = None
@@ -48,6 +52,7 @@ class MeasureOptions:
     threads: int = 1
     order: int | None = None
     surface: bool = False
+    pose: bool = False
 
 
 def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
@@ -56,6 +61,12 @@ def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
 
     Raises `Unreadable`, with the reason and the remedy, where there is nothing to measure.
     """
+    return measure_body(obj, depsgraph, options)[0]
+
+
+def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
+                 options: MeasureOptions = MeasureOptions()) -> tuple[Measurement, Body]:
+    """As `measure_object`, with the body that was measured."""
     scene = depsgraph.scene
     unit = options.unit_scale or decimal(scene.unit_settings.scale_length)
     given = options.density is not None or options.mass is not None
@@ -78,7 +89,7 @@ def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
         measurement = told(obj, reading, body, options, unit, weighed)
         if walls is not None:
             wall_slider.keep(obj, reading, walls, measurement, unit)
-        return _to_order(measurement, body, options)
+        return _to_order(measurement, body, options), body
     except ValueError as error:
         raise Unreadable(obj.name, str(error)) from error
 
@@ -94,7 +105,7 @@ def resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> Mea
         kind=options.kind or settings.kind.lower(), density=density, mass=mass,
         thickness=decimal(settings.thickness) * unit if options.thickness is None else options.thickness,
         overlap=options.overlap or settings.overlap.lower(), wall=options.wall or settings.wall.lower(),
-        threads=options.threads, order=options.order, surface=options.surface)
+        threads=options.threads, order=options.order, surface=options.surface, pose=options.pose)
 
 
 def _to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> Measurement:
@@ -109,6 +120,13 @@ def _to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> 
         return measurement
     volume, area = body.to_order(order, shell or options.surface)
     return replace(measurement, volume_moments=None if shell else volume, area_moments=area or measurement.area_moments)
+
+
+def _higher(body: Body, shell: bool) -> Callable[[], Moments] | None:
+    """What gives the moments of higher order of what the principal frame is made from, where they are known."""
+    if body.to_order is None or body.mass is not None:
+        return None
+    return lambda: body.to_order(ORDER, shell)[1 if shell else 0]
 
 
 def _require_volume(body: Body, options: MeasureOptions) -> Moments:
@@ -137,7 +155,8 @@ def told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOp
         raise ValueError("Its {:s} is zero; give it one.".format("density" if options.mass is None else "mass"))
     rotation, location = np.asarray(reading.rotation, np.float64), np.asarray(reading.location, np.float64) * unit
     properties = MassProperties.from_moments(
-        moments, factor, prefer=rotation, refine=None if shell or body.mass is not None else body.refined)
+        moments, factor, prefer=rotation, refine=None if shell or body.mass is not None else body.refined,
+        higher=_higher(body, shell) if options.pose or body.faces <= AT_ONCE else None)
 
     def bounds(of: str, delta: dict[str, float]) -> dict[str, float]:
         return {"volume": float(getattr(volume, of)[0]), "area": float(getattr(body.area, of)[0]),

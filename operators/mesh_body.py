@@ -78,8 +78,14 @@ def _body(volume: Moments, area: Moments, health: Health, method: str, warnings:
     def to_order(order: int, area: bool) -> tuple[Moments, Moments | None]:
         return _to_order(solids, surfaces, order, area, threads)
 
+    def pieces(sheets: bool) -> Iterator[Surface]:
+        for (solid, matrices), surface in zip(solids, surfaces):
+            one = surface if sheets else solid.mended
+            yield from (one.mapped(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
+
+    faces = sum(len(solid.mended.triangles) + len(solid.mended.quads) for solid, _ in solids)
     return Body(volume, area, health, method, tuple(warnings), refined=refined, to_order=to_order,
-                solids=tuple(solids))
+                solids=tuple(solids), pieces=pieces, faces=faces)
 
 
 def _to_order(solids: list[tuple[SolidMeasure, NDArray]], surfaces: list[Surface], order: int, area: bool,

@@ -22,7 +22,7 @@ import bpy
 from bpy.app.handlers import persistent
 from bpy.types import Context, Depsgraph, Object, Scene
 
-from .fingerprint import matrix_hash, settings_hash
+from .fingerprint import matrix_hash, scale_hash, settings_hash
 from .write import section
 
 EDITED = "edited"
@@ -127,6 +127,21 @@ def section_reason(obj: Object) -> str:
     return "Transform Changed" if parts[2] != matrix_hash(obj) else ""
 
 
+def symmetry_reason(obj: Object) -> str:
+    """Why the symmetry that was found is out of date, "" where it is not or there is none."""
+    stored = _symmetry_mark(obj)
+    parts = stored.split(":")
+    if len(parts) != 4:
+        return ""
+    if parts[1] == EDITED or stored in _edited.get(obj.session_uid, ()):
+        return "Geometry Changed"
+    return "Scale Changed" if parts[2] != scale_hash(obj) else ""
+
+
+def _symmetry_mark(obj: Object) -> str:
+    return obj.body_moments_symmetry.fingerprint
+
+
 def _section_edited(obj: Object) -> bool:
     return section.fingerprint(obj) in _edited.get(obj.session_uid, ())
 
@@ -153,7 +168,8 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
             continue
         obj = update.id.original
         _changes[obj.session_uid] = _changes.get(obj.session_uid, 0) + 1
-        found = [str(mark) for mark in (obj.get("body_fingerprint"), section.fingerprint(obj)) if mark]
+        found = [str(mark) for mark in (obj.get("body_fingerprint"), section.fingerprint(obj), _symmetry_mark(obj))
+                 if mark]
         if found and not _settings_edited(obj, found[0], scene):
             _edited.setdefault(obj.session_uid, set()).update(found)
 
@@ -186,6 +202,9 @@ def _save(*_args) -> None:
             parts = stored.split(":")
             if len(parts) == 4 and stored in edited:
                 group[key] = ":".join([parts[0], EDITED, *parts[2:]])
+        parts = _symmetry_mark(obj).split(":")
+        if len(parts) == 4 and _symmetry_mark(obj) in edited:
+            obj.body_moments_symmetry.fingerprint = ":".join([parts[0], EDITED, *parts[2:]])
 
 
 HANDLERS = (

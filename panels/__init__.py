@@ -10,9 +10,9 @@ from contextlib import ExitStack
 
 
 def _classes() -> tuple[type, ...]:
-    from . import body, materials, moments, section
+    from . import body, materials, moments, section, shape
 
-    return (*materials.CLASSES, *body.CLASSES, *moments.CLASSES, *section.CLASSES)
+    return (*materials.CLASSES, *body.CLASSES, *moments.CLASSES, *section.CLASSES, *shape.CLASSES)
 
 
 def register() -> None:

@@ -194,8 +194,8 @@ def _free_axes(moments: np.ndarray) -> str:
     """What equal moments leave to choose."""
     first, second = (np.diff(moments) <= EQUAL * moments[2]).tolist()
     if first and second:
-        return "Free: the object's own axes"
-    return "Axes 1 and 2 are free" if first else "Axes 2 and 3 are free" if second else ""
+        return "All axes have equal moments"
+    return "Axes 1 and 2 have equal moments" if first else "Axes 2 and 3 have equal moments" if second else ""
 
 
 def _more(layout: UILayout, units: Units, found: properties.Stored) -> None:

@@ -18,7 +18,6 @@ DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
 
 _LATER_OPTIONS = (
     *("--spacing", "--origin", "--spline-order", "--density-scale"),
-    *("--pose", "--signature"),
 )
 _LATER_FORMATS = ("urdf", "sdf", "mjcf", "usd")
 
@@ -116,6 +115,16 @@ def _parser() -> argparse.ArgumentParser:
         help="add area moments too (up to --order, or {})".format(DEFAULT_ORDER),
     )
     fourier.add_options(parser, _positive)
+    add(
+        "--pose",
+        action="store_true",
+        help="add the pose that is the body's own, and its symmetry",
+    )
+    add(
+        "--signature",
+        action="store_true",
+        help="add the numbers by which `similar` finds the shape again",
+    )
     add(
         "--format",
         type=_format,

@@ -26,6 +26,7 @@ from ...core.measurement import Measurement
 from .. import settings
 from ..measure import MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
+from ..shape import NoShape, shape_of
 from ..staleness import settle
 from ..write import record
 from ..write.properties import store
@@ -82,11 +83,11 @@ class Run:
             errors.extend(_missing_links())
             for label, obj in chosen:
                 try:
-                    one = measure_object(obj, bpy.context.evaluated_depsgraph_get(), wanted)
+                    one, more = self._measure(obj, wanted)
                     surface = one.area_moments if self.options.surface_moments else None
                     told = replace(one, name=label, warnings=one.warnings + note)
                     objects.append(
-                        record.record(told, self.options.frame, self.options.order, surface)
+                        record.record(told, self.options.frame, self.options.order, surface, more)
                     )
                     measured.append((obj, one))
                 except Unreadable as refusal:
@@ -144,6 +145,27 @@ class Run:
             yield _error(label, "Its Fourier transform cannot be written: {}.".format(error.strerror or error))
         except Exception as error:
             yield self._fault(label, error)
+
+    def _measure(
+        self, obj: bpy.types.Object, wanted: MeasureOptions
+    ) -> tuple[Measurement, dict[str, Any]]:
+        """The object's measurement, and its pose and signature where they are asked for: None of
+        what has no shape of its own, which is measured all the same.
+        """
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        asked = [name for name in ("pose", "signature") if getattr(self.options, name)]
+        if not asked:
+            return measure_object(obj, depsgraph, wanted), {}
+        try:
+            shape = shape_of(obj, depsgraph, wanted)
+        except NoShape as refusal:
+            one = refusal.measurement
+            told = replace(one, warnings=(*one.warnings, refusal.reason))
+            return told, dict.fromkeys(asked)
+        more = {"pose": shape.pose()} if self.options.pose else {}
+        if self.options.signature:
+            more["signature"] = shape.signature().as_record()
+        return shape.measurement, more
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
         self.faults += 1

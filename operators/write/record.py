@@ -43,12 +43,13 @@ def record(
     frame: str = "world",
     order: int | None = None,
     surface: Moments | None = None,
+    more: dict[str, Any] | None = None,
 ) -> dict[str, Any]:
     """One object's record.
 
     frame: "world" or "object". order: adds `moments`, volume moments up to that order, which the
     measurement must have, about the frame's origin; of a shell, those of its thin volume. surface:
-    area moments of the same object, world frame, added to them.
+    area moments of the same object, world frame, added to them. more: further entries.
     """
     properties = measurement.mass_properties if frame == "world" else measurement.in_object_frame()
     entry = {
@@ -72,6 +73,7 @@ def record(
         entry["moments"]["volume"] = _about_origin(volume, order, measurement, frame)
         if surface is not None:
             entry["moments"]["surface"] = _about_origin(surface, order, measurement, frame)
+    entry |= more or {}
     entry["health"] = measurement.health.as_record()
     entry["error_bound"] = measurement.error_bound
     entry["warnings"] = list(measurement.warnings)
@@ -234,6 +236,13 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
     for name in ("volume", "surface"):
         powers = entry.get("moments", {}).get(name, {})
         row |= {f"{name}_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
+    if entry.get("pose"):
+        row |= {f"pose_{name}": entry["pose"][name] for name in ("unique", "symmetry")}
+        row |= {
+            f"pose_matrix_{i + 1}{j + 1}": value
+            for i, line in enumerate(entry["pose"]["matrix"])
+            for j, value in enumerate(line)
+        }
     row["warnings"] = entry["warnings"]
     return row
 

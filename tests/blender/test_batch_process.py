@@ -159,4 +159,4 @@ def test_blender_runs_the_command_of_the_installed_add_on(folder, tmp_path):
     ended = command("measure", "--format", "jsonl", opened=["missing.blend"])
     assert ended.returncode == 1
     assert document_in(ended.stdout)["errors"][0]["name"] is None
-    assert command("measure", "--pose").returncode == 2
+    assert command("measure", "--posture").returncode == 2

@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Laying one body onto another by their poses, and what is left between them.
+
+The pose leaves as many ways as the body has rotations, and all of them are tried. So are half turns about the axes, for
+noise may decide a sign. The residual is measured on the surfaces, in both directions, so that neither may be a part of
+the other. A mirror image is recognised as such: a reflection fits, and no rotation does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .canonical import Frames, inverted
+from .moments import Moments
+from .pose import frames_alike, settled
+
+HALF_TURNS = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]])
+EQUAL = 1e-4  # of the size: residuals nearer than this are equal, and the smallest turn is taken
+FITS = 1e-3  # of the size: below, a body lies on the other one
+BETTER = 0.2  # a reflection that leaves less than this share of what rotations leave tells a mirror image
+
+
+@dataclass(frozen=True, eq=False)
+class Match:
+    """rotation: (3, 3) about the centers. largest, mean: distances of points of either surface from the other one.
+    mirrored: whether a reflection fits so much better that the bodies are mirror images."""
+
+    rotation: NDArray[np.float64]
+    largest: float
+    mean: float
+    mirrored: bool
+
+
+def match(source: Moments, target: Moments, residual: Callable[[NDArray], NDArray], size: float) -> Match:
+    """The rotation that lays the source onto the target, both about their centers.
+
+    source, target: central moments to the order of a pose. residual: the distances, (n,), that an orthogonal (3, 3)
+    map of the source leaves. size: of the target.
+    """
+    first = frames_alike(source).frames[0]
+    rotation, distances = _best(_ways(first, frames_alike(target)), residual, size)
+    largest, mirrored = float(distances.max()), False
+    if largest > FITS * size:
+        reflected = _best(-_ways(first, frames_alike(inverted(target))), residual, size)[1].max()
+        mirrored = bool(reflected < BETTER * largest)
+    return Match(rotation, largest, float(distances.mean()), mirrored)
+
+
+def _ways(first: NDArray, target: Frames) -> NDArray[np.float64]:
+    """(k, 3, 3) the rotations from a frame of the source to those of the target and their half turns."""
+    frames = (target.frames[:, None] * HALF_TURNS[:, None, :]).reshape(-1, 3, 3)
+    if target.round_about:
+        free = tuple(i for i in range(3) if i not in target.round_about) or (0, 1, 2)
+        frames = np.array([settled(frame, free, first) for frame in frames])
+    ways = frames @ first.T
+    same = np.abs(ways[:, None] - ways[None]).max(axis=(2, 3)) < 1e-9
+    return ways[np.argmax(same, axis=1) == np.arange(len(ways))]
+
+
+def _best(ways: NDArray, residual: Callable[[NDArray], NDArray], size: float) -> tuple[NDArray, NDArray]:
+    distances = [residual(way) for way in ways]
+    worst = np.array([one.max() for one in distances])
+    near = np.flatnonzero(worst <= worst.min() + EQUAL * size)
+    best = max(near, key=lambda i: np.trace(ways[i]))
+    return ways[best], distances[best]

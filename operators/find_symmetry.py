@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Find Symmetry: the rotation axes and mirror planes of the selected objects, by their moments and confirmed on their
+surfaces. What was found is kept with each object, in its own axes, for the panel."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from bpy.props import (
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+from bpy.types import Context, Object, Operator, PropertyGroup
+
+from ..core.canonical import NOISE
+from ..core.symmetry import Symmetry, confirmed, symmetry
+from . import selection, snapping, staleness
+from .fingerprint import scale_hash
+from .shape import Shape, Skin, shape_of
+
+KEPT = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
+
+
+class BodyMomentsElement(PropertyGroup):
+    """One element of a symmetry, in the object's axes."""
+
+    kind: EnumProperty(items=(("AXIS", "Axis", "Rotation axis"), ("PLANE", "Plane", "Mirror plane, by its normal"),
+                              ("ROUND", "Round", "Axis about which every rotation is one")))
+    order: IntProperty(name="Order")
+    direction: FloatVectorProperty(name="Direction", subtype="XYZ")
+
+
+class BodyMomentsSymmetry(PropertyGroup):
+    """The symmetry that was found of an object."""
+
+    group: StringProperty(name="Symmetry", description="Schoenflies symbol of what the surface confirms")
+    compatible: StringProperty(name="By Moments", description="Schoenflies symbol of what the moments allow")
+    tolerance: FloatProperty(name="Tolerance", description="By which the surface was held against its images, by the "
+                                                           "body's radius of gyration")
+    fingerprint: StringProperty()
+    elements: CollectionProperty(type=BodyMomentsElement)
+
+
+class OBJECT_OT_body_moments_find_symmetry(Operator):
+    """Find the rotation axes and mirror planes of the selected objects"""
+
+    bl_idname = "object.body_moments_find_symmetry"
+    bl_label = "Find Symmetry"
+    bl_description = (
+        "Find the rotation axes and mirror planes through the center of mass of the selected objects: those that their "
+        "moments to sixth order allow, confirmed on their surfaces"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    tolerance: FloatProperty(
+        name="Tolerance", default=1e-3, min=1e-6, max=0.1, precision=6,
+        description="How far the surface's image may lie from it, by the body's radius of gyration")
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return selection.poll_selected(cls, context, modes=())
+
+    def execute(self, context: Context) -> set[str]:
+        objects = selection.selected(context)
+        told = []
+
+        def find(obj: Object) -> bool:
+            if obj.library is not None:
+                raise ValueError("it is linked from another file; make it local first")
+            found = _find(context, obj, self.tolerance)
+            told.append("{:s}: {:s}".format(obj.name, found))
+            return True
+
+        done, failures = selection.each(self, objects, find, snapping.REFUSALS)
+        if failures or not done:
+            return selection.summarise(self, done, len(objects), "Looked at {count}", failures, told)
+        self.report({"INFO"}, "; ".join(told[:selection.LISTED]))
+        return {"FINISHED"}
+
+
+def _find(context: Context, obj: Object, tolerance: float) -> str:
+    shape = shape_of(obj, context.evaluated_depsgraph_get())
+    skin = Skin(shape)
+    # Moments are looked at as loosely as the surface.
+    allowed = symmetry(shape.moments, max(NOISE, tolerance))
+    found = confirmed(allowed, shape.center, skin.points, skin.distance, tolerance * shape.size)
+    with staleness.paused():  # Blender reports what is written here as a change of the object
+        _keep(obj, shape, found, allowed, tolerance)
+        context.view_layer.update()
+    return "{:s}, {:s}".format(found.group, described(found))
+
+
+def _keep(obj: Object, shape: Shape, found: Symmetry, allowed: Symmetry, tolerance: float) -> None:
+    kept = obj.body_moments_symmetry
+    kept.group, kept.compatible, kept.tolerance = found.group, allowed.group, tolerance
+    version, geometry, _, settings = shape.measurement.fingerprint.split(":")
+    kept.fingerprint = ":".join([version, geometry, scale_hash(obj), settings])
+    kept.elements.clear()
+    turn = shape.measurement.rotation.T
+    for kind, order, direction in _elements(found)[:KEPT]:
+        element = kept.elements.add()
+        element.kind, element.order, element.direction = kind, order, turn @ _upward(turn, direction)
+
+
+def _upward(turn: np.ndarray, direction: np.ndarray) -> np.ndarray:
+    """Of the two directions of a line the one whose largest component, in the object's axes, is positive."""
+    local = turn @ direction
+    return direction if local[np.argmax(np.abs(local))] > 0.0 else -direction
+
+
+def _elements(found: Symmetry) -> list[tuple[str, int, np.ndarray]]:
+    if len(found.round_about) == 1:
+        return [("ROUND", 0, found.round_about[0])] + [("PLANE", 0, normal) for normal in found.planes]
+    return [("AXIS", order, axis) for axis, order in found.axes] + [("PLANE", 0, normal) for normal in found.planes]
+
+
+def described(found: Symmetry) -> str:
+    """A symmetry in words."""
+    if len(found.round_about) == 3:
+        return "a ball"
+    if len(found.round_about) == 1:
+        return "a body of revolution" + (" that can be turned over" if found.group == "D∞h" else "")
+    axes, planes = found.axes, len(found.planes)
+    parts = []
+    if axes:
+        parts.append("1 rotation axis" if len(axes) == 1 else "{:d} rotation axes".format(len(axes)))
+        parts[-1] += " up to {:d}-fold".format(axes[0][1]) if len(axes) > 1 else ", {:d}-fold".format(axes[0][1])
+    if planes:
+        parts.append("1 mirror plane" if planes == 1 else "{:d} mirror planes".format(planes))
+    if found.has_center and not parts:
+        parts.append("a center of inversion")
+    return ", ".join(parts) or "no symmetry"
+
+
+CLASSES = (BodyMomentsElement, BodyMomentsSymmetry, OBJECT_OT_body_moments_find_symmetry)
+
+
+def register() -> None:
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    Object.body_moments_symmetry = PointerProperty(name="Symmetry", type=BodyMomentsSymmetry)
+
+
+def unregister() -> None:
+    del Object.body_moments_symmetry
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

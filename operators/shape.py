@@ -1,0 +1,145 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An object's shape, apart from where it lies: its pose, its symmetry, its signature.
+
+They need moments of higher order than a measurement carries, of the same body: what is solid, or the sheet of a shell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import bpy
+import numpy as np
+from mathutils import Vector
+from mathutils.bvhtree import BVHTree
+from numpy.typing import NDArray
+
+from ..core.canonical import ORDER, Frames
+from ..core.measurement import Measurement
+from ..core.moments import Moments
+from ..core.pose import frames_alike, pose_matrix
+from ..core.recursion import moments_to_order
+from ..core.signature import Signature, signature
+from ..core.surface import Surface, joined
+from ..core.symmetry import symmetry
+from ..core.zernike import BY_MOMENTS, ENOUGH, zernike_quadrature
+from .body import Body
+from .measure import MeasureOptions, measure_body
+from .read import Unreadable
+
+SAMPLES = 1500  # points of a surface that are held against another one
+
+
+@dataclass(frozen=True)
+class Shape:
+    """An object as measured, in SI units and world axes, and what its moments of higher order say."""
+
+    measurement: Measurement
+    body: Body
+    threads: int = 1
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        return self.measurement.mass_properties.center
+
+    @property
+    def size(self) -> float:
+        """The largest radius of gyration."""
+        return float(self.measurement.mass_properties.radii_of_gyration.max())
+
+    @cached_property
+    def moments(self) -> Moments:
+        """About the center, to the order that a pose needs."""
+        return self.body.to_order(ORDER, self._sheets)[1 if self._sheets else 0].about_center()
+
+    @property
+    def _sheets(self) -> bool:
+        return self.measurement.kind == "shell"
+
+    def pieces(self) -> Iterator[Surface]:
+        """The surfaces of the body, where they stand."""
+        return self.body.pieces(self._sheets)
+
+    @cached_property
+    def frames(self) -> Frames:
+        return frames_alike(self.moments)
+
+    def pose(self) -> dict[str, Any]:
+        """The pose for a record: see DESIGN.md."""
+        axes = self.measurement.mass_properties.principal.axes
+        found = symmetry(self.moments)
+        return {"matrix": pose_matrix(self.center, axes), "unique": found.unique, "symmetry": found.group}
+
+    def signature(self, order: int = BY_MOMENTS) -> Signature:
+        """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature."""
+        points = self.points_about_center()
+        radius = float(np.sqrt((points * points).sum(axis=1).max()))
+        sheets = self._sheets
+        volume, area = moments_to_order(self.pieces(), min(order, BY_MOMENTS), area=sheets, threads=self.threads,
+                                        about=self.center, reach=radius)
+        found = signature(area if sheets else volume, radius)
+        if (order > BY_MOMENTS or found.error > ENOUGH) and not sheets:
+            whole = joined(list(self.pieces()))
+            triangles = whole.all_triangles()[0]
+            points = (whole.points - self.center) / radius
+            found = signature(volume, radius, zernike_quadrature(points, triangles, order))
+        return found
+
+    def points_about_center(self) -> NDArray[np.float64]:
+        """(n, 3) the corners of all faces."""
+        points = []
+        for piece in self.pieces():
+            triangles = piece.all_triangles()[0]
+            used = np.zeros(len(piece.points), bool)
+            used[triangles] = True
+            points.append(piece.points[used] - self.center)
+        return np.concatenate(points)
+
+
+class NoShape(Unreadable):
+    """An object that was measured, but whose shape is not its own."""
+
+    def __init__(self, measurement: Measurement, reason: str):
+        super().__init__(measurement.name, reason)
+        self.measurement = measurement
+
+
+def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
+             options: MeasureOptions | None = None) -> Shape:
+    """Measure an object for its shape. Raises `Unreadable`, and `NoShape` where it has none."""
+    measurement, body = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
+    if body.to_order is None or body.pieces is None:
+        raise NoShape(measurement, "Pose and signature are known of surfaces only, and not of walls of real thickness; "
+                                   "set Wall to Thin, or make it a mesh.")
+    if measurement.method.endswith("open"):
+        raise NoShape(measurement, "It is open, so that its pose and signature would depend on a reference point; "
+                                   "close it, or measure it as a shell.")
+    return Shape(measurement, body, options.threads if options else 1)
+
+
+class Skin:
+    """A shape's surface, to hold points against. Lengths in metres, world axes; Blender's tree of triangles keeps them
+    as float32, so about the center and by its size."""
+
+    def __init__(self, shape: Shape):
+        whole = joined(list(shape.pieces()))
+        self._center, self._scale = shape.center, shape.size
+        triangles = whole.all_triangles()[0]
+        corners = (whole.points - self._center) / self._scale
+        self._tree = BVHTree.FromPolygons(corners.tolist(), triangles.tolist(), all_triangles=True)
+        used = np.unique(triangles)
+        pick = np.linspace(0, len(used) - 1, min(len(used), SAMPLES // 2)).astype(int)
+        middles = whole.points[triangles[np.linspace(0, len(triangles) - 1, min(len(triangles), SAMPLES // 2)).astype(
+            int)]].mean(axis=1)
+        far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1))[-SAMPLES // 10:]
+        self.points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
+
+    def distance(self, points: NDArray) -> NDArray[np.float64]:
+        """(n,) of (n, 3) points from the surface."""
+        nearest = self._tree.find_nearest
+        scaled = (points - self._center) / self._scale
+        return np.array([nearest(Vector(point))[3] for point in scaled.tolist()]) * self._scale

@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One pose for a body however it lies and whatever its faces; every frame that a symmetric body leaves, no other."""
+
+import numpy as np
+import pytest
+from body_moments.core.canonical import inverted
+from body_moments.core.moments import Moments
+from body_moments.core.pose import chosen_frame, frames_alike, pose_matrix, principal_frame, strict_frame
+
+from tests.core import bodies, shapes
+from tests.core.recursion import moments
+
+
+def pose(part, prefer=None):
+    found = moments(part, 6)
+    frame = principal_frame(found.truncated(3), prefer, higher=lambda: found)
+    return frame, pose_matrix(found.center, frame.axes)
+
+
+def placed(part, matrix):
+    return part[0] @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def size(part):
+    return np.ptp(part[0], axis=0).max()
+
+
+@pytest.mark.parametrize("name", shapes.ASYMMETRIC)
+def test_copies_lie_on_each_other_after_any_motion_and_with_any_faces(name):
+    part = shapes.ASYMMETRIC[name]
+    first, matrix = pose(part)
+    assert first.unique and not first.note
+    wanted, rng = placed(part, matrix), np.random.default_rng(1)
+    for seed in range(100):
+        image = bodies.moved(part, bodies.rotation(seed), rng.normal(size=3) * 10)
+        frame, matrix = pose(shapes.refined(image, seed), prefer=bodies.rotation(1000 + seed))
+        assert frame.unique
+        assert np.abs(placed(image, matrix) - wanted).max() < 1e-9 * size(part)
+
+
+@pytest.mark.parametrize("name", shapes.ASYMMETRIC)
+def test_a_mirror_image_never_lies_on_the_body(name):
+    part = shapes.ASYMMETRIC[name]
+    _, matrix = pose(part)
+    image = shapes.mirrored(part)
+    _, other = pose(image)
+    assert np.abs(placed(image, other) - placed(part, matrix)).max() > 0.05 * size(part)
+    alike, reflected = frames_alike(moments(part, 6)), frames_alike(moments(image, 6))
+    assert (np.abs(alike.values - reflected.values) > 100.0 * alike.noise).any()
+
+
+@pytest.mark.parametrize("name", shapes.SYMMETRIC)
+def test_symmetric_bodies_are_flagged_and_come_to_lie_on_themselves(name):
+    part, group = shapes.SYMMETRIC[name]
+    first, matrix = pose(part)
+    assert first.unique == (group == "Cs") and bool(first.note) == (group != "Cs")
+    wanted = placed(part, matrix)
+    for seed in range(10):
+        image = bodies.moved(part, bodies.rotation(seed), (1, 2, 3))
+        frame, matrix = pose(shapes.refined(image, seed), prefer=bodies.rotation(100 + seed))
+        points = placed(image, matrix)
+        assert frame.symmetry == first.symmetry
+        gap = np.linalg.norm(points[:, None] - wanted[None], axis=2).min(axis=1)
+        assert gap.max() < 1e-9 * size(part)  # a corner on each corner, though not always on its own
+
+
+@pytest.mark.parametrize("name", shapes.SYMMETRIC)
+def test_of_equal_frames_the_one_nearest_to_the_preferred_axes_is_taken(name):
+    part, _ = shapes.SYMMETRIC[name]
+    found = moments(part, 6)
+    frames = frames_alike(found).frames
+    for seed in range(5):
+        prefer = bodies.rotation(seed)
+        axes = chosen_frame(frames_alike(found), prefer)
+        assert np.trace(prefer.T @ axes) == pytest.approx(max(np.trace(prefer.T @ frame) for frame in frames))
+        again = principal_frame(found.truncated(3), axes, higher=lambda: found)
+        assert np.allclose(again.axes, axes, atol=1e-9)
+
+
+def test_a_cube_turned_within_its_object_gets_its_own_axes():
+    turn = bodies.rotation(3)
+    frame, _ = pose(bodies.moved(bodies.box((-1, -1, -1), (1, 1, 1)), turn))
+    cosines = np.abs(turn.T @ frame.axes)
+    assert np.allclose(np.sort(cosines, axis=0), [[0] * 3, [0] * 3, [1] * 3], atol=1e-12)
+    assert frame.symmetry == "isotropic" and "own axes" in frame.note
+
+
+def test_an_octahedron_gets_the_axes_through_its_corners():
+    turn = bodies.rotation(6)
+    frame, _ = pose(bodies.moved(bodies.sphere(0), turn))
+    assert np.allclose(np.sort(np.abs(turn.T @ frame.axes), axis=0), [[0] * 3, [0] * 3, [1] * 3], atol=1e-9)
+
+
+def test_a_square_prism_gets_the_directions_of_its_sides():
+    part = bodies.box((-1, -1, -2), (1, 1, 2))
+    turn = bodies.rotation(4)
+    frame, _ = pose(bodies.moved(part, turn))
+    local = np.abs(turn.T @ frame.axes)
+    assert local[2, 0] == pytest.approx(1.0)
+    assert np.allclose(np.sort(local[:2, 1]), [0, 1], atol=1e-9)
+
+
+def test_float32_and_float64_have_one_frame():
+    for part in (shapes.SYMMETRIC["cube"][0], shapes.SYMMETRIC["icosahedron"][0], shapes.THREE_BOXES):
+        image = bodies.moved(part, bodies.rotation(7), (3, 2, 1))
+        exact, _ = pose(image)
+        rounded, _ = pose((image[0].astype(np.float32).astype(float), image[1]), prefer=exact.axes)
+        assert np.allclose(rounded.axes, exact.axes, atol=1e-5)
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1e6])
+def test_tiny_and_huge_bodies_are_the_same_problem(scale):
+    for part in (shapes.THREE_BOXES, shapes.SYMMETRIC["cube"][0], shapes.SYMMETRIC["S prism"][0]):
+        image = bodies.moved(part, bodies.rotation(2))
+        alike = frames_alike(moments(image, 6))
+        scaled = frames_alike(moments((image[0] * scale, image[1]), 6))
+        assert len(alike.frames) == len(scaled.frames)
+        assert np.allclose(alike.values, scaled.values, atol=1e-9)
+
+
+def test_a_lamina_has_no_skewness_across():
+    plate = bodies.joined(bodies.box((0, 0, 0), (3, 1, 1e-9)), bodies.box((0, 1, 0), (1, 4, 1e-9)))
+    frame, _ = pose(bodies.moved(plate, bodies.rotation(1)))
+    assert np.isfinite(frame.axes).all() and frame.symmetry == "asymmetric"
+
+
+def test_the_image_in_a_point_has_odd_moments_of_the_other_sign():
+    part = shapes.WEDGE
+    found = moments(part, 5)
+    image = moments((2 * found.about - part[0], part[1][:, ::-1]), 5)
+    assert np.allclose(inverted(found).raw, image.shifted(found.about).raw, atol=1e-12 * abs(found.raw).max())
+
+
+def test_the_strict_rule_is_that_of_zhang_and_chen():
+    for seed in range(20):
+        image = moments(bodies.moved(shapes.WEDGE, bodies.rotation(seed), (1, 2, 3)), 3)
+        central = image.about_center()
+        axes = strict_frame(image).axes
+        third = np.einsum("abc,ai,bi,ci->i", central.third(), axes, axes, axes)
+        assert third[0] > 0 and third[1] > 0
+        assert np.linalg.det(axes) == pytest.approx(1.0)
+        assert np.all(np.diff(np.diag(axes.T @ central.second() @ axes)) < 0)
+
+
+@pytest.mark.parametrize("name", ["box", "cube", "S prism"])
+def test_the_strict_rule_refuses_what_it_cannot_pose(name):
+    with pytest.raises(ValueError, match="Zhang and Chen"):
+        strict_frame(moments(shapes.SYMMETRIC[name][0], 3))
+
+
+def test_higher_moments_are_asked_for_only_where_they_are_needed():
+    found = moments(shapes.WEDGE, 6)
+    principal_frame(found.truncated(3), higher=lambda: pytest.fail("asked for higher moments"))
+    asked = []
+    box = moments(bodies.box(), 6)
+    principal_frame(box.truncated(3), higher=lambda: asked.append(True) or box)
+    assert asked
+
+
+def test_a_ball_takes_the_preferred_axes():
+    raw = np.zeros(84)
+    from body_moments.core.moments import index
+    raw[0], raw[[index(2, 0, 0), index(0, 2, 0), index(0, 0, 2)]] = 1.0, 0.2
+    for even, value in (((4, 0, 0), 3 / 35), ((2, 2, 0), 1 / 35)):
+        for powers in {(even[i], even[j], even[k]) for i, j, k in ((0, 1, 2), (2, 0, 1), (1, 2, 0))}:
+            raw[index(*powers)] = value
+    for even, value in (((6, 0, 0), 15), ((4, 2, 0), 3), ((4, 0, 2), 3), ((2, 2, 2), 1)):
+        for powers in {(even[i], even[j], even[k]) for i, j, k in ((0, 1, 2), (2, 0, 1), (1, 2, 0))}:
+            raw[index(*powers)] = value / 315
+    ball, prefer = Moments(raw, np.zeros(3)), bodies.rotation(5)
+    frame = principal_frame(ball.truncated(3), prefer, higher=lambda: ball)
+    assert np.array_equal(frame.axes, prefer) and not frame.unique and "Every axis" in frame.note

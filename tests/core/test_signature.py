@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One signature for a shape however it lies, whatever its size and faces; mirror images told from copies."""
+
+import json
+
+import numpy as np
+import pytest
+from body_moments.core.signature import Signature, compared, signature
+from body_moments.operators.write.record import plain
+
+from tests.core import bodies, shapes
+from tests.core.recursion import moments
+
+PARTS = ("invariants", "zernike", "fourier", "chirality")
+
+
+def signed(part, order=20):
+    center = moments(part, 1).center
+    points = part[0] - center
+    return signature(moments((points, part[1]), order).shifted(np.zeros(3)), np.linalg.norm(points, axis=1).max())
+
+
+@pytest.mark.parametrize("part", [shapes.WEDGE, shapes.THREE_BOXES, bodies.box(), bodies.sphere(1)])
+def test_motion_and_faces_change_nothing(part):
+    first, rng = signed(part), np.random.default_rng(0)
+    for seed in range(3):
+        image = bodies.moved(part, bodies.rotation(seed), rng.normal(size=3) * 10)
+        other = signed(shapes.refined(image, seed) if seed == 0 else image)
+        for name in PARTS:
+            assert np.abs(getattr(first, name) - getattr(other, name)).max() < 1e-9
+        assert other.size == pytest.approx(first.size)
+        assert compared(first, other).distance() < 1e-8
+
+
+@pytest.mark.parametrize("scale", [1e-5, 3.0, 1e5])
+def test_size_is_told_apart_from_shape(scale):
+    first, other = signed(shapes.WEDGE), signed((shapes.WEDGE[0] * scale, shapes.WEDGE[1]))
+    likeness = compared(first, other)
+    assert likeness.shape < 1e-9 and likeness.distance(any_size=True) < 1e-8
+    assert likeness.scale == pytest.approx(scale) and likeness.mirrored is False
+
+
+def test_a_mirror_image_differs_in_its_hand_alone():
+    for part in (shapes.WEDGE, shapes.THREE_BOXES, shapes.SYMMETRIC["twisted square prism"][0],
+                 shapes.prism(3, twist=0.3)):
+        first = signed(part)
+        image = signed(bodies.moved(shapes.mirrored(part), bodies.rotation(4), (1, 2, 3)))
+        for name in PARTS[:3]:
+            assert np.abs(getattr(first, name) - getattr(image, name)).max() < 1e-9
+        assert np.abs(first.chirality).max() > 1e-4
+        assert np.abs(first.chirality + image.chirality).max() < 1e-9
+        likeness = compared(first, image)
+        assert likeness.mirrored is True
+        assert likeness.distance() > 1e-4 and likeness.distance(any_hand=True) < 1e-9
+
+
+def test_bodies_that_are_their_own_mirror_images_have_no_hand():
+    for name, (part, group) in shapes.SYMMETRIC.items():
+        if group not in ("D4",):
+            found = signed(bodies.moved(part, bodies.rotation(1)), 6)
+            assert np.abs(found.chirality).max() < 1e-10, name
+            assert compared(found, found).mirrored is None
+
+
+def test_different_shapes_are_far_apart_and_noisy_copies_near():
+    parts = {**shapes.ASYMMETRIC, **{name: part for name, (part, _) in shapes.SYMMETRIC.items()}}
+    found = {name: signed(part, 10) for name, part in parts.items()}
+    rng = np.random.default_rng(0)
+    for name, part in parts.items():
+        image = bodies.moved(shapes.refined(part, 1), bodies.rotation(2), (1, 2, 3))
+        noisy = signed((image[0] + rng.normal(size=image[0].shape) * 2e-3 * np.ptp(part[0]), image[1]), 10)
+        distances = {other: compared(noisy, one).distance() for other, one in found.items()}
+        assert min(distances, key=distances.get) == name
+
+
+def test_orders_that_one_lacks_are_left_out():
+    short, long = signed(shapes.WEDGE, 8), signed(shapes.WEDGE, 20)
+    assert len(short.zernike) == 25 and len(long.zernike) == 121
+    assert compared(short, long).distance() < 1e-9
+
+
+def test_a_record_gives_the_signature_back():
+    found = signed(shapes.WEDGE)
+    again = Signature.from_record(json.loads(json.dumps(plain(found.as_record()))))
+    for name in PARTS:
+        assert np.array_equal(getattr(found, name), getattr(again, name))
+    assert again.size == found.size
+
+
+@pytest.mark.parametrize("damage", [{"zernike": []}, {"size": None}, {"chirality": [1.0]}, {"invariants": [None, "x"]}])
+def test_a_damaged_record_is_refused(damage):
+    record = {**plain(signed(shapes.WEDGE, 6).as_record()), **damage}
+    with pytest.raises(ValueError, match="signature"):
+        Signature.from_record(record)
+    del record["size"]
+    with pytest.raises(ValueError, match="signature"):
+        Signature.from_record(record)

@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The group of every body by its symbol, first by moments, then as its geometry has it."""
+
+import numpy as np
+import pytest
+from body_moments.core.symmetry import confirmed, symmetry
+
+from tests.core import bodies, shapes
+from tests.core.recursion import moments
+
+
+def on_geometry(part, found, tolerance=1e-6):
+    points = np.concatenate([part[0], part[0][part[1]].mean(axis=1)])
+    center = moments(part, 1).center
+    return confirmed(found, center, points, lambda x: shapes.distance(part, x), tolerance)
+
+
+@pytest.mark.parametrize("name", shapes.SYMMETRIC)
+def test_moments_tell_the_group_and_the_geometry_confirms_it(name):
+    part, group = shapes.SYMMETRIC[name]
+    image = bodies.moved(part, bodies.rotation(5), (1, 2, 3))
+    found = symmetry(moments(shapes.refined(image, 1), 6))
+    assert found.group == group and found.tolerance is None
+    after = on_geometry(image, found)
+    assert after.group == group and after.tolerance == 1e-6
+    assert len(after.operations) == len(found.operations)
+
+
+@pytest.mark.parametrize("name", shapes.ROUND)
+def test_what_is_round_to_sixth_order_gets_the_folds_that_its_corners_have(name):
+    part, group, exact = shapes.ROUND[name]
+    image = bodies.moved(part, bodies.rotation(5), (1, 2, 3))
+    found = symmetry(moments(image, 6))
+    assert found.group == group and not found.unique
+    assert on_geometry(image, found).group == exact
+
+
+def test_with_a_tolerance_above_its_facets_a_prism_is_round():
+    part = shapes.prism(80)
+    found = symmetry(moments(part, 6))
+    assert on_geometry(part, found, 1e-3).group == "D∞h"
+
+
+@pytest.mark.parametrize("name", shapes.ASYMMETRIC)
+def test_a_body_without_symmetry_has_none(name):
+    found = symmetry(moments(shapes.ASYMMETRIC[name], 6))
+    assert found.group == "C1" and found.unique and not found.axes and not found.planes
+
+
+def test_what_moments_cannot_see_the_geometry_rules_out():
+    """A box with small dents that spoil all symmetry by less than the noise of moments, and more than the tolerance."""
+    part = shapes.refined(bodies.box((0, 0, 0), (3, 2, 1)))
+    points = part[0].copy()
+    points[8:] += np.random.default_rng(0).normal(size=(12, 3)) * 1e-6
+    dented = points, part[1]
+    found = symmetry(moments(dented, 6))
+    assert found.group == "D2h"
+    assert on_geometry(dented, found, 1e-9).group == "C1"
+
+
+def test_axes_and_planes_lie_where_the_body_has_them():
+    turn = bodies.rotation(8)
+    found = symmetry(moments(bodies.moved(shapes.prism(6), turn, (1, 2, 3)), 6))
+    axis, order = found.axes[0]
+    assert order == 6 and abs(axis @ turn[:, 2]) == pytest.approx(1.0)
+    assert len(found.axes) == 7 and len(found.planes) == 7 and found.has_center
+    assert sum(abs(normal @ turn[:, 2]) > 0.999 for normal in found.planes) == 1
+    for normal in found.planes:
+        assert np.linalg.norm(normal) == pytest.approx(1.0)
+
+
+def test_the_operations_are_a_group():
+    for part, _ in shapes.SYMMETRIC.values():
+        operations = symmetry(moments(part, 6)).operations
+        products = np.einsum("aij,bjk->abik", operations, operations).reshape(-1, 1, 3, 3)
+        if len(products) < 3000:
+            assert np.abs(products - operations[None]).max(axis=(2, 3)).min(axis=1).max() < 1e-9
+
+
+def test_a_coarse_body_can_be_looked_at_loosely():
+    """Coordinates of six digits: too few for the moments' own noise, enough for a part."""
+    points, triangles = bodies.moved(shapes.ICOSAHEDRON, bodies.rotation(2))
+    rough = np.round(points, 4), triangles
+    assert symmetry(moments(rough, 6), noise=1e-3).group == "Ih"
