@@ -40,9 +40,11 @@ load_package()
 
 from body_moments.core.fourier import finished, solid_transform  # noqa: E402
 from body_moments.core.fourier_grid import GridTransform  # noqa: E402
+from body_moments.core.gradient import area_gradient, volume_gradient  # noqa: E402
 from body_moments.core.mass import MassProperties  # noqa: E402
 from body_moments.core.polyhedron import solid_and_area, solid_moments, third_moments_exact  # noqa: E402
 from body_moments.core.surface import Surface  # noqa: E402
+from body_moments.core.wall import sweep  # noqa: E402
 from body_moments.core.waves import Grid  # noqa: E402
 
 
@@ -136,6 +138,20 @@ def compare(title: str, points: np.ndarray, quads: np.ndarray, paired: bool, rou
     if trimesh:
         print("    faster than trimesh: {:.1f}x on one thread, {:.1f}x on two".format(*(
             statistics.median(times["trimesh mass_properties"]) / statistics.median(times[name]) for name in ours)))
+
+
+def walls_and_derivatives(side: int, rounds: int) -> None:
+    """What a wall and the derivatives cost beside a solid, and a new thickness beside measuring again."""
+    points, quads = torus(side, side, 0.0, lopsided=True)
+    surface = Surface(points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
+    swept, center = sweep(surface), np.zeros(3)
+    rows = {"solid to third order": lambda: solid_and_area(surface),
+            "wall as polynomials": lambda: sweep(surface),
+            "another thickness": lambda: swept.moments(1e-3, 0.0),
+            "derivatives of volume moments": lambda: volume_gradient(surface, center),
+            "derivatives of area moments": lambda: area_gradient(surface, center)}
+    table("{:,} triangles: walls and derivatives".format(2 * len(quads)), interleaved(rows, rounds),
+          ["solid to third order"], 2 * len(quads))
 
 
 def memory(side: int) -> None:
@@ -309,6 +325,7 @@ def main() -> None:
     print("Python {:s}, numpy {:s}, {:s}, {:d} processors".format(
         platform.python_version(), np.__version__, platform.machine(), os.cpu_count() or 1))
     arrays(side, rounds)
+    walls_and_derivatives(side // 4, rounds)
     memory(side)
     latency(rounds)
     fourier(quick)

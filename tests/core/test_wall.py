@@ -369,3 +369,10 @@ def test_a_finely_cut_sheet_keeps_its_rim():
     part = bodies.welded(bodies.joined(bodies.grid(8), bodies.moved(other, [[0, 0, -1], [0, 1, 0], [1, 0, 0]])))
     assert abs(wall(part, "outward", 0.1).total - (0.2 + 0.01)) < 1e-14
     assert abs(wall(part, "inward", 0.1).total - (0.2 - 0.01)) < 1e-14
+
+
+def test_needles_alone_are_swept_without_a_direction():
+    points = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1e-12, 0]])
+    found = sweep(bodies.surface((points, np.array([[0, 1, 2]]))))
+    assert found.ignored == 1 and found.outward == np.inf
+    assert found.moments(0.0, 1.0).total == 0.0
