@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from .canonical import Frames, inverted
 from .moments import Moments
-from .pose import frames_alike, settled
+from .pose import frames_alike, free_axes, settled
 
 HALF_TURNS = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]])
 EQUAL = 1e-4  # of the size: residuals nearer than this are equal, and the smallest turn is taken
@@ -54,9 +54,7 @@ def match(source: Moments, target: Moments, residual: Callable[[NDArray], NDArra
 def _ways(first: NDArray, target: Frames) -> NDArray[np.float64]:
     """(k, 3, 3) the rotations from a frame of the source to those of the target and their half turns."""
     frames = (target.frames[:, None] * HALF_TURNS[:, None, :]).reshape(-1, 3, 3)
-    if target.round_about:
-        free = tuple(i for i in range(3) if i not in target.round_about) or (0, 1, 2)
-        frames = np.array([settled(frame, free, first) for frame in frames])
+    frames = np.array([settled(frame, free_axes(target), first) for frame in frames])
     ways = frames @ first.T
     same = np.abs(ways[:, None] - ways[None]).max(axis=(2, 3)) < 1e-9
     return ways[np.argmax(same, axis=1) == np.arange(len(ways))]

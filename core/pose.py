@@ -48,13 +48,15 @@ OWN_NOTES = {
 class PrincipalFrame:
     """moments: (3,) principal moments of inertia, ascending. axes: (3, 3), the axes as columns, det +1.
     symmetry: "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1 and 2 equal) or "isotropic".
-    unique: whether the body alone fixes the frame; otherwise `note` says what was chosen."""
+    unique: whether the body alone fixes the frame; otherwise `note` says what was chosen. free: the axes of which
+    nothing that was looked at fixes the directions; the symmetry tells them where only second moments were."""
 
     moments: NDArray[np.float64]
     axes: NDArray[np.float64]
     symmetry: str
     unique: bool
     note: str
+    free: tuple[int, ...] = ()
 
     def turned(self, rotation: NDArray) -> PrincipalFrame:
         """The same frame in coordinates new = rotation @ old."""
@@ -78,10 +80,10 @@ def principal_frame(moments: Moments, prefer: NDArray | None = None, refine: Cal
         axes, note = _nearest([settled(frame, free, prefer) for frame in fixed.frames], prefer), NOTES[symmetry]
     else:
         alike = canonical_frames(higher(), fixed.spread, fixed.frames)
-        axes = chosen_frame(alike, prefer)
+        axes, free = chosen_frame(alike, prefer), free_axes(alike)
         if alike.round_about or len(alike.frames) > 1:
             note = (NOTES if alike.round_about else OWN_NOTES)[symmetry]
-    return PrincipalFrame(fixed.moments, axes, symmetry, not note, note)
+    return PrincipalFrame(fixed.moments, axes, symmetry, not note, note, free)
 
 
 def frames_alike(moments: Moments, noise: float = NOISE) -> Frames:
@@ -93,10 +95,12 @@ def frames_alike(moments: Moments, noise: float = NOISE) -> Frames:
 
 def chosen_frame(alike: Frames, prefer: NDArray) -> NDArray[np.float64]:
     """Of the frames in which a body is the same, the one nearest to the axes that are preferred."""
-    free = ()
-    if alike.round_about:
-        free = tuple(i for i in range(3) if i not in alike.round_about) or (0, 1, 2)
-    return _nearest([settled(frame, free, prefer) for frame in alike.frames], prefer)
+    return _nearest([settled(frame, free_axes(alike), prefer) for frame in alike.frames], prefer)
+
+
+def free_axes(alike: Frames) -> tuple[int, ...]:
+    """The axes whose directions no moment fixes."""
+    return (tuple(i for i in range(3) if i not in alike.round_about) or (0, 1, 2)) if alike.round_about else ()
 
 
 def strict_frame(moments: Moments) -> PrincipalFrame:

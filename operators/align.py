@@ -65,6 +65,8 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
         default="CENTER",
     )
 
+    strict: snapping.STRICT
+
     @classmethod
     def poll(cls, context: Context) -> bool:
         return selection.poll_selected(cls, context)
@@ -98,7 +100,7 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
         if fixed_to(obj) == "world":
             raise Refused("its density is a polynomial of world coordinates, and does not move with it; give it in its "
                           "own coordinates first")
-        body = snapping.body_of(context, obj)
+        body = snapping.body_of(context, obj, self.strict)
         goal = body.center if self.pivot == "CENTER" else np.zeros(3)
         aligned = body.is_principal(frame)
         if aligned and np.abs(body.center - goal).max() <= reframe.location_tolerance(

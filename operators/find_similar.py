@@ -154,7 +154,7 @@ class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
 
     mirrored: MIRRORED
     scaled: SCALED
-    filepath: StringProperty(subtype="FILE_PATH")
+    filepath: StringProperty(name="Library", description="The file to look in", subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.jsonl", options={"HIDDEN"})
 
     def invoke(self, context: Context, _event) -> set[str]:
@@ -183,7 +183,7 @@ class OBJECT_OT_body_moments_select_found(Operator):
     bl_label = "Select Found Object"
     bl_options = {"REGISTER", "UNDO"}
 
-    name: StringProperty(name="Name")
+    name: StringProperty(name="Name", description="The object to select")
 
     def execute(self, context: Context) -> set[str]:
         obj = context.view_layer.objects.get(self.name)

@@ -27,6 +27,8 @@ class OBJECT_OT_body_moments_axes_to_principal(Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
+    strict: snapping.STRICT
+
     @classmethod
     def poll(cls, context: Context) -> bool:
         return selection.poll_selected(cls, context)
@@ -38,6 +40,7 @@ class OBJECT_OT_body_moments_axes_to_principal(Operator):
             _along_axes,
             "Made the principal frame the own frame of {count}",
             move_only=False,
+            strict=self.strict,
         )
 
 

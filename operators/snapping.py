@@ -15,17 +15,29 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from bpy.props import BoolProperty
 from bpy.types import Context, Object, Operator
 from numpy.typing import NDArray
 
 from ..core.decimal import decimal
+from ..core.pose import strict_frame
 from . import reframe, selection, staleness
 from .channels import Refused
 from .measure import MeasureOptions, measure_object
 from .read import Unreadable
 from .write import properties
 
+STRICT = BoolProperty(
+    name="Zhang and Chen's Rule",
+    description=(
+        "Take axes 1 and 2 in the direction of positive third moments, as the paper does, and refuse "
+        "the bodies of which that rule says nothing: most that have a symmetry"
+    ),
+    default=False,
+)
 REFUSALS = (Refused, Unreadable, ValueError, RuntimeError)
+EQUAL = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
+TURNED = 1e-3  # what float32 coordinates may turn directions by that moments of higher order fix
 DIAGONAL = 4e-7  # of the trace: what float32 coordinates leave of products of inertia
 
 
@@ -34,7 +46,8 @@ class Body:
     """An object as measured now, world axes, lengths in Blender units.
 
     center (3,), axes (3, 3) principal, as columns, det +1; inertia (3, 3) about the center in
-    kg·m²; gyration (3,) radii; size: the largest of them; note: what was free to choose.
+    kg·m²; gyration (3,) radii; size: the largest of them; note: what was free to choose. own: the
+    axes of equal moments whose directions are the shape's own; unique: whether the shape fixes all.
     """
 
     obj: Object
@@ -44,6 +57,8 @@ class Body:
     gyration: NDArray[np.float64]
     mass: float
     note: str
+    own: tuple[int, ...] = ()
+    unique: bool = False
 
     @property
     def size(self) -> float:
@@ -57,12 +72,22 @@ class Body:
         diagonal = np.diag(tensor)
         off = np.abs(tensor - np.diag(diagonal)).max()
         along = (frame * self.axes).sum(axis=0)
-        return bool(off <= limit and (np.diff(diagonal) >= -limit).all() and (along > -0.5).all())
+        return bool(off <= limit and (np.diff(diagonal) >= -limit).all() and self._has_own(frame)
+                    and (self.own or (along > -0.5).all()))
+
+    def _has_own(self, frame: NDArray) -> bool:
+        """Whether the axes of equal moments lie as the shape asks: a cube's sides along any of its
+        own axes."""
+        cosines = (frame.T @ self.axes)[:, self.own]
+        wanted = np.eye(3)[:, self.own] if self.unique else np.round(cosines)
+        return bool((np.abs(cosines - wanted) <= TURNED).all())
 
 
-def body_of(context: Context, obj: Object) -> Body:
-    """Measure an object; Refused where its numbers depend on a reference point."""
-    measurement = measure_object(obj, context.evaluated_depsgraph_get(), MeasureOptions())
+def body_of(context: Context, obj: Object, strict: bool = False) -> Body:
+    """Measure an object; Refused where its numbers depend on a reference point. strict: with the
+    axes of Zhang and Chen's rule, or refused where it has none."""
+    options = MeasureOptions(pose=True)
+    measurement = measure_object(obj, context.evaluated_depsgraph_get(), options)
     if measurement.method.endswith("open"):
         raise Refused(
             "it is open and cannot be capped, so that its center is not its own; close it, or "
@@ -70,14 +95,17 @@ def body_of(context: Context, obj: Object) -> Body:
         )
     unit = decimal(context.scene.unit_settings.scale_length)
     body = measurement.mass_properties
+    principal = strict_frame(measurement.mass_moments[0]) if strict else body.principal
     return Body(
         obj=obj,
         center=body.center / unit,
-        axes=body.principal.axes,
+        axes=principal.axes,
         inertia=body.inertia,
         gyration=body.radii_of_gyration / unit,
         mass=body.mass,
-        note=body.principal.note,
+        note=principal.note,
+        own=tuple(i for i in EQUAL[principal.symmetry] if i not in principal.free),
+        unique=principal.unique,
     )
 
 
@@ -106,6 +134,7 @@ def reframe_selected(
     wanted: Callable[[Object, Body], NDArray | None],
     text: str,
     move_only: bool,
+    strict: bool = False,
 ) -> set[str]:
     """Give each selected object the matrix that `wanted` tells for it, while nothing visible moves,
     and report it. `wanted` tells None where the object is right as it is.
@@ -115,7 +144,7 @@ def reframe_selected(
 
     def plan(obj: Object) -> bool:
         reframe.check(obj)
-        body = body_of(context, obj)
+        body = body_of(context, obj, strict)
         target = wanted(obj, body)
         if target is not None:
             plans.append(reframe.Plan(obj, target, body.size, move_only=move_only))

@@ -522,3 +522,57 @@ def test_nothing_selected_says_so():
     bpy.ops.object.select_all(action="DESELECT")
     for name in (ORIGIN, AXES, ALIGN):
         assert not getattr(bpy.ops.object, name).poll()
+
+
+def turned_within(obj, angle=0.4):
+    """Turn the geometry within the object about its local z, as applying a rotation does."""
+    c, s = np.cos(angle), np.sin(angle)
+    for vertex in obj.data.vertices:
+        x, y, z = vertex.co
+        vertex.co = (c * x - s * y, s * x + c * y, z)
+    obj.data.update()
+    bpy.context.view_layer.update()
+
+
+@pytest.mark.parametrize("vertices, fold", [(3, 3), (4, 4), (5, 5), (6, 6)])
+def test_a_prism_turned_within_its_object_gets_its_own_axes(vertices, fold):
+    bpy.ops.mesh.primitive_cylinder_add(vertices=vertices, depth=5, location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
+    obj = bpy.context.object
+    turned_within(obj)
+    before = seen(obj)
+    assert run(AXES) == {"FINISHED"}
+    assert np.abs(seen(obj) - before).max() < 1e-5
+    points = np.array([vertex.co for vertex in obj.data.vertices])
+    angles = np.degrees(np.arctan2(points[:, 2], points[:, 1])) % (360 / fold)  # the long axis is x now
+    step = 180 / fold
+    assert np.abs((angles + step / 2) % step - step / 2).max() < 0.01  # corners or the middles of sides on the axes
+    assert run(AXES) == {"CANCELLED"}
+
+
+def test_a_cube_turned_within_its_object_gets_its_own_axes():
+    bpy.ops.mesh.primitive_cube_add(location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
+    obj = bpy.context.object
+    turned_within(obj)
+    assert run(AXES) == {"FINISHED"}
+    points = np.array([vertex.co for vertex in obj.data.vertices])
+    assert np.abs(np.abs(points) - 1.0).max() < 1e-5
+    assert run(AXES) == {"CANCELLED"}
+
+
+def test_a_round_body_turned_within_its_object_stays():
+    bpy.ops.mesh.primitive_cylinder_add(vertices=64, depth=5, location=(1, 2, 3))
+    obj = bpy.context.object
+    run(AXES)
+    matrix = place(obj)
+    bpy.context.view_layer.update()
+    assert run(AXES) == {"CANCELLED"} and (place(obj) == matrix).all()
+
+
+@pytest.mark.parametrize("name", [AXES, ALIGN])
+def test_the_strict_rule_poses_what_it_can_and_refuses_the_rest(name):
+    add(mesh_body(points=[(0, 0, 0), (3, 0, 0), (3.5, 1, 0), (1, 1, 0), (1, 2.5, 0), (0, 2, 0)]),
+        location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
+    assert run(name, strict=True) == {"FINISHED"}
+    assert run(name, strict=True) == {"CANCELLED"}
+    bpy.ops.mesh.primitive_cube_add()
+    assert run(name, strict=True) == {"CANCELLED"}
