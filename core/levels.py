@@ -10,10 +10,10 @@ generating function 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)). Each factor is one level 
 of which only one degree is kept at a time. Two triangles that share the edge a-b share C and D. Of the last degree only
 sums over faces are wanted, and those of S_α = C_α + Σ_i b_i D_{α-e_i} + Σ_i c_i S_{α-e_i} need no D and no S.
 
-Rows are the monomials of one degree in the order of `moments.monomials`, columns are faces. Where each row finds its
-predecessors is a table of indices, so that a level rises in three calls however many rows it has: fetch, multiply and
-add, add. Long calls are also what lets threads run side by side. All sums are of positive terms if the coordinates are
-positive, so a computed S_α is off by at most (6 n + 8) u S_α(|a|, |b|, |c|).
+Rows are the monomials of one degree in the order of `moments.monomials`, columns are faces. The rows that a level's sum
+takes from the degree below stand in runs, so that nothing is fetched or copied: 14 operations a moment, all on whole
+rows. Blocks are large, because long calls are what lets threads run side by side. All sums are of positive terms if the
+coordinates are positive, so a computed S_α is off by at most (6 n + 8) u S_α(|a|, |b|, |c|).
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class _Scratch:
     """Contiguous rows for blocks of `count` corners and k columns, carved out of one buffer.
 
     corners: (3, c, k), edges: (3, c-1, k), both over `vectors`. weights: (w, f, k) of the f = c-2 triangles. powers:
-    (R, k). first: (1, R+1, k) and second: (f, R+1, k), D and S of one degree, their last row zero. fetched: (f 3 R k).
+    (R, k). first: (1, R, k) and second: (f, R, k), D and S of one degree. room: for what is needed for a moment only.
     """
 
     def __init__(self, buffer: NDArray, count: int, k: int, order: int, weights: int):
@@ -84,17 +84,16 @@ class _Scratch:
         self.normals, self.minus = carve(3, fans, k), carve(3, fans, k)
         self.weights = carve(weights, fans, k)
         self.both = carve(weights, k)
-        self.powers, self.first, self.second = carve(rows, k), carve(1, rows + 1, k), carve(fans, rows + 1, k)
+        self.powers, self.first, self.second = carve(rows, k), carve(1, rows, k), carve(fans, rows, k)
         self.heavy = carve(fans, 3 * weights, k)
-        self.fetched = carve(fans * 3 * rows * k)
-        self.first[:, -1] = self.second[:, -1] = 0.0
+        self.room = carve(max(2 * fans * rows, 3 * (2 * count - 1)) * k)
 
     @staticmethod
     def numbers(count: int, order: int, weights: int) -> int:
         """How many numbers a column takes."""
         fans, rows = count - 2, rows_of(order)
-        return (2 * count + 3 * (2 * count - 1) + 6 * fans + (fans + 1) * weights + rows + (rows + 1) * (fans + 1)
-                + 3 * fans * weights + 3 * fans * rows)
+        return (2 * count + 3 * (2 * count - 1) + 6 * fans + (fans + 1) * weights + rows * (fans + 2)
+                + 3 * fans * weights + max(2 * fans * rows, 3 * (2 * count - 1)))
 
 
 class Levels:
@@ -166,7 +165,7 @@ class Levels:
             np.add(normals[0], normals[1], out=normals[0])
             np.add(normals[0], normals[2], out=normals[0])
             np.sqrt(normals[0], out=own.weights[1])
-        absolute = np.abs(own.vectors, out=own.fetched[:own.vectors.size].reshape(own.vectors.shape))
+        absolute = np.abs(own.vectors, out=own.room[:own.vectors.size].reshape(own.vectors.shape))
         chunked = absolute.reshape(*absolute.shape[:2], CHUNK, -1)
         tops = np.maximum.reduce(chunked, axis=2)  # (3, 2c-1, m)
         corners = own.corners.shape[1]
@@ -197,7 +196,7 @@ class Levels:
         for degree in range(1, self.order):
             self._raise_powers(own.powers, degree, first)
             rows, known = rows_of(degree), monomial_count(degree - 1)
-            grown = own.fetched[:rows * own.k].reshape(rows, own.k)
+            grown = own.room[:rows * own.k].reshape(rows, own.k)
             self._raise(own, own.first, degree, middle[:, None])
             np.multiply(own.powers[:rows], multinomials(degree), out=grown)
             np.add(own.first[0, :rows], grown, out=own.first[0, :rows])
@@ -209,12 +208,28 @@ class Levels:
             self._last(own, first, middle, others, total[:, monomial_count(self.order - 1):])
         return total
 
-    def _raise(self, own: _Scratch, level: NDArray, degree: int, vectors: NDArray) -> None:
-        """Σ_i v_i L_{α-e_i} in place of a level L, (f, R+1, k), one degree lower. vectors: (3, f, k)."""
-        fans, rows = len(level), rows_of(degree)
-        fetched = own.fetched[:fans * 3 * rows * own.k].reshape(fans, 3, rows, own.k)
-        np.take(level, predecessors(degree, level.shape[1] - 1), axis=1, out=fetched, mode="clip")
-        np.einsum("fdrk,dfk->frk", fetched, vectors, out=level[:, :rows])
+    @staticmethod
+    def _raise(own: _Scratch, level: NDArray, degree: int, vectors: NDArray) -> None:
+        """Σ_i v_i L_{α-e_i} in place of a level L, (f, R, k), one degree lower. vectors: (3, f, k).
+
+        Without a factor x, a row stands where it stood; without y or z, in the run of rows with one less q+r.
+        """
+        below = rows_of(degree - 1)
+        old, size = level[:, :below], len(level) * below * own.k
+        by_y, by_z = (own.room[i * size:(i + 1) * size].reshape(old.shape) for i in (0, 1))
+        np.multiply(old, vectors[1, :, None], out=by_y)
+        np.multiply(old, vectors[2, :, None], out=by_z)
+        np.multiply(old, vectors[0, :, None], out=old)
+        level[:, below:below + degree] = by_y[:, below - degree:]
+        level[:, below + degree] = by_z[:, below - 1]
+        for s in range(1, degree + 1):
+            start, before = s * (s + 1) // 2, s * (s - 1) // 2
+            last = s == degree
+            rows = level[:, start + 1:start + 1 + s - last]
+            np.add(rows, by_z[:, before:start - last], out=rows)
+            if not last:
+                rows = level[:, start:start + s]
+                np.add(rows, by_y[:, before:start], out=rows)
 
     @staticmethod
     def _raise_powers(powers: NDArray, degree: int, vector: NDArray) -> None:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Times and ratios against trimesh, libigl, Blender's BMesh and the floor of reading and gathering, from one run.
 
-    python tests/benchmark.py [--quick]
+    python tests/benchmark.py [--quick] [--stream M]
 
 Every table interleaves its rows in one process, so that its ratios hold whatever else the machine does. It prints
 medians and least times and asserts nothing: a busy machine is no failure. What is not installed is left out.
@@ -43,6 +43,8 @@ from body_moments.core.fourier_grid import GridTransform  # noqa: E402
 from body_moments.core.gradient import area_gradient, volume_gradient  # noqa: E402
 from body_moments.core.mass import MassProperties  # noqa: E402
 from body_moments.core.polyhedron import solid_and_area, solid_moments, third_moments_exact  # noqa: E402
+from body_moments.core.recursion import moments_to_order  # noqa: E402
+from body_moments.core.sheynin_tuzikov import triangle_moments as explicit_moments  # noqa: E402
 from body_moments.core.surface import Surface  # noqa: E402
 from body_moments.core.wall import sweep  # noqa: E402
 from body_moments.core.waves import Grid  # noqa: E402
@@ -178,6 +180,76 @@ def latency(rounds: int) -> None:
     for name, values in interleaved(rows, 100 * rounds).items():
         print("    {:<40s}{:>10.0f} us median{:>10.0f} us least".format(name, statistics.median(values) * 1e6,
                                                                         min(values) * 1e6))
+
+
+MULTIPLES = {4: 6, 6: 15, 10: 60, 16: 260, 20: 480}  # of the kernel for low orders that each order may cost
+EXPLICIT = {4: 18, 6: 40}  # times as fast as the explicit formula that each order must be
+
+
+def orders(quick: bool) -> None:
+    """Moments to high orders on the same mesh, as multiples of the kernel for low ones and of the explicit formula."""
+    points, quads = torus(400, 300, 0.05)
+    halves = quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]
+    for title, faces in (("triangulated quads", np.stack(halves, axis=1).reshape(-1, 3)),
+                         ("loose triangles", np.concatenate(halves))):
+        print("\nmoments to order N of {:s}, ns a triangle, medians of interleaved runs".format(title))
+        print("    {:>4s}{:>10s}{:>10s}{:>11s}{:>10s}{:>14s}{:>11s}{:>16s}".format(
+            "N", "order 3", "volume", "multiple", "at most", "with surface", "2 threads", "explicit/ours"))
+        for order in MULTIPLES:
+            compare_order(points, faces, order, quick)
+
+
+def compare_order(points: np.ndarray, faces: np.ndarray, order: int, quick: bool) -> None:
+    """One row of that table."""
+    count = min(len(faces), (8_000_000 if quick else 32_000_000) // (order + 1) ** 3 // 2 * 2)
+    part, base = Surface(points, faces[:count]), Surface(points, faces)
+    few = max(count // 40, 200)
+    rows = {"base": (lambda: solid_moments(base), len(faces)),
+            "volume": (lambda: moments_to_order(part, order), count),
+            "both": (lambda: moments_to_order(part, order, area=True), count),
+            "threads": (lambda: moments_to_order(part, order, threads=2), count)}
+    if order in EXPLICIT:
+        rows["explicit"] = (lambda: explicit_moments(points, faces[:few], order), few)
+    times = interleaved({name: function for name, (function, _) in rows.items()}, 3 if quick else 7)
+    each = {name: statistics.median(times[name]) / rows[name][1] * 1e9 for name in rows}
+    told = ""
+    if order in EXPLICIT:
+        told = "{:.0f}x (at least {:d})".format(each["explicit"] / each["volume"], EXPLICIT[order])
+    print("    {:>4d}{:>10.0f}{:>10.0f}{:>10.1f}x{:>9d}x{:>+13.0f}%{:>10.2f}x{:>22s}".format(
+        order, each["base"], each["volume"], each["volume"] / each["base"], MULTIPLES[order],
+        100.0 * (each["both"] / each["volume"] - 1.0), each["volume"] / each["threads"], told))
+
+
+def stream(millions: float, order: int = 4) -> None:
+    """A torus of so many million triangles, made strip by strip while it is measured: time, memory, and the truth."""
+    import resource
+
+    m, strip = 1000, 25
+    n = max(int(millions * 1e6 / (2 * m)) // strip, 1) * strip
+    angle = np.arange(m) * (2 * np.pi / m)
+    ring = np.stack([1.0 + 0.4 * np.cos(angle), 0.4 * np.sin(angle)])
+    i, j = np.meshgrid(np.arange(strip), np.arange(m), indexing="ij")
+    corners = [(i, j), (i + 1, j), (i + 1, (j + 1) % m), (i, (j + 1) % m)]
+    quads = np.stack([(a * m + b).ravel() for a, b in corners], axis=1).astype(np.int32)
+    triangles = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+
+    def strips():
+        for start in range(0, n, strip):
+            turn = (start + np.arange(strip + 1)) % n * (2 * np.pi / n)
+            points = np.stack([np.outer(np.cos(turn), ring[0]), np.outer(np.sin(turn), ring[0]),
+                               np.broadcast_to(ring[1], (strip + 1, m))], axis=-1)
+            yield Surface(points.reshape(-1, 3), triangles)
+
+    before, start = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, time.perf_counter()
+    volume, area = moments_to_order(strips(), order, area=True, threads=os.cpu_count() or 1, about=np.zeros(3),
+                                    reach=1.4)
+    seconds = time.perf_counter() - start
+    grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+    polygons = np.prod([k / (2 * np.pi) * np.sin(2 * np.pi / k) for k in (n, m)])  # for circles
+    print("\nstream of {:,} triangles to order {:d}, both weights: {:.1f} s, {:.0f} MB more than before".format(
+        2 * n * m, order, seconds, grown / 1024))
+    print("    volume / that of the torus - 1 = {:.2e} (of its polygons {:.2e}), error bound {:.1e}".format(
+        volume.total / (2 * np.pi ** 2 * 0.16) - 1.0, polygons - 1.0, volume.error[0]))
 
 
 def mesh_object(name: str, points: np.ndarray, quads: np.ndarray):
@@ -320,7 +392,12 @@ def fourier(quick: bool) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="a tenth of the faces, fewer rounds")
-    quick = parser.parse_args().quick
+    parser.add_argument("--stream", type=float, metavar="M", help="only: a stream of M million triangles (try 50)")
+    options = parser.parse_args()
+    if options.stream:
+        stream(options.stream)
+        return
+    quick = options.quick
     side, rounds = (316, 5) if quick else (1000, 9)
     print("Python {:s}, numpy {:s}, {:s}, {:d} processors".format(
         platform.python_version(), np.__version__, platform.machine(), os.cpu_count() or 1))
@@ -329,6 +406,7 @@ def main() -> None:
     memory(side)
     latency(rounds)
     fourier(quick)
+    orders(quick)
     if not optional("bpy"):
         print("\nThere is no bpy here: reading from Blender was not measured.")
         return
