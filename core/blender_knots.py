@@ -38,7 +38,8 @@ def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
         left -= 1
         if left == 0:
             current, left = current + 1, repeat
-    knots[length - tail:] = current + knots[:tail] - knots[0]
+    for i in range(tail):  # one after the other: a tail longer than the rest repeats itself
+        knots[length - tail + i] = current + knots[i] - knots[0]
     return knots
 
 
@@ -61,3 +62,18 @@ def display_parameters(space: Space, resolution: int) -> NDArray[np.float64]:
     steps = np.full(total, (high - low) / np.float32(total if cyclic else total - 1), np.float32)
     steps[0] = low
     return np.add.accumulate(steps, dtype=np.float32).astype(np.float64)
+
+
+def display_table(space: Space, parameters: NDArray) -> NDArray[np.float64]:
+    """(n, count) what each control point weighs in Blender's display mesh at those parameters.
+
+    The last of them may drift past the domain's end, into a span whose next basis function does not exist: there the
+    weights add up to less than one, and so does the surface that is displayed.
+    """
+    table = space.matrix(np.minimum(parameters, space.domain[1]))
+    past = (parameters > space.domain[1]) & (space.knots[-1] > space.domain[1])
+    if past.any():
+        knots = space.knots + tuple(space.knots[-1] + 1.0 + i for i in range(space.order))
+        longer = Space(knots, space.order, len(knots) - space.order)
+        table[past] = longer.matrix(parameters[past])[:, :space.count]
+    return table

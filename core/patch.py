@@ -42,14 +42,16 @@ class Patch:
 
     def grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
         """(len(s), len(t), 3) its points."""
-        tables = [space.matrix(np.asarray(values)) for space, values in zip(self.spaces, (s, t))]
-        origin = self.points[0, 0]
-        points = self.points - origin
+        return self.combined(*(space.matrix(np.asarray(values)) for space, values in zip(self.spaces, (s, t))))
+
+    def combined(self, *tables: NDArray) -> NDArray[np.float64]:
+        """(m, n, 3) its points where its control points weigh what two tables, (m, count_s) and (n, count_t), say."""
+        points = self.points
         if self.weights is not None:
             points = points * self.weights[..., None]
             bottom = np.einsum("ai,bi->ab", np.einsum("ai,ij->aj", tables[0], self.weights), tables[1])
         top = np.einsum("ajd,bj->abd", np.einsum("ai,ijd->ajd", tables[0], points), tables[1])
-        return (top if self.weights is None else top / bottom[..., None]) + origin
+        return top if self.weights is None else top / bottom[..., None]
 
     def side(self, axis: int, end: int) -> Curve:
         """The curve that bounds the patch where s (axis 0) or t (axis 1) is first (end 0) or last (end 1)."""
