@@ -18,16 +18,19 @@ from .solid import Health
 class Measurement:
     """One object in SI units and world axes.
 
-    kind: "solid" or "shell"; method: "exact", "capped", "reoriented", "open", "shell" or "union".
+    kind: "solid" or "shell"; method: "exact", "capped", "reoriented", "open", "shell" or "union", with "NURBS" before
+        it where B-spline patches were measured instead of their display mesh.
     density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area
     in m².
-    volume_moments: None for a shell; area_moments: to order 3 for a shell, else order 0.
+    volume_moments: None for a shell without real thickness; area_moments: to order 3 for a shell, else order 0 at
+        least.
     mass_moments: the moments that carry the mass, and the mass in kg per unit of them.
     rotation, location: (3, 3) and (3,) the object frame, its unit scale.
     error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"
         for what storing coordinates as float32 may have moved.
     warnings: one sentence for each decision taken on the way.
     fingerprint: of what the numbers were computed from.
+    display_volume: what the display mesh of B-spline patches would have given, m³; None where none was asked.
     """
 
     name: str
@@ -48,6 +51,7 @@ class Measurement:
     location: NDArray[np.float64]
     error_bound: dict
     fingerprint: str
+    display_volume: float | None = None
 
     def in_object_frame(self) -> MassProperties:
         """The mass properties in the object's own frame."""

@@ -19,6 +19,7 @@ from ..core.measurement import Measurement
 from .body import Body
 from .fingerprint import effective_hash, fingerprint, matrix_hash
 from .mesh_body import mesh_body
+from .nurbs_body import nurbs_body
 from .read import Reading, Unreadable, read_object
 
 
@@ -27,7 +28,7 @@ class MeasureOptions:
     """What overrides the objects' own settings; None leaves the setting. SI units.
 
     kind: "solid" or "shell"; density: kg/m³; mass: kg; thickness: m; overlap: "signed" or "union"; unit_scale: metres
-    per Blender unit, else the scene's.
+    per Blender unit, else the scene's. compare: whether what needs no display mesh is compared with it.
     """
 
     kind: str | None = None
@@ -37,6 +38,7 @@ class MeasureOptions:
     overlap: str | None = None
     unit_scale: float | None = None
     threads: int = 1
+    compare: bool = True
 
 
 def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
@@ -50,11 +52,18 @@ def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     options = _resolved(options, obj, unit)
     reading = read_object(obj, depsgraph)
     try:
-        body = mesh_body(reading, unit, shell=options.kind == "shell", union=options.overlap == "union",
-                         threads=options.threads)
+        body = _body(reading, unit, options)
         return _told(obj, reading, body, options, unit)
     except ValueError as error:
         raise Unreadable(obj.name, str(error)) from error
+
+
+def _body(reading: Reading, unit: float, options: MeasureOptions) -> Body:
+    shell, union = options.kind == "shell", options.overlap == "union"
+    if reading.has_patches:
+        return nurbs_body(reading, unit, thickness=options.thickness if shell else None, union=union,
+                          threads=options.threads, compare=options.compare)
+    return mesh_body(reading, unit, shell=shell, union=union, threads=options.threads)
 
 
 def _resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> MeasureOptions:
@@ -67,12 +76,12 @@ def _resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> Me
     return MeasureOptions(
         kind=options.kind or settings.kind.lower(), density=density, mass=mass,
         thickness=decimal(settings.thickness) * unit if options.thickness is None else options.thickness,
-        overlap=options.overlap or settings.overlap.lower(), threads=options.threads)
+        overlap=options.overlap or settings.overlap.lower(), threads=options.threads, compare=options.compare)
 
 
 def _told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOptions, unit: float) -> Measurement:
     shell = options.kind == "shell"
-    volume = body.area * options.thickness if shell else body.volume
+    volume = body.volume if not shell else body.area * options.thickness if body.sheet is None else body.sheet
     if not volume.total > 0.0:
         raise ValueError("It has no thickness; set one." if shell and body.area.total > 0.0 else
                          "Its faces enclose no volume; measure it as a shell, or close it.")
@@ -81,7 +90,8 @@ def _told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureO
         weighed, factor = body.mass, 1.0 if options.mass is None else options.mass / body.mass.total
         density = body.mass.total * factor / volume.total
     else:
-        weighed, factor = (body.area, density * options.thickness) if shell else (body.volume, density)
+        weighed, factor = ((body.area, density * options.thickness) if shell and body.sheet is None
+                           else (volume, density))
     if not density > 0.0:
         raise ValueError("Its {:s} is zero; give it one.".format("density" if options.mass is None else "mass"))
     rotation, location = np.asarray(reading.rotation, np.float64), np.asarray(reading.location, np.float64) * unit
@@ -95,10 +105,11 @@ def _told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureO
     settings = effective_hash(options.kind.upper(), options.density, options.mass, options.thickness,
                               options.overlap.upper(), unit)
     return Measurement(
-        name=obj.name, type=obj.type, kind=options.kind, method="shell" if shell else body.method, density=density,
+        name=obj.name, type=obj.type, kind=options.kind,
+        method="shell" if shell and body.sheet is None else body.method, density=density,
         thickness=options.thickness if shell else 0.0, volume=volume.total, area=body.area.total,
-        mass_properties=properties, volume_moments=None if shell else body.volume, area_moments=body.area,
+        mass_properties=properties, volume_moments=None if shell and body.sheet is None else volume, area_moments=body.area,
         mass_moments=(weighed, factor), health=body.health, warnings=(*reading.warnings, *body.warnings),
-        rotation=rotation, location=location,
+        rotation=rotation, location=location, display_volume=body.display_volume,
         error_bound={**bounds("error", properties.error), "input": bounds("input", properties.input)},
         fingerprint=fingerprint(body.volume.raw.tobytes() + body.area.raw.tobytes(), matrix_hash(obj), settings))

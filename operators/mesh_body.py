@@ -42,7 +42,7 @@ def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, thread
 def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
     """Each part measured once in its own coordinates, and mapped to wherever it stands."""
     volumes, areas, healths, methods, warnings, parts = [], [], [], [], [], []
-    if not shell and reading.places > 1 and _boxes_meet(reading):
+    if not shell and reading.places > 1 and places_meet(reading):
         if sum((len(part.surface.triangles) + 2 * len(part.surface.quads)) * len(part.matrices)
                for part in reading.parts) <= COMPARED:
             return _as_one(reading, unit, threads)
@@ -51,7 +51,7 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
             "those share counts twice.".format(reading.places))
     for part in reading.parts:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
-        matrices = _scaled(part.matrices, unit)
+        matrices = scaled(part.matrices, unit)
         volumes.append(map_sum(solid.volume, matrices))
         areas.extend(_mapped_areas(part, solid.area, matrices, shell, threads))
         stretch = volumes[-1].total / solid.volume.total if solid.volume.total else 0.0  # Σ |det|
@@ -63,7 +63,7 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
             warnings.extend(w for w in solid.warnings if w not in warnings)
         parts.append((solid, matrices))
     ranked = ("open", "capped", "reoriented", "exact")
-    return _body(sum_moments(volumes), sum_moments(areas), _together(healths), min(methods, key=ranked.index), warnings,
+    return _body(sum_moments(volumes), sum_moments(areas), together(healths), min(methods, key=ranked.index), warnings,
                  parts, threads)
 
 
@@ -89,7 +89,7 @@ def _realized(reading: Reading) -> Surface:
                    for part in reading.parts for matrix in part.matrices])
 
 
-def _boxes_meet(reading: Reading) -> bool:
+def places_meet(reading: Reading) -> bool:
     """Whether the boxes around any two of the places where parts stand share more than a rim."""
     centers, extents = [], []
     for part in reading.parts:
@@ -119,7 +119,7 @@ def _united(reading: Reading, unit: float, threads: int) -> Body:
                  [(solid, np.eye(4)[None])], threads)
 
 
-def _scaled(matrices: NDArray, unit: float) -> NDArray[np.float64]:
+def scaled(matrices: NDArray, unit: float) -> NDArray[np.float64]:
     """World matrices to SI."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit
@@ -147,7 +147,7 @@ def _mapped_areas(part: Part, area: Moments, matrices: NDArray, shell: bool, thr
         yield map_sum(mapped, moved)
 
 
-def _together(healths: Iterable[tuple[Health, int]]) -> Health:
+def together(healths: Iterable[tuple[Health, int]]) -> Health:
     """One verdict for all parts and their instances: counts add; faults are named where there is one part only."""
     healths = list(healths)
     first, copies = healths[0]

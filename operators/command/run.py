@@ -118,7 +118,7 @@ class Run:
         one = measure_object(obj, depsgraph, wanted)
         if not self.options.surface_moments:
             return one, None
-        if one.kind == "shell":
+        if one.area_moments.order >= 3:
             return one, one.area_moments
         as_shell = replace(wanted, kind="shell", density=1.0, mass=None, thickness=1.0)
         return one, measure_object(obj, depsgraph, as_shell).area_moments

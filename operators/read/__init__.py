@@ -3,7 +3,7 @@
 """Blender in: evaluated objects as arrays, with their places and every decision taken."""
 
 from .objects import read_object
-from .reading import Part, Reading, Unreadable
+from .reading import Part, Reading, SplineReading, Unreadable
 from .visibility import measurable, measurable_objects
 
-__all__ = ["Part", "Reading", "Unreadable", "measurable", "measurable_objects", "read_object"]
+__all__ = ["Part", "Reading", "SplineReading", "Unreadable", "measurable", "measurable_objects", "read_object"]

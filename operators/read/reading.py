@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.patch import Patch
 from ...core.surface import Surface
 
 # Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
@@ -29,16 +30,28 @@ class Unreadable(Exception):
         self.reason = reason
 
 
+@dataclass(frozen=True, eq=False)
+class SplineReading:
+    """patches: of the splines that show a surface, each facing as Blender's faces do. stored: by how much float32
+    may have moved their points. notes: sentences."""
+
+    patches: tuple[Patch, ...]
+    stored: float
+    notes: tuple[str, ...]
+
+
 @dataclass
 class Part:
     """One surface and the places where it stands.
 
     matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column
     vectors.
+    splines: where `surface` is but the display mesh of B-spline patches, those.
     """
 
     surface: Surface
     matrices: NDArray[np.float64]
+    splines: SplineReading | None = None
 
 
 @dataclass
@@ -61,6 +74,11 @@ class Reading:
     location: NDArray[np.float64]
     parts: list[Part] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
+
+    @property
+    def has_patches(self) -> bool:
+        """Whether some of it are B-spline patches."""
+        return any(part.splines is not None for part in self.parts)
 
     @property
     def flattened(self) -> int:

@@ -10,7 +10,7 @@ linear problem in each direction; where that leaves a difference too, the displa
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,21 +18,12 @@ from numpy.typing import NDArray
 from ...core.blender_knots import blender_space, display_parameters, display_table
 from ...core.patch import Patch
 from .deformation import deformed, is_deformed, spline_modifiers
+from .reading import SplineReading
 
 AGREE = 4e-6  # of the largest coordinate: float32 evaluation, of order 6 by order 6
 HALF_ULP = 2.0 ** -24
 RECOVERED = 1e-6  # of the size: what control points that were solved for may be off by
 LARGEST_SOLVED = 1e4  # condition of a direction's samples
-
-
-@dataclass(frozen=True, eq=False)
-class SplineReading:
-    """patches: of the splines that show a surface, each facing as Blender's faces do. stored: by how much float32
-    may have moved their points. notes: sentences."""
-
-    patches: tuple[Patch, ...]
-    stored: float
-    notes: tuple[str, ...]
 
 
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:

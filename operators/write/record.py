@@ -72,6 +72,11 @@ def record(
         entry["moments"]["volume"] = _about_origin(volume, order, measurement, frame)
         if surface is not None:
             entry["moments"]["surface"] = _about_origin(surface, order, measurement, frame)
+    if measurement.display_volume is not None:
+        entry["display_mesh"] = {
+            "volume": measurement.display_volume,
+            "difference": measurement.display_volume - measurement.volume,
+        }
     entry["health"] = measurement.health.as_record()
     entry["error_bound"] = measurement.error_bound
     entry["warnings"] = list(measurement.warnings)
@@ -233,6 +238,7 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number]
             for i, axis in enumerate("xyz")
         }
+    row |= _nested("display_mesh", entry.get("display_mesh", {}))
     row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"])
     for name in ("volume", "surface"):
         powers = entry.get("moments", {}).get(name, {})
