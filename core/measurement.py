@@ -18,8 +18,8 @@ from .solid import Health
 class Measurement:
     """One object in SI units and world axes.
 
-    kind: "solid" or "shell"; method: "exact", "capped", "reoriented", "open", "shell" or "union", with "NURBS" before
-        it where B-spline patches were measured instead of their display mesh.
+    kind: "solid", "shell" or "wire"; method: "exact", "capped", "reoriented", "open", "shell", "union" or "wire", with
+        "NURBS" before it where B-spline patches were measured instead of their display mesh.
     density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area
     in m².
     volume_moments: None for a shell without real thickness; area_moments: to order 3 for a shell, else order 0 at
@@ -30,6 +30,7 @@ class Measurement:
         for what storing coordinates as float32 may have moved.
     warnings: one sentence for each decision taken on the way.
     fingerprint: of what the numbers were computed from.
+    length: of a wire, m, whose density in kg/m is its mass by that and whose `density` is 0; else None.
     display_volume: what the display mesh of B-spline patches would have given, m³; None where none was asked.
     """
 
@@ -51,6 +52,7 @@ class Measurement:
     location: NDArray[np.float64]
     error_bound: dict
     fingerprint: str
+    length: float | None = None
     display_volume: float | None = None
 
     def in_object_frame(self) -> MassProperties:

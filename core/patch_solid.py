@@ -31,7 +31,8 @@ CURVED = 1e-6  # of the size: a rim that lies this near to a plane is flat to fl
 class PatchMeasure:
     """volume: Moments of the body; its error is an estimate. area: Moments of the patches, without caps; an estimate.
     method: "exact", "capped", "reoriented" or "open". warnings: one sentence for each decision taken.
-    patches: those whose signed sum `volume` is, caps among them.
+    patches: those whose signed sum `volume` is, caps among them. signs: (n,) how each of those that were given counts:
+    1, -1, or 0 for a flat part. closure: how they close.
     """
 
     volume: Moments
@@ -40,6 +41,8 @@ class PatchMeasure:
     method: str
     warnings: tuple[str, ...]
     patches: tuple[Patch, ...]
+    signs: NDArray[np.float64]
+    closure: Closure
 
 
 def measure_patches(patches: Sequence[Patch], *, order: int = 3, area_order: int = 0, stored: float = 0.0
@@ -96,7 +99,9 @@ def measure_patches(patches: Sequence[Patch], *, order: int = 3, area_order: int
         inverted_components=int(turn.sum()), cap_area_share=share, **compared["counts"])
     outward = [patch.turned() if flip else patch
                for part, flip, keep in zip(parts, turn, kept) if keep for patch in part]
-    return PatchMeasure(volume, area, health, method, tuple(notes), tuple(outward))
+    counted = np.where(turn, -1.0, 1.0) * kept
+    signs = counted[closure.component] * np.where(closure.turned, -1.0, 1.0)
+    return PatchMeasure(volume, area, health, method, tuple(notes), tuple(outward), signs, closure)
 
 
 def measure_sheet(patches: Sequence[Patch], thickness: float, *, order: int = 3, stored: float = 0.0

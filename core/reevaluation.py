@@ -46,11 +46,12 @@ class Evaluator:
 
     Gauss rules are exact for polynomial patches. For rational ones they have 16 points a span and come without an
     estimate, which `patch_moments` gives. order: of the moments. about: (3,) what they are taken about, by default the
-    mean of the control points. The flux of one patch is a body's only together with those of the others.
+    mean of the control points. The flux of one patch is a body's only together with those of the others. with_area:
+    also keep `area`, of the patch as last evaluated, by the same points: an approximation.
     """
 
-    def __init__(self, patch: Patch, order: int = 2, about: NDArray | None = None):
-        self.spaces, self.order = patch.spaces, order
+    def __init__(self, patch: Patch, order: int = 2, about: NDArray | None = None, with_area: bool = False):
+        self.spaces, self.order, self.with_area = patch.spaces, order, with_area
         self.about = np.asarray(patch.points.mean(axis=(0, 1)) if about is None else about, np.float64)
         self.rational = patch.weights is not None
         self.counts = [RATIONAL if self.rational else exact_points(space.order, order) for space in self.spaces]
@@ -61,7 +62,8 @@ class Evaluator:
         self._pairs = _pair_monomials(order)
         self._tiles = [[slice(start, min(start + TILE, len(space.spans)))
                         for start in range(0, len(space.spans), TILE)] for space in self.spaces]
-        self.sums = np.zeros((*(len(space.spans) for space in self.spaces), len(self._divisor)))
+        self.sums = np.zeros((*(len(space.spans) for space in self.spaces), len(self._divisor) + 1))
+        self.area = 0.0
         self._parts: NDArray | None = None
         self.net = self._extended(patch.points, patch.weights)
         self.whole = len(self._tiles[0]) == len(self._tiles[1]) == 1
@@ -118,7 +120,8 @@ class Evaluator:
                      int(np.searchsorted(space.spans, function + space.order)))
 
     def _made(self, sums: NDArray) -> Moments:
-        return Moments(sums / self._divisor, self.about)
+        self.area = float(sums[-1])
+        return Moments(sums[:-1] / self._divisor, self.about)
 
     def _flux(self, rows: slice, columns: slice, each: bool) -> NDArray[np.float64]:
         """The sums over some spans of s and some of t: for each pair of them, or together."""
@@ -141,10 +144,15 @@ class Evaluator:
             s = s[:3] * bottom
             s_along, s_across = ((row[:3] - s * row[3]) * bottom for row in (s_along, s_across))
         (x, y, z), (a, b, c), (d, e, f) = s, s_along, s_across
-        flux = x * (b * f - c * e)
-        flux += y * (c * d - a * f)
-        flux += z * (a * e - b * d)
-        flux *= step[:, None] * stride
+        normal = b * f - c * e, c * d - a * f, a * e - b * d
+        weights = step[:, None] * stride
+        flux = x * normal[0]
+        flux += y * normal[1]
+        flux += z * normal[2]
+        flux *= weights
+        area = np.zeros(0)
+        if self.with_area:
+            area = np.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2) * weights
         left, right, places = self._pairs
         basis = np.empty((left, *flux.shape))
         basis[0] = 1.0
@@ -153,10 +161,12 @@ class Evaluator:
         weighted = basis * flux
         if not each:
             gram = np.matmul(weighted.reshape(left, -1), basis.reshape(left, -1).T)
-            return gram.reshape(-1)[places]
+            return np.append(gram.reshape(-1)[places], area.sum())
         shape = (left, rows.stop - rows.start, self.counts[0], columns.stop - columns.start, self.counts[1])
         gram = np.einsum("aumvn,bumvn->uvab", weighted.reshape(shape), basis.reshape(shape))
-        return gram.reshape(*gram.shape[:2], -1)[..., places]
+        found = gram.reshape(*gram.shape[:2], -1)[..., places]
+        area = area.reshape(shape[1:]).sum(axis=(1, 3)) if self.with_area else np.zeros(found.shape[:2])
+        return np.concatenate([found, area[..., None]], axis=2)
 
 
 @lru_cache

@@ -24,6 +24,7 @@ class Body:
     moments in kg; else None.
     method, warnings: as in `Measurement`.
     refined: gives what the principal frame is made from, with exact third order, where its bounds leave it undecided.
+    length: of a wire, its moments; else None.
     sheet: of a shell with real thickness, its volume's moments; else None, and the area times the thickness counts.
     display_volume: of a body that is measured without its display mesh, what that would have given, m³; else None.
     solids: the surfaces that were measured, and the (k, 4, 4) maps to where each stands.
@@ -36,6 +37,7 @@ class Body:
     warnings: tuple[str, ...]
     mass: Moments | None = None
     refined: Callable[[], Moments] | None = None
+    length: Moments | None = None
     sheet: Moments | None = None
     display_volume: float | None = None
     solids: tuple[tuple[SolidMeasure, NDArray], ...] = ()

@@ -15,7 +15,7 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 from ..core.decimal import decimal
 from ..core.materials import BY_NAME
 
-COPIED = ("kind", "thickness", "mass_from", "density", "material", "mass", "overlap")
+COPIED = ("kind", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap")
 
 
 def _forget_material(settings: PropertyGroup, _context: Context) -> None:
@@ -35,6 +35,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
         items=(
             ("SOLID", "Solid", "The surface bounds a body that is filled with the material"),
             ("SHELL", "Shell", "The surface itself is a sheet of the given thickness"),
+            ("WIRE", "Wire", "A curve itself is a wire of the given mass per length"),
         ),
         default="SOLID",
     )
@@ -57,6 +58,14 @@ class BodyMomentsObjectSettings(PropertyGroup):
         step=1000,
         precision=3,
         update=_forget_material,
+    )
+    linear_density: FloatProperty(
+        name="Linear Density",
+        description="Mass per length of a wire, in kg/m",
+        default=1.0,
+        min=0.0,
+        step=10,
+        precision=6,
     )
     mass: FloatProperty(
         name="Mass",
@@ -128,7 +137,8 @@ def keep(settings: PropertyGroup, options, scene: Scene) -> None:
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name).upper())
     if options.density is not None:
-        settings.mass_from, settings.density = "DENSITY", options.density
+        settings.mass_from = "DENSITY"
+        setattr(settings, "linear_density" if settings.kind == "WIRE" else "density", options.density)
     if options.mass is not None:
         settings.mass_from, settings.mass = "MASS", options.mass
     if options.thickness is not None:

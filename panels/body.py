@@ -22,6 +22,7 @@ VERDICTS = {
     "exact": ("Exact, Closed Surface", "CHECKMARK", ""),
     "union": ("United Shells", "INFO", "By Blender's exact boolean, to 7 digits"),
     "shell": ("Shell", "MOD_SOLIDIFY", "The mass is in the surface"),
+    "wire": ("Wire", "CURVE_DATA", "The mass is along the curve"),
     "reoriented": ("Reoriented", "INFO", "Closed after flipped faces were turned"),
     "capped": ("Capped", "ERROR", "The surface is open; its holes were capped"),
     "open": ("Open", "CANCEL", "Not closed: the numbers depend on the reference point"),
@@ -101,10 +102,12 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
     column.row().prop(settings, "kind", expand=True)
     if settings.kind == "SHELL":
         column.prop(settings, "thickness")
-    else:
+    elif settings.kind == "SOLID":
         column.prop(settings, "overlap")
     column.row().prop(settings, "mass_from", text="Given", expand=True)
-    if settings.mass_from == "DENSITY":
+    if settings.mass_from == "DENSITY" and settings.kind == "WIRE":
+        column.prop(settings, "linear_density", text="Density kg/m")
+    elif settings.mass_from == "DENSITY":
         split = column.row(align=True).split(factor=0.4, align=True)
         label = split.row()
         label.alignment = "RIGHT"

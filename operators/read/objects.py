@@ -13,6 +13,7 @@ import numpy as np
 
 from ...core.rotation import rotation_matrix
 from ...core.surface import Surface
+from .curves import read_curves
 from .decisions import decisions, why_empty
 from .instances import Gathered
 from .reading import Reading, Unreadable, float64_matrix
@@ -28,6 +29,35 @@ def read_object(obj, depsgraph) -> Reading:
     obj = obj.original
     require_kind(obj)
     _require_readable_mode(obj)
+    evaluated, matrix = _evaluated(obj, depsgraph)
+    gathered = Gathered(evaluated, depsgraph)
+    gathered.gather()
+    parts = gathered.parts()
+    if not parts:
+        raise Unreadable(obj.name, why_empty(obj, gathered, depsgraph))
+    for part in parts:
+        _require_finite(obj.name, part.surface)
+    reading = _placed(obj, evaluated, matrix)
+    reading.parts, reading.warnings = parts, list(decisions(obj, gathered, depsgraph))
+    return reading
+
+
+def read_lines(obj, depsgraph) -> Reading:
+    """As `read_object` for a curve object, but its curves instead of the surface that it may show.
+
+    Raises Unreadable for objects of other kinds too.
+    """
+    obj = obj.original
+    if obj.type != "CURVE":
+        raise Unreadable(obj.name, "Only a curve can be a wire; measure it as a solid or a shell.")
+    evaluated, matrix = _evaluated(obj, depsgraph)
+    reading = _placed(obj, evaluated, matrix)
+    reading.curves, reading.warnings = read_curves(obj, depsgraph)
+    return reading
+
+
+def _evaluated(obj, depsgraph) -> tuple:
+    """The evaluated object and its world matrix."""
     evaluated = obj.evaluated_get(depsgraph)
     if not evaluated.is_evaluated:
         raise Unreadable(obj.name, hidden_reason(obj, depsgraph) or NOT_EVALUATED)
@@ -37,14 +67,10 @@ def read_object(obj, depsgraph) -> Reading:
             obj.name,
             "Its transform is not finite; reset its location, rotation and scale, or its parent's.",
         )
+    return evaluated, matrix
 
-    gathered = Gathered(evaluated, depsgraph)
-    gathered.gather()
-    parts = gathered.parts()
-    if not parts:
-        raise Unreadable(obj.name, why_empty(obj, gathered, depsgraph))
-    for part in parts:
-        _require_finite(obj.name, part.surface)
+
+def _placed(obj, evaluated, matrix) -> Reading:
     location, rotation, _scale = evaluated.matrix_world.decompose()
     return Reading(
         name=obj.name,
@@ -52,8 +78,6 @@ def read_object(obj, depsgraph) -> Reading:
         matrix=matrix,
         rotation=rotation_matrix(rotation),
         location=np.array(location[:], np.float64),
-        parts=parts,
-        warnings=list(decisions(obj, gathered, depsgraph)),
     )
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.curve import Curve
 from ...core.patch import Patch
 from ...core.surface import Surface
 
@@ -62,6 +63,7 @@ class Reading:
     matrix: (4, 4) float64, the object's `matrix_world`.
     rotation: (3, 3), orthonormal to float64, and location: (3,), Blender units, as
         `matrix_world.decompose()` gives them: the object frame.
+    curves: of a curve object that is read as lines, in its own coordinates; else none.
     flattened: how many of the places have a matrix that flattens the surface, so that it encloses nothing.
     singular: all of them have. places: how many surfaces stand where, instances counted each.
     warnings: sentences without the object's name, one for each decision that was taken.
@@ -73,6 +75,7 @@ class Reading:
     rotation: NDArray[np.float64]
     location: NDArray[np.float64]
     parts: list[Part] = field(default_factory=list)
+    curves: list[Curve] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
 
     @property

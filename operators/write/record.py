@@ -64,12 +64,21 @@ def record(
         **({"thickness": measurement.thickness} if measurement.kind == "shell" else {}),
         **_inertial(properties),
     }
+    if measurement.length is not None:
+        entry |= {
+            "density": None,  # a wire has none, and no volume
+            "length": measurement.length,
+            "linear_density": properties.mass / measurement.length,
+        }
     if order is not None:
         volume = measurement.volume_moments
         if volume is None:
             volume = measurement.area_moments * measurement.thickness
         entry["moments"] = {"order": order, "about": [0.0, 0.0, 0.0]}
         entry["moments"]["volume"] = _about_origin(volume, order, measurement, frame)
+        if measurement.length is not None:
+            length = measurement.mass_moments[0]
+            entry["moments"]["length"] = _about_origin(length, order, measurement, frame)
         if surface is not None:
             entry["moments"]["surface"] = _about_origin(surface, order, measurement, frame)
     if measurement.display_volume is not None:
