@@ -10,6 +10,7 @@ the spans that they act on.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -26,7 +27,7 @@ FEW = 6  # moved control points that are updated one by one
 
 class FollowedBody:
     """The body that patches bound. measure: as it was when all was decided. volume: its Moments to order 3 as it is,
-    without an estimate of its error where patches are rational. area: of the patches, an approximation."""
+    their bounds those of when all was decided. area: of the patches, an approximation."""
 
     def __init__(self, patches: Sequence[Patch], stored: float = 0.0):
         self._decide(patches, stored)
@@ -60,7 +61,9 @@ class FollowedBody:
         if not volume.total > 0.0:
             self._decide(patches, stored)
             return False
-        self.volume, self.area = volume, sum(evaluator.area for evaluator in self._evaluators)
+        # The bounds are those of when all was decided: an estimate for what has moved since.
+        self.volume = replace(volume, error=self.measure.volume.error, input=self.measure.volume.input)
+        self.area = sum(evaluator.area for evaluator in self._evaluators)
         self._patches = list(patches)
         return True
 

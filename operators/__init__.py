@@ -21,6 +21,7 @@ def _parts() -> tuple[ModuleType, ...]:
         clipboard,
         cursor,
         empty,
+        live,
         measure_selected,
         orientation,
         origin,
@@ -35,6 +36,7 @@ def _parts() -> tuple[ModuleType, ...]:
     return (
         settings,
         staleness,
+        live,
         presets,
         measure_selected,
         select_faults,

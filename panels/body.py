@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from bpy.types import Context, Object, Panel, UILayout
 
-from ..operators import results, staleness
+from ..operators import live, results, staleness
 from ..operators.units import SI_UNITS, Units
 from ..operators.write import properties
 from . import rows
@@ -63,14 +63,22 @@ class BodyPanel:
         if len(context.selected_objects) > 1:
             layout.operator("object.body_moments_copy_settings", icon="PASTEDOWN")
         if found is not None:
-            _numbers(layout, scene, units, found)
-            _more(layout, units, found)
+            _numbers(layout, obj, scene, units, found)
+            _more(layout, obj, units, found)
             _warnings(layout, context, obj)
             row = layout.row(align=True)
             row.operator("object.body_moments_copy_report", icon="COPYDOWN")
             row.operator("object.body_moments_clear", icon="TRASH")
         _actions(layout, obj)
         _totals(layout, context, units)
+
+
+def _method_and_warnings(obj: Object) -> tuple[str, list[str]]:
+    """Of the numbers that are shown: live or stored."""
+    now = live.shown(obj)
+    if now is not None and now.measurement is not None:
+        return now.measurement.method, list(now.measurement.warnings)
+    return properties.method_and_warnings(obj)
 
 
 def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> None:
@@ -82,9 +90,15 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
         rows.sentence(column, context, refusal, icon="BLANK1")
     if not measured:
         return
-    method, _ = properties.method_and_warnings(obj)
+    method, _ = _method_and_warnings(obj)
     *before, last = method.split() or [""]
     headline, icon, explanation = VERDICTS.get(last, (method.title(), "INFO", ""))
+    now = live.shown(obj)
+    if now is not None and now.measurement is not None:
+        column.label(text="Live, in {:.0f} ms: Measure Stores It".format(1e3 * now.seconds), icon="REC")
+        return
+    if now is not None:
+        rows.sentence(column, context, now.reason, icon="ERROR")
     outdated = staleness.reason(obj, context.scene)
     column.label(text=" ".join([*before, headline]), icon=icon)
     if explanation:
@@ -100,6 +114,8 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
     column = layout.column()
     column.use_property_split = True
     column.row().prop(settings, "kind", expand=True)
+    if obj.type == "SURFACE":
+        column.operator("object.body_moments_live", icon="REC", depress=live.is_live(obj))
     if settings.kind == "SHELL":
         column.prop(settings, "thickness")
     elif settings.kind == "SOLID":
@@ -120,12 +136,16 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
         column.prop(settings, "mass", text="Mass kg")
 
 
-def _numbers(layout: UILayout, scene, units: Units, found: properties.Stored) -> None:
+def _numbers(layout: UILayout, obj: Object, scene, units: Units, found: properties.Stored) -> None:
     column = layout.column(align=True)
     rows.value(column, units, "Mass", "mass", found.body.mass)
-    rows.value(column, units, "Density", "density", found.density)
-    rows.value(column, units, "Volume", "volume", found.volume)
-    rows.value(column, units, "Area", "area", found.area)
+    length = properties.optional(obj, "body_length")
+    if length is not None:
+        rows.value(column, units, "Length", "length", length)
+    else:
+        rows.value(column, units, "Density", "density", found.density)
+        rows.value(column, units, "Volume", "volume", found.volume)
+        rows.value(column, units, "Area", "area", found.area)
     layout.row().prop(scene.body_moments, "frame", expand=True)
     column = layout.column(align=True)
     rows.heading(column, "Center of Mass", "length", found.body.center)
@@ -150,7 +170,7 @@ def _free_axes(moments: np.ndarray) -> str:
     return "Axes 1 and 2 are free" if first else "Axes 2 and 3 are free" if second else ""
 
 
-def _more(layout: UILayout, units: Units, found: properties.Stored) -> None:
+def _more(layout: UILayout, obj: Object, units: Units, found: properties.Stored) -> None:
     header, body = layout.panel("body_moments_gyration", default_closed=True)
     header.label(text="Radii of Gyration")
     if body is not None:
@@ -162,6 +182,17 @@ def _more(layout: UILayout, units: Units, found: properties.Stored) -> None:
         column.label(text="At the center of mass, Ixy = −∫xy dm")
         entries = properties.tensor_entries(found.body.inertia)
         rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
+    if live.shown(obj) is not None:
+        return
+    display = properties.optional(obj, "body_display_volume")
+    if display is not None:
+        header, body = layout.panel("body_moments_display_mesh", default_closed=True)
+        header.label(text="Display Mesh Instead")
+        if body is not None:
+            column = body.column(align=True)
+            rows.value(column, units, "Volume", "volume", display)
+            rows.value(column, units, "Difference", "volume", display - found.volume)
+            column.label(text="{:+.3g} % of the volume".format(100.0 * (display / found.volume - 1.0)))
     header, body = layout.panel("body_moments_bounds", default_closed=True)
     header.label(text="Error Bounds")
     if body is not None:
@@ -185,7 +216,7 @@ def _bounds(layout: UILayout, units: Units, found: properties.Stored) -> None:
 
 
 def _warnings(layout: UILayout, context: Context, obj: Object) -> None:
-    _, warnings = properties.method_and_warnings(obj)
+    _, warnings = _method_and_warnings(obj)
     if not warnings:
         return
     header, body = layout.panel("body_moments_warnings", default_closed=False)

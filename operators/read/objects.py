@@ -15,9 +15,11 @@ from ...core.rotation import rotation_matrix
 from ...core.surface import Surface
 from .curves import read_curves
 from .decisions import decisions, why_empty
+from .deformation import is_deformed
 from .instances import Gathered
-from .reading import Reading, Unreadable, float64_matrix
-from .visibility import NOT_EVALUATED, hidden_reason, require_kind
+from .reading import Part, Reading, Unreadable, float64_matrix
+from .splines import spline_reading
+from .visibility import NOT_EVALUATED, evaluated_geometry, hidden_reason, require_kind
 
 
 def read_object(obj, depsgraph) -> Reading:
@@ -53,6 +55,24 @@ def read_lines(obj, depsgraph) -> Reading:
     evaluated, matrix = _evaluated(obj, depsgraph)
     reading = _placed(obj, evaluated, matrix)
     reading.curves, reading.warnings = read_curves(obj, depsgraph)
+    return reading
+
+
+def read_patches(obj, depsgraph) -> Reading | None:
+    """As `read_object` for a surface object, but its patches alone: no display mesh, unless control points have to be
+    compared with it, and no word about the render. None where it shows more, or has to be measured by its mesh.
+    """
+    obj = obj.original
+    evaluated, matrix = _evaluated(obj, depsgraph)
+    if obj.type != "SURFACE" or obj.instance_type != "NONE" or len(obj.particle_systems):
+        return None
+    mesh = evaluated_geometry(obj, depsgraph, obj).mesh if is_deformed(evaluated) else None
+    splines = spline_reading(evaluated, depsgraph, mesh)
+    if splines is None:
+        return None
+    reading = _placed(obj, evaluated, matrix)
+    nothing = Surface(np.zeros((0, 3), np.float32))
+    reading.parts = [Part(nothing, matrix[None], splines)]
     return reading
 
 
