@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from .bspline import Space, gauss
 
-MOST_ENTRIES = 20_000_000
+MOST_ENTRIES = 2_000_000
 
 
 def phi(spaces: tuple[Space, Space], order: int) -> NDArray[np.float64]:

@@ -39,9 +39,10 @@ def plane_region(curves: Sequence[Curve]) -> tuple[list[Curve], NDArray[np.float
     leading = next(axis for axis in (2, 1, 0) if abs(normal[axis]) > 1e-6)
     normal = normal * np.sign(normal[leading])
     frame = np.stack([axes[0], np.cross(normal, axes[0])], axis=1)
-    flat = [(loop[:-1] - center) @ frame for loop in loops]
+    flat = [_apart((loop[:-1] - center) @ frame, tolerance) for loop in loops]
     if _cross(flat, tolerance):
-        raise ValueError("Its curves cross, so that it is not clear what they bound. Separate them, or measure a wire.")
+        raise ValueError("Its curves cross or touch, so that it is not clear what they bound. Separate "
+                         "them, or measure a wire.")
     found = []
     for i, (curve, loop) in enumerate(zip(curves, flat)):
         depth = sum(_within(loop[0], other) for j, other in enumerate(flat) if j != i)
@@ -60,13 +61,20 @@ def _within(point: NDArray, loop: NDArray) -> bool:
     return bool(np.count_nonzero(upward & (x > point[0])) % 2)
 
 
+def _apart(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
+    """A polygon without repeated points."""
+    return loop[np.linalg.norm(loop - np.roll(loop, 1, axis=0), axis=1) > tolerance]
+
+
 def _cross(loops: Sequence[NDArray], tolerance: float) -> bool:
-    """Whether chords of polygons (n, 2) cross by more than a tolerance."""
+    """Whether chords of polygons (n, 2) cross by more than a tolerance, or corners of them coincide."""
     a = np.concatenate(loops)
     b = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
     step = max(1, MOST_PAIRS // len(a))
     for start in range(0, len(a), step):
         p, q = a[start:start + step, None], b[start:start + step, None]
+        if np.count_nonzero(np.abs(p - a).max(axis=2) <= tolerance) > len(p):
+            return True
         sides = [_side(p, q, a), _side(p, q, b), _side(a, b, p), _side(a, b, q)]
         length = [np.linalg.norm(q - p, axis=2), np.linalg.norm(b - a, axis=1)]
         limits = [tolerance * length[0]] * 2 + [tolerance * length[1]] * 2

@@ -80,6 +80,7 @@ class Evaluator:
         """All moments for these control points (count_s, count_t, 3): the flux through the patch, about `about`."""
         self.net = self._extended(np.asarray(points, np.float64), weights)
         if self.whole:
+            self._parts = None  # those of single spans are not kept
             return self._made(self._flux(slice(0, self.sums.shape[0]), slice(0, self.sums.shape[1]), False))
         for rows in self._tiles[0]:
             for columns in self._tiles[1]:
