@@ -134,8 +134,11 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
             unit = np.where(length > 0.0, normal / length, 0.0)
             turning = [_tangent(np.stack(_cross(second[k], across)) + np.stack(_cross(along, second[k + 1])), unit)
                        / np.where(length > 0.0, length, 1.0) for k in (0, 1)]
+        # (1 - k h) and (1 - k' h), k and k' the curvatures, must both be positive: their product, and their sum too.
+        bend = _dot(np.stack(_cross(along, turning[1])) + np.stack(_cross(turning[0], across)), unit)
         for height in (inner, outer):
-            if (_stretch(along, across, turning, unit, height) * np.sign(length) < 0.0).any():
+            product = _stretch(along, across, turning, unit, height)
+            if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
                 raise ValueError("The sheet is thicker than its surface's radius of curvature, so that it runs through "
                                  "itself. Make it thinner.")
         total = 0.0

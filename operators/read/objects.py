@@ -66,8 +66,8 @@ def read_patches(obj, depsgraph) -> Reading | None:
     evaluated, matrix = _evaluated(obj, depsgraph)
     if obj.type != "SURFACE" or obj.instance_type != "NONE" or len(obj.particle_systems):
         return None
-    mesh = evaluated_geometry(obj, depsgraph, obj).mesh if is_deformed(evaluated) else None
-    splines = spline_reading(evaluated, depsgraph, mesh)
+    geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
+    splines = spline_reading(evaluated, depsgraph, geometry.mesh if is_deformed(evaluated) else None)
     if splines is None:
         return None
     reading = _placed(obj, evaluated, matrix)

@@ -329,3 +329,25 @@ def test_the_presets_panel_draws_without_presets(monkeypatch):
             bpy.context,
         )
         assert layout.record
+
+
+def test_a_nurbs_surface_says_what_its_display_mesh_would_have_given_and_follows_edits():
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add()
+    assert ("operator", "object.body_moments_live") in [entry[:2] for entry in drawn()]
+    bpy.ops.object.body_moments_measure()
+    shown = labels(drawn())
+    assert "NURBS Exact, Closed Surface" in shown
+    assert "Display Mesh Instead" in shown and any("-1.33 %" in label for label in shown)
+    bpy.ops.object.body_moments_live()
+    assert any(label.startswith("Live, in") for label in labels(drawn()))
+    bpy.ops.object.body_moments_live()
+    assert not any(label.startswith("Live, in") for label in labels(drawn()))
+
+
+def test_a_wire_shows_its_length_and_asks_for_its_linear_density():
+    bpy.ops.curve.primitive_nurbs_circle_add()
+    bpy.context.object.body_moments.kind = "WIRE"
+    bpy.ops.object.body_moments_measure()
+    record = drawn()
+    assert "Wire" in labels(record) and "Length" in labels(record)
+    assert ("prop", "linear_density") in record

@@ -200,6 +200,8 @@ def test_a_sheet_thicker_than_its_radius_is_refused():
     with pytest.raises(ValueError, match="thinner"):
         sheet_moments([torus()], -0.3, 0.3)
     sheet_moments([torus()], -0.24, 0.24)
+    with pytest.raises(ValueError, match="thinner"):
+        sheet_moments([sphere()], -1.5, 1.5)  # beyond the center both curvatures are: their product is positive again
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
