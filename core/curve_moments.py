@@ -22,9 +22,10 @@ from numpy.typing import NDArray
 from .bspline import gauss
 from .curve import Curve
 from .moments import Moments, U, monomials
-from .patch_moments import DEEPEST, ROUNDING, RULES, TOLERANCE
+from .patch_moments import DEEPEST, ROUNDING, TOLERANCE
 
 LENGTH_TOLERANCE = 1e-13
+RULES = (8, 12, 18, 27)  # points; each is compared with the one before
 
 
 def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:

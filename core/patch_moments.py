@@ -9,8 +9,8 @@ Soldea, Elber and Rivlin, sections 2 and 3, with the radial flux in place of the
 Of a polynomial patch of degree d the integrand has degree (n + 3) d - 2 in each parameter for moments of order n (the
 top coefficient of S · (S_s x S_t) cancels), so a Gauss rule of ceil(((n + 3) d - 1) / 2) points in every span is exact.
 A rational integrand, an area's square root and the jacobian of a sheet have no finite degree: there the rules grow by
-halves until two of them agree, and where 27 points do not, cells are cut in four. The sum of what they still differ by
-is reported, as an estimate: it is taken for the coarser of the two rules, while the result is the finer one's.
+halves until two of them agree, and where the finest does not settle it, cells are cut in four. The sum of what they
+still differ by is reported, as an estimate: it is that of the coarser rule, while the result is the finer one's.
 """
 
 from __future__ import annotations
@@ -28,11 +28,12 @@ from .patch import Cells, Patch, at_gauss_points
 
 TOLERANCE = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
 AREA_TOLERANCE = 1e-11
-RULES = (8, 12, 18, 27)  # points; each is compared with the one before
+RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
+COARSE_RULES = (8, 12, 18)  # where less is asked for
 DEEPEST = 14  # times that a cell is cut
 MOST_POINTS = 12_000_000  # evaluated at most
 BLOCK = 12288  # points at a time: their arrays stay in the cache
-ROUNDING = 16.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
+ROUNDING = 64.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
 
 Rule = tuple[int, int]
 Integrand = Callable[[Patch, Cells, Rule], tuple[NDArray, NDArray]]
@@ -87,7 +88,7 @@ def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | No
         values += rows.sum(axis=0)
         sizes += size.sum()
     if rational:
-        found = adaptive(rational, flux, reach ** (degree + 1.0), tolerance)
+        found = adaptive(rational, flux, reach ** (degree + 1.0), tolerance, order)
         values, settled = values + found.values, found.settled
         estimate, sizes = found.estimate, sizes + found.scale[0] / max(reach, 1e-300)
     divisor = degree + 3.0
@@ -166,23 +167,27 @@ def exact_points(order: int, degree: int) -> int:
     return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
 
 
-def adaptive(patches: Sequence[Patch], integrand: Integrand, unit: NDArray, tolerance: float) -> Integral:
+def adaptive(patches: Sequence[Patch], integrand: Integrand, unit: NDArray, tolerance: float,
+             degree: int | None = None) -> Integral:
     """An integral over patches, cell by cell to the rule that settles it.
 
     integrand: gives (c, K) contributions and (c,) sizes of cells. unit: (K,) what a cell's size times it bounds.
+    degree: of moments whose integrand is a polynomial along a direction in which the weights are the same, so that
+    there fewer points are exact; None where there is none.
     A cell is settled when two rules agree to the tolerance of its own scale, or of its share of the whole one.
     """
     values, estimate = np.zeros(len(unit)), np.zeros(len(unit))
+    rules = RULES if tolerance < AREA_TOLERANCE else COARSE_RULES
     work = [(patch, Cells.of(patch), None, 0) for patch in patches]
     whole, count, spent, settled, depth = 0.0, sum(len(cells) for _, cells, _, _ in work), 0, True, 0
     while work:
         waiting, compared = [], []
         for patch, cells, coarse, rule in work:
             if coarse is None:
-                coarse, size = _blocks(patch, cells, (RULES[rule],) * 2, integrand)
-                spent += len(cells) * RULES[rule] ** 2
-            fine, size = _blocks(patch, cells, (RULES[rule + 1],) * 2, integrand)
-            spent += len(cells) * RULES[rule + 1] ** 2
+                coarse, size = _blocks(patch, cells, _rule(patch, rules[rule], degree), integrand)
+                spent += len(cells) * rules[rule] ** 2
+            fine, size = _blocks(patch, cells, _rule(patch, rules[rule + 1], degree), integrand)
+            spent += len(cells) * rules[rule + 1] ** 2
             compared.append((patch, cells, coarse, fine, size, rule))
         if not whole:
             whole = sum(float(size.sum()) for *_, size, _ in compared)
@@ -198,13 +203,22 @@ def adaptive(patches: Sequence[Patch], integrand: Integrand, unit: NDArray, tole
             estimate += differ[taken].sum() * unit
             if taken.all():
                 continue
-            if rule + 2 < len(RULES):
+            if rule + 2 < len(rules):
                 waiting.append((patch, cells[~taken], fine[~taken], rule + 1))
             else:
                 waiting.append((patch, cells[~taken].split(), None, 0))
         depth += any(coarse is None for _, _, coarse, _ in waiting)
         work = waiting
     return Integral(values, estimate, whole * unit, settled)
+
+
+def _rule(patch: Patch, points: int, degree: int | None) -> Rule:
+    """So many points along each direction, or fewer where they are exact."""
+    if degree is None or patch.weights is None:
+        return points, points
+    steady = (patch.weights == patch.weights[:1]).all(), (patch.weights == patch.weights[:, :1]).all()
+    exact = tuple(exact_points(space.order, degree) if same else points for space, same in zip(patch.spaces, steady))
+    return min(points, exact[0]), min(points, exact[1])
 
 
 def _blocks(patch: Patch, cells: Cells, rule: Rule, integrand: Integrand) -> tuple[NDArray, NDArray]:
