@@ -26,29 +26,13 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from .moments import U, monomial_count, monomials
+from .affine import monomial_count, monomials, predecessors, rows_of
+from .moments import U
 
 CHUNK = 16  # faces that share one bound of their coordinates
 LENGTH = 128  # products that einsum may add up in any order
 ROUNDING = 9.0 * U  # of a determinant, and of a doubled area, relative to the sizes of their terms: see `polyhedron`
 TINY = 1e-290  # more than underflow can lose of one face whose coordinates are at most about 1
-
-
-def rows_of(degree: int) -> int:
-    """How many monomials have exactly this degree."""
-    return (degree + 1) * (degree + 2) // 2
-
-
-@lru_cache
-def predecessors(degree: int, missing: int) -> NDArray[np.intp]:
-    """(3, rows) where x^α without one factor x, y or z stands among the monomials one degree lower; `missing` where
-    x^α has no such factor."""
-    table = monomials(degree)[-rows_of(degree):]
-    q, r = table[:, 1], table[:, 2]
-    s = q + r
-    lower = s * (s - 1) // 2
-    places = np.array([s * (s + 1) // 2 + r, lower + r, lower + r - 1])
-    return np.where(table.T > 0, places, missing)
 
 
 @lru_cache

@@ -13,6 +13,8 @@ from .mass import MassProperties
 from .moments import Moments
 from .solid import Health
 
+ONE_DENSITY = ("one value", "given mass")
+
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
@@ -22,16 +24,18 @@ class Measurement:
         "NURBS" before it where B-spline patches were measured instead of their display mesh.
     density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area
     in m².
-    volume_moments: None for a shell without real thickness; area_moments: to order 3 for a shell, else order 0 at
-        least.
+    volume_moments: to order 3, None for a thin shell; area_moments: to order 3 for a shell, else order 0; both to a
+        higher order where that was asked for.
     mass_moments: the moments that carry the mass, and the mass in kg per unit of them.
     rotation, location: (3, 3) and (3,) the object frame, its unit scale.
     error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"
-        for what storing coordinates as float32 may have moved.
+        for what storing coordinates as float32 may have moved; "estimated": True where the former are estimates.
     warnings: one sentence for each decision taken on the way.
     fingerprint: of what the numbers were computed from.
     length: of a wire, m, whose density in kg/m is its mass by that and whose `density` is 0; else None.
     display_volume: what the display mesh of B-spline patches would have given, m³; None where none was asked.
+    density_from: "one value", "given mass", or where else the density came from, as a text. materials: names of those
+        that were looked at for it.
     """
 
     name: str
@@ -52,8 +56,15 @@ class Measurement:
     location: NDArray[np.float64]
     error_bound: dict
     fingerprint: str
+    density_from: str = "one value"
+    materials: tuple[str, ...] = ()
     length: float | None = None
     display_volume: float | None = None
+
+    @property
+    def one_density(self) -> bool:
+        """Whether the density is the same everywhere."""
+        return self.density_from in ONE_DENSITY
 
     def in_object_frame(self) -> MassProperties:
         """The mass properties in the object's own frame."""

@@ -7,9 +7,7 @@ and they map linearly under an affine map, so a sum of objects is a sum and an i
 every number and add and map as it does: `error`, what rounding (or a stated truncation) may have changed, and `input`,
 what storing coordinates as float32 may have changed.
 
-The affine law is Horner's scheme on the functional F[p,q,r] = ∫ x^p y^q z^r: multiplying the integrand by the linear
-form l(x) = t + a·x sends F to (lF)[α] = t F[α] + Σ_i a_i F[α+e_i], one order shorter; the moments of the image are
-(l0^p l1^q l2^r F)[0,0,0]. It works for any order and for many maps at once.
+What affine maps do to them is in `affine`.
 """
 
 from __future__ import annotations
@@ -17,41 +15,15 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .affine import horner, index, monomial_count, monomials, raised_places, shift, turn
+
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
-BLOCK = 2048  # maps at a time: their functionals stay in the cache
+BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
 SIMILARITY = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
-
-
-def monomial_count(order: int) -> int:
-    """The number of monomials in x, y, z of degree at most `order`."""
-    return (order + 1) * (order + 2) * (order + 3) // 6
-
-
-def index(p: int, q: int, r: int) -> int:
-    """Where raw[p,q,r] stands: graded by degree, within a degree by (q+r, r)."""
-    s = q + r
-    return monomial_count(p + s - 1) + s * (s + 1) // 2 + r
-
-
-@lru_cache
-def monomials(order: int) -> NDArray[np.int64]:
-    """(K, 3) the exponents (p, q, r) in storage order; read-only."""
-    rows = [(n - s, s - r, r) for n in range(order + 1) for s in range(n + 1) for r in range(s + 1)]
-    table = np.array(rows, np.int64)
-    table.flags.writeable = False
-    return table
-
-
-@lru_cache
-def _raised(order: int) -> tuple[NDArray[np.int64], ...]:
-    """For each monomial below `order`, where its product with x, with y and with z stands."""
-    lower = monomials(order - 1)
-    return tuple(np.array([index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int))
 
 
 SECOND = np.array([[index(*(np.eye(3, dtype=int)[[i, j]].sum(axis=0))) for j in range(3)] for i in range(3)])
@@ -129,16 +101,64 @@ class Moments:
         return sum_moments([self, other.shifted(self.about)])
 
     def shifted(self, point: ArrayLike) -> Moments:
-        """The same body about another point."""
+        """The same body about another point, by the binomial theorem."""
         point = np.asarray(point, np.float64)
         if np.array_equal(point, self.about):
             return self
-        body = replace(self, of="mass")  # nothing is stretched, whatever the body measures
-        return replace(map_sum(body, np.eye(4)[None], point), of=self.of)
+        offset = self.about - point
+        away = np.abs(offset)
+        raw, error, moved, size = shift(np.array([self.raw, self.error, self.input, np.abs(self.raw) + self.error]),
+                                         self.order, np.array([offset, away, away, away]))
+        rounding = (4.0 * monomials(self.order).sum(axis=1) + 16.0) * U
+        return replace(self, raw=raw, about=point, error=error + rounding * size, input=moved)
 
     def about_center(self) -> Moments:
         """The central moments."""
         return self.shifted(self.center)
+
+    def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> Moments:
+        """The moments in another frame, about its origin. rotation: (3, 3), its axes as columns; origin: (3,)."""
+        matrix = np.eye(4)
+        matrix[:3, :3] = np.asarray(rotation, np.float64).T
+        matrix[:3, 3] = -matrix[:3, :3] @ np.asarray(origin, np.float64)
+        # A change of axes stretches nothing, whatever is measured and however the rotation was rounded.
+        return replace(map_sum(replace(self, of="mass"), matrix[None], np.zeros(3)), of=self.of)
+
+    def normalised(self, by: str = "size") -> Moments:
+        """The central moments without unit, of degree n, about (0, 0, 0): the same wherever the body is, however large.
+
+        by: "size", μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas: those of the body scaled to a volume, or area,
+        of 1. "gyration", μ / (m R^n) with R² = ∫ r² dm / m: those of the body scaled to a radius of gyration and a mass
+        of 1. `error` and `input` hold for the body's true centre. ValueError where there is too little to divide by.
+        """
+        dimension = {"volume": 3, "area": 2}.get(self.of)
+        if by == "size" and dimension is None:
+            raise ValueError("Masses have no size of their own: normalise them by the radius of gyration.")
+        if self.order < (2 if by == "gyration" else 1) or not self.total > 2.0 * (self.error[0] + self.input[0]):
+            raise ValueError("There is too little, or too low an order, to normalise moments by.")
+        body = self.about_center()
+        n = monomials(self.order).sum(axis=1)
+        trace = float(body.raw[[4, 7, 9]].sum()) if by == "gyration" else 1.0
+        if by == "gyration":
+            factor = (trace / body.total) ** (-n / 2.0) / body.total
+        else:
+            factor = body.total ** -(1.0 + n / dimension)
+        bounds = []
+        for delta in (body.error, body.error + body.input):  # of the total, the trace, and the centre's place
+            total = body.total / (body.total - delta[0])
+            off = (np.abs(body.raw[1:4]) + delta[1:4]) / (body.total - delta[0]) + 2.0 * U * np.abs(body.about)
+            size = np.abs(body.raw) + delta
+            away = shift(size[None], self.order, off[None])[0] - size + 8.0 * U * n * size
+            if by == "gyration":
+                spread = delta[[4, 7, 9]].sum() + away[[4, 7, 9]].sum()
+                if not trace > 2.0 * spread:
+                    raise ValueError("There is too little, or too low an order, to normalise moments by.")
+                stretch = total ** np.abs(n / 2.0 - 1.0) * (trace / (trace - spread)) ** (n / 2.0)
+            else:
+                stretch = total ** (1.0 + n / dimension)
+            bounds.append(factor * (stretch * (delta + away) + (stretch - 1.0 + (8.0 + 4.0 * n) * U) * size))
+        return Moments(body.raw * factor, np.zeros(3), self.of if by == "size" else "mass", bounds[0],
+                       (bounds[1] - bounds[0]) * bool(self.input.any()))
 
     def mapped(self, matrix: ArrayLike) -> Moments:
         """The moments of the body's image under an affine map.
@@ -184,38 +204,39 @@ def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None)
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + places
     about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     raw, error, extra = np.zeros((3, len(moments.raw)))
-    for start in range(0, len(matrices), BLOCK):
-        part = slice(start, start + BLOCK)
+    block = max(BLOCK * 20 // len(moments.raw), 16)
+    for start in range(0, len(matrices), block):
+        part = slice(start, start + block)
         maps = linear[:, :, part]
         weight, weight_error, deviation = _weights(moments.of, maps)
         offset = origins[:, part] - about[:, None]
-        image = _horner(moments.raw, moments.order, maps, offset)
-        image *= weight
-        raw += np.add.reduce(image, axis=1)
         # The images of the reference point are rounded, and the body moves with them.
         stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
         slack = 6 * U * (np.abs(places[:, part]).max(axis=0) + np.abs(about).max() + stretch * np.abs(point).max())
         weight_error = weight_error + (len(matrices) + 6 * moments.order + 8) * U * weight
         if len(matrices) == 1:
-            bounds = _bounds_of_one(moments, maps, offset, slack, weight, weight_error, deviation)
+            image, *bounds = _one(moments, maps, offset, slack, weight, weight_error, deviation)
         else:
+            image = np.add.reduce(horner(moments.raw[:, None], moments.order, maps, offset) * weight, axis=1)
             bounds = _bounds(moments, stretch, reach, slack, weight, weight_error, deviation)
+        raw += image
         error += bounds[0]
         extra += bounds[1]
     return Moments(raw, about, moments.of, error, extra)
 
 
-def _bounds_of_one(moments: Moments, linear: NDArray, offset: NDArray, slack: NDArray, weight: NDArray,
-                   weight_error: NDArray, deviation: NDArray) -> tuple[NDArray, NDArray]:
-    """As `_bounds` for one map, moment by moment: the recursion itself on absolute values."""
-    order, reach = moments.order, (np.abs(linear), np.abs(offset))
-    error, mapped_input = (_horner(bound, order, *reach)[:, 0] for bound in (moments.error, moments.input))
-    size = _horner(np.abs(moments.raw) + moments.error, order, reach[0], reach[1] + slack)[:, 0]
-    rounding = weight * error + weight_error * size
-    for axis, raised in enumerate(_raised(order) if order else ()):
+def _one(moments: Moments, linear: NDArray, offset: NDArray, slack: NDArray, weight: NDArray,
+         weight_error: NDArray, deviation: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """The image under one map, (3, 3, 1) and (3, 1), and its bounds moment by moment: the same on absolute values."""
+    order, away = moments.order, np.abs(offset.T)
+    values = turn(np.array([moments.raw, moments.error, moments.input, np.abs(moments.raw) + moments.error]), order,
+                   linear[:, :, 0])
+    image, error, mapped_input, size = shift(values, order, np.concatenate([offset.T, away, away, away + slack]))
+    rounding = weight * error + (weight_error + (4.0 * order + 50.0) * U * weight) * size
+    for axis, raised in enumerate(raised_places(order) if order else ()):
         moved = monomials(order)[raised, axis] * slack * weight * size[:len(raised)]
         rounding[raised] += moved
-    return rounding, weight * (mapped_input + deviation * (size + mapped_input))
+    return weight * image, rounding, weight * (mapped_input + deviation * (size + mapped_input))
 
 
 def _bounds(moments: Moments, stretch: NDArray, reach: NDArray, slack: NDArray, weight: NDArray,
@@ -277,35 +298,3 @@ def _stretch_deviation(linear: NDArray) -> NDArray[np.float64]:
     with np.errstate(invalid="ignore", divide="ignore"):
         off = off / mean
     return np.where(np.isfinite(off), off, np.inf)
-
-
-def _horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
-    """(K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the (K,) functional, l_i the linear forms of the k
-    maps, linear (3, 3, k) and offset (3, k)."""
-    forms = [(offset[i], *linear[i]) for i in range(3)]
-    out = np.zeros((len(values), offset.shape[1]))
-    by_p = np.broadcast_to(values[:, None], out.shape)
-    for p in range(order + 1):
-        by_q = by_p
-        for q in range(order - p + 1):
-            by_r = by_q
-            for r in range(order - p - q + 1):
-                out[index(p, q, r)] = by_r[0]
-                by_r = _times(forms[2], by_r, order - p - q - r)
-            by_q = _times(forms[1], by_q, order - p - q)
-        by_p = _times(forms[0], by_p, order - p)
-    return out
-
-
-def _times(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.float64]:
-    """The functional multiplied by a linear form, one order shorter; nothing is left below order 0."""
-    if not order:
-        return values[:0]
-    t, a, b, c = form
-    x, y, z = _raised(order)
-    image = t * values[:monomial_count(order - 1)]
-    for factor, raised in ((a, x), (b, y), (c, z)):
-        term = values.take(raised, axis=0)
-        term *= factor
-        image += term
-    return image

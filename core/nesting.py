@@ -153,6 +153,19 @@ def relate(points: NDArray[np.floating], shells: Shells, ask: NDArray[np.bool_],
     return Relations(pair[inside], pair[through], skipped + int(np.count_nonzero(unsure & ~through)))
 
 
+def pierced(points: NDArray[np.floating], triangles: NDArray[np.integer], shell: NDArray[np.intp],
+            pairs: NDArray[np.integer], vertex: NDArray[np.integer], tolerance: float) -> bool:
+    """Whether surfaces go through each other, or through themselves, by more than the tolerance, as far as is found
+    within bounds of time. Triangles that share a vertex are taken for neighbours, which do not.
+
+    triangles: (m, 3), shell: (m,) the surface that each belongs to, ascending; pairs: (k, 2) of surfaces; vertex: (n,)
+    which vertex a point is.
+    """
+    shells = sort_shells(points, triangles, shell, int(shell[-1]) + 1)
+    tree = Tree(points, shells, np.ones(len(shells.volume), bool))
+    return bool(_pierced(tree, pairs[:, 0], pairs[:, 1], tolerance, vertex)[0].any())
+
+
 class Tree:
     """One bounding-volume tree for each wanted shell: perfect binary trees over triangles in Morton order.
 
@@ -292,9 +305,7 @@ def decide(shells: Shells, relations: Relations, ask: NDArray[np.bool_]
     sign = given.copy()
     inner, outer = relations.inside.T
     depth = np.bincount(inner, minlength=number)
-    parent = np.full(number, -1)
-    order = np.argsort(depth[outer], kind="stable")
-    parent[inner[order]] = outer[order]  # the last one, the deepest, is kept
+    parent = _parents(relations, number)
     order = np.argsort(depth[inner], kind="stable")
     inner, outer = inner[order], outer[order]
     around = np.zeros(number)
@@ -308,6 +319,31 @@ def decide(shells: Shells, relations: Relations, ask: NDArray[np.bool_]
         astray = at[(sign[at] < 0.0) & (around[at] <= 0.0)]
         sign[astray] = 1.0
     return sign != given, (sign > 0.0) & (around >= 1.0), (sign < 0.0) & (around >= 1.0)
+
+
+def cut_from(relations: Relations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """(c,) for each cavity the shell whose material it takes away: the innermost around it that no other cavity takes
+    away before. For the other shells themselves."""
+    home = np.arange(len(cavity))
+    parent = _parents(relations, len(cavity))
+    asking = np.flatnonzero(cavity)
+    at, layers = parent[asking], np.ones(len(asking), np.intp)
+    while len(asking):
+        layers = layers + np.where(cavity[at], 1, -1)
+        found = (layers == 0) | (parent[at] < 0)
+        home[asking[found]] = at[found]
+        asking, at, layers = asking[~found], parent[at[~found]], layers[~found]
+    return home
+
+
+def _parents(relations: Relations, number: int) -> NDArray[np.intp]:
+    """(number,) the innermost shell around each, -1 for none."""
+    inner, outer = relations.inside.T
+    depth = np.bincount(inner, minlength=number)
+    parent = np.full(number, -1)
+    order = np.argsort(depth[outer], kind="stable")
+    parent[inner[order]] = outer[order]  # the last one, the deepest, is kept
+    return parent
 
 
 def _spread(value: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -354,9 +390,10 @@ def _locate(points: NDArray, shells: Shells, tree: Tree, small: NDArray, large: 
     return within, without, ~(within | without)
 
 
-def _pierced(tree: Tree, one: NDArray, other: NDArray, tolerance: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def _pierced(tree: Tree, one: NDArray, other: NDArray, tolerance: float, vertex: NDArray | None = None
+             ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """For each pair of shells whether an edge of one goes through a triangle of the other by more than the tolerance,
-    and whether the work ran out before that was known."""
+    and whether the work ran out before that was known. vertex: as for `pierced`."""
     found, unfinished = np.zeros((2, len(one)), bool)
     pieces = _split(np.arange(len(one)), tree.root[one], tree.root[other])
     work = 0
@@ -375,7 +412,7 @@ def _pierced(tree: Tree, one: NDArray, other: NDArray, tolerance: float) -> tupl
         both = (child_a < 0) & (child_b < 0)
         if both.any():
             for leaves in _split(pair[both], a[both], b[both], size=PIECE // LEAF ** 2):
-                _pierce_leaves(tree, *leaves, tolerance, found)
+                _pierce_leaves(tree, *leaves, tolerance, found, vertex)
             pair, a, b, child_a, child_b = (x[~both] for x in (pair, a, b, child_a, child_b))
         # The larger box is opened; a leaf never is.
         extent = (tree.high[a] - tree.low[a]).max(axis=1) >= (tree.high[b] - tree.low[b]).max(axis=1)
@@ -387,7 +424,8 @@ def _pierced(tree: Tree, one: NDArray, other: NDArray, tolerance: float) -> tupl
     return found, unfinished
 
 
-def _pierce_leaves(tree: Tree, pair: NDArray, a: NDArray, b: NDArray, tolerance: float, found: NDArray) -> None:
+def _pierce_leaves(tree: Tree, pair: NDArray, a: NDArray, b: NDArray, tolerance: float, found: NDArray,
+                   vertex: NDArray | None) -> None:
     """Mark the pairs of which a triangle in one leaf is pierced by an edge in the other."""
     size_a, size_b = tree.last[a] - tree.first[a], tree.last[b] - tree.first[b]
     k = ramp(size_a * size_b)
@@ -397,6 +435,10 @@ def _pierce_leaves(tree: Tree, pair: NDArray, a: NDArray, b: NDArray, tolerance:
     for low, high in zip(tree.bottom, tree.top):
         meet &= (low[first] <= high[second]) & (low[second] <= high[first])
     first, second, pair = first[meet], second[meet], pair[meet]
+    if vertex is not None:
+        mine, theirs = vertex[tree.ids[first].T], vertex[tree.ids[second].T]
+        apart = np.logical_and.reduce([x != y for x in mine for y in theirs])
+        first, second, pair = first[apart], second[apart], pair[apart]
     corner, plane = tree.corners(first), tree.corners(second)
     for _ in range(2):
         found[pair[_piercing(corner, plane, tolerance)]] = True

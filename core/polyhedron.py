@@ -219,7 +219,8 @@ class _Bounds:
         half_ulp, reach = self.job.half_ulp, self.job.reach + self.job.half_ulp
         step = np.linalg.norm(half_ulp)
         turned = step * (self._edges() + 2.0 * step * self.counts.sum())
-        moved = _powers(reach) * (turned + EXPONENTS @ (half_ulp / reach) * (self._swept() / step))
+        share = half_ulp / np.where(reach > 0.0, reach, 1.0)  # of an axis along which it has no extent
+        moved = _powers(reach) * (turned + EXPONENTS @ share * (self._swept() / step))
         return error, moved[:len(raw)]
 
     def _error(self, raw: NDArray, weight: float, sizes: NDArray) -> NDArray[np.float64]:

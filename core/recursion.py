@@ -25,11 +25,13 @@ from math import factorial, frexp
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .levels import LENGTH, TINY, Levels, Sums, predecessors, rows_of
-from .moments import Moments, U, monomial_count, monomials
+from .affine import monomial_count, monomials, predecessors, rows_of
+from .levels import LENGTH, TINY, Levels, Sums
+from .moments import Moments, U
 from .polyhedron import finite_box, middle, pairs, solid_and_area
 from .surface import Surface, all_there, flipped_quads
 
+MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 FAST = 3  # orders up to this one have their own kernel
 NUMBERS = 120_000  # that a block's rows of one degree may hold: then calls are long, and all of it is near the cache
 FEWEST, MOST = 256, 4096  # faces in a block

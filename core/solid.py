@@ -12,6 +12,7 @@ reference point, and called open.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, fields, replace
 
@@ -19,10 +20,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import polyhedron
+from .components import Components
 from .flatness import examine
 from .mending import Mended, counted, listed, mend
 from .moments import SECOND, Moments
-from .nesting import decide, relate, sort_shells
+from .nesting import cut_from, decide, relate, sort_shells
 from .surface import Surface, all_there
 from .topology import closed_sides, components, mesh_faces
 from .weld import TOLERANCE
@@ -98,7 +100,7 @@ class SolidMeasure:
     method: "exact", "capped", "reoriented" or "open". warnings: one sentence for each decision taken.
 
     Of a body that is flat the volume's moments are zero; of an open one they depend on the reference point.
-    mended: the surface whose signed sum `volume` is.
+    mended: the surface whose signed sum `volume` is. components: gives the same by closed part.
     """
 
     volume: Moments
@@ -107,6 +109,7 @@ class SolidMeasure:
     method: str
     warnings: tuple[str, ...]
     mended: Surface
+    components: Callable[[], Components]
 
     def refined(self, threads: int = 1) -> Moments:
         """`volume` with its third order exact to rounding, for what its bounds leave undecided."""
@@ -135,6 +138,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
         body = mend(surface, tolerance, size)
     compared = _compared(body, tolerance, error) if body.number > 1 else None
     turn = np.zeros(body.number, bool) if compared is None else compared.turned
+    turn_each = turn
     measured = _to_measure(surface, body, turn, np.ones(1, bool) if compared is None else compared.solid, proven)
     volume, area = own if own and measured is surface else polyhedron.solid_and_area(measured, threads, shell)
     if body.changed:  # caps are no part of the area, and left out faces are
@@ -150,7 +154,8 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     open_parts = bool(body.open.any())
     if not solid and not open_parts:  # what rounding leaves of nothing would pass for a tiny body
         volume = replace(volume, raw=np.zeros_like(volume.raw), error=volume.error + np.abs(volume.raw))
-    elif volume.total < 0.0:
+    inside_out = volume.total < 0.0
+    if inside_out:
         volume = replace(volume, raw=-volume.raw)
         measured = replace(measured, quads=measured.quads[:, [0, 3, 2, 1]], triangles=measured.triangles[:, ::-1])
     flipped, inverted = _turned_faces(body, turn)
@@ -179,8 +184,12 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
         **counts, inverted_components=len(inverted), degenerate_faces=len(flatness.without_area),
         non_planar_faces=flatness.not_flat, volume_spread=flatness.spread, cap_area_share=cap_share,
         faults=Faults(**faults, flipped_faces=flipped, degenerate_faces=flatness.without_area))
+
+    def parts() -> Components:
+        return _parts(measured, body, compared, turn_each ^ inside_out, proven)
+
     return SolidMeasure(volume=volume, area=area, health=health, method=method, warnings=tuple(notes),
-                        mended=measured)
+                        mended=measured, components=parts)
 
 
 def _possible(volume: Moments, surface: Surface, size: float) -> bool:
@@ -266,12 +275,13 @@ def _proven(surface: Surface) -> Mended | None:
 @dataclass(frozen=True, eq=False)
 class _Compared:
     """What comparing the shells of a body came to. turned, solid: (c,) the shells to turn, and those with a volume.
-    counts: entries of `Health`. unchecked: pairs of shells that were not compared."""
+    counts: entries of `Health`. unchecked: pairs of shells that were not compared. within: (c,) as in `Components`."""
 
     turned: NDArray[np.bool_]
     solid: NDArray[np.bool_]
     counts: dict
     unchecked: int
+    within: NDArray[np.intp]
 
 
 def _compared(body: Mended, tolerance: float, error: float) -> _Compared:
@@ -284,7 +294,8 @@ def _compared(body: Mended, tolerance: float, error: float) -> _Compared:
     turned, nested, cavities = decide(shells, relations, solid)
     return _Compared(turned, solid, {
         "nested_components": int(nested.sum()), "cavities": int(cavities.sum()),
-        "overlapping_components": len(np.unique(relations.crossing))}, relations.unchecked)
+        "overlapping_components": len(np.unique(relations.crossing))}, relations.unchecked,
+        cut_from(relations, cavities))
 
 
 def _to_measure(surface: Surface, body: Mended, turn: NDArray[np.bool_], solid: NDArray[np.bool_], proven: bool
@@ -303,6 +314,26 @@ def _to_measure(surface: Surface, body: Mended, turn: NDArray[np.bool_], solid: 
         return replace(surface, quads=quads, triangles=triangles)
     triangles = np.where(turn[body.shell][:, None], body.triangles[:, ::-1], body.triangles)
     return Surface(body.points, triangles if kept.all() else triangles[kept], moved=surface.moved)
+
+
+def _parts(measured: Surface, body: Mended, compared: _Compared | None, turn: NDArray[np.bool_], proven: bool
+           ) -> Components:
+    """The triangles of `measured` by closed part. turn: (c,) the shells of the mended body to turn."""
+    within = np.arange(body.number) if compared is None else compared.within
+    if proven:
+        triangles, face = measured.all_triangles()
+        part = np.zeros(len(face), np.intp)
+        if body.number > 1:
+            of_face = np.zeros(int(body.face.max()) + 1, np.intp)
+            of_face[body.face] = body.shell
+            part = of_face[face]
+        return Components(measured.points, triangles, face, part, body.number, within)
+    kept = np.ones(len(body.face), bool)
+    if compared is not None:
+        kept = (body.open | compared.solid)[body.shell]
+        kept |= not kept.any()
+    triangles = np.where(turn[body.shell][:, None], body.triangles[:, ::-1], body.triangles)
+    return Components(body.points, triangles[kept], body.face[kept], body.shell[kept], body.number, within)
 
 
 def _turned_faces(body: Mended, turn: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:

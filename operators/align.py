@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import reframe, selection, snapping
 from .channels import Channels, Refused, world
+from .density import fixed_to
 
 # Where principal axes 1, 2 and 3 go. An odd order would mirror the body, so there axis 3 points the
 # other way.
@@ -94,6 +95,9 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
     def _align(self, context: Context, obj: Object, frame: NDArray) -> bool:
         if obj.library is not None:
             raise Refused("it is linked from another file; make it local first")
+        if fixed_to(obj) == "world":
+            raise Refused("its density is a polynomial of world coordinates, and does not move with it; give it in its "
+                          "own coordinates first")
         body = snapping.body_of(context, obj)
         goal = body.center if self.pivot == "CENTER" else np.zeros(3)
         aligned = body.is_principal(frame)

@@ -22,11 +22,14 @@ class Body:
 
     volume, area: their moments, the volume's to order 3 at least. mass: of a body whose density is not one number, its
     moments in kg; else None.
+    wall: of a shell of real thickness, the volume moments of its material; None of a thin one.
     method, warnings: as in `Measurement`.
     refined: gives what the principal frame is made from, with exact third order, where its bounds leave it undecided.
     length: of a wire, its moments; else None.
-    sheet: of a shell with real thickness, its volume's moments; else None, and the area times the thickness counts.
+    estimated: whether the bounds of its errors are estimates.
     display_volume: of a body that is measured without its display mesh, what that would have given, m³; else None.
+    to_order: gives the volume's and the area's moments to a higher order: (order, area wanted), and None for an area
+        that is not; itself None where only moments to order 3 are known.
     solids: the surfaces that were measured, and the (k, 4, 4) maps to where each stands.
     """
 
@@ -36,8 +39,10 @@ class Body:
     method: str
     warnings: tuple[str, ...]
     mass: Moments | None = None
+    wall: Moments | None = None
     refined: Callable[[], Moments] | None = None
     length: Moments | None = None
-    sheet: Moments | None = None
+    estimated: bool = False
     display_volume: float | None = None
+    to_order: Callable[[int, bool], tuple[Moments, Moments | None]] | None = None
     solids: tuple[tuple[SolidMeasure, NDArray], ...] = ()

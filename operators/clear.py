@@ -6,11 +6,11 @@ from bpy.types import Context, Operator
 
 from . import selection, staleness
 from .channels import Refused
-from .write import properties
+from .write import properties, section
 
 
 class OBJECT_OT_body_moments_clear(Operator):
-    """Remove the stored mass properties from the selected objects. Settings stay"""
+    """Remove the stored mass properties and sections from the selected objects. Settings stay"""
 
     bl_idname = "object.body_moments_clear"
     bl_label = "Clear"
@@ -24,13 +24,13 @@ class OBJECT_OT_body_moments_clear(Operator):
         objects = [
             obj
             for obj in context.view_layer.objects.selected
-            if any(key in obj for key in properties.DESCRIPTIONS)
+            if any(key in obj for key in (*properties.DESCRIPTIONS, section.KEY))
         ]
 
         def remove(obj) -> bool:
             if not obj.is_editable:
                 raise Refused("it is linked from another file; make it local first")
-            return properties.clear(obj)
+            return properties.clear(obj) | section.clear(obj)
 
         count, failures = selection.each(self, objects, remove, (Refused,))
         staleness.settle(context, objects)

@@ -29,8 +29,12 @@ def wire_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
     moved = stored * (2.0 * len(curves) + 8.0 * length.total / max(reach, 1e-300)) * reach ** degree.astype(np.float64)
     length = Moments(length.raw, length.about, "length", length.error, moved)
     closed = all(np.allclose(*curve.samples(1)[[0, -1]]) for curve in curves)
+
+    def to_order(order: int, _with_area: bool) -> tuple[Moments, Moments]:
+        return tuple(Moments(np.zeros(monomial_count(order)), length.about, of) for of in ("volume", "area"))
+
     return Body(nothing, Moments(nothing.raw, length.about, "area"), Health(closed=closed, components=len(curves)),
-                "wire", (), length=length)
+                "wire", (), length=length, to_order=to_order, estimated=True)
 
 
 def region_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
@@ -46,7 +50,7 @@ def region_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
     degree = np.array([0] + [n for n in (1, 2, 3) for _ in range((n + 1) * (n + 2) // 2)])
     area = Moments(area.raw, area.about, "area", area.error, 2.0 * stored * rim * reach ** degree.astype(np.float64))
     nothing = Moments(np.zeros_like(area.raw), area.about, "volume")
-    return Body(nothing, area, Health(closed=False, components=len(curves)), "NURBS shell", ())
+    return Body(nothing, area, Health(closed=False, components=len(curves)), "NURBS shell", (), estimated=True)
 
 
 def _placed(curves: list[Curve], matrix: np.ndarray, unit: float) -> tuple[list[Curve], float]:

@@ -15,6 +15,7 @@ import bpy
 import numpy as np
 
 from ..core.decimal import decimal
+from .density import density_key
 
 VERSION = "v1"
 
@@ -36,16 +37,20 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     given = settings.linear_density if settings.kind == "WIRE" else settings.density
     return effective_hash(settings.kind, decimal(given) if settings.mass_from == "DENSITY" else None,
                           decimal(settings.mass) if settings.mass_from == "MASS" else None,
-                          decimal(settings.thickness) * unit, settings.overlap,
-                          unit)
+                          decimal(settings.thickness) * unit, settings.overlap, unit, settings.wall,
+                          density_key(obj, str(obj.get("body_materials", "")).splitlines()))
 
 
 def effective_hash(kind: str, density: float | None, mass: float | None, thickness: float, overlap: str,
-                   unit_scale: float) -> str:
-    """A digest of settings as they were used; what a kind has no use for does not count."""
+                   unit_scale: float, wall: str = "THIN", varying: str = "") -> str:
+    """A digest of settings as they were used; what a kind has no use for does not count. varying: `density_key`, which
+    takes the place of the density."""
+    density = None if varying else density
     density, mass = (None if value is None else decimal(value) for value in (density, mass))  # as a setting holds it
     used = [kind, density, mass, float("{:.6g}".format(thickness)) if kind == "SHELL" else None,
-            overlap if kind == "SOLID" else None, round(unit_scale, 12)]
+            overlap if kind == "SOLID" else None, round(unit_scale, 12), *([varying] if varying else [])]
+    if kind == "SHELL" and wall != "THIN":
+        used.append(wall)
     return _digest(repr(used).encode())
 
 

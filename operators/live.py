@@ -24,6 +24,7 @@ from ..core.following import FollowedBody
 from ..core.measurement import Measurement
 from ..core.moments import Moments
 from .body import Body
+from .density import density_field
 from .measure import MeasureOptions, measure_object, resolved, told
 from .read import Unreadable, read_patches
 
@@ -102,7 +103,8 @@ def _measured(obj: Object, depsgraph: Depsgraph) -> Measurement:
     unit = decimal(depsgraph.scene.unit_settings.scale_length)
     plain = MeasureOptions(compare=False)
     options = resolved(plain, obj, unit)
-    reading = read_patches(obj, depsgraph) if options.kind == "solid" and options.overlap == "signed" else None
+    followed = options.kind == "solid" and options.overlap == "signed" and density_field(obj.body_moments) is None
+    reading = read_patches(obj, depsgraph) if followed else None
     if reading is None or reading.singular:
         return measure_object(obj, depsgraph, plain)
     (part,) = reading.parts
@@ -119,7 +121,8 @@ def _measured(obj: Object, depsgraph: Depsgraph) -> Measurement:
         body.follow(patches, stored)
     measure = body.measure
     found = Body(body.volume, Moments(np.array([body.area]), body.volume.about, "area"), measure.health,
-                 "NURBS " + measure.method, (*part.splines.notes, *measure.warnings), refined=lambda: body.volume)
+                 "NURBS " + measure.method, (*part.splines.notes, *measure.warnings), refined=lambda: body.volume,
+                 estimated=True)
     return told(obj, reading, found, options, unit)
 
 

@@ -8,7 +8,7 @@ all go through it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -16,21 +16,29 @@ import numpy as np
 from ..core.decimal import decimal
 from ..core.mass import MassProperties
 from ..core.measurement import Measurement
+from ..core.moments import Moments
+from . import wall_slider
 from .body import Body
 from .curve_body import region_body, wire_body
+from .density import density_field, density_key
 from .fingerprint import effective_hash, fingerprint, matrix_hash
 from .mesh_body import mesh_body
 from .nurbs_body import nurbs_body
 from .read import Reading, Unreadable, read_lines, read_object, shows_flat_region
+from .wall_body import find_walls
+from .weigh import Weighed, weigh
+
+KNOWN = 3  # the order to which every measurement has its moments
 
 
 @dataclass(frozen=True)
 class MeasureOptions:
     """What overrides the objects' own settings; None leaves the setting. SI units.
 
-    kind: "solid", "shell" or "wire"; density: kg/m³, of a wire kg/m; mass: kg; thickness: m; overlap:
-    "signed" or "union"; unit_scale: metres per Blender unit, else the scene's; compare: whether what needs no display
-    mesh is compared with it.
+    kind: "solid", "shell" or "wire"; density: kg/m³, of a wire kg/m; mass: kg; thickness: m; overlap: "signed" or
+    "union"; wall: of a shell, "thin", "inward", "outward" or "centered"; unit_scale: metres per Blender unit, else the
+    scene's. order: of the moments that the measurement shall hold; None for what mass properties need. surface: those
+    of the area too. compare: whether what needs no display mesh is compared with it.
     """
 
     kind: str | None = None
@@ -38,8 +46,11 @@ class MeasureOptions:
     mass: float | None = None
     thickness: float | None = None
     overlap: str | None = None
+    wall: str | None = None
     unit_scale: float | None = None
     threads: int = 1
+    order: int | None = None
+    surface: bool = False
     compare: bool = True
 
 
@@ -51,35 +62,59 @@ def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     """
     scene = depsgraph.scene
     unit = options.unit_scale or decimal(scene.unit_settings.scale_length)
+    given = options.density is not None or options.mass is not None
     options = resolved(options, obj, unit)
+    shell = options.kind == "shell"
     try:
-        reading, body = _measured(obj, depsgraph, unit, options)
-        return told(obj, reading, body, options, unit)
+        lines = _lines(obj, depsgraph, unit, options)
+        if lines is not None:
+            return _to_order(told(obj, *lines, options, unit), lines[1], options)
+        density = None if given else density_field(obj.body_moments)
+        reading = read_object(obj, depsgraph, materials=density is not None and density.kind == "materials",
+                              attribute=density.attribute if density is not None and shell else None)
+        if reading.has_patches and density is None:
+            body = nurbs_body(reading, unit, wall=options.wall if shell else None, thickness=options.thickness,
+                              union=options.overlap == "union", threads=options.threads, compare=options.compare)
+            return _to_order(told(obj, reading, body, options, unit), body, options)
+        if reading.has_patches:
+            reading.warnings.append("A density that is not one value needs polygons: the display mesh of its surface "
+                                    "was measured, as fine as the viewport's resolution.")
+        body = mesh_body(reading, unit, shell=shell, union=options.overlap == "union", threads=options.threads)
+        weighed = None
+        if density is not None:
+            _require_volume(body, options)
+            weighed = weigh(reading, body, density, unit=unit, shell=shell, thickness=options.thickness,
+                            others=options.density, threads=options.threads)
+            body = replace(body, mass=weighed.mass, warnings=(*body.warnings, *weighed.warnings))
+        walls = find_walls(reading, body, options.wall) if shell and options.wall != "thin" else None
+        if walls is not None:
+            body = walls.body(options.thickness)
+        measurement = told(obj, reading, body, options, unit, weighed)
+        if walls is not None:
+            wall_slider.keep(obj, reading, walls, measurement, unit)
+        return _to_order(measurement, body, options)
     except ValueError as error:
         raise Unreadable(obj.name, str(error)) from error
 
 
-def _measured(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float, options: MeasureOptions
-              ) -> tuple[Reading, Body]:
-    shell, union = options.kind == "shell", options.overlap == "union"
+def _lines(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float, options: MeasureOptions
+           ) -> tuple[Reading, Body] | None:
+    """A curve object as a wire, or as the flat region that it bounds; None for what is measured by its surface."""
     if options.kind == "wire":
         reading = read_lines(obj, depsgraph)
         return reading, wire_body(reading.curves, reading.matrix, unit)
-    if shell and obj.type == "CURVE" and shows_flat_region(obj):
-        reading = read_lines(obj, depsgraph)
-        filled = obj.data.dimensions == "2D" and obj.data.fill_mode != "NONE"
-        try:
-            if not filled:
-                reading.warnings.append("The curve is not filled; the flat region that it bounds was measured.")
-            return reading, region_body(reading.curves, reading.matrix, unit)
-        except ValueError:
-            if not filled:
-                raise
-    reading = read_object(obj, depsgraph)
-    if reading.has_patches:
-        return reading, nurbs_body(reading, unit, thickness=options.thickness if shell else None, union=union,
-                                   threads=options.threads, compare=options.compare)
-    return reading, mesh_body(reading, unit, shell=shell, union=union, threads=options.threads)
+    if options.kind != "shell" or obj.type != "CURVE" or not shows_flat_region(obj) or options.wall != "thin":
+        return None
+    reading = read_lines(obj, depsgraph)
+    filled = obj.data.dimensions == "2D" and obj.data.fill_mode != "NONE"
+    if not filled:
+        reading.warnings.append("The curve is not filled; the flat region that it bounds was measured.")
+    try:
+        return reading, region_body(reading.curves, reading.matrix, unit)
+    except ValueError:
+        if not filled:
+            raise
+    return None
 
 
 def resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> MeasureOptions:
@@ -93,46 +128,72 @@ def resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> Mea
     return MeasureOptions(
         kind=kind, density=density, mass=mass,
         thickness=decimal(settings.thickness) * unit if options.thickness is None else options.thickness,
-        overlap=options.overlap or settings.overlap.lower(), threads=options.threads, compare=options.compare)
+        overlap=options.overlap or settings.overlap.lower(), wall=options.wall or settings.wall.lower(),
+        threads=options.threads, order=options.order, surface=options.surface, compare=options.compare)
 
 
-def told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOptions, unit: float) -> Measurement:
-    """A body as the measurement of an object, in whose reading it was found.
+def _to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> Measurement:
+    """With moments to the order that was asked for. What a measurement holds anyway is not measured again."""
+    shell, order = options.kind == "shell", options.order
+    if order is None or (order < KNOWN and (shell or not options.surface)):
+        return measurement
+    if body.to_order is None:
+        if order > KNOWN or (options.surface and not shell):
+            raise ValueError("Of such a body only moments to order {:d} are known; ask for no more."
+                             .format(KNOWN))
+        return measurement
+    volume, area = body.to_order(order, shell or options.surface)
+    return replace(measurement, volume_moments=None if shell else volume, area_moments=area or measurement.area_moments)
 
-    options: resolved. unit: metres per Blender unit. ValueError, with what to do, where it has no mass.
-    """
-    shell, wire = options.kind == "shell", options.kind == "wire"
-    thin = shell and body.sheet is None
-    volume = body.volume if not shell else body.area * options.thickness if thin else body.sheet
-    extent = body.length if wire else volume  # what has the density
-    if not extent.total > 0.0:
+
+def _require_volume(body: Body, options: MeasureOptions) -> Moments:
+    """The volume, of a shell that of its sheet or wall."""
+    shell = options.kind == "shell"
+    volume = body.area * options.thickness if shell and body.wall is None else body.wall or body.volume
+    if not volume.total > 0.0:
         raise ValueError("It has no thickness; set one." if shell and body.area.total > 0.0 else
                          "Its faces enclose no volume; measure it as a shell, or close it.")
+    return volume
+
+
+def told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOptions, unit: float,
+         weighed: Weighed | None = None) -> Measurement:
+    """The body as a measurement. options: resolved. ValueError where it has no mass."""
+    shell = options.kind == "shell"
+    wire = options.kind == "wire"
+    thin, solid = shell and body.wall is None, body.wall or body.volume
+    volume = body.volume if wire else _require_volume(body, options)
+    extent = body.length if wire else volume  # what the density is of
     density = options.density if options.mass is None else options.mass / extent.total
     if body.mass is not None:
-        weighed, factor = body.mass, 1.0 if options.mass is None else options.mass / body.mass.total
-        density = body.mass.total * factor / volume.total
+        moments, factor = body.mass, 1.0
+        density = body.mass.total / volume.total
     else:
-        weighed, factor = (body.area, density * options.thickness) if thin else (extent, density)
+        moments, factor = (body.area, density * options.thickness) if thin else (body.length or solid, density)
     if not density > 0.0:
         raise ValueError("Its {:s} is zero; give it one.".format("density" if options.mass is None else "mass"))
     rotation, location = np.asarray(reading.rotation, np.float64), np.asarray(reading.location, np.float64) * unit
     properties = MassProperties.from_moments(
-        weighed, factor, prefer=rotation, refine=None if shell else body.refined)
+        moments, factor, prefer=rotation, refine=None if shell or body.mass is not None else body.refined)
 
     def bounds(of: str, delta: dict[str, float]) -> dict[str, float]:
         return {"volume": float(getattr(volume, of)[0]), "area": float(getattr(body.area, of)[0]),
                 "center_of_mass": delta["center"], "inertia": delta["inertia"]}
 
     settings = effective_hash(options.kind.upper(), options.density, options.mass, options.thickness,
-                              options.overlap.upper(), unit)
-    geometry = b"".join(moments.raw.tobytes() for moments in (body.volume, body.area, body.length) if moments)
+                              options.overlap.upper(), unit, options.wall.upper(),
+                              density_key(obj, weighed.materials) if weighed else "")
+    digested = [body.volume, body.area, *(one for one in (body.mass, body.length) if one is not None)]
+    of_surface = "shell" if shell and not body.method.endswith("shell") else body.method
     return Measurement(
-        name=obj.name, type=obj.type, kind=options.kind, method="shell" if thin and not reading.curves else body.method,
-        density=0.0 if wire else density, thickness=options.thickness if shell else 0.0, volume=volume.total,
-        area=body.area.total, mass_properties=properties, volume_moments=None if thin else volume,
-        area_moments=body.area, mass_moments=(weighed, factor), health=body.health,
-        warnings=(*reading.warnings, *body.warnings), rotation=rotation, location=location,
-        length=body.length.total if wire else None, display_volume=body.display_volume,
-        error_bound={**bounds("error", properties.error), "input": bounds("input", properties.input)},
-        fingerprint=fingerprint(geometry, matrix_hash(obj), settings))
+        name=obj.name, type=obj.type, kind=options.kind, method=of_surface, density=0.0 if wire else density,
+        thickness=options.thickness if shell else 0.0, volume=volume.total, area=body.area.total,
+        mass_properties=properties, volume_moments=None if thin else solid, area_moments=body.area,
+        mass_moments=(moments, factor), health=body.health, warnings=(*reading.warnings, *body.warnings),
+        rotation=rotation, location=location, length=body.length.total if wire else None,
+        display_volume=body.display_volume,
+        error_bound={**bounds("error", properties.error), "input": bounds("input", properties.input),
+                     **({"estimated": True} if body.estimated else {})},
+        fingerprint=fingerprint(b"".join(one.raw.tobytes() for one in digested), matrix_hash(obj), settings),
+        density_from=weighed.source if weighed else "one value" if options.mass is None else "given mass",
+        materials=weighed.materials if weighed else ())

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, replace
 
 import numpy as np
@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from ..core.images import area_of_images
 from ..core.moments import Moments, are_similarities, map_sum, sum_moments
 from ..core.polyhedron import solid_and_area
+from ..core.recursion import moments_to_order
 from ..core.solid import Faults, Health, SolidMeasure, measure_solid
 from ..core.surface import Surface, boxes_meet, joined
 from .body import Body
-from .read import Part, Reading
+from .read import Reading
 from .read.union import union_surface
 
 COMPARED = 200_000  # triangles up to which instances are compared with each other as shells of one mesh
@@ -51,9 +52,10 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
             "those share counts twice.".format(reading.places))
     for part in reading.parts:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
-        matrices = scaled(part.matrices, unit)
+        matrices = in_metres(part.matrices, unit)
         volumes.append(map_sum(solid.volume, matrices))
-        areas.extend(_mapped_areas(part, solid.area, matrices, shell, threads))
+        measured = (lambda surface: solid_and_area(surface, threads, shell=True)[1]) if shell else None
+        areas.extend(mapped_areas(part.surface, solid.area, matrices, measured))
         stretch = volumes[-1].total / solid.volume.total if solid.volume.total else 0.0  # Σ |det|
         healths.append((replace(solid.health, volume_spread=solid.health.volume_spread * stretch), len(matrices)))
         methods.append(solid.method)
@@ -64,24 +66,46 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
         parts.append((solid, matrices))
     ranked = ("open", "capped", "reoriented", "exact")
     return _body(sum_moments(volumes), sum_moments(areas), together(healths), min(methods, key=ranked.index), warnings,
-                 parts, threads)
+                 parts, [part.surface for part in reading.parts], threads)
 
 
 def _body(volume: Moments, area: Moments, health: Health, method: str, warnings: Iterable[str],
-          solids: list[tuple[SolidMeasure, NDArray]], threads: int) -> Body:
+          solids: list[tuple[SolidMeasure, NDArray]], surfaces: list[Surface], threads: int) -> Body:
+    """surfaces: what each of the solids was before it was mended."""
     def refined() -> Moments:
         return sum_moments([map_sum(solid.refined(threads), matrices) for solid, matrices in solids])
 
-    return Body(volume, area, health, method, tuple(warnings), refined=refined, solids=tuple(solids))
+    def to_order(order: int, area: bool) -> tuple[Moments, Moments | None]:
+        return _to_order(solids, surfaces, order, area, threads)
+
+    return Body(volume, area, health, method, tuple(warnings), refined=refined, to_order=to_order,
+                solids=tuple(solids))
+
+
+def _to_order(solids: list[tuple[SolidMeasure, NDArray]], surfaces: list[Surface], order: int, area: bool,
+              threads: int) -> tuple[Moments, Moments | None]:
+    """The moments to an order of what was measured, each part once and mapped to its places: the volume of the mended
+    surface, in one pass with the area where mending has neither added nor left out a face."""
+    volumes, areas = [], []
+    for (solid, matrices), surface in zip(solids, surfaces):
+        same = solid.method in ("exact", "reoriented") and not solid.health.duplicate_faces
+        volume, faces = moments_to_order(solid.mended, order, area=area and same, threads=threads,
+                                         about=solid.volume.about)  # of an open surface they depend on it
+        volumes.append(map_sum(volume, matrices))
+        if area:
+            measured = lambda other: moments_to_order(other, order, area=True, threads=threads)[1]  # noqa: E731
+            areas.extend(mapped_areas(surface, faces or measured(surface), matrices, measured))
+    return sum_moments(volumes), sum_moments(areas) if area else None
 
 
 def _as_one(reading: Reading, unit: float, threads: int) -> Body:
     """All parts where they stand as one surface, so that they are compared as the shells of one mesh are."""
-    solid = measure_solid(_realized(reading), threads=threads)
+    surface = _realized(reading)
+    solid = measure_solid(surface, threads=threads)
     scale = np.diag([unit, unit, unit, 1.0])
     health = replace(solid.health, volume_spread=solid.health.volume_spread * unit**3, faults=Faults())
     return _body(solid.volume.mapped(scale), solid.area.mapped(scale), health, solid.method, solid.warnings,
-                 [(solid, scale[None])], threads)
+                 [(solid, scale[None])], [surface], threads)
 
 
 def _realized(reading: Reading) -> Surface:
@@ -105,7 +129,8 @@ def _united(reading: Reading, unit: float, threads: int) -> Body:
     before = _summed(reading, unit, False, threads)
     mended = [solid.mended.mapped(matrix[:3, :3], matrix[:3, 3])
               for solid, matrices in before.solids for matrix in matrices]
-    solid = measure_solid(union_surface(joined(mended)), threads=threads)
+    surface = union_surface(joined(mended))
+    solid = measure_solid(surface, threads=threads)
     if solid.method == "open":
         raise ValueError("Blender's boolean could not unite its shells; close and clean the mesh, or count each.")
     notes = ["Its shells were united by Blender's exact boolean, which rounds to 7 digits."]
@@ -116,35 +141,46 @@ def _united(reading: Reading, unit: float, threads: int) -> Body:
         notes.append("Its faces were turned outward before." if before.method == "reoriented" else
                      "Some of its parts are open, so that their union need not be the body that is meant.")
     return _body(solid.volume, solid.area, before.health, "union", (*notes, *solid.warnings),
-                 [(solid, np.eye(4)[None])], threads)
+                 [(solid, np.eye(4)[None])], [surface], threads)
 
 
-def scaled(matrices: NDArray, unit: float) -> NDArray[np.float64]:
+def in_metres(matrices: NDArray, unit: float) -> NDArray[np.float64]:
     """World matrices to SI."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit
     return scaled
 
 
-def _mapped_areas(part: Part, area: Moments, matrices: NDArray, shell: bool, threads: int) -> Iterator[Moments]:
-    """The area moments of a part's images. Those of a shell do not follow a map that stretches unevenly, so there the
-    mapped surface is measured, once for each different map."""
+def mapped_areas(surface: Surface, area: Moments, matrices: NDArray, measured: Callable[[Surface], Moments] | None
+                 ) -> Iterator[Moments]:
+    """The area moments of a surface's images. They do not follow a map that stretches unevenly, so there the mapped
+    surface is `measured`, once for each different map; with None, only the area itself is wanted."""
+    if measured is None:
+        even = are_similarities(matrices[:, :3, :3])
+        if even.any():
+            yield map_sum(area, matrices[even])
+        if not even.all():
+            yield area_of_images(surface, matrices[~even, :3, :3])
+        return
+    for image, places, _ in even_surfaces(surface, matrices):
+        yield map_sum(area if image is surface else measured(image), places)
+
+
+def even_surfaces(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
+    """A surface's images as images under similarities: the surface itself or mapped ones, one for each different uneven
+    map, with the (j, 4, 4) maps that are left and which of `matrices` they stand for, (j,)."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
-        yield map_sum(area, matrices[even])
+        yield surface, matrices[even], np.flatnonzero(even)
     if even.all():
         return
-    linear = matrices[~even, :3, :3]
-    if not shell:
-        yield area_of_images(part.surface, linear)
-        return
-    linear, which = np.unique(linear.reshape(-1, 9), axis=0, return_inverse=True)
-    places = matrices[~even, :3, 3]
+    rest = np.flatnonzero(~even)
+    linear, which = np.unique(matrices[rest, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
     for i, row in enumerate(linear):
-        mapped = solid_and_area(part.surface.mapped(row.reshape(3, 3)), threads, shell=True)[1]
-        moved = np.tile(np.eye(4), (np.count_nonzero(which.ravel() == i), 1, 1))
-        moved[:, :3, 3] = places[which.ravel() == i]
-        yield map_sum(mapped, moved)
+        own = rest[which.ravel() == i]
+        moved = np.tile(np.eye(4), (len(own), 1, 1))
+        moved[:, :3, 3] = matrices[own, :3, 3]
+        yield surface.mapped(row.reshape(3, 3)), moved, own
 
 
 def together(healths: Iterable[tuple[Health, int]]) -> Health:

@@ -4,8 +4,9 @@
 to the others.
 """
 
+import bpy
 from bl_operators.presets import AddPresetBase
-from bpy.props import EnumProperty
+from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
 from ..core.materials import BY_NAME, MATERIALS
@@ -25,8 +26,20 @@ def _editable(context: Context) -> list[Object]:
     )
 
 
+TABLE = [
+    (
+        material.name,
+        material.name,
+        "{:.7g} kg/m³. Source: {:s}".format(material.density, material.source),
+    )
+    for material in MATERIALS
+]
+
+
 class OBJECT_OT_body_moments_set_material(Operator):
-    """Set the density of all selected objects to that of a material"""
+    """Set the density of all selected objects to that of a material. Where their density comes from
+    their materials, it is that of faces whose material has none
+    """
 
     bl_idname = "object.body_moments_set_material"
     bl_label = "Set Material"
@@ -36,14 +49,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
     material: EnumProperty(
         name="Material",
         description="The material whose density is taken",
-        items=[
-            (
-                material.name,
-                material.name,
-                "{:.7g} kg/m³. Source: {:s}".format(material.density, material.source),
-            )
-            for material in MATERIALS
-        ],
+        items=TABLE,
     )
 
     @classmethod
@@ -63,15 +69,58 @@ class OBJECT_OT_body_moments_set_material(Operator):
         changed = 0
         for obj in objects:
             settings = obj.body_moments
-            before = (settings.mass_from, settings.density, settings.material)
+            before = _density_of(settings)
             settings.mass_from = "DENSITY"
+            if settings.density_from != "MATERIALS":
+                settings.density_from = "VALUE"
             settings.density = material.density
             settings.material = material.name
-            changed += before != (settings.mass_from, settings.density, settings.material)
+            changed += before != _density_of(settings)
         text = "Set {count} to " + material.name
         if not changed:
             text = "Nothing to do: it was {:s} already".format(material.name)
         return selection.summarise(self, changed, len(objects), text)
+
+
+def _density_of(settings) -> tuple:
+    return settings.mass_from, settings.density_from, settings.density, settings.material
+
+
+class MATERIAL_OT_body_moments_set_density(Operator):
+    """Give a material the density of an entry of the table"""
+
+    bl_idname = "material.body_moments_set_density"
+    bl_label = "Set Material Density"
+    bl_options = {"REGISTER", "UNDO"}
+    bl_property = "material"
+
+    material: EnumProperty(
+        name="Material",
+        description="The entry of the table whose density is taken",
+        items=TABLE,
+    )
+    target: StringProperty(
+        name="Blender Material",
+        description="Name of the material that gets the density",
+        options={"HIDDEN"},
+    )
+
+    def invoke(self, context: Context, _event) -> set[str]:
+        context.window_manager.invoke_search_popup(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, _context: Context) -> set[str]:
+        target = bpy.data.materials.get((self.target, None))
+        if target is None:
+            self.report(
+                {"ERROR"}, "There is no local material “{:s}”; make it local first".format(self.target)
+            )
+            return {"CANCELLED"}
+        entry = BY_NAME[self.material]
+        target.body_moments.density = entry.density
+        target.body_moments.material = entry.name
+        self.report({"INFO"}, "Set “{:s}” to {:s}".format(target.name, entry.name))
+        return {"FINISHED"}
 
 
 class OBJECT_OT_body_moments_copy_settings(Operator):
@@ -113,17 +162,23 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     preset_defines = ["settings = bpy.context.object.body_moments"]
     preset_values = [
         "settings.kind",
+        "settings.wall",
         "settings.thickness",
         "settings.mass_from",
         "settings.mass",
         "settings.density",
         "settings.material",
         "settings.overlap",
+        "settings.density_from",
+        "settings.density_polynomial",
+        "settings.density_frame",
+        "settings.density_attribute",
     ]
 
 
 CLASSES = (
     OBJECT_OT_body_moments_set_material,
+    MATERIAL_OT_body_moments_set_density,
     OBJECT_OT_body_moments_copy_settings,
     OBJECT_OT_body_moments_preset_add,
 )

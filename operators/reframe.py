@@ -33,6 +33,7 @@ from .channels import (
     set_rotation_and_scale,
     world,
 )
+from .density import fixed_to
 from .read import Unreadable
 from .surroundings import SAME_SHAPE, Surroundings, referring, same_shape, shape
 
@@ -89,6 +90,9 @@ def check(obj: Object) -> None:
     if unseen:
         raise Refused("what its modifier {:s} renders is not shown, and may depend on the origin; show it in viewports "
                       "or remove it first".format(unseen[0]))
+    if fixed_to(obj) == "own":
+        raise Refused("its density is a polynomial of its own coordinates, and these would change; give it in world "
+                      "coordinates first")
     if abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
         raise Refused("its scale is zero along an axis; set the scale first")
 

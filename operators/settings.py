@@ -2,20 +2,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings: what an object is made of, and in which frame numbers are shown.
 
-They live in property groups (`Object.body_moments`, `Scene.body_moments`); results live in ID
+They live in property groups (`Object.body_moments`, `Material.body_moments`, `Scene.body_moments`); results live in ID
 properties, never here. The given mass has no unit type: Blender would scale a `unit='MASS'`
 property by scale_length³, while a weighed part weighs the same whatever a scene's unit is.
 """
 
 import bpy
 import numpy as np
-from bpy.props import EnumProperty, FloatProperty, PointerProperty, StringProperty
-from bpy.types import Context, Object, PropertyGroup, Scene
+from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
 from ..core.decimal import decimal
 from ..core.materials import BY_NAME
+from ..core.recursion import MAX_ORDER
+from . import wall_slider
 
-COPIED = ("kind", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap")
+COPIED = (
+    *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
+    *("density_from", "density_polynomial", "density_frame", "density_attribute"),
+)
 
 
 def _forget_material(settings: PropertyGroup, _context: Context) -> None:
@@ -48,6 +53,57 @@ class BodyMomentsObjectSettings(PropertyGroup):
         ),
         default="DENSITY",
     )
+    density_from: EnumProperty(
+        name="Density From",
+        description="Where the density comes from",
+        items=(
+            ("VALUE", "One Value", "The same density everywhere"),
+            (
+                "MATERIALS",
+                "Materials",
+                "Each material's own: of a shell by face, of a solid by closed part. Faces without a material that "
+                "has a density take the object's",
+            ),
+            (
+                "POLYNOMIAL",
+                "Polynomial",
+                "A polynomial in x, y and z, in kg/m³ where coordinates are in meters",
+            ),
+            (
+                "ATTRIBUTE",
+                "Vertex Attribute",
+                "Of a shell: a float attribute on its vertices, in kg/m³, linear in between",
+            ),
+        ),
+        default="VALUE",
+    )
+    density_polynomial: StringProperty(
+        name="Polynomial",
+        description=(
+            "kg/m³, of x, y, z in meters, such as 1000 + 20*z; or its coefficients for 1, x, y, z, x², xy, xz, "
+            "y², yz, z², … separated by commas"
+        ),
+        default="1000",
+    )
+    density_frame: EnumProperty(
+        name="Coordinates",
+        description="What x, y and z of the polynomial are",
+        items=(
+            (
+                "OBJECT",
+                "Own",
+                "Meters along the object's own axes from its origin; a negative scale mirrors them, and instances "
+                "carry the density along, each in its own place",
+            ),
+            ("WORLD", "World", "Meters along the world's axes from its origin"),
+        ),
+        default="OBJECT",
+    )
+    density_attribute: StringProperty(
+        name="Attribute",
+        description="Name of a float attribute on the vertices, kg/m³, as the modifiers leave it",
+        default="density",
+    )
     density: FloatProperty(
         name="Density",
         description="Density in kg/m³",
@@ -75,6 +131,22 @@ class BodyMomentsObjectSettings(PropertyGroup):
         step=10,
         precision=6,
     )
+    wall: EnumProperty(
+        name="Wall",
+        description="Where the material of the shell is",
+        items=(
+            ("THIN", "Thin", "In the surface itself: area times thickness, good for thin sheets"),
+            ("INWARD", "Inward", "Behind the faces, as real material with mitred corners"),
+            ("OUTWARD", "Outward", "In front of the faces, as real material with mitred corners"),
+            (
+                "CENTERED",
+                "Centered",
+                "Half behind the faces, half in front, as real material with mitred corners",
+            ),
+        ),
+        default="THIN",
+        update=wall_slider.changed,
+    )
     thickness: FloatProperty(
         name="Thickness",
         description="Thickness of the sheet",
@@ -82,6 +154,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
         min=0.0,
         precision=6,
         unit="LENGTH",
+        update=wall_slider.changed,
     )
     overlap: EnumProperty(
         name="Overlaps",
@@ -104,6 +177,25 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
 
 
+class BodyMomentsMaterialSettings(PropertyGroup):
+    """What a material weighs."""
+
+    density: FloatProperty(
+        name="Density",
+        description="Density in kg/m³; 0 for none, then the object's is taken",
+        default=0.0,
+        min=0.0,
+        soft_max=25000.0,
+        step=1000,
+        precision=3,
+        update=_forget_material,
+    )
+    material: StringProperty(
+        name="Material",
+        description="Name of the entry that the density was taken from",
+    )
+
+
 class BodyMomentsSceneSettings(PropertyGroup):
     """How the scene's numbers are shown."""
 
@@ -117,6 +209,38 @@ class BodyMomentsSceneSettings(PropertyGroup):
             ("OBJECT", "Object", "The object's own location and rotation, with unit scale"),
         ),
         default="WORLD",
+    )
+    moments_order: IntProperty(
+        name="Order",
+        description="The highest p + q + r of the moments ∫ x^p y^q z^r that are computed",
+        default=4,
+        min=1,
+        max=MAX_ORDER,
+        soft_max=20,
+    )
+    moments_of: EnumProperty(
+        name="Over",
+        description="What the moments are integrals over; no density is in them",
+        items=(
+            ("VOLUME", "Volume", "The volume; of a shell, its area times its thickness"),
+            ("SURFACE", "Surface", "The area of the faces"),
+        ),
+        default="VOLUME",
+    )
+    moments_about: EnumProperty(
+        name="About",
+        description="The point that coordinates are measured from",
+        items=(
+            ("ORIGIN", "Frame's Origin", "The origin of the frame that is chosen"),
+            ("CENTER", "Center", "The center of the volume, or of the surface: central moments"),
+            (
+                "NORMALIZED",
+                "Center, Normalized",
+                "Central moments of the body scaled to a volume, or an area, of 1: the same for "
+                "every size",
+            ),
+        ),
+        default="ORIGIN",
     )
 
 
@@ -137,7 +261,7 @@ def keep(settings: PropertyGroup, options, scene: Scene) -> None:
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name).upper())
     if options.density is not None:
-        settings.mass_from = "DENSITY"
+        settings.mass_from, settings.density_from = "DENSITY", "VALUE"
         setattr(settings, "linear_density" if settings.kind == "WIRE" else "density", options.density)
     if options.mass is not None:
         settings.mass_from, settings.mass = "MASS", options.mass
@@ -145,18 +269,20 @@ def keep(settings: PropertyGroup, options, scene: Scene) -> None:
         settings.thickness = options.thickness / decimal(scene.unit_settings.scale_length)
 
 
-CLASSES = (BodyMomentsObjectSettings, BodyMomentsSceneSettings)
+CLASSES = (BodyMomentsObjectSettings, BodyMomentsMaterialSettings, BodyMomentsSceneSettings)
 
 
 def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     Object.body_moments = PointerProperty(name="Body Moments", type=BodyMomentsObjectSettings)
+    Material.body_moments = PointerProperty(name="Body Moments", type=BodyMomentsMaterialSettings)
     Scene.body_moments = PointerProperty(name="Body Moments", type=BodyMomentsSceneSettings)
 
 
 def unregister() -> None:
     del Scene.body_moments
+    del Material.body_moments
     del Object.body_moments
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

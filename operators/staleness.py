@@ -23,11 +23,13 @@ from bpy.app.handlers import persistent
 from bpy.types import Context, Depsgraph, Object, Scene
 
 from .fingerprint import matrix_hash, settings_hash
+from .write import section
 
 EDITED = "edited"
 
 _settings: dict[int, str] = {}  # session uid → digest of the settings at the last update
 _edited: dict[int, set[str]] = {}  # session uid → the fingerprints that were current when the geometry changed
+_changes: dict[int, int] = {}  # session uid → how often its geometry changed
 _undone = False
 _paused = False
 _generation = 0
@@ -37,9 +39,22 @@ def settle(context: Context, objects: list[Object]) -> None:
     """Call after results were stored: evaluates what storing itself has tagged, then takes the
     objects as up to date.
     """
+    sections = {obj: _section_edited(obj) for obj in objects}
     context.view_layer.update()
     for obj in objects:
         mark_fresh(obj)
+        if sections[obj]:  # measuring the body has not measured its section again
+            _edited[obj.session_uid] = {section.fingerprint(obj)}
+
+
+def settle_sections(context: Context, objects: list[Object]) -> None:
+    """Call after sections were stored, and nothing else was changed: takes those as up to date."""
+    global _generation
+    with paused():
+        context.view_layer.update()
+    _generation += 1
+    for obj in objects:
+        _edited.get(obj.session_uid, set()).discard(section.fingerprint(obj))
 
 
 def mark_fresh(obj: Object) -> None:
@@ -48,6 +63,12 @@ def mark_fresh(obj: Object) -> None:
     _generation += 1
     _edited.pop(obj.session_uid, None)
     _settings.pop(obj.session_uid, None)
+
+
+def mark_retold(obj: Object) -> None:
+    """As `mark_fresh`, from within the update of a setting: what Blender reports next is that update."""
+    mark_fresh(obj)
+    _settings[obj.session_uid] = ""
 
 
 @contextmanager
@@ -68,6 +89,19 @@ def generation() -> int:
     return _generation
 
 
+def geometry_changes(obj: Object) -> int:
+    """How often Blender has reported a change of the object's geometry; some settings count as such."""
+    return _changes.get(obj.session_uid, 0)
+
+
+def is_edited(obj: Object) -> bool:
+    """Whether geometry or transform have changed since the numbers were stored, whatever the settings are."""
+    stored = str(obj.get("body_fingerprint", ""))
+    parts = stored.split(":")
+    return (len(parts) != 4 or parts[1] == EDITED or stored in _edited.get(obj.session_uid, ())
+            or parts[2] != matrix_hash(obj))
+
+
 def reason(obj: Object, scene: Scene) -> str:
     """Why the stored numbers are out of date, "" where they are not or there are none."""
     stored = str(obj.get("body_fingerprint", ""))
@@ -81,6 +115,20 @@ def reason(obj: Object, scene: Scene) -> str:
     if parts[2] != matrix_hash(obj):
         return "Transform Changed"
     return ""
+
+
+def section_reason(obj: Object) -> str:
+    """Why the stored section is out of date, "" where it is not or there is none."""
+    parts = section.fingerprint(obj).split(":")
+    if len(parts) != 4:
+        return ""
+    if parts[1] == EDITED or _section_edited(obj):
+        return "Geometry Changed"
+    return "Transform Changed" if parts[2] != matrix_hash(obj) else ""
+
+
+def _section_edited(obj: Object) -> bool:
+    return section.fingerprint(obj) in _edited.get(obj.session_uid, ())
 
 
 def _settings_edited(obj: Object, fingerprint: str, scene: Scene) -> bool:
@@ -104,9 +152,10 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
         if not update.is_updated_geometry or not isinstance(update.id, Object):
             continue
         obj = update.id.original
-        fingerprint = obj.get("body_fingerprint")
-        if fingerprint is not None and not _settings_edited(obj, str(fingerprint), scene):
-            _edited.setdefault(obj.session_uid, set()).add(str(fingerprint))
+        _changes[obj.session_uid] = _changes.get(obj.session_uid, 0) + 1
+        found = [str(mark) for mark in (obj.get("body_fingerprint"), section.fingerprint(obj)) if mark]
+        if found and not _settings_edited(obj, found[0], scene):
+            _edited.setdefault(obj.session_uid, set()).update(found)
 
 
 @persistent
@@ -123,15 +172,20 @@ def _load(*_args) -> None:
     _undone = False
     _edited.clear()
     _settings.clear()
+    _changes.clear()
 
 
 @persistent
 def _save(*_args) -> None:
     for obj in bpy.data.objects:
-        stored = str(obj.get("body_fingerprint", ""))
-        parts = stored.split(":")
-        if len(parts) == 4 and obj.is_editable and stored in _edited.get(obj.session_uid, ()):
-            obj["body_fingerprint"] = ":".join([parts[0], EDITED, *parts[2:]])
+        edited = _edited.get(obj.session_uid, ())
+        if not edited or not obj.is_editable:
+            continue
+        for stored, group, key in ((str(obj.get("body_fingerprint", "")), obj, "body_fingerprint"),
+                                   (section.fingerprint(obj), obj.get(section.KEY), "fingerprint")):
+            parts = stored.split(":")
+            if len(parts) == 4 and stored in edited:
+                group[key] = ":".join([parts[0], EDITED, *parts[2:]])
 
 
 HANDLERS = (
@@ -154,3 +208,4 @@ def unregister() -> None:
         getattr(bpy.app.handlers, name).remove(function)
     _edited.clear()
     _settings.clear()
+    _changes.clear()

@@ -62,7 +62,7 @@ ADAPTIVE_INERTIAS = {
     "METRIC": ((1.0, "kg·m²"), (1e-4, "kg·cm²"), (1e-9, "g·mm²")),
     "IMPERIAL": ((POUND * FOOT**2, "lb·ft²"), (POUND * (FOOT / 12.0) ** 2, "lb·in²")),
 }
-POWERS = {"length": ("", 1), "area": ("²", 2), "volume": ("³", 3)}
+POWERS = {"length": ("", 1), "area": ("²", 2), "volume": ("³", 3), "area_moment": ("⁴", 4)}
 SI_UNITS = {
     "length": "m",
     "area": "m²",
@@ -70,6 +70,7 @@ SI_UNITS = {
     "mass": "kg",
     "density": "kg/m³",
     "inertia": "kg·m²",
+    "area_moment": "m⁴",
 }
 DIGITS = 6
 
@@ -121,7 +122,7 @@ class Units:
     def unit(self, quantity: str, value: float) -> tuple[float, str]:
         """(SI value of one unit, its name) to show an SI `value` in."""
         if self.system == "NONE":
-            factors = {"length": self.scale, "area": self.scale**2, "volume": self.scale**3}
+            factors = {name: self.scale**power for name, (_, power) in POWERS.items()}
             return factors.get(quantity, 1.0 if quantity != "inertia" else self.scale**2), ""
         if quantity in POWERS:
             sign, power = POWERS[quantity]

@@ -10,9 +10,9 @@ from contextlib import ExitStack
 
 
 def _classes() -> tuple[type, ...]:
-    from . import body, materials
+    from . import body, materials, moments, section
 
-    return (*materials.CLASSES, *body.CLASSES)
+    return (*materials.CLASSES, *body.CLASSES, *moments.CLASSES, *section.CLASSES)
 
 
 def register() -> None:

@@ -12,10 +12,10 @@ from __future__ import annotations
 import numpy as np
 from bpy.types import Context, Object, Panel, UILayout
 
-from ..operators import live, results, staleness
+from ..operators import live, results, staleness, wall_slider
 from ..operators.units import SI_UNITS, Units
 from ..operators.write import properties
-from . import rows
+from . import materials, rows
 
 # method: (headline, icon, explanation)
 VERDICTS = {
@@ -31,6 +31,7 @@ AXES = ("X", "Y", "Z")
 NUMBERS = ("1", "2", "3")
 EQUAL = 1e-6  # moments closer than this, relatively, are told as equal
 BOUNDS = (("Rounding, at Most", None), ("Coordinates Stored as Float32, at Most", "input"))
+ESTIMATED = "Quadrature and Rounding, Estimated"
 BOUNDED = {
     "volume": ("Volume", "volume"),
     "area": ("Area", "area"),
@@ -63,13 +64,14 @@ class BodyPanel:
         if len(context.selected_objects) > 1:
             layout.operator("object.body_moments_copy_settings", icon="PASTEDOWN")
         if found is not None:
-            _numbers(layout, obj, scene, units, found)
+            _numbers(layout, context, units, found)
             _more(layout, obj, units, found)
             _warnings(layout, context, obj)
             row = layout.row(align=True)
             row.operator("object.body_moments_copy_report", icon="COPYDOWN")
             row.operator("object.body_moments_clear", icon="TRASH")
         _actions(layout, obj)
+        _analysis(layout)
         _totals(layout, context, units)
 
 
@@ -93,6 +95,11 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
     method, _ = _method_and_warnings(obj)
     *before, last = method.split() or [""]
     headline, icon, explanation = VERDICTS.get(last, (method.title(), "INFO", ""))
+    column.label(text=" ".join([*before, headline]), icon=icon)
+    if last == "shell" and obj.body_moments.wall != "THIN":
+        explanation = "The mass is in walls of real thickness"
+    if explanation:
+        rows.sentence(column, context, explanation, icon="BLANK1")
     now = live.shown(obj)
     if now is not None and now.measurement is not None:
         column.label(text="Live, in {:.0f} ms: Measure Stores It".format(1e3 * now.seconds), icon="REC")
@@ -100,9 +107,6 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
     if now is not None:
         rows.sentence(column, context, now.reason, icon="ERROR")
     outdated = staleness.reason(obj, context.scene)
-    column.label(text=" ".join([*before, headline]), icon=icon)
-    if explanation:
-        rows.sentence(column, context, explanation, icon="BLANK1")
     if outdated:
         row = column.row()
         row.alert = True
@@ -117,35 +121,84 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
     if obj.type == "SURFACE":
         column.operator("object.body_moments_live", icon="REC", depress=live.is_live(obj))
     if settings.kind == "SHELL":
+        column.prop(settings, "wall")
         column.prop(settings, "thickness")
+        _largest(column, context, obj)
     elif settings.kind == "SOLID":
         column.prop(settings, "overlap")
     column.row().prop(settings, "mass_from", text="Given", expand=True)
     if settings.mass_from == "DENSITY" and settings.kind == "WIRE":
         column.prop(settings, "linear_density", text="Density kg/m")
-    elif settings.mass_from == "DENSITY":
-        split = column.row(align=True).split(factor=0.4, align=True)
-        label = split.row()
-        label.alignment = "RIGHT"
-        label.label(text="Material")
-        row = split.row(align=True)
-        row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
-        row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
-        column.prop(settings, "density", text="Density kg/m³")
-    else:
+        return
+    if settings.mass_from == "MASS":
         column.prop(settings, "mass", text="Mass kg")
+        return
+    column.prop(settings, "density_from", text="From")
+    if settings.density_from == "POLYNOMIAL":
+        column.prop(settings, "density_polynomial", text="kg/m³")
+        column.row().prop(settings, "density_frame", text="x, y, z in m", expand=True)
+    elif settings.density_from == "ATTRIBUTE":
+        if obj.type == "MESH":
+            column.prop_search(settings, "density_attribute", obj.data, "attributes", results_are_suggestions=True)
+        else:
+            column.prop(settings, "density_attribute")
+    elif settings.density_from == "MATERIALS":
+        _materials(layout, obj)
+    else:
+        _one_density(column, settings, "Material")
 
 
-def _numbers(layout: UILayout, obj: Object, scene, units: Units, found: properties.Stored) -> None:
+def _largest(layout: UILayout, context: Context, obj: Object) -> None:
+    """How thick the wall may be, once that is known."""
+    limit = wall_slider.largest(obj)
+    if limit is None:
+        return
+    units = Units.of(context.scene.unit_settings)
+    row = layout.row()
+    row.alert = wall_slider.folds(obj)
+    text = "Folds Over from {:s}" if row.alert else "Good up to {:s}"
+    row.label(text=text.format(units.text("length", limit)), icon="ERROR" if row.alert else "INFO")
+
+
+def _materials(layout: UILayout, obj: Object) -> None:
+    settings = obj.body_moments
+    column = layout.column(align=True)
+    column.label(text="Densities, kg/m³")
+    shown = {slot.material: None for slot in obj.material_slots if slot.material}
+    for material in shown:
+        materials.density_row(column, material, material.name)
+    if not shown:
+        column.label(text="It has no material slots", icon="INFO")
+    column = layout.column()
+    column.use_property_split = True
+    _one_density(column, settings, "Without One")
+
+
+def _one_density(column: UILayout, settings, heading: str) -> None:
+    """The object's own density, with the table and the user's presets."""
+    split = column.row(align=True).split(factor=0.4, align=True)
+    label = split.row()
+    label.alignment = "RIGHT"
+    label.label(text=heading)
+    row = split.row(align=True)
+    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
+    row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
+    column.prop(settings, "density", text="Density kg/m³")
+
+
+def _numbers(layout: UILayout, context: Context, units: Units, found: properties.Stored) -> None:
+    scene, source = context.scene, properties.density_from(context.object)
     column = layout.column(align=True)
     rows.value(column, units, "Mass", "mass", found.body.mass)
-    length = properties.optional(obj, "body_length")
-    if length is not None:
-        rows.value(column, units, "Length", "length", length)
-    else:
+    length = properties.optional(context.object, "body_length")
+    if length is None:
         rows.value(column, units, "Density", "density", found.density)
+        if source:
+            rows.sentence(column, context, "The mean, from {:s}".format(source), icon="BLANK1")
         rows.value(column, units, "Volume", "volume", found.volume)
         rows.value(column, units, "Area", "area", found.area)
+    else:
+        rows.value(column, units, "Length", "length", length)
     layout.row().prop(scene.body_moments, "frame", expand=True)
     column = layout.column(align=True)
     rows.heading(column, "Center of Mass", "length", found.body.center)
@@ -196,10 +249,10 @@ def _more(layout: UILayout, obj: Object, units: Units, found: properties.Stored)
     header, body = layout.panel("body_moments_bounds", default_closed=True)
     header.label(text="Error Bounds")
     if body is not None:
-        _bounds(body, units, found)
+        _bounds(body, obj, units, found)
 
 
-def _bounds(layout: UILayout, units: Units, found: properties.Stored) -> None:
+def _bounds(layout: UILayout, obj: Object, units: Units, found: properties.Stored) -> None:
     sizes = {
         "volume": found.volume,
         "area": found.area,
@@ -208,11 +261,17 @@ def _bounds(layout: UILayout, units: Units, found: properties.Stored) -> None:
     }
     for heading, bound in BOUNDS:
         column = layout.column(align=True)
-        column.label(text=heading)
+        column.label(text=ESTIMATED if bound is None and _is_estimated(obj) else heading)
         values = found.error_bound if bound is None else found.error_bound[bound]
         for name, (label, quantity) in BOUNDED.items():
             rows.texts(column, label, units.bound(quantity, values[name], sizes[name]), repr(values[name]),
                        SI_UNITS[quantity])
+
+
+def _is_estimated(obj: Object) -> bool:
+    """Whether the bounds are estimates: those of splines are."""
+    method, _ = properties.method_and_warnings(obj)
+    return method.startswith("NURBS") or method == "wire"
 
 
 def _warnings(layout: UILayout, context: Context, obj: Object) -> None:
@@ -245,6 +304,14 @@ def _actions(layout: UILayout, obj: Object) -> None:
     )
     text = "Set Rigid Body Mass" if obj.rigid_body else "Add Rigid Body with Mass"
     column.operator("object.body_moments_set_rigid_body_mass", text=text, icon="RIGID_BODY").add = not obj.rigid_body
+    body.operator("object.body_moments_sculpt_balance", icon="SCULPTMODE_HLT")
+
+
+def _analysis(layout: UILayout) -> None:
+    header, body = layout.panel("body_moments_analysis", default_closed=True)
+    header.label(text="Analysis")
+    if body is not None:
+        body.operator("object.body_moments_fourier", text="Fourier Transform…", icon="MOD_WAVE")
 
 
 def _totals(layout: UILayout, context: Context, units: Units) -> None:

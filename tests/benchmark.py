@@ -38,9 +38,12 @@ def load_package() -> None:
 
 load_package()
 
+from body_moments.core.fourier import finished, solid_transform  # noqa: E402
+from body_moments.core.fourier_grid import GridTransform  # noqa: E402
 from body_moments.core.mass import MassProperties  # noqa: E402
 from body_moments.core.polyhedron import solid_and_area, solid_moments, third_moments_exact  # noqa: E402
 from body_moments.core.surface import Surface  # noqa: E402
+from body_moments.core.waves import Grid  # noqa: E402
 
 
 def torus(n: int, m: int, noise: float, lopsided: bool = False) -> tuple[np.ndarray, np.ndarray]:
@@ -404,6 +407,40 @@ def _opencascade(shape) -> dict[str, Callable[[], tuple[float, float]]]:
             "OpenCascade, GK 1e-6": kronrod(1e-6), "OpenCascade, GK 1e-9": kronrod(1e-9)}
 
 
+def fourier(quick: bool) -> None:
+    """The Fourier transform on one thread: closed form on lists and grids, a large grid to a tolerance, and BornAgain's
+    form factor of a tetrahedron where that is installed."""
+    points, quads = torus(32, 16, 0.0)
+    surface, rng = Surface(points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])), np.random.default_rng(0)
+    faces, count = len(surface.triangles), 12
+    print("\nFourier transform of {:,} triangles, 1 thread, ns a face and frequency".format(faces))
+    for size in (1.0, 10.0, 100.0, 1000.0):
+        q = rng.normal(size=(500, 3))
+        q *= size / 2.8 / np.linalg.norm(q, axis=1)[:, None]
+        grid = Grid(count, size / 2.8)
+        times = interleaved({"list": lambda q=q: solid_transform(surface, q),
+                             "grid": lambda grid=grid: solid_transform(surface, grid)}, 1 if quick else 3)
+        half = (count + 1) ** 2 * (count // 2 + 1)  # of a grid only half is computed
+        print("    |q| L = {:<6g}    list {:>5.0f}    grid {:>5.0f}".format(
+            size, min(times["list"]) / 500 / faces * 1e9, min(times["grid"]) / half / faces * 1e9))
+    points, quads = torus(160, 64, 0.0)
+    surface = Surface(points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
+    volume, grid = solid_moments(surface).total, Grid(64, 16.0 * np.pi / 1.4)
+    start = time.perf_counter()
+    found = finished(GridTransform(surface, grid, "volume", 1e-7 * volume))
+    seconds, some = time.perf_counter() - start, rng.integers(0, 64**3, 100)
+    error = np.abs(found.values[some] - solid_transform(surface, found.q[some]).values).max()
+    print("    {:,} triangles, 64³ frequencies to 1e-7 of the volume: {:.1f} s, error {:.1e}, told {:.1e}".format(
+        len(surface.triangles), seconds, error / volume, found.error.max() / volume))
+    if bornagain := optional("bornagain"):
+        body, q = bornagain.PlatonicTetrahedron(1.0), rng.normal(size=(5000, 3)) * 10.0
+        corners = np.array([[0, 0, 0], [1, 1, 0], [1, 0, 1], [0, 1, 1]]) / 2**0.5
+        surface = Surface(corners, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))
+        rows = {"ours": lambda: solid_transform(surface, q),
+                "bornagain": lambda: [body.formfactorAtBottom(bornagain.C3(*row)) for row in q.tolist()]}
+        table("A tetrahedron at 5,000 wave vectors", interleaved(rows, 3), ["bornagain"])
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="a tenth of the faces, fewer rounds")
@@ -415,6 +452,7 @@ def main() -> None:
     memory(side)
     latency(rounds)
     splines(3 if quick else rounds)
+    fourier(quick)
     if not optional("bpy"):
         print("\nThere is no bpy here: reading from Blender was not measured.")
         return

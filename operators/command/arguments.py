@@ -10,14 +10,15 @@ import argparse
 import math
 from pathlib import Path
 
+from ...core.recursion import MAX_ORDER
 from ..write.record import FORMATS, FRAMES
+from . import fourier
 
-MAX_ORDER = 3  # the measurement carries volume moments to this order
 DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
 
 _LATER_OPTIONS = (
-    *("--spacing", "--origin", "--spline-order", "--density-scale", "--fourier", "--q", "--grid"),
-    *("--qmax", "--pose", "--signature"),
+    *("--spacing", "--origin", "--spline-order", "--density-scale"),
+    *("--pose", "--signature"),
 )
 _LATER_FORMATS = ("urdf", "sdf", "mjcf", "usd")
 
@@ -49,6 +50,7 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         parser.error("argument --output: there is no folder {}".format(options.output.parent))
     if options.output is not None and options.output.is_dir():
         parser.error("argument --output: {} is a folder".format(options.output))
+    fourier.check(options, parser)
     return options
 
 
@@ -113,6 +115,7 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="add area moments too (up to --order, or {})".format(DEFAULT_ORDER),
     )
+    fourier.add_options(parser, _positive)
     add(
         "--format",
         type=_format,
@@ -145,9 +148,9 @@ def _order(text: str) -> int:
     except ValueError:
         value = -1
     if value < 0:
-        raise argparse.ArgumentTypeError("{!r} is not an order: 0, 1, 2 or 3".format(text))
+        raise argparse.ArgumentTypeError("{!r} is not an order, 0 to {}".format(text, MAX_ORDER))
     if value > MAX_ORDER:
-        raise argparse.ArgumentTypeError("orders above {} are not supported yet".format(MAX_ORDER))
+        raise argparse.ArgumentTypeError("{} is too high an order; the highest is {}".format(value, MAX_ORDER))
     return value
 
 

@@ -23,12 +23,13 @@ from typing import Any
 import bpy
 
 from ...core.measurement import Measurement
-from ...core.moments import Moments
 from .. import settings
 from ..measure import MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
+from ..staleness import settle
 from ..write import record
 from ..write.properties import store
+from . import fourier
 from .files import BLEND, UNITLESS, Unusable, open_file, save_file, suffix
 
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
@@ -50,7 +51,12 @@ class Run:
             name: getattr(self.options, name)
             for name in ("kind", "density", "mass", "thickness", "overlap")
         }
-        self._wanted = MeasureOptions(**wanted, threads=os.cpu_count() or 1)
+        self._wanted = MeasureOptions(
+            **wanted,
+            order=self.options.order,
+            surface=self.options.surface_moments,
+            threads=os.cpu_count() or 1,
+        )
 
     def measure(self) -> None:
         """Measure every file that was named, or else the one that is open."""
@@ -76,7 +82,8 @@ class Run:
             errors.extend(_missing_links())
             for label, obj in chosen:
                 try:
-                    one, surface = self._measure(obj, wanted)
+                    one = measure_object(obj, bpy.context.evaluated_depsgraph_get(), wanted)
+                    surface = one.area_moments if self.options.surface_moments else None
                     told = replace(one, name=label, warnings=one.warnings + note)
                     objects.append(
                         record.record(told, self.options.frame, self.options.order, surface)
@@ -86,6 +93,8 @@ class Run:
                     errors.append(_error(label, refusal.reason))
                 except Exception as error:
                     errors.append(self._fault(label, error))
+            if self.options.fourier:
+                errors.extend(self._fourier(chosen, wanted, objects))
             if self.options.write:
                 errors.extend(_store(path, measured, wanted))
         except Unusable as refusal:
@@ -110,18 +119,31 @@ class Run:
         elif file and not bpy.data.filepath:
             raise Unusable("Blender could not open the file; check that it is there, and whole.")
 
-    def _measure(
-        self, obj: bpy.types.Object, wanted: MeasureOptions
-    ) -> tuple[Measurement, Moments | None]:
-        """The object's measurement and, where they are asked for, its area moments to order 3."""
-        depsgraph = bpy.context.evaluated_depsgraph_get()
-        one = measure_object(obj, depsgraph, wanted)
-        if not self.options.surface_moments:
-            return one, None
-        if one.area_moments.order >= 3:
-            return one, one.area_moments
-        as_shell = replace(wanted, kind="shell", density=1.0, mass=None, thickness=1.0)
-        return one, measure_object(obj, depsgraph, as_shell).area_moments
+    def _fourier(
+        self,
+        chosen: list[tuple[str, bpy.types.Object]],
+        wanted: MeasureOptions,
+        objects: list[dict[str, Any]],
+    ) -> Iterator[dict[str, Any]]:
+        """Write the Fourier transform of the one object that was measured, and tell what was decided on the way in
+        its record.
+        """
+        if len(chosen) != 1:
+            reason = "A Fourier transform takes one object, and there are {}; name it with --object."
+            yield _error(None, reason.format(len(chosen)))
+            return
+        if not objects:
+            return  # the reason is told already
+        (label, obj), (told,) = chosen[0], objects
+        try:
+            notes = fourier.write(obj, self.options, wanted)
+            told["warnings"] += [note for note in notes if note not in told["warnings"]]
+        except Unreadable as refusal:
+            yield _error(label, "It has no Fourier transform: {}".format(refusal.reason))
+        except OSError as error:
+            yield _error(label, "Its Fourier transform cannot be written: {}.".format(error.strerror or error))
+        except Exception as error:
+            yield self._fault(label, error)
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
         self.faults += 1
@@ -224,4 +246,5 @@ def _store(
             yield _error(obj.name, refusal)
             continue
         settings.keep(obj.body_moments, wanted, bpy.context.scene)
+    settle(bpy.context, [obj for obj, _ in measured])
     save_file(bpy.data.filepath)

@@ -3,8 +3,8 @@
 """Blender in: evaluated objects as arrays, with their places and every decision taken."""
 
 from .objects import read_lines, read_object, read_patches
-from .reading import Part, Reading, SplineReading, Unreadable
+from .reading import Painted, Part, Reading, SplineReading, Unreadable
 from .visibility import measurable, measurable_objects, shows_flat_region
 
-__all__ = ["Part", "Reading", "SplineReading", "Unreadable", "measurable", "measurable_objects", "read_lines",
-           "read_object", "read_patches", "shows_flat_region"]
+__all__ = ["Painted", "Part", "Reading", "SplineReading", "Unreadable", "measurable", "measurable_objects",
+           "read_lines", "read_object", "read_patches", "shows_flat_region"]

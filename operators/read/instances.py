@@ -23,8 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.surface import Surface
-from .mesh import edit_surface, mesh_surface
-from .reading import Part, SplineReading, Unreadable, float64_matrix
+from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
+from .reading import Painted, Part, SplineReading, Unreadable, float64_matrix
 from .splines import spline_reading
 from .visibility import GEOMETRY_TYPES, edit_modifiers, evaluated_geometry
 
@@ -44,11 +44,13 @@ class Gathered:
     sources: the original objects that were read, without the first.
     vanished: how many instances are scaled to nothing.
     splines: of each evaluated surface object that was read, its patches, None where its mesh has to do.
+    materials, attribute: whether the faces' materials are wanted, and the name of the vertices' attribute.
     """
 
-    def __init__(self, root, depsgraph):
+    def __init__(self, root, depsgraph, materials: bool = False, attribute: str | None = None):
         self.root = root
         self.depsgraph = depsgraph
+        self.materials, self.attribute = materials, attribute
         # A geometry set owns the meshes that it hands out, and the keys are their addresses.
         self._owners: list[object] = []
         self._forget()
@@ -60,6 +62,7 @@ class Gathered:
         self.vanished = 0
         self._surfaces: dict[Hashable, Surface] = {}
         self.splines: dict[Hashable, SplineReading | None] = {}
+        self._painted: dict[Hashable, Painted] = {}
         self._places: dict[Hashable, list[NDArray[np.float64]]] = {}
         self._path: list[object] = []
 
@@ -96,7 +99,7 @@ class Gathered:
                 self.vanished += int((~there).sum())
                 matrices = matrices[there]
             if len(matrices):
-                parts.append(Part(surface, matrices, self.splines.get(key)))
+                parts.append(Part(surface, matrices, self._painted[key], self.splines.get(key)))
         return parts
 
     def _object(self, evaluated, places: NDArray) -> None:
@@ -136,12 +139,12 @@ class Gathered:
         if original.type != "MESH":
             if original.type == "SURFACE" and evaluated not in self.splines:
                 self.splines[evaluated] = spline_reading(evaluated, self.depsgraph, geometry.mesh)
-            self._mesh(evaluated, geometry.mesh, places)
+            self._mesh(evaluated, geometry.mesh, places, evaluated)
         elif original.data.is_editmode:
-            self._add(evaluated, lambda: _edited_surface(evaluated), places)
+            self._add(evaluated, lambda: self._edited(evaluated), places)
         else:
             # Objects that share a mesh and do not modify it share its evaluated data too.
-            self._mesh(evaluated.data, geometry.mesh, places)
+            self._mesh(evaluated.data, geometry.mesh, places, evaluated)
         self._count_surfaceless(geometry, len(places))
 
     def _set(self, geometry, places: NDArray) -> None:
@@ -207,21 +210,56 @@ class Gathered:
             source, mesh = instance.instance_object, instance.object.data
             matrix = float64_matrix(instance.matrix_world)[None]
             self.sources[source.original] = None
-            if mesh in self._surfaces:
-                self._places[mesh].append(matrix)
+            key = self._key(mesh, source)
+            if key in self._surfaces:
+                self._places[key].append(matrix)
             elif source.type == "MESH" and source.data == mesh:
                 # Not the mesh itself: its subdivision may have been left to the graphics card.
-                self._mesh(mesh, self._geometry(source).mesh, matrix)
+                self._mesh(mesh, self._geometry(source).mesh, matrix, source)
             else:
-                self._mesh(mesh, mesh, matrix)
+                self._mesh(mesh, mesh, matrix, source)
 
-    def _mesh(self, key: Hashable, mesh, places: NDArray) -> None:
+    def _mesh(self, key: Hashable, mesh, places: NDArray, owner=None) -> None:
+        """Add a mesh; owner: the evaluated object whose material slots it is shown with."""
         if mesh is not None:
-            self._add(key, lambda: mesh_surface(mesh), places)
+            self._add(self._key(key, owner), lambda: self._read(mesh, owner), places)
 
-    def _add(self, key: Hashable, read: Callable[[], Surface], places: NDArray) -> None:
+    def _key(self, key: Hashable, owner) -> Hashable:
+        """One mesh is several surfaces where objects show it with materials of their own."""
+        return (key, _of_object(owner)) if self.materials and owner is not None else key
+
+    def _read(self, mesh, owner) -> tuple[Surface, Painted]:
+        return mesh_surface(mesh), self._paint(mesh, owner)
+
+    def _paint(self, mesh, owner) -> Painted:
+        vertices = None
+        if self.attribute is not None and len(mesh.polygons):
+            try:
+                vertices = vertex_values(mesh, self.attribute)
+            except ValueError as error:
+                raise Unreadable(self.root.name, str(error)) from error
+        if not self.materials:
+            return Painted(vertices=vertices)
+        slots = _slots(mesh, owner)
+        # Blender shows a face that names a slot beyond the last one with the last one's material.
+        faces = np.clip(face_slots(mesh), 0, len(slots) - 1) if slots else np.full(len(mesh.polygons), -1)
+        return Painted(slots, faces, vertices)
+
+    def _edited(self, evaluated) -> tuple[Surface, Painted]:
+        """The surface of an object whose mesh is in Edit Mode, with the modifiers that act there."""
+        if not edit_modifiers(evaluated.original):
+            return from_edit_mesh(evaluated.original.data, lambda copy: self._read(copy, evaluated))
+        # The evaluated mesh may be a BMesh in disguise, which only to_mesh() turns into arrays.
+        read = self._read(evaluated.to_mesh(), evaluated)
+        evaluated.to_mesh_clear()
+        return read
+
+    def _add(
+        self, key: Hashable, read: Callable[[], tuple[Surface, Painted]], places: NDArray
+    ) -> None:
         if key not in self._surfaces:
-            surface = self._surfaces[key] = read()
+            surface, self._painted[key] = read()
+            self._surfaces[key] = surface
             if not len(surface.triangles) and not len(surface.quads):
                 vertices, edges = self.faceless
                 self.faceless = (vertices + len(surface.points), edges + len(surface.edges))
@@ -236,14 +274,25 @@ class Gathered:
             self.left_out["volumes"] += count
 
 
-def _edited_surface(evaluated) -> Surface:
-    """The surface of an object whose mesh is in Edit Mode, with the modifiers that act there."""
-    if not edit_modifiers(evaluated.original):
-        return edit_surface(evaluated.original.data)
-    # The evaluated mesh may be a BMesh in disguise, which only to_mesh() turns into arrays.
-    surface = mesh_surface(evaluated.to_mesh())
-    evaluated.to_mesh_clear()
-    return surface
+def _of_object(owner) -> tuple:
+    """What an object's own material slots put in place of its data's."""
+    return tuple(
+        (i, slot.material.original if slot.material else None)
+        for i, slot in enumerate(owner.material_slots)
+        if slot.link == "OBJECT"
+    )
+
+
+def _slots(mesh, owner) -> tuple:
+    """The original materials that the faces of an evaluated mesh name by number."""
+    slots = list(mesh.materials)
+    if owner is not None:
+        if not slots:  # a copy of an edit mesh has none of its own
+            slots = list(getattr(owner.original.data, "materials", None) or ())
+        for i, material in _of_object(owner):
+            slots += [None] * (i + 1 - len(slots))
+            slots[i] = material
+    return tuple(material.original if material else None for material in slots)
 
 
 def shows_itself(obj, instanced: bool) -> bool:

@@ -14,7 +14,9 @@ Blender does.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import chain
+from typing import TypeVar
 
 import bmesh
 import bpy
@@ -25,6 +27,7 @@ from ...core.surface import NO_QUADS, NO_TRIANGLES, Surface
 
 # One triangle read by its index costs as much as about five in a `foreach_get` of all of them.
 SINGLE_COST = 5
+Read = TypeVar("Read")
 
 
 def mesh_surface(mesh) -> Surface:
@@ -71,9 +74,9 @@ def mesh_surface(mesh) -> Surface:
     )
 
 
-def edit_surface(mesh) -> Surface:
-    """The polygons of a mesh in Edit Mode as its BMesh is now, edits included that nothing has told
-    Blender of.
+def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
+    """What `read` gives for a mesh in Edit Mode as its BMesh is now, edits included that nothing has
+    told Blender of.
 
     A BMesh gives its elements one by one only, 5 s for a million faces; the copy into a mesh that
     lives for this call costs a fortieth of that and leaves the edit mesh as it is.
@@ -81,9 +84,30 @@ def edit_surface(mesh) -> Surface:
     copy = bpy.data.meshes.new("Body Moments Reading")
     try:
         bmesh.from_edit_mesh(mesh).to_mesh(copy)
-        return mesh_surface(copy)
+        return read(copy)
     finally:
         bpy.data.meshes.remove(copy)
+
+
+def face_slots(mesh) -> NDArray[np.int32]:
+    """(f,) the material slot that each face names; the mesh may have fewer."""
+    if mesh.attributes.get("material_index") is None:  # then all of them name the first one
+        return np.zeros(len(mesh.polygons), np.int32)
+    return _attribute(mesh, "material_index", "value", (len(mesh.polygons),), np.int32)
+
+
+def vertex_values(mesh, name: str) -> NDArray[np.float64]:
+    """(n,) the values of a float attribute on vertices. ValueError where there is none, with what to do."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None:
+        raise ValueError(
+            "It has no attribute “{:s}”; store one on its vertices, or set another name.".format(name)
+        )
+    if attribute.domain != "POINT" or attribute.data_type != "FLOAT":
+        raise ValueError(
+            "Its attribute “{:s}” is not one float for each vertex; convert it to that.".format(name)
+        )
+    return _attribute(mesh, name, "value", (len(mesh.vertices),), np.float32).astype(np.float64)
 
 
 def _attribute(mesh, name: str, member: str, shape: tuple[int, ...], dtype) -> NDArray:

@@ -22,8 +22,13 @@ from .splines import spline_reading
 from .visibility import NOT_EVALUATED, evaluated_geometry, hidden_reason, require_kind
 
 
-def read_object(obj, depsgraph) -> Reading:
+def read_object(
+    obj, depsgraph, *, materials: bool = False, attribute: str | None = None
+) -> Reading:
     """Read one object, original or evaluated, as the up-to-date viewport `depsgraph` has it.
+
+    materials: with the materials of its faces. attribute: with the values of a float attribute on its
+    vertices.
 
     Raises Unreadable with the reason and the remedy: of a kind without surface, not evaluated,
     nothing with a face, coordinates or transforms that are not finite.
@@ -32,7 +37,7 @@ def read_object(obj, depsgraph) -> Reading:
     require_kind(obj)
     _require_readable_mode(obj)
     evaluated, matrix = _evaluated(obj, depsgraph)
-    gathered = Gathered(evaluated, depsgraph)
+    gathered = Gathered(evaluated, depsgraph, materials, attribute)
     gathered.gather()
     parts = gathered.parts()
     if not parts:
@@ -72,7 +77,7 @@ def read_patches(obj, depsgraph) -> Reading | None:
         return None
     reading = _placed(obj, evaluated, matrix)
     nothing = Surface(np.zeros((0, 3), np.float32))
-    reading.parts = [Part(nothing, matrix[None], splines)]
+    reading.parts = [Part(nothing, matrix[None], splines=splines)]
     return reading
 
 

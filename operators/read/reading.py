@@ -32,6 +32,19 @@ class Unreadable(Exception):
 
 
 @dataclass(frozen=True, eq=False)
+class Painted:
+    """What the faces and vertices of a surface carry.
+
+    materials: the original materials of its slots, None for empty ones. faces: (f,) the slot of each
+    mesh face, -1 where there are no slots. vertices: (n,) values of the attribute that was asked for.
+    """
+
+    materials: tuple = ()
+    faces: NDArray[np.integer] | None = None
+    vertices: NDArray[np.float64] | None = None
+
+
+@dataclass(frozen=True, eq=False)
 class SplineReading:
     """patches: of the splines that show a surface, each facing as Blender's faces do. stored: by how much float32
     may have moved their points. notes: sentences."""
@@ -47,11 +60,13 @@ class Part:
 
     matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column
     vectors.
+    painted: what its faces and vertices carry, where that was asked for.
     splines: where `surface` is but the display mesh of B-spline patches, those.
     """
 
     surface: Surface
     matrices: NDArray[np.float64]
+    painted: Painted | None = None
     splines: SplineReading | None = None
 
 

@@ -31,6 +31,8 @@ DESCRIPTIONS = {
     "body_principal_axes": "Quaternion w, x, y, z that turns the object's axes into the principal axes",
     "body_error_bound": "What rounding may have changed: volume, area, center of mass, inertia; "
                         "then the same four for what storing coordinates as float32 may have",
+    "body_density_from": "Where the density came from",
+    "body_materials": "The materials that were looked at for the density, one a line",
     "body_method": "How the numbers came about",
     "body_warnings": "What was decided on the way, one sentence a line",
     "body_length": "Length of a wire in m",
@@ -66,11 +68,7 @@ class Stored:
 
 def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     """Writes all results on the object, or none. RuntimeError, with the remedy, where the object cannot hold them."""
-    if not obj.is_editable:
-        raise RuntimeError("It is linked from another file; make it local to store results on it.")
-    if obj.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
-        raise RuntimeError("It is a library override, which would lose its results with the file; make it local to "
-                           "store results on it.")
+    require_storable(obj)
     body, bound = measurement.in_object_frame(), measurement.error_bound
     values = {
         "body_mass": body.mass,
@@ -92,11 +90,27 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
             values[key] = value
         elif key in obj:
             del obj[key]
+    varying = {} if measurement.one_density else {
+        "body_density_from": measurement.density_from, "body_materials": "\n".join(measurement.materials)}
+    for key in ("body_density_from", "body_materials"):
+        if varying.get(key):
+            values[key] = varying[key]
+        elif key in obj:
+            del obj[key]
     for key, value in values.items():
         obj[key] = value
         if not isinstance(value, str):
             obj.id_properties_ui(key).update(description=DESCRIPTIONS[key], precision=6)
     obj.update_tag()  # drivers that read them follow
+
+
+def require_storable(obj: bpy.types.Object) -> None:
+    """RuntimeError, with the remedy, for an object that cannot hold results."""
+    if not obj.is_editable:
+        raise RuntimeError("It is linked from another file; make it local to store results on it.")
+    if obj.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
+        raise RuntimeError("It is a library override, which would lose its results with the file; make it local to "
+                           "store results on it.")
 
 
 def clear(obj: bpy.types.Object) -> bool:
@@ -123,6 +137,11 @@ def optional(obj: bpy.types.Object, key: str) -> float | None:
     """One of OPTIONAL, None where the object does not carry it."""
     value = obj.get(key)
     return value if isinstance(value, float) else None
+
+
+def density_from(obj: bpy.types.Object) -> str:
+    """Where the density of the stored numbers came from, "" where it is the same everywhere."""
+    return str(obj.get("body_density_from", ""))
 
 
 def numbers(obj: bpy.types.Object) -> tuple[tuple[float, ...], ...] | None:

@@ -19,7 +19,6 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -47,9 +46,9 @@ def record(
 ) -> dict[str, Any]:
     """One object's record.
 
-    frame: "world" or "object". order: adds `moments`, volume moments up to that order (at most 3)
-    about the frame's origin; of a shell, those of its thin volume. surface: area moments of the
-    same object, world frame, added to them.
+    frame: "world" or "object". order: adds `moments`, volume moments up to that order, which the
+    measurement must have, about the frame's origin; of a shell, those of its thin volume. surface:
+    area moments of the same object, world frame, added to them.
     """
     properties = measurement.mass_properties if frame == "world" else measurement.in_object_frame()
     entry = {
@@ -58,6 +57,7 @@ def record(
         "kind": measurement.kind,
         "method": measurement.method,
         "density": measurement.density,
+        **({} if measurement.one_density else {"density_from": measurement.density_from}),
         "mass": properties.mass,
         "volume": measurement.volume,
         "area": measurement.area,
@@ -78,7 +78,7 @@ def record(
         entry["moments"]["volume"] = _about_origin(volume, order, measurement, frame)
         if measurement.length is not None:
             length = measurement.mass_moments[0]
-            entry["moments"]["length"] = _about_origin(length, order, measurement, frame)
+            entry["moments"]["length"] = _about_origin(length, min(order, length.order), measurement, frame)
         if surface is not None:
             entry["moments"]["surface"] = _about_origin(surface, order, measurement, frame)
     if measurement.display_volume is not None:
@@ -208,14 +208,11 @@ def _about_origin(
     moments: Moments, order: int, measurement: Measurement, frame: str
 ) -> dict[str, float]:
     """World-frame moments by exponents, about the origin of the frame and along its axes."""
+    moments = moments.truncated(order)
     if frame == "object":
-        to_frame = np.eye(4)
-        to_frame[:3, :3] = measurement.rotation.T
-        to_frame[:3, 3] = -to_frame[:3, :3] @ measurement.location
-        # A change of axes stretches nothing, whatever the body measures and however the rotation
-        # was rounded.
-        moments = replace(moments, of="mass").mapped(to_frame)
-    moments = moments.truncated(order).shifted(np.zeros(3))
+        moments = moments.in_frame(measurement.rotation, measurement.location)
+    else:
+        moments = moments.shifted(np.zeros(3))
     return {
         ",".join(map(str, powers)): value
         for powers, value in zip(monomials(order), moments.raw, strict=True)
@@ -235,7 +232,7 @@ _LAST = ("warnings", "error")
 
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
     """A record as one flat row; what a list or a table holds gets a column each."""
-    row = {name: entry[name] for name in _COLUMNS if name in entry}
+    row = {name: entry[name] for name in (*_COLUMNS, "density_from") if name in entry}
     row |= {
         f"center_of_mass_{axis}": value
         for axis, value in zip("xyz", entry["center_of_mass"], strict=True)

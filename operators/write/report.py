@@ -112,6 +112,8 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
         yield _line("Linear density", _number(entry["linear_density"]), "kg/m")
     elif "density" in entry:
         yield _line("Density", _number(entry["density"]), "kg/m³")
+    if "density_from" in entry:
+        yield _line("Density from", entry["density_from"])
     yield _line("Volume", _number(entry["volume"]), "m³")
     yield _line("Surface area", _number(entry["area"]), "m²")
     if "display_mesh" in entry:
@@ -159,7 +161,7 @@ def _tensor(inertia: list[list[float]], frame: str) -> Iterable[str]:
 
 def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
     for label, values in (
-        ("Rounding, at most", bounds),
+        ("Errors, estimated" if bounds.get("estimated") else "Rounding, at most", bounds),
         ("float32 coordinates", bounds.get("input", {})),
     ):
         parts = [
@@ -196,6 +198,7 @@ def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | No
 def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[str, Any]:
     """A record without health, which is not stored."""
     method, warnings = properties.method_and_warnings(obj)
+    source = properties.density_from(obj)
     if outdated:
         warnings.insert(0, "Out of date: the object has changed since it was measured.")
     entry = {
@@ -204,6 +207,7 @@ def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[s
         "kind": {"shell": "shell", "wire": "wire"}.get(method.split()[-1] if method else "", "solid"),
         "method": method,
         "density": found.density,
+        **({"density_from": source} if source else {}),
         "mass": found.body.mass,
         "volume": found.volume,
         "area": found.area,
@@ -211,7 +215,8 @@ def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[s
         "inertia": found.body.inertia,
         "principal_moments": found.body.principal.moments,
         "principal_axes": found.body.principal.axes,
-        "error_bound": found.error_bound,
+        "error_bound": {**found.error_bound, **(
+            {"estimated": True} if method.startswith("NURBS") or method == "wire" else {})},
         "warnings": warnings,
     }
     length, display = (properties.optional(obj, key) for key in properties.OPTIONAL)

@@ -97,7 +97,7 @@ def test_a_device_is_written_to_and_not_replaced(folder):
     assert ended.returncode == 0 and Path("/dev/null").is_char_device()
 
 
-@pytest.mark.parametrize("words", [(), ("measure",), ("measure", "part.glb", "--order", "9")])
+@pytest.mark.parametrize("words", [(), ("measure",), ("measure", "part.glb", "--order", "99")])
 def test_wrong_usage_gives_2_and_a_clean_output(folder, words):
     ended = script(*words, cwd=folder)
     assert ended.returncode == 2 and ended.stdout == b"" and b"error: " in ended.stderr

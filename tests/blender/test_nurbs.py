@@ -11,6 +11,7 @@ from body_moments.core.blender_knots import blender_space, display_parameters, d
 from body_moments.core.patch import Patch
 from body_moments.operators import live
 from body_moments.operators.measure import MeasureOptions, measure_object
+from body_moments.operators.read import Unreadable
 from body_moments.operators.write.record import record
 
 from tests.blender.bodies import add, measured, only, place
@@ -133,16 +134,44 @@ def test_a_body_whose_directions_are_exchanged_is_turned_and_said():
     assert found.volume == pytest.approx(plain, rel=1e-12)
 
 
-def test_a_shell_is_a_sheet_of_real_thickness():
+def test_a_shell_is_thin_or_has_real_walls():
     obj = primitive("sphere")
     obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.1
-    sheet = measured(obj)
-    assert sheet.method == "NURBS shell"
-    assert sheet.volume == pytest.approx(BALL * (1.05**3 - 0.95**3), rel=1e-6)
-    assert sheet.volume > 1.0008 * sheet.area * 0.1  # thicker outside than in
+    thin = measured(obj)
+    assert thin.method == "NURBS shell" and thin.volume == pytest.approx(0.4 * np.pi, rel=1e-6)
+    for wall, low, high in (("INWARD", 0.9, 1.0), ("OUTWARD", 1.0, 1.1), ("CENTERED", 0.95, 1.05)):
+        obj.body_moments.wall = wall
+        found = measured(obj)
+        assert found.method == "NURBS shell"
+        assert found.volume == pytest.approx(BALL * (high**3 - low**3), rel=1e-6)
+        inertia = 2.0 / 3.0 * 1000.0 * 4.0 * np.pi / 5.0 * (high**5 - low**5)
+        assert np.allclose(found.mass_properties.principal.moments, inertia, rtol=1e-6)
     obj.body_moments.thickness = 3.0
-    with pytest.raises(Exception, match="thinner"):
+    with pytest.raises(Unreadable, match="thinner"):
         measured(obj)
+
+
+def test_a_wall_follows_the_scale_of_the_surface_but_keeps_its_thickness():
+    obj = primitive("sphere")
+    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
+    obj.scale = (2.0, 2.0, -2.0)
+    assert measured(obj).volume == pytest.approx(BALL * (8.0 - 1.9**3), rel=1e-6)
+
+
+def test_a_density_that_varies_needs_polygons_and_says_so():
+    obj = primitive("sphere")
+    obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "1000 + z"
+    found = measured(obj)
+    assert not found.method.startswith("NURBS") and any("polygons" in warning for warning in found.warnings)
+
+
+def test_moments_of_higher_order_are_exact_too():
+    obj = primitive("sphere")
+    options = MeasureOptions(order=6, surface=True)
+    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), options)
+    sixth = found.volume_moments.shifted(np.zeros(3))[6, 0, 0]
+    assert sixth == pytest.approx(4.0 * np.pi / 63.0, rel=2e-6)
+    assert found.area_moments.shifted(np.zeros(3))[0, 4, 0] == pytest.approx(4.0 * np.pi / 5.0, rel=2e-6)
 
 
 def test_shape_keys_move_the_surface():

@@ -54,6 +54,13 @@ class Layout:
         self.record.append(("operator", name, properties))
         return properties
 
+    def prop_search(self, data, name, owner, collection, **_options):
+        assert collection in owner.bl_rna.properties
+        self.prop(data, name)
+
+    def context_pointer_set(self, name, data):
+        self.record.append(("pointer", name, data))
+
     def menu(self, name, **_options):
         assert hasattr(bpy.types, name)
         self.record.append(("menu", name))
@@ -331,6 +338,65 @@ def test_the_presets_panel_draws_without_presets(monkeypatch):
         assert layout.record
 
 
+def settings_drawn(obj):
+    return [entry[1] for entry in drawn() if entry[0] == "prop"]
+
+
+def test_the_panel_shows_the_settings_of_each_source_of_density():
+    obj = add(mesh_body())
+    assert "density" in settings_drawn(obj) and "density_polynomial" not in settings_drawn(obj)
+    obj.body_moments.density_from = "POLYNOMIAL"
+    shown = settings_drawn(obj)
+    assert {"density_polynomial", "density_frame"} <= {*shown} and "density" not in shown
+    obj.body_moments.density_from = "ATTRIBUTE"
+    assert "density_attribute" in settings_drawn(obj)
+    obj.body_moments.density_from = "MATERIALS"
+    assert settings_drawn(obj).count("density") == 1 and "It has no material slots" in labels(drawn())
+    for name in ("Steel", "Cork"):
+        obj.data.materials.append(bpy.data.materials.new(name))
+    obj.data.materials.append(bpy.data.materials["Cork"])  # one row for each material
+    assert settings_drawn(obj).count("density") == 3
+    targets = [entry[2].name for entry in drawn() if entry[0] == "pointer"]
+    assert targets == ["Steel", "Cork"] and {"Steel", "Cork"} <= {*labels(drawn())}
+    obj.body_moments.mass_from = "MASS"
+    assert "density_from" not in settings_drawn(obj)
+
+
+def test_the_panel_says_where_the_density_came_from():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    assert not [text for text in labels(drawn()) if text.startswith("The mean")]
+    obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "900 + z"
+    bpy.ops.object.body_moments_measure()
+    told = " ".join(labels(drawn()))
+    assert "The mean, from polynomial" in told and "900 + z" in told
+
+
+def test_a_materials_panel_draws_its_density():
+    from body_moments.panels.materials import MATERIAL_PT_body_moments
+
+    made = bpy.data.materials.new("Steel")
+    for density, told in ((0.0, "None: the object's density is taken"), (7820.0, None)):
+        made.body_moments.density = density
+        layout = Layout()
+        MATERIAL_PT_body_moments.draw(SimpleNamespace(layout=layout), SimpleNamespace(material=made))
+        assert ("prop", "density") in layout.record and labels(layout.record) == ([told] if told else [])
+    assert MATERIAL_PT_body_moments.poll(SimpleNamespace(material=made))
+    assert not MATERIAL_PT_body_moments.poll(SimpleNamespace())
+
+
+def test_the_menus_set_the_material_that_the_layout_points_at():
+    from body_moments.panels.materials import CATEGORY_MENUS
+
+    made = bpy.data.materials.new("Steel")
+    for target, wanted in ((None, "object.body_moments_set_material"), (made, "material.body_moments_set_density")):
+        layout = Layout()
+        CATEGORY_MENUS[0].draw(SimpleNamespace(layout=layout, bl_label="Metals"),
+                               SimpleNamespace(body_moments_material=target))
+        buttons = [entry for entry in layout.record if entry[0] == "operator"]
+        assert buttons and {entry[1] for entry in buttons} == {wanted}
+        if target:
+            assert {entry[2].target for entry in buttons} == {"Steel"}
 def test_a_nurbs_surface_says_what_its_display_mesh_would_have_given_and_follows_edits():
     bpy.ops.surface.primitive_nurbs_surface_sphere_add()
     assert ("operator", "object.body_moments_live") in [entry[:2] for entry in drawn()]

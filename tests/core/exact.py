@@ -62,9 +62,13 @@ def area_moments(points, triangles, about=(0.0, 0.0, 0.0), digits: int = 40, ord
 
 def _integers(points, about) -> tuple[list[tuple[int, int, int]], int]:
     origin = [Fraction(float(value)) for value in about]
-    rows = [[Fraction(float(value)) - o for value, o in zip(point, origin)] for point in points]
+    rows = [[_rational(value) - o for value, o in zip(point, origin)] for point in points]
     scale = lcm(*(value.denominator for row in rows for value in row))
     return [tuple(int(value * scale) for value in row) for row in rows], scale
+
+
+def _rational(value) -> Fraction:
+    return value if isinstance(value, Fraction) else Fraction(float(value))
 
 
 def _means(a, b, c, exponents) -> list[int]:
@@ -100,11 +104,11 @@ def box_moments(low, high, order: int = 3) -> list[Fraction]:
     return [one(0, p) * one(1, q) * one(2, r) for p, q, r in monomials(order)]
 
 
-def corner_tetrahedron_moments(a, b, c) -> list[Fraction]:
-    """The 20 volume moments of the tetrahedron (0,0,0), (a,0,0), (0,b,0), (0,0,c): Dirichlet's integral."""
+def corner_tetrahedron_moments(a, b, c, order: int = 3) -> list[Fraction]:
+    """The volume moments of the tetrahedron (0,0,0), (a,0,0), (0,b,0), (0,0,c): Dirichlet's integral."""
     a, b, c = Fraction(a), Fraction(b), Fraction(c)
     return [Fraction(factorial(p) * factorial(q) * factorial(r), factorial(p + q + r + 3))
-            * a ** (p + 1) * b ** (q + 1) * c ** (r + 1) for p, q, r in MONOMIALS]
+            * a ** (p + 1) * b ** (q + 1) * c ** (r + 1) for p, q, r in monomials(order)]
 
 
 BOX_QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]

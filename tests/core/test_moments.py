@@ -138,6 +138,94 @@ def test_instances_are_the_sum_of_their_maps():
     assert np.allclose(total.raw, [float(x) for x in true], rtol=1e-13, atol=1e-9 * abs(total.raw).max())
 
 
+@pytest.mark.parametrize("name", MAPS)
+def test_a_map_at_high_order_is_exact_within_its_bound(name):
+    order, matrix = 9, np.vstack([MAPS[name], [0, 0, 0, 1]])
+    exact = simplex_moments(order)
+    image = floats(exact).mapped(matrix)
+    assert_within_bound(image, mapped_exactly(exact, matrix, image.about, order))
+    many = map_sum(floats(exact), np.array([matrix, matrix]), image.about)
+    assert (np.abs(many.raw - 2.0 * image.raw) <= many.error + 2.0 * image.error).all()
+
+
+@pytest.mark.parametrize("point", [(0.5, 1.0, 1.5), (-1e-3, 0.0, 0.0), (300.0, -1e4, 7.0)])
+def test_a_shift_at_order_20_is_exact_within_its_bound_and_as_good_as_it_can_be(point):
+    low, high = (-1, -1, -1), (1, 2, 3)
+    body = floats(box_moments(low, high, 20))
+    shifted = body.shifted(point)
+    exact = box_moments(low, high, 20, point)
+    assert_within_bound(shifted, exact)
+    reach = np.abs([low, high]).max(axis=0) + np.abs(point)  # what the binomial theorem's terms add up to
+    largest = 24.0 * np.prod(reach ** monomials(20), axis=1)
+    assert (shifted.error <= 1e-13 * largest).all()
+
+
+@pytest.mark.parametrize("of", ["volume", "area", "mass"])
+def test_a_frame_is_a_turn_about_its_origin(of):
+    exact = simplex_moments(7)
+    rotation = np.array([[0.6, 0.0, 0.8], [0.8, 0.0, -0.6], [0.0, 1.0, 0.0]])  # columns are the axes
+    body = floats(exact, of=of).in_frame(rotation, (1.0, -2.0, 0.5))
+    to_frame = np.eye(4)
+    to_frame[:3, :3], to_frame[:3, 3] = rotation.T, rotation.T @ [-1.0, 2.0, -0.5]
+    assert body.of == of and not body.about.any()
+    true = mapped_exactly(exact, to_frame, (0, 0, 0), 7)
+    scale = np.abs(np.array(true, float)).max()
+    assert np.allclose(body.raw, [float(x) for x in true], rtol=1e-13, atol=1e-14 * scale)
+
+
+def central_box(sides, order):
+    """Exact central moments of a box."""
+    half = [Fraction(side) / 2 for side in sides]
+    return box_moments([-h for h in half], half, order)
+
+
+@pytest.mark.parametrize("by", ["size", "gyration"])
+@pytest.mark.parametrize("size", [1.0, 1e-7, 3e4])
+def test_normalised_moments_have_no_unit_and_know_no_place(by, size):
+    sides, order = (1, 2, 3), 7
+    body = floats(box_moments((5, -3, 2), (6, -1, 5), order)).mapped(np.diag([size, size, size, 1.0]))
+    body = Moments(body.raw, body.about, input=1e-9 * np.abs(body.raw) * (body.raw > 0), error=body.error)
+    found = body.normalised(by)
+    n = monomials(order).sum(axis=1)
+    central = np.array([float(x) for x in central_box(sides, order)])
+    gyration = np.sqrt(14.0 / 12.0)
+    expected = central / 6.0 ** (1 + n / 3) if by == "size" else central / 6.0 / gyration ** n
+    assert found.raw[0] == pytest.approx(1.0, rel=1e-14) and not found.about.any()
+    assert (np.abs(found.raw - expected) <= found.error + 1e-14 * np.abs(expected)).all()
+    assert np.allclose(found.raw, expected, rtol=1e-7, atol=1e-7)
+    assert (found.input > 0).any()
+    if by == "gyration":
+        assert found.raw[[4, 7, 9]].sum() == pytest.approx(1.0, rel=1e-10)
+
+
+def test_areas_are_normalised_to_an_area_of_one():
+    body = Moments(np.array([4.0, 0, 0, 0, 8.0, 0, 0, 2.0, 0, 0]), np.zeros(3), "area")
+    assert body.normalised().raw[4] == pytest.approx(8.0 / 4.0 ** 2)
+    assert body.normalised("gyration")[2, 0, 0] == pytest.approx(0.8)
+
+
+@pytest.mark.parametrize("by", ["size", "gyration"])
+def test_the_bounds_of_normalised_moments_hold_for_bodies_moved_within_theirs(by):
+    rng = np.random.default_rng(0)
+    exact = np.array([float(x) for x in box_moments((0, 0, 0), (1, 2, 3), 6)])
+    for _ in range(50):
+        delta = 1e-6 * np.abs(exact) * rng.uniform(-1, 1, len(exact))
+        told = Moments(exact + delta, np.zeros(3), error=np.abs(delta) + 1e-20).normalised(by)
+        true = Moments(exact, np.zeros(3)).normalised(by)
+        assert (np.abs(told.raw - true.raw) <= told.error + true.error).all()
+        assert told.error.max() < 1e-3
+
+
+def test_what_cannot_be_normalised_is_refused():
+    with pytest.raises(ValueError, match="gyration"):
+        Moments(np.ones(10), np.zeros(3), "mass").normalised()
+    for body in (Moments(np.zeros(10), np.zeros(3)), Moments(np.ones(1), np.zeros(3))):
+        with pytest.raises(ValueError, match="too little"):
+            body.normalised()
+    with pytest.raises(ValueError, match="too low"):
+        Moments(np.ones(4), np.zeros(3)).normalised("gyration")
+
+
 def test_scaling_by_a_density_scales_the_bounds():
     body = floats(simplex_moments())
     heavy = body * 7850.0

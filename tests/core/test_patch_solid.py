@@ -154,7 +154,7 @@ def test_a_flat_patch_encloses_nothing_and_says_so():
 
 
 def test_a_sheet_has_volume_of_its_own():
-    sheet, area, settled = measure_sheet([flat([(0, 0, 0), (2, 0, 0), (2, 3, 0), (0, 3, 0)], (3, 2))], 0.5)
+    sheet, area, settled = measure_sheet([flat([(0, 0, 0), (2, 0, 0), (2, 3, 0), (0, 3, 0)], (3, 2))], -0.25, 0.25)
     assert settled and abs(sheet.total - 3.0) <= 1e-14 and abs(area.total - 6.0) <= 1e-13
     assert abs(sheet.about_center()[0, 0, 2] - 6.0 * 0.5**3 / 12.0) <= 1e-15
 

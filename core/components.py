@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The closed parts of a body, and one density for each of them from the densities of its faces.
+
+A part is filled with the material of its faces. Where they differ it takes their mean, weighted by area. A cavity has
+no material: what it encloses is taken away from the part that it is cut from, whatever its own faces are painted with.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .moments import Moments
+from .weighted import weighted_solid
+
+
+@dataclass(frozen=True, eq=False)
+class Components:
+    """The triangles whose signed sum is the body, and the closed part that each bounds.
+
+    points: (n, 3); triangles: (t, 3), as measured: turned where that was needed, caps included. face: (t,) the mesh
+    face of each, -1 for a cap. part: (t,), 0 to number - 1. within: (number,) whose material a part counts with: its
+    own, or of a cavity that of the part it is cut from.
+    """
+
+    points: NDArray[np.floating]
+    triangles: NDArray[np.integer]
+    face: NDArray[np.integer]
+    part: NDArray[np.integer]
+    number: int
+    within: NDArray[np.integer]
+
+    def areas(self, linear: NDArray | None = None) -> NDArray[np.float64]:
+        """(t,) of the triangles under a (3, 3) map, by default as they are."""
+        points = self.points.astype(np.float64)
+        if linear is not None:
+            points = points @ np.asarray(linear).T
+        a, b, c = (points[self.triangles[:, k]] for k in range(3))
+        return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0
+
+    def moments(self, like: Moments) -> list[Moments]:
+        """The volume moments of each part, negative for cavities. like: the whole body's."""
+        order = np.argsort(self.part, kind="stable")
+        ends = np.searchsorted(self.part[order], np.arange(self.number + 1))
+        rows = [order[start:end] for start, end in zip(ends, ends[1:])]
+        return [weighted_solid(self.points, self.triangles[own], np.ones(len(own)), like) for own in rows]
+
+
+@dataclass(frozen=True, eq=False)
+class PartDensities:
+    """density: (number,) of each part. mixed: (number,) whether its own faces differ; painted: (number,) cavities with
+    faces of other densities than what they are cut from. first: (number,) a part's first mesh face, -1 for none."""
+
+    density: NDArray[np.float64]
+    mixed: NDArray[np.bool_]
+    painted: NDArray[np.bool_]
+    first: NDArray[np.integer]
+
+
+def part_densities(parts: Components, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
+    """One density for each part. faces: (f,) that of every mesh face. linear: (3, 3) the map under which areas
+    count."""
+    own = parts.face >= 0
+    part, face, area = parts.part[own], parts.face[own], parts.areas(linear)[own]
+    first = np.full(parts.number, np.iinfo(np.int64).max)
+    least, most = np.full(parts.number, np.inf), np.full(parts.number, -np.inf)
+    np.minimum.at(first, part, face)
+    np.minimum.at(least, part, faces[face])
+    np.maximum.at(most, part, faces[face])
+    total = np.bincount(part, area, minlength=parts.number)
+    sums = np.bincount(part, area * faces[face], minlength=parts.number)
+    with np.errstate(invalid="ignore"):
+        mean = np.divide(sums, total, out=(least + most) / 2.0, where=total > 0.0)
+    there = first < np.iinfo(np.int64).max
+    mixed = there & (most > least)
+    own = np.where(there, np.where(mixed, np.clip(mean, least, most), least), 0.0)
+    cavity = parts.within != np.arange(parts.number)
+    density = own[parts.within]
+    return PartDensities(density, mixed & ~cavity, cavity & there & (mixed | (own != density)),
+                         np.where(there, first, -1))

@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sums and products of float64 with what they round off (Dekker 1971, Knuth), where an ulp would be too much."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+SPLITTER = 2.0**27 + 1.0
+
+
+def two_sum(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray]:
+    """The rounded sum and its error: together exactly a + b."""
+    total = a + b
+    part = total - a
+    return total, (a - (total - part)) + (b - part)
+
+
+def two_product(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray]:
+    """The rounded product and its error: together exactly a b, for products between 1e-290 and 1e290."""
+    product = a * b
+    (ah, al), (bh, bl) = _halves(a), _halves(b)
+    return product, al * bl - (((product - ah * bh) - al * bh) - ah * bl)
+
+
+def _halves(a: NDArray) -> tuple[NDArray, NDArray]:
+    """Two numbers of 26 bits whose sum is a."""
+    big = SPLITTER * a
+    high = big - (big - a)
+    return high, a - high
+
+
+def normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
+    """(3, k) (b-a) x (c-a) for corners (3, k), each component right to about u of its own size however thin the
+    triangle."""
+    (u, ul), (v, vl) = two_sum(b, -a), two_sum(c, -a)
+    rows = []
+    for y, z in ((1, 2), (2, 0), (0, 1)):
+        (p, pl), (m, ml) = two_product(u[y], v[z]), two_product(u[z], v[y])
+        total, rest = two_sum(p, -m)
+        rows.append(total + (rest + (pl - ml) + (u[y] * vl[z] + ul[y] * v[z] - u[z] * vl[y] - ul[z] * v[y])))
+    return np.stack(rows)
+
+
+def wave(q: NDArray, x: NDArray) -> NDArray[np.complex128]:
+    """(m,) exp(-i q·x) for q (m, n) and x (n,), right to a few u however large the phase."""
+    total, rest = two_product(q[:, 0], x[0])
+    for axis in range(1, q.shape[1]):
+        product, low = two_product(q[:, axis], x[axis])
+        total, more = two_sum(total, product)
+        rest = rest + (low + more)
+    return np.exp(-1j * total) * (1.0 - 1j * rest)

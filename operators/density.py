@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where an object's density comes from when it is not one number, as the settings say."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import bpy
+
+from ..core.decimal import decimal
+from ..core.polynomial import Polynomial, parse
+
+
+@dataclass(frozen=True, eq=False)
+class DensityField:
+    """kind: "materials", "polynomial" or "attribute". polynomial, in_world: kg/m³ of metres, along the world's axes or
+    each surface's own; text: as it was typed. attribute: the name of the vertices' attribute."""
+
+    kind: str
+    polynomial: Polynomial | None = None
+    in_world: bool = False
+    text: str = ""
+    attribute: str | None = None
+
+
+def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
+    """What the object's settings name; None for one value or a given mass. ValueError, with what to do, where a
+    polynomial cannot be read or an attribute has no name."""
+    if settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
+        return None
+    if settings.density_from == "MATERIALS":
+        return DensityField("materials")
+    if settings.density_from == "POLYNOMIAL":
+        text = settings.density_polynomial.strip()
+        return DensityField("polynomial", parse(text), settings.density_frame == "WORLD", text)
+    if not settings.density_attribute:
+        raise ValueError("The vertex attribute that holds its density has no name; set one.")
+    return DensityField("attribute", attribute=settings.density_attribute)
+
+
+def material_density(material: bpy.types.Material | None) -> float | None:
+    """kg/m³; None where there is no material, or it has no density."""
+    density = 0.0 if material is None else decimal(material.body_moments.density)
+    return density if density > 0.0 else None
+
+
+def fixed_to(obj: bpy.types.Object) -> str:
+    """What the object's density is fixed to, where it changes as the object moves or gets other axes: "own" or "world"
+    coordinates; "" else."""
+    settings = obj.body_moments
+    if settings.mass_from != "DENSITY" or settings.density_from != "POLYNOMIAL":
+        return ""
+    return "world" if settings.density_frame == "WORLD" else "own"
+
+
+def density_key(obj: bpy.types.Object, used: Iterable[str]) -> str:
+    """What of the settings and of materials decides the density, as a text; "" for one value or a given mass.
+
+    used: the full names of the materials that the last measurement met, beside those in the object's slots.
+    """
+    settings = obj.body_moments
+    if settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
+        return ""
+    if settings.density_from == "POLYNOMIAL":
+        return repr((settings.density_frame, settings.density_polynomial.strip()))
+    if settings.density_from == "ATTRIBUTE":
+        return repr(settings.density_attribute)
+    slots = [slot.material for slot in obj.material_slots]
+    names = {*used, *(material.name_full for material in slots if material)}
+    densities = {one.name_full: material_density(one) for one in bpy.data.materials if one.name_full in names}
+    return repr((decimal(settings.density), sorted(names), sorted(densities.items())))

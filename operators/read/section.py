@@ -1,0 +1,228 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a plane section is measured from: selected faces, an object's faces, or the outlines of 2-D curves and text.
+
+Curves and text are read by their outlines, not by their fill: Blender fills outlines that touch, coincide or cross
+wrongly and without a word (4.5 and 5.2 alike: two squares side by side, one of them lower, lose the larger one). The
+outlines are those of a copy of the curve whose fill is off, which Blender turns into edges. Only a text on a curve is
+read by its fill.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import bmesh
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.rotation import rotation_matrix
+from ...core.surface import Surface, joined
+from .mesh import mesh_surface
+from .objects import read_object
+from .reading import Unreadable, float64_matrix
+from .visibility import NOT_EVALUATED, hidden_reason
+
+SECTION_TYPES = {"MESH", "CURVE", "FONT"}
+
+
+@dataclass
+class SectionReading:
+    """Faces or outlines as arrays, in the world, Blender units.
+
+    what: of what object or part, in words. points: (n, 3). triangles: (m, 3), facing as drawn, and faces: (m,) the face
+    of each; for outlines fans that tell the plane, with loops: the points of each closed outline, in order.
+    facing: (3,) where the plane has to look, None where the triangles tell. error: how far float32 storage may have
+    moved a point. drawn: the area that Blender fills, of outlines in a plane. rotation, location: the object frame.
+    """
+
+    name: str
+    what: str
+    points: NDArray[np.float64]
+    triangles: NDArray[np.integer]
+    faces: NDArray[np.integer]
+    error: float
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    loops: list[NDArray[np.integer]] | None = None
+    facing: NDArray[np.float64] | None = None
+    drawn: float | None = None
+    warnings: list[str] = field(default_factory=list)
+
+
+def read_section(obj, depsgraph) -> SectionReading:
+    """Read one object: in Edit Mode of a mesh its selected faces as they are now, else what the viewport shows of it.
+
+    Raises Unreadable with the reason and the remedy.
+    """
+    obj = obj.original
+    if obj.type == "MESH" and obj.data.is_editmode:
+        return _selected_faces(obj, depsgraph)
+    if obj.type in {"CURVE", "FONT"} and not any(modifier.show_viewport for modifier in obj.modifiers):
+        return _outlines(obj, depsgraph)
+    reading = read_object(obj, depsgraph)
+    warnings = list(reading.warnings)
+    if obj.type in {"CURVE", "FONT"}:
+        warnings.append("What its modifiers make of Blender's fill was measured, at a resolution of {:s}.".format(
+            _resolution(obj) or str(obj.data.resolution_u)))
+    surface = joined([part.surface.mapped(matrix[:3, :3], matrix[:3, 3])
+                      for part in reading.parts for matrix in part.matrices])
+    return SectionReading(
+        obj.name, "All Faces", surface.points, surface.triangles, surface.triangle_faces,
+        float(np.linalg.norm(surface.coordinate_error)), reading.rotation, reading.location, warnings=warnings)
+
+
+def _selected_faces(obj, depsgraph) -> SectionReading:
+    copy = bpy.data.meshes.new("Body Moments Reading")
+    try:
+        bmesh.from_edit_mesh(obj.data).to_mesh(copy)
+        chosen = np.empty(len(copy.polygons), bool)
+        copy.polygons.foreach_get("select", chosen)
+        surface = mesh_surface(copy) if chosen.any() else None
+    finally:
+        bpy.data.meshes.remove(copy)
+    if surface is None:
+        raise Unreadable(obj.name, "None of its faces is selected; select the faces of the section.")
+    matrix, rotation, location = _place(obj, depsgraph)
+    surface = surface.mapped(matrix[:3, :3], matrix[:3, 3])
+    inside = chosen[surface.triangle_faces]
+    triangles = surface.triangles[inside]
+    _require_finite(obj, surface.points[triangles])
+    warnings = []
+    acting = [modifier for modifier in obj.modifiers if modifier.show_viewport]
+    if acting:
+        warnings.append("The faces being edited were measured, without its modifiers: {:s}.".format(
+            ", ".join("“{:s}”".format(modifier.name) for modifier in acting)))
+    count = int(np.count_nonzero(chosen))
+    return SectionReading(
+        obj.name, "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count), surface.points, triangles,
+        surface.triangle_faces[inside], float(np.linalg.norm(surface.coordinate_error)), rotation, location,
+        warnings=warnings)
+
+
+def _outlines(obj, depsgraph) -> SectionReading:
+    _require_flat_outlines(obj)
+    if obj.mode == "EDIT":
+        obj.update_from_editmode()
+    local, loops, open_splines = _wire(obj)
+    if not loops:
+        raise Unreadable(obj.name, "It has no closed outline; write a text." if obj.type == "FONT" else
+                         "It has no closed outline; close its splines (Toggle Cyclic).")
+    matrix, rotation, location = _place(obj, depsgraph)
+    linear = matrix[:3, :3]
+    facing = np.cross(linear[:, 0], linear[:, 1]) * np.sign(np.linalg.det(linear) or 1.0)
+    filled = _filled(obj, depsgraph)
+    warnings = list(_said(obj, sum(map(len, loops)), open_splines))
+    drawn = None
+    if obj.type == "FONT" and obj.data.follow_curve is not None:
+        # Only the evaluated text follows its curve, and only its fill is there to be read.
+        if filled is None:
+            raise Unreadable(obj.name, "It follows a curve and is not filled; fill it, or convert it to a mesh.")
+        surface, loops = filled.mapped(linear, matrix[:3, 3]), None
+        triangles, faces = surface.triangles, surface.triangle_faces
+    else:
+        surface = Surface(local).mapped(linear, matrix[:3, 3])
+        rows = [np.stack([np.full(len(loop) - 2, loop[0]), loop[1:-1], loop[2:]], axis=1) for loop in loops]
+        triangles = np.concatenate(rows)
+        faces = np.arange(len(triangles))
+        if filled is not None:
+            a, b, c = (filled.points.astype(np.float64)[filled.all_triangles()[0][:, i], :2] for i in range(3))
+            ab, ac = b - a, c - a
+            drawn = float(np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum() / 2.0 * np.sqrt(facing @ facing))
+    _require_finite(obj, surface.points)
+    return SectionReading(
+        obj.name, "Text" if obj.type == "FONT" else "Curve", surface.points, triangles, faces,
+        float(np.linalg.norm(surface.coordinate_error)), rotation, location, loops, facing, drawn, warnings)
+
+
+def _said(obj, corners: int, open_splines: int) -> Iterator[str]:
+    if open_splines:
+        yield "{:d} of its splines are open, so that they enclose nothing, and were left out.".format(open_splines)
+    if obj.data.fill_mode == "NONE":
+        yield "It is not filled; its outlines were measured as if it were."
+    resolution = _resolution(obj)
+    if resolution:
+        yield ("Its curves were measured as the polygons that Blender draws, {:d} corners at a resolution of {:s}; "
+               "twice the resolution brings them four times as near.").format(corners, resolution)
+    rendered = obj.data.render_resolution_u
+    if resolution and rendered not in (0, obj.data.resolution_u):
+        yield "Its resolution is {:d} in the render; that of the viewport was used.".format(rendered)
+
+
+def _require_flat_outlines(obj) -> None:
+    curve = obj.data
+    if obj.type == "CURVE" and curve.dimensions != "2D":
+        raise Unreadable(obj.name, "It is a 3D curve, which encloses no region of a plane; make it 2D in its Shape "
+                                   "panel.")
+    if curve.extrude or curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object):
+        raise Unreadable(obj.name, "Its extrusion or bevel makes it a body; set Extrude and Bevel Depth to 0 to "
+                                   "measure its outline.")
+    if curve.offset:
+        raise Unreadable(obj.name, "Its Offset moves the outline that is filled; set it to 0, or convert it to a mesh.")
+
+
+def _place(obj, depsgraph) -> tuple[NDArray, NDArray, NDArray]:
+    evaluated = obj.evaluated_get(depsgraph)
+    if not evaluated.is_evaluated:
+        raise Unreadable(obj.name, hidden_reason(obj, depsgraph) or NOT_EVALUATED)
+    matrix = float64_matrix(evaluated.matrix_world)
+    if not np.isfinite(matrix).all():
+        raise Unreadable(obj.name, "Its transform is not finite; reset its location, rotation and scale, or its "
+                                   "parent's.")
+    location, rotation, _ = evaluated.matrix_world.decompose()
+    return matrix, rotation_matrix(rotation), np.array(location[:], np.float64)
+
+
+def _wire(obj) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
+    """(n, 3) the points of the object's splines, those of each closed one, and how many are open."""
+    data = obj.data.copy()
+    data.fill_mode = "NONE"
+    copy = bpy.data.objects.new("Body Moments Reading", data)
+    try:
+        mesh = copy.to_mesh()
+        if mesh is None:
+            return np.empty((0, 3), np.float32), [], 0
+        points = np.empty((len(mesh.vertices), 3), np.float32)
+        mesh.vertices.foreach_get("co", points.reshape(-1))
+        edges = np.empty((len(mesh.edges), 2), np.int32)
+        mesh.edges.foreach_get("vertices", edges.reshape(-1))
+        copy.to_mesh_clear()
+    finally:
+        bpy.data.objects.remove(copy)
+        bpy.data.curves.remove(data)
+    # Each spline is a row of points; the edge that closes it leads back from its last one to its first.
+    closing = edges[edges[:, 1] < edges[:, 0]].tolist()
+    loops = [np.arange(first, last + 1) for last, first in closing if last - first >= 2]
+    inside = np.zeros(len(points), bool)
+    for last, first in closing:
+        inside[first:last + 1] = True
+    steps = edges[edges[:, 1] == edges[:, 0] + 1]
+    loose = int(np.count_nonzero(~inside)) - int(np.count_nonzero(~inside[steps[:, 0]]))
+    return points, loops, loose
+
+
+def _filled(obj, depsgraph) -> Surface | None:
+    evaluated = obj.evaluated_get(depsgraph)
+    mesh = evaluated.to_mesh()
+    try:
+        return mesh_surface(mesh) if mesh is not None and len(mesh.polygons) else None
+    finally:
+        evaluated.to_mesh_clear()
+
+
+def _resolution(obj) -> str:
+    """The resolutions of what is curved, in words; "" where all is straight."""
+    if obj.type == "FONT":
+        return str(obj.data.resolution_u)
+    used = sorted({spline.resolution_u for spline in obj.data.splines if spline.type != "POLY"})
+    if not used:
+        return ""
+    return str(used[0]) if len(used) == 1 else "{:d} to {:d}".format(used[0], used[-1])
+
+
+def _require_finite(obj, points: NDArray) -> None:
+    if not np.isfinite(points).all():
+        raise Unreadable(obj.name, "Some of its points have coordinates that are not finite; delete them, or mend what "
+                                   "made them.")

@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A stored section: one group of ID properties, `body_section`, on the object it was measured of, and told as text.
+
+SI units, world axes. Beside what a `core.section.Section` holds: what was measured, the warnings, a fingerprint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from math import degrees
+
+import bpy
+import numpy as np
+
+from ...core.section import Plane, Section
+
+KEY = "body_section"
+BOUNDED = ("area", "perimeter", "centroid", "second")
+LENGTHS = {"area": 1, "perimeter": 1, "origin": 3, "axes": 9, "off": 1, "centroid": 2, "second": 3, "reach": 4,
+           "counts": 2, "error": 4, "input": 4, "unit": 1}
+WORDS = ("what", "named", "warnings", "fingerprint")
+ABOUT = ("x", "y", "1", "2")
+DIGITS = 7
+NOISE = 2.5e-7  # beside the largest of several values: what float32 leaves of a zero
+
+
+@dataclass(frozen=True, eq=False)
+class StoredSection:
+    """unit: metres per Blender unit when it was measured."""
+
+    section: Section
+    what: str
+    warnings: tuple[str, ...]
+    fingerprint: str
+    unit: float
+
+
+def store(obj: bpy.types.Object, section: Section, what: str, warnings: tuple[str, ...], fingerprint: str,
+          unit: float) -> None:
+    """Writes the section on the object, in place of an older one."""
+    plane = section.plane
+    obj[KEY] = {
+        "area": [section.area], "perimeter": [section.perimeter], "origin": plane.origin.tolist(),
+        "axes": plane.axes.T.ravel().tolist(), "off": [plane.off], "centroid": section.centroid.tolist(),
+        "second": section.second.tolist(), "reach": section.reach.tolist(),
+        "counts": [float(section.outlines), float(section.holes)],
+        "error": [section.error[name] for name in BOUNDED], "input": [section.input[name] for name in BOUNDED],
+        "unit": [unit], "what": what, "named": plane.named, "warnings": "\n".join(warnings),
+        "fingerprint": fingerprint,
+    }
+
+
+def fingerprint(obj: bpy.types.Object) -> str:
+    """What the stored section was computed from, "" where there is none."""
+    group = obj.get(KEY)
+    return str(group.get("fingerprint", "")) if hasattr(group, "get") else ""
+
+
+def stored(obj: bpy.types.Object) -> StoredSection | None:
+    """The stored section; None where there is none, or something else under its name."""
+    group = obj.get(KEY)
+    if not hasattr(group, "get"):
+        return None
+    try:
+        numbers = tuple(tuple(float(value) for value in group[key]) for key in LENGTHS)
+        words = tuple(str(group[key]) for key in WORDS)
+    except (KeyError, TypeError, ValueError):
+        return None
+    if tuple(map(len, numbers)) != tuple(LENGTHS.values()):
+        return None
+    return _made(numbers, words)
+
+
+def clear(obj: bpy.types.Object) -> bool:
+    """Removes the section; whether there was one."""
+    if KEY not in obj:
+        return False
+    del obj[KEY]
+    return True
+
+
+@lru_cache(maxsize=64)
+def _made(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> StoredSection:
+    found, (what, named, warnings, fingerprint) = dict(zip(LENGTHS, numbers)), words
+    plane = Plane(np.array(found["origin"]), np.array(found["axes"]).reshape(3, 3).T, found["off"][0], named)
+    section = Section(
+        plane, found["area"][0], found["perimeter"][0], np.array(found["centroid"]), np.array(found["second"]),
+        np.array(found["reach"]), *map(int, found["counts"]), dict(zip(BOUNDED, found["error"])),
+        dict(zip(BOUNDED, found["input"])))
+    return StoredSection(section, what, tuple(warnings.splitlines()), fingerprint, found["unit"][0])
+
+
+def text(name: str, found: StoredSection, outdated: str = "") -> str:
+    """A report that a person reads, in SI units."""
+    return "\n".join(_lines(name, found, outdated)) + "\n"
+
+
+def _lines(name: str, found: StoredSection, outdated: str) -> Iterator[str]:
+    section, plane = found.section, found.section.plane
+    x, y, normal = plane.axes.T
+    yield "Section properties, SI units, world frame"
+    yield ""
+    yield name
+    if outdated:
+        yield _line("Out of date", outdated)
+    yield _line("Measured", "{}; outer outlines {}, holes {}".format(found.what, section.outlines, section.holes))
+    yield _line("Area", "{} m²".format(_number(section.area)))
+    yield _line("Perimeter", "{} m".format(_number(section.perimeter)))
+    yield _line("Centroid", "{} m".format(_vector(section.center, section.area ** 0.5)))
+    yield _line("Plane", "normal {}, x {}, y {}; x nearest to the object's {} axis".format(
+        _vector(normal, 1.0), _vector(x, 1.0), _vector(y, 1.0), plane.named))
+    yield _line("Centroid in plane", "{} m, from the foot of the object's origin".format(
+        _vector(section.centroid, section.area ** 0.5)))
+    yield _line("Second moments", "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)")
+    for label, value in zip(("Ix", "Iy", "Ixy"), _clean(section.second, section.polar)):
+        yield _line("  " + label, _number(value))
+    yield _line("  Polar Jp", "{} = Ix + Iy; not the torsion constant".format(_number(section.polar)))
+    first, second = section.principal
+    yield _line("Principal", "I1 {}, I2 {} m⁴; {}".format(
+        _number(first), _number(second), "every axis through the centroid is principal" if section.free else
+        "axis 1 at {}° from x towards y".format(_number(degrees(section.angle)))))
+    yield _line("Radii of gyration", _each("i", section.radii) + " m")
+    yield _line("Section moduli", _each("W", section.moduli) + " m³ (elastic, outermost corner)")
+    for label, bound in (("Rounding, at most", section.error), ("float32 coordinates", section.input)):
+        yield _line(label, "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} m⁴".format(
+            *(bound[name] for name in BOUNDED)))
+    for warning in found.warnings:
+        yield _line("Warning", warning)
+
+
+def _line(label: str, value: str) -> str:
+    return "  {:<22}{}".format(label, value).rstrip()
+
+
+def _number(value: float) -> str:
+    return "{:.{}g}".format(value, DIGITS)
+
+
+def _clean(values, size: float) -> list[float]:
+    return [0.0 if abs(value) <= NOISE * size else float(value) for value in values]
+
+
+def _vector(values, size: float) -> str:
+    return "({})".format(", ".join(_number(value) for value in _clean(values, size)))
+
+
+def _each(letter: str, values) -> str:
+    return ", ".join("{}{} {}".format(letter, about, _number(value)) for about, value in zip(ABOUT, values))

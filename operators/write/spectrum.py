@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A Fourier transform as a file of arrays, and as a picture."""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from pathlib import Path
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.spectrum import Spectrum
+
+MARK = "body_fourier"  # on the images that are ours to overwrite: their name
+DECADES = 6.0  # from white to black
+GAP = 2  # pixels between slices
+
+
+def save(path: Path, spectrum: Spectrum, frame: str) -> None:
+    """Write an .npz file, whole or not at all: q (M, 3) in rad/m, F (M,) complex in m³ or m², error (M,) and input,
+    what rounding and storing coordinates as float32 may have changed, method and frame. Raises OSError."""
+    path = path.resolve()
+    partial = path.with_name("{}.{}.partial".format(path.name, os.getpid()))
+    try:
+        with open(partial, "wb") as file:
+            np.savez(file, q=spectrum.q, F=spectrum.values, error=spectrum.error, input=spectrum.input,
+                     method=spectrum.method, frame=frame)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(partial, path)
+    finally:
+        with suppress(FileNotFoundError):
+            partial.unlink()
+
+
+def picture(name: str, values: NDArray[np.complex128], count: int) -> bpy.types.Image:
+    """An image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a grid of count³.
+
+    Gray is log |F|: white where it is largest, black from six decades below on. The first of the axes left runs to the
+    right, the other one upward.
+    """
+    half = count // 2
+    size = np.abs(values).reshape(count, count, count)
+    largest = size.max() or 1.0
+    gray = np.zeros((count, 3 * count + 2 * GAP))
+    for i, slice_ in enumerate((size[:, :, half], size[:, half, :], size[half, :, :])):
+        decades = np.log10(np.maximum(slice_.T / largest, 10.0**-DECADES))
+        gray[:, i * (count + GAP):][:, :count] = 1.0 + decades / DECADES
+    pixels = np.ones((*gray.shape, 4), np.float32)
+    pixels[..., :3] = gray[..., None]
+    image = next((image for image in bpy.data.images if image.get(MARK) == name and image.is_editable), None)
+    if image is None:
+        image = bpy.data.images.new(name, gray.shape[1], count)
+        image[MARK] = name
+    elif tuple(image.size) != (gray.shape[1], count):
+        image.scale(gray.shape[1], count)
+    image.pixels.foreach_set(pixels.ravel())
+    image.update()
+    image.pack()  # or it would be lost with the session
+    return image

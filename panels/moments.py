@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel of the moments to a chosen order: what a button has computed, as a table whose cells can be copied."""
+
+from __future__ import annotations
+
+from bpy.types import Context, Panel
+
+from ..operators import moments_table
+from . import rows
+
+
+class MomentsPanel:
+    """What both places show."""
+
+    bl_label = "Moments"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        layout, obj, settings = self.layout, context.object, context.scene.body_moments
+        layout.use_property_decorate = False
+        column = layout.column()
+        column.use_property_split = True
+        column.prop(settings, "moments_order")
+        column.row().prop(settings, "moments_of", expand=True)
+        column.prop(settings, "moments_about")
+        column.row().prop(settings, "frame", expand=True)
+        layout.operator("object.body_moments_compute_moments", icon="PHYSICS")
+        computed = moments_table.found(obj)
+        if computed is None:
+            return
+        reason = moments_table.outdated(obj, context.scene)
+        if reason:
+            row = layout.row()
+            row.alert = True
+            row.label(text="Out of Date: {:s}".format(reason), icon="FILE_REFRESH")
+        degrees, missing = moments_table.shown(obj, context.scene)
+        if missing:
+            rows.sentence(layout, context, missing, icon="ERROR")
+        for degree in degrees:
+            column = layout.column(align=True)
+            column.label(text="Order {:d}{:s}".format(degree.degree, degree.unit and ", " + degree.unit))
+            for label, text, exact in degree.rows:
+                rows.texts(column, label, text, exact, degree.unit)
+        if computed.order > moments_table.SHOWN:
+            rows.sentence(layout, context, "Orders {:d} to {:d} are in the copy.".format(
+                moments_table.SHOWN + 1, computed.order), icon="INFO")
+        layout.operator("object.body_moments_copy_moments", icon="COPYDOWN")
+
+
+class VIEW3D_PT_body_moments_orders(MomentsPanel, Panel):
+    """Moments to a chosen order in the sidebar"""
+
+    bl_idname = "VIEW3D_PT_body_moments_orders"
+    bl_parent_id = "VIEW3D_PT_body_moments"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Moments"
+
+
+class OBJECT_PT_body_moments_orders(MomentsPanel, Panel):
+    """Moments to a chosen order in the object's properties"""
+
+    bl_idname = "OBJECT_PT_body_moments_orders"
+    bl_parent_id = "OBJECT_PT_body_moments"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "object"
+
+
+CLASSES = (VIEW3D_PT_body_moments_orders, OBJECT_PT_body_moments_orders)

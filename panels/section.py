@@ -1,0 +1,145 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Section properties under the body's, in the order of engineers' tables."""
+
+from __future__ import annotations
+
+from math import degrees
+
+from bpy.types import Context, Panel, UILayout
+
+from ..operators import section as sections
+from ..operators.read.section import SECTION_TYPES
+from ..operators.units import SI_UNITS, Units, number
+from ..operators.write import section as record
+from . import rows
+
+AXES = ("X", "Y", "Z")
+ABOUT = ("x", "y", "1", "2")
+BOUNDED = {"area": ("Area", "area"), "perimeter": ("Perimeter", "length"), "centroid": ("Centroid", "length"),
+           "second": ("Moments", "area_moment")}
+
+
+class SectionPanel:
+    """What both places show."""
+
+    bl_label = "Section"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        obj = context.object
+        return obj is not None and (obj.type in SECTION_TYPES or record.KEY in obj)
+
+    def draw(self, context: Context) -> None:
+        obj, layout = context.object, self.layout
+        layout.use_property_decorate = False
+        layout.operator("object.body_moments_measure_section", icon="FACESEL")
+        found = record.stored(obj)
+        if found is None:
+            layout.label(text="Not Measured", icon="RADIOBUT_OFF")
+            return
+        units = Units.of(context.scene.unit_settings)
+        _verdict(layout, found, sections.outdated(obj, context.scene, found))
+        _numbers(layout, units, found.section)
+        _more(layout, units, found.section)
+        if found.warnings:
+            header, body = layout.panel("body_moments_section_warnings", default_closed=False)
+            header.label(text="Warnings ({:d})".format(len(found.warnings)))
+            if body is not None:
+                for warning in found.warnings:
+                    rows.sentence(body, context, warning, icon="DOT")
+        layout.operator("object.body_moments_copy_section", icon="COPYDOWN")
+
+
+def _verdict(layout: UILayout, found: record.StoredSection, outdated: str) -> None:
+    column = layout.column(align=True)
+    counts = ((found.section.outlines, "1 Outline", "{:d} Outlines"), (found.section.holes, "1 Hole", "{:d} Holes"))
+    parts = [one if count == 1 else many.format(count) for count, one, many in counts if count]
+    column.label(text="{:s}: {:s}".format(found.what, ", ".join(parts)), icon="CHECKMARK")
+    if outdated:
+        row = column.row()
+        row.alert = True
+        row.label(text="Out of Date: {:s}".format(outdated), icon="FILE_REFRESH")
+
+
+def _numbers(layout: UILayout, units: Units, section) -> None:
+    column = layout.column(align=True)
+    rows.value(column, units, "Area", "area", section.area)
+    rows.value(column, units, "Perimeter", "length", section.perimeter)
+    size = section.area**0.5
+    column = layout.column(align=True)
+    rows.heading(column, "Centroid (World)", "length", section.center)
+    rows.values(column, units, AXES, "length", section.center, size)
+    column = layout.column(align=True)
+    rows.heading(column, "Second Moments of Area", "area_moment", section.second)
+    rows.values(column, units, ("Ix", "Iy", "Ixy"), "area_moment", section.second, section.polar)
+    rows.value(column, units, "Polar Jp", "area_moment", section.polar)
+    column = layout.column(align=True)
+    rows.heading(column, "Principal", "area_moment", section.principal)
+    rows.values(column, units, ("I1", "I2"), "area_moment", section.principal)
+    if section.free:
+        column.label(text="Every axis is principal", icon="INFO")
+    else:
+        turned = degrees(section.angle)
+        rows.texts(column, "Angle x to 1", "{:s}°".format(number(0.0 if abs(turned) < 1e-6 else turned)),
+                   repr(section.angle), "rad")
+
+
+def _more(layout: UILayout, units: Units, section) -> None:
+    header, body = layout.panel("body_moments_section_moduli", default_closed=True)
+    header.label(text="Section Moduli, Radii of Gyration")
+    if body is not None:
+        column = body.column(align=True)
+        rows.heading(column, "Elastic, Outermost Corner", "volume", section.moduli)
+        rows.values(column, units, ["W" + name for name in ABOUT], "volume", section.moduli)
+        column = body.column(align=True)
+        rows.heading(column, "Radii of Gyration", "length", section.radii)
+        rows.values(column, units, ["i" + name for name in ABOUT], "length", section.radii)
+    header, body = layout.panel("body_moments_section_plane", default_closed=True)
+    header.label(text="Plane")
+    if body is not None:
+        column = body.column(align=True)
+        column.label(text="x is nearest to the object's {:s} axis".format(section.plane.named))
+        for label, axis in zip(("x", "y", "n"), section.plane.axes.T):
+            rows.direction(column, label, axis)
+        column = body.column(align=True)
+        rows.heading(column, "Centroid from Object Origin", "length", section.centroid)
+        rows.values(column, units, ("x", "y"), "length", section.centroid, section.area**0.5)
+        column.label(text="Ix = ∫y² dA, Ixy = +∫xy dA at the centroid")
+        column.label(text="Jp = Ix + Iy, not the torsion constant")
+    header, body = layout.panel("body_moments_section_bounds", default_closed=True)
+    header.label(text="Error Bounds")
+    if body is not None:
+        sizes = {"area": section.area, "perimeter": section.perimeter, "centroid": section.area**0.5,
+                 "second": section.polar}
+        for title, bounds in (("Rounding, at Most", section.error),
+                              ("Coordinates Stored as Float32, at Most", section.input)):
+            column = body.column(align=True)
+            column.label(text=title)
+            for name, (label, quantity) in BOUNDED.items():
+                rows.texts(column, label, units.bound(quantity, bounds[name], sizes[name]), repr(bounds[name]),
+                           SI_UNITS[quantity])
+
+
+class VIEW3D_PT_body_moments_section(SectionPanel, Panel):
+    """Section properties in the sidebar"""
+
+    bl_idname = "VIEW3D_PT_body_moments_section"
+    bl_parent_id = "VIEW3D_PT_body_moments"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Moments"
+
+
+class OBJECT_PT_body_moments_section(SectionPanel, Panel):
+    """Section properties in the object's properties"""
+
+    bl_idname = "OBJECT_PT_body_moments_section"
+    bl_parent_id = "OBJECT_PT_body_moments"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "object"
+
+
+CLASSES = (VIEW3D_PT_body_moments_section, OBJECT_PT_body_moments_section)

@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel of moments: computed by a button, shown to order 4, copied whole."""
+
+import csv
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender import batch_files as files
+from tests.blender.test_batch_options import box_moment
+from tests.blender.test_panel import Layout, copied, labels
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+@pytest.fixture
+def box():
+    """1 x 2 x 3, about (1, 2, 3), turned by a quarter about z."""
+    obj = files.add_box(center=(0, 0, 0), size=(1, 2, 3))
+    obj.location, obj.rotation_euler.z = (1, 2, 3), np.pi / 2
+    bpy.context.view_layer.objects.active = obj
+    bpy.context.view_layer.update()
+    return obj
+
+
+def settings(**values):
+    for name, value in values.items():
+        setattr(bpy.context.scene.body_moments, name, value)
+
+
+def drawn():
+    from body_moments.panels.moments import VIEW3D_PT_body_moments_orders as panel
+
+    layout = Layout()
+    panel.draw(SimpleNamespace(layout=layout), bpy.context)
+    return layout.record
+
+
+def compute(order=4):
+    settings(moments_order=order)
+    assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
+
+
+def rows():
+    from body_moments.operators import moments_table
+
+    group = bpy.context.scene.body_moments
+    text = moments_table.as_csv(moments_table.found(bpy.context.object), group.moments_of, group.moments_about,
+                                group.frame)
+    comment, *lines = text.splitlines()
+    assert comment.startswith("# ")
+    return {tuple(int(row[axis]) for axis in "pqr"): tuple(float(row[key]) for key in ("moment", "rounding", "float32"))
+            for row in csv.DictReader(lines)}
+
+
+def assert_box(found, size, center, tolerance=3e-7):
+    """The rotation is stored in single precision."""
+    for powers, (value, *_) in found.items():
+        exact = box_moment(powers, center, size)
+        scale = np.prod([(abs(c) + s / 2) ** n for c, s, n in zip(center, size, powers)]) * 6.0
+        assert value == pytest.approx(exact, abs=tolerance * sum(powers) * scale + 1e-12)
+
+
+def test_nothing_is_shown_before_the_button_is_pressed(box):
+    record = drawn()
+    assert ("operator", "object.body_moments_compute_moments") in [entry[:2] for entry in record]
+    assert not copied(record, "m³")
+    with pytest.raises(RuntimeError, match="Compute the moments first"):
+        bpy.ops.object.body_moments_copy_moments()
+
+
+def test_the_table_shows_orders_up_to_four_and_says_where_the_others_are(box):
+    compute(6)
+    record = drawn()
+    assert float(copied(record, "m³")[0]) == pytest.approx(6.0, rel=1e-12)
+    assert len(copied(record, "m⁵")) == 6 and len(copied(record, "m⁷")) == 15 and not copied(record, "m⁸")
+    told = labels(record)
+    assert "x²" in told and "xyz" in told and "5 to 6" in " ".join(told)
+    compute(4)
+    assert "in the copy" not in " ".join(labels(drawn()))
+
+
+def test_frame_point_and_weight_change_without_computing_again(box):
+    compute(6)
+    assert_box(rows(), (2, 1, 3), (1, 2, 3))
+    settings(moments_about="CENTER")
+    assert_box(rows(), (2, 1, 3), (0, 0, 0))
+    settings(frame="OBJECT")
+    assert_box(rows(), (1, 2, 3), (0, 0, 0))
+    settings(moments_about="ORIGIN", moments_of="SURFACE")
+    surface = rows()
+    assert surface[0, 0, 0][0] == pytest.approx(22.0, rel=1e-6)
+    assert surface[0, 0, 2][0] == pytest.approx(2 * 2 * 2.25 + (2 * 2 + 2 * 1) * 27 / 12, rel=1e-6)
+    settings(moments_about="NORMALIZED", moments_of="VOLUME")
+    assert rows()[0, 0, 0][0] == pytest.approx(1.0, rel=1e-12)
+    assert rows()[0, 0, 2][0] == pytest.approx(6.0 * 9.0 / 12.0 / 6.0 ** (5 / 3), rel=1e-6)
+    assert labels(drawn()).count("Order 2") == 1  # without a unit
+
+
+def test_every_row_of_the_copy_has_its_bounds(box):
+    compute(10)
+    found = rows()
+    assert len(found) == 286
+    assert all(0.0 < rounding < 1e-6 * 4.0 ** sum(powers) for powers, (_, rounding, _) in found.items())
+    assert found[0, 0, 0][2] > 1e-8  # float32 coordinates
+
+
+def test_the_copy_goes_to_the_clipboard_and_is_reported_in_background(box):
+    compute(2)
+    assert bpy.ops.object.body_moments_copy_moments() == {"FINISHED"}
+
+
+def test_what_was_computed_is_called_out_of_date_when_the_object_changes(box):
+    from body_moments.operators import moments_table
+
+    def reason():
+        bpy.context.view_layer.update()
+        return moments_table.outdated(box, bpy.context.scene)
+
+    compute()
+    assert reason() == ""
+    box.location.x += 1.0
+    assert reason() == "Transform Changed"
+    compute()
+    box.body_moments.overlap = "UNION"
+    assert reason() == "Settings Changed"
+    compute()
+    assert reason() == ""
+    box.data.vertices[0].co.x += 0.5
+    box.data.update()
+    assert reason() == "Geometry Changed"
+    assert "Out of Date: Geometry Changed" in labels(drawn())
+    compute()
+    assert reason() == ""
+
+
+def test_computing_leaves_the_object_and_the_undo_stack_alone(box):
+    from body_moments.operators.moments_table import CLASSES
+
+    compute()
+    assert "body_volume" not in box and "body_fingerprint" not in box
+    assert all("UNDO" not in cls.bl_options for cls in CLASSES)
+
+
+def test_a_shell_shows_its_thin_volume(box):
+    box.body_moments.kind, box.body_moments.thickness = "SHELL", 0.01
+    compute(5)
+    assert rows()[0, 0, 0][0] == pytest.approx(0.22, rel=1e-6)
+    settings(moments_of="SURFACE")
+    assert rows()[0, 0, 0][0] == pytest.approx(22.0, rel=1e-6)
+
+
+def test_an_object_without_a_surface_is_refused_with_the_reason():
+    bpy.context.view_layer.objects.active = None
+    empty = bpy.data.objects.new("Empty", None)
+    bpy.context.scene.collection.objects.link(empty)
+    bpy.context.view_layer.objects.active = empty
+    with pytest.raises(RuntimeError, match="can be measured"):
+        bpy.ops.object.body_moments_compute_moments()
+
+
+def test_only_the_last_objects_are_kept(box, monkeypatch):
+    from body_moments.operators import moments_table
+
+    monkeypatch.setattr(moments_table, "KEPT", 2)
+    others = [files.add_box(center=(5 * i, 0, 0)) for i in range(3)]
+    for obj in others:
+        bpy.context.view_layer.objects.active = obj
+        compute(1)
+    assert [moments_table.found(obj) is not None for obj in others] == [False, True, True]

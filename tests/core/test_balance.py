@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Least moves that balance a body: they reach the point, and none is smaller."""
+
+import numpy as np
+import pytest
+from body_moments.core.balance import _Fans, balance
+from body_moments.core.gradient import area_gradient, volume_gradient
+from body_moments.core.polyhedron import solid_and_area
+from body_moments.core.surface import Surface
+
+from tests.core import bodies
+
+SHEAR = np.array([[1.0, 0.4, -0.2], [0.1, 0.7, 0.3], [0.0, -0.25, 1.5]])
+HORIZONTAL = np.eye(3)[:2]
+
+
+def center(points, triangles, shell=False):
+    return solid_and_area(bodies.surface((points, triangles)), shell=True)[shell].center
+
+
+def upper(part, share=0.6):
+    z = part[0][:, 2]
+    return np.flatnonzero(z > z.min() + share * np.ptp(z))
+
+
+def areas(part):
+    corners = part[0][part[1]]
+    double = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    return np.bincount(part[1].ravel(), np.repeat(double / 6, 3), len(part[0]))
+
+
+@pytest.fixture(params=[False, True], ids=["solid", "shell"])
+def shell(request):
+    return request.param
+
+
+@pytest.mark.parametrize("across", [HORIZONTAL, np.eye(3)], ids=["horizontal", "all"])
+@pytest.mark.parametrize("place", [(0, 0, 0), (500.0, -300.0, 100.0)], ids=["near", "far"])
+def test_the_center_comes_to_the_point_and_nothing_else_moves(shell, across, place):
+    part = bodies.moved(bodies.torus(20, 14), bodies.rotation(2) @ SHEAR, place)
+    start = center(*part, shell)
+    target = start + np.array([0.03, -0.02, 0.04]) * (0.3 if shell else 1.0)
+    movable = upper(part)
+    found = balance(bodies.surface(part), movable, target, across=across, shell=shell)
+    assert np.abs(across @ (center(found.points, part[1], shell) - target)).max() < 1e-13 * (1 + np.abs(place).max())
+    rest = np.setdiff1d(np.arange(len(part[0])), movable)
+    assert np.array_equal(found.points[rest], part[0][rest])
+    assert np.abs(found.before - start).max() < 1e-12
+
+
+def test_no_other_move_is_smaller_to_first_order(shell):
+    part = bodies.moved(bodies.sphere(1), SHEAR)
+    movable = upper(part, 0.4)
+    moments = solid_and_area(bodies.surface(part), shell=True)[shell]
+    derive = area_gradient if shell else volume_gradient
+    slope = derive(bodies.surface(part), moments.center).center(moments.total)[movable, :2]
+    root = np.sqrt(np.repeat(areas(part)[movable], 3))
+    rows = slope.transpose(1, 0, 2).reshape(2, -1) / root
+    off = []
+    for size in (1e-3, 1e-4):
+        step = size * np.array([1.0, 0.5, 0.0])
+        found = balance(bodies.surface(part), movable, moments.center + step, across=HORIZONTAL, shell=shell)
+        ours = (found.points - part[0])[movable].ravel() * root
+        least = np.linalg.lstsq(rows, step[:2], rcond=None)[0]  # of all that bring it there, the shortest
+        off.append(np.linalg.norm(ours - least) / np.linalg.norm(least))
+    assert off[0] < 100 * 1e-3 and 8.0 < off[0] / off[1] < 12.0
+
+
+def test_a_finer_mesh_is_moved_alike():
+    shapes = []
+    for level in (3, 4):
+        part = bodies.sphere(level)
+        found = balance(bodies.surface(part), np.arange(len(part[0])), (0.1, 0.0, 0.0))
+        shapes.append(found.points[0] - part[0][0])
+    assert np.abs(shapes[0] - shapes[1]).max() < 2e-2 * np.abs(shapes[0]).max()
+
+
+def test_a_limit_holds_for_every_vertex_and_the_point_is_reached_still(shell):
+    part = bodies.sphere(3)
+    movable = upper(part, 0.5)
+    target = np.array([0.02, 0.01, 0.0])
+    free = balance(bodies.surface(part), movable, target, across=HORIZONTAL, shell=shell)
+    most = np.linalg.norm(free.points - part[0], axis=1).max()
+    held = balance(bodies.surface(part), movable, target, across=HORIZONTAL, limit=0.8 * most, shell=shell)
+    lengths = np.linalg.norm(held.points - part[0], axis=1)
+    assert lengths.max() <= 0.8 * most * (1 + 1e-12) and np.count_nonzero(lengths > 0.79 * most) > 3
+    assert np.abs((center(held.points, part[1], shell) - target)[:2]).max() < 1e-13
+    cost = [(areas(part)[:, None] * (one.points - part[0]) ** 2).sum() for one in (free, held)]
+    assert cost[0] < cost[1] < 1.5 * cost[0]
+
+
+def test_a_limit_that_is_too_small_is_said():
+    part = bodies.sphere(3)
+    with pytest.raises(ValueError, match="at most 0.001 m"):
+        balance(bodies.surface(part), upper(part), (0.2, 0.0, 0.0), across=HORIZONTAL, limit=1e-3)
+
+
+def test_willing_vertices_move_more():
+    part = bodies.sphere(3)
+    everything = np.arange(len(part[0]))
+    willing = np.where(part[0][:, 0] > 0, 1.0, 0.1)
+    found = balance(bodies.surface(part), everything, (0.01, 0.0, 0.0), willing=willing)
+    lengths = np.linalg.norm(found.points - part[0], axis=1)
+    assert lengths[part[0][:, 0] > 0.5].mean() > 5 * lengths[part[0][:, 0] < -0.5].mean()
+
+
+def test_a_point_that_is_too_far_is_refused():
+    part = bodies.sphere(2)
+    with pytest.raises(ValueError, match="turn|nearer"):
+        balance(bodies.surface(part), upper(part, 0.9), (5.0, 0.0, 0.0), across=HORIZONTAL)
+
+
+def test_one_vertex_cannot_move_the_center_every_way():
+    flat = bodies.moved(bodies.box(), np.diag([1.0, 1.0, 1.0]))
+    middle = np.concatenate([flat[0], [[0.5, 0.5, 1.0]]])
+    top = [[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]]
+    part = middle, np.concatenate([np.delete(flat[1], bodies.TOP, axis=0), top])
+    with pytest.raises(ValueError, match="however far"):
+        balance(bodies.surface(part), np.array([8]), (0.6, 0.5, 0.5))
+
+
+def test_no_vertex_of_a_face_is_no_selection():
+    points, triangles = bodies.sphere(1)
+    points = np.concatenate([points, [[3.0, 0.0, 0.0]]])
+    with pytest.raises(ValueError, match="None of the vertices"):
+        balance(bodies.surface((points, triangles)), np.array([len(points) - 1]), (0.0, 0.0, 0.0))
+
+
+def test_what_stands_already_is_left_to_the_bit():
+    part = bodies.moved(bodies.torus(9, 7), SHEAR)
+    found = balance(bodies.surface(part), upper(part), center(*part))
+    assert np.abs(found.points - part[0]).max() < 1e-13
+
+
+def test_a_tiny_body_and_a_large_one_are_the_same_problem():
+    part = bodies.moved(bodies.torus(9, 7), SHEAR)
+    shapes = []
+    for scale in (1e-5, 1.0, 1e4):
+        body = part[0] * scale, part[1]
+        target = center(*body) + np.array([0.02, 0.01, 0.0]) * scale
+        shapes.append(balance(bodies.surface(body), upper(part), target).points / scale)
+    assert np.abs(shapes[0] - shapes[1]).max() < 1e-8 and np.abs(shapes[2] - shapes[1]).max() < 1e-8
+
+
+@pytest.mark.parametrize("sides", [4, 5, 8])
+def test_the_diagonals_that_cut_a_face_do_not_show_in_what_the_moves_follow(shell, sides):
+    angle = np.arange(sides) * 2 * np.pi / sides
+    ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    points = np.concatenate([np.column_stack([ring, np.full(sides, z)]) for z in (0.0, 1.0, 2.0)])
+    faces = [list(range(sides))[::-1], list(range(2 * sides, 3 * sides))]
+    faces += [[k + i, k + (i + 1) % sides, k + sides + (i + 1) % sides, k + sides + i]
+              for k in (0, sides) for i in range(sides)]
+    fans = _Fans(bodies.mesh(points, faces), shell)
+    gradient = fans.center_gradient(np.array([0.0, 0.0, 1.0]))
+    mirror = np.concatenate([k + (-np.arange(sides)) % sides for k in (0, sides, 2 * sides)])  # y → -y
+    flip = np.diag([1.0, -1.0, 1.0])
+    assert np.abs(flip @ gradient[mirror] @ flip - gradient).max() < 1e-15
+    turned = np.concatenate([k + (np.arange(sides) + 1) % sides for k in (0, sides, 2 * sides)])
+    turn = np.array([[np.cos(angle[1]), -np.sin(angle[1]), 0], [np.sin(angle[1]), np.cos(angle[1]), 0], [0, 0, 1]])
+    assert np.abs(turn @ gradient @ turn.T - gradient[turned]).max() < 1e-15
+    assert np.abs(fans.areas - fans.areas[turned]).max() < 1e-15
+
+
+def test_a_face_that_is_not_convex_pulls_as_it_is(shell):
+    outline = np.array([[0, 0], [2, 0], [2, 1], [1, 0.2], [0, 1]], float)
+    points = np.concatenate([np.column_stack([outline, np.full(5, z)]) for z in (0.0, 1.0)])
+    faces = [[0, 4, 3, 2, 1], [5, 6, 7, 8, 9]] + [[i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5] for i in range(5)]
+    cut = np.array([[3, 0, 1], [3, 1, 2], [3, 4, 0]])
+    triangles = np.concatenate([cut[:, ::-1], cut + 5, bodies.split(faces[2:])])
+    owner = np.array([0] * 3 + [1] * 3 + [2, 2, 3, 3, 4, 4, 5, 5, 6, 6])
+    fans = _Fans(Surface(points, triangles, triangle_faces=owner), shell)
+    assert fans.against.sum() > 0 or not shell
+    middle = center(points, triangles, shell)
+    total = fans.center_gradient(middle).sum(axis=0)
+    assert np.abs(total - np.eye(3)).max() < 1e-14  # moving everything moves the center as far
+    turned = np.einsum("nik,nk->i", fans.center_gradient(middle), np.cross([0, 0, 1.0], points))
+    assert np.abs(turned - np.cross([0, 0, 1.0], middle)).max() < 1e-14
+    assert abs(fans.areas.sum() - solid_and_area(bodies.surface((points, triangles)))[1].total) < 1e-14

@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fourier transforms of surfaces at many places."""
+
+import numpy as np
+import pytest
+from body_moments.core import fourier_body
+from body_moments.core.fourier import finished, solid_transform, surface_transform
+from body_moments.core.fourier_body import BodyTransform
+from body_moments.core.waves import Grid
+
+from tests.core import bodies
+
+Q = np.random.default_rng(3).normal(size=(40, 3)) * np.logspace(-9, 2, 40)[:, None]
+PART = bodies.moved(bodies.sphere(2), np.diag([1, 0.5, 2]), (30, 1, -2))
+
+
+def places(*maps):
+    matrices = np.tile(np.eye(4), (len(maps), 1, 1))
+    for matrix, (linear, offset) in zip(matrices, maps):
+        matrix[:3, :3], matrix[:3, 3] = linear, offset
+    return matrices
+
+
+SHEARED = np.array([[1, 0.4, 0], [0, 0.7, 0], [0.1, 0, 1.5]])
+MIRRORED = np.diag([1.0, -1.0, 2.0])
+MAPS = places((np.eye(3), (0, 0, 0)), (np.eye(3), (5, -3, 2)), (SHEARED, (1, 2, 3)), (MIRRORED, (-4, 0, 0)),
+              (SHEARED, (0, 0, 70)), (bodies.rotation(2), (0, 0, 0)))
+
+
+@pytest.mark.parametrize("of, alone", [("volume", solid_transform), ("area", surface_transform)])
+@pytest.mark.parametrize("q", [Q, Grid(5, 4.0)], ids=["list", "grid"])
+def test_copies_under_any_map_are_the_mapped_bodies(of, alone, q):
+    box = bodies.box((0, 0, 0), (1, 1.5, 0.7))
+    transform = BodyTransform([(bodies.surface(PART), MAPS), (bodies.surface(box), MAPS[2:4])], q, of, 1.0)
+    found = finished(transform)
+    true = 0.0
+    for part, matrices in ((PART, MAPS), (box, MAPS[2:4])):
+        for matrix in matrices:
+            mirror = np.linalg.det(matrix[:3, :3]) < 0.0
+            image = bodies.moved(bodies.inverted(part) if mirror else part, matrix[:3, :3], matrix[:3, 3])
+            true = true + alone(bodies.surface(image), q).values
+    # what mapping the corners rounds, at 70 from the origin: the surface's area times that
+    assert np.abs(found.values - true).max() <= 150.0 * 4 * 2.0**-47
+    assert len(transform.jobs) == 6 and found.method == "exact"
+
+
+def test_a_map_of_the_body_is_a_map_of_the_frequencies():
+    found = finished(BodyTransform([(bodies.surface(PART), MAPS[2:3])], Q, "volume", 1.0)).values
+    plain = solid_transform(bodies.surface(PART), Q @ SHEARED).values
+    expected = np.linalg.det(SHEARED) * np.exp(-1j * (Q @ MAPS[2, :3, 3])) * plain
+    assert np.abs(found - expected).max() <= 1e-12
+
+
+def test_large_grids_are_taken_to_the_tolerance(monkeypatch):
+    sphere, grid = bodies.sphere(3), Grid(21, 8.0)
+    maps = places((np.eye(3), (0, 0, 0)), (np.eye(3), (3, 1, 0)), (SHEARED, (0, -4, 0)))
+    parts = [(bodies.surface(sphere), maps)]
+    exact = finished(BodyTransform(parts, grid, "volume", 12.0))
+    monkeypatch.setattr(fourier_body, "CLOSED_FORM", 0.0)
+    found = finished(BodyTransform(parts, grid, "volume", 12.0))
+    assert (exact.method, found.method) == ("exact", "approximate")
+    difference = np.abs(found.values - exact.values).max()
+    assert 0.0 < difference <= 1e-7 * 12.0
+    assert difference <= 2.0 * found.error.max()
+
+
+def test_what_storing_as_float32_may_have_changed_counts_every_copy():
+    stored = bodies.surface(PART, np.float32)
+    one = finished(BodyTransform([(stored, MAPS[:1])], Q, "volume", 1.0))
+    both = finished(BodyTransform([(stored, MAPS[:2])], Q, "volume", 1.0))
+    assert both.input == pytest.approx(2 * one.input) and one.input > 0.0
+
+
+def test_steps_tell_how_much_is_done():
+    shares = list(BodyTransform([(bodies.surface(PART), MAPS)], Q, "volume", 1.0).steps())
+    assert shares == sorted(shares) and shares[-1] == 1.0
+
+
+def test_nothing_is_refused():
+    empty = bodies.surface((PART[0], PART[1][:0]))
+    with pytest.raises(ValueError, match="no faces"):
+        BodyTransform([(empty, MAPS)], Q, "area", 1.0)

@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Large grids to a tolerance: the fast transform against sums and closed forms, everywhere on the grid."""
+
+import math
+
+import numpy as np
+import pytest
+from body_moments.core import fourier_grid
+from body_moments.core.fourier import finished, solid_transform, surface_transform
+from body_moments.core.fourier_grid import GridTransform
+from body_moments.core.nufft import Spreading, aliasing
+from body_moments.core.polyhedron import solid_and_area
+from body_moments.core.waves import Grid
+
+from tests.core import bodies
+
+
+def half_grid(half):
+    along = np.arange(-half, half + 1)
+    return np.stack(np.meshgrid(along, along, along[half:], indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+@pytest.mark.parametrize("width", range(4, 15))
+def test_the_fast_sums_are_within_the_bound_of_their_aliasing(width):
+    rng, half = np.random.default_rng(width), 6
+    angles, strengths = rng.uniform(-9.0, 9.0, (3, 40)), rng.normal(size=(2, 40))
+    angles[:, 0] = [0.0, np.pi, -1e-20]
+    spreading = Spreading(half, width, 2)
+    spreading.add(angles[:, :25], strengths[:, :25])
+    spreading.add(angles[:, 25:], strengths[:, 25:])
+    k = half_grid(half)
+    waves = np.exp(-1j * (k @ angles))
+    share = aliasing(half, width)[np.abs(k)].sum(axis=1)
+    for found, strength in zip(spreading.sums(), strengths):
+        error = np.abs(found.reshape(-1) - waves @ strength)
+        assert (error <= 1.01 * share * np.abs(strength).sum()).all()
+        assert error.max() >= 1e-3 * share.max() * np.abs(strength).sum()  # the bound says something
+
+
+def test_a_wider_kernel_is_a_digit_better():
+    errors = [aliasing(20, width).max() for width in range(4, 15)]
+    assert all(later < 0.5 * earlier for earlier, later in zip(errors, errors[1:]))
+    assert errors[0] < 3e-3 and errors[-1] < 1e-11
+
+
+def cube(n):
+    """A cube of n x n squares on each side: from far enough, all its triangles err alike."""
+    sides = []
+    for axis in range(3):
+        for side in (0, 1):
+            points, triangles = bodies.grid(n)
+            points[:, 2] = side
+            sides.append((np.roll(points, axis, axis=1), triangles if side else triangles[:, ::-1]))
+    return bodies.welded(bodies.joined(*sides))
+
+
+LOPSIDED = bodies.moved(bodies.torus(36, 16), [[1, 0.2, 0], [0, 0.7, 0], [0.1, 0, 1.5]], (3, -2, 5))
+CASES = {"torus": (LOPSIDED, Grid(18, 18.0), (1e-4, 1e-7)), "torus, low": (LOPSIDED, Grid(17, 0.5), (1e-4, 1e-7)),
+         "cube, waves as long as its squares": (cube(12), Grid(24, 2 * np.pi * 12 / 2), (1e-4, 1e-6)),
+         "sphere, waves shorter than its triangles": (bodies.sphere(3), Grid(20, 60.0), (1e-3, 1e-4))}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_grid_is_right_to_the_tolerance_at_every_frequency(name):
+    part, grid, tolerances = CASES[name]
+    surface = bodies.surface(part)
+    exact = solid_transform(surface, grid)
+    assert exact.method == "exact"
+    volume = exact.values[np.abs(exact.q).sum(axis=1).argmin()].real
+    for tolerance in tolerances:
+        transform = GridTransform(surface, grid, "volume", tolerance * volume)
+        found = finished(transform)
+        assert transform.fine and found.method == "approximate"
+        assert np.array_equal(found.q, exact.q)
+        error = np.abs(found.values - exact.values)
+        assert error.max() <= tolerance * volume
+        assert (error <= 2.0 * found.error).all()  # an estimate, by some of them
+
+
+def test_the_area_and_an_open_surface_are_right_to_the_tolerance():
+    surface = bodies.surface(bodies.without(LOPSIDED, *range(300)))
+    exact = surface_transform(surface, Grid(15, 18.0))
+    total = solid_and_area(surface)[1].total
+    for tolerance in (1e-3, 1e-6):
+        transform = GridTransform(surface, Grid(15, 18.0), "area", tolerance * total)
+        found = finished(transform)
+        assert transform.fine
+        assert np.abs(found.values - exact.values).max() <= tolerance * total
+
+
+def test_large_and_small_triangles_go_together():
+    part = bodies.joined(bodies.box((-3, -3, -3), (-2, 5, 4)), bodies.sphere(3))
+    grid = Grid(22, 9.0)
+    transform = GridTransform(bodies.surface(part), grid, "volume", 1e-4)
+    found = finished(transform)
+    assert len(transform.direct.triangles) == 12 and sum(len(rows) for _, rows in transform.fine) == 512
+    exact = solid_transform(bodies.surface(part), grid)
+    assert np.abs(found.values - exact.values).max() <= 1e-4
+
+
+def test_few_triangles_take_the_closed_form():
+    surface = bodies.surface(bodies.box())
+    found = finished(GridTransform(surface, Grid(12, 200.0), "volume", 1e-7))
+    assert found.method == "exact"
+    assert np.array_equal(found.values, solid_transform(surface, Grid(12, 200.0)).values)
+
+
+def test_what_cannot_be_reached_is_refused():
+    with pytest.raises(ValueError, match=r"closed form\.$"):
+        GridTransform(bodies.surface(bodies.sphere(3)), Grid(20, 20.0), "volume", 1e-16)
+    with pytest.raises(ValueError, match="not closed"):
+        GridTransform(bodies.surface(bodies.without(LOPSIDED, 1)), Grid(20, 20.0), "volume", 1e-6)
+
+
+@pytest.mark.parametrize("count, largest", [(1, 1.0), (0, 1.0), (8, 0.0), (8, -1.0), (8, np.nan), (8, np.inf)])
+def test_grids_that_are_none_are_refused(count, largest):
+    with pytest.raises(ValueError, match=r"^[A-Z].*\.$"):
+        Grid(count, largest)
+
+
+@pytest.mark.parametrize("n", range(1, 25))
+def test_the_rules_on_triangles_are_exact_to_their_degree(n):
+    places, weights = fourier_grid._rule(n)
+    assert (places > 0.0).all() and (weights > 0.0).all()
+    assert places.sum(axis=0) == pytest.approx(1.0)
+    for p in range(2 * n):
+        for q in (0, (2 * n - 1 - p) // 2, 2 * n - 1 - p):
+            true = math.factorial(p) * math.factorial(q) / math.factorial(p + q + 2)
+            assert (weights * places[1]**p * places[2]**q).sum() == pytest.approx(true, rel=1e-12)
+
+
+def test_the_bound_of_the_points_holds():
+    rng = np.random.default_rng(8)
+    for span in (0.1, 1.0, 3.0, 6.0, 12.0):
+        for n in range(1, 9):
+            places, weights = fourier_grid._rule(n)
+            bounded = [tolerance for tolerance in 10.0 ** np.arange(-14, 3)
+                       if fourier_grid._points(np.array([span]), tolerance)[0] <= n]
+            if not bounded:
+                continue
+            phases = rng.uniform(0.0, span, (200, 3))
+            phases -= phases.mean(axis=1)[:, None]
+            fine, more = fourier_grid._rule(24)
+            error = np.exp(-1j * (phases @ places)) @ weights - np.exp(-1j * (phases @ fine)) @ more
+            assert np.abs(error).max() <= bounded[0] + 1e-15

@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fourier transforms of polygons against 120 digits and closed forms."""
+
+import numpy as np
+import pytest
+from body_moments.core.fourier_polygon import polygon_transform
+
+OUTLINE = np.array([[0, 0], [3, 0], [3.5, 1], [1, 1], [1, 2.5], [0, 2]])
+HOLE = np.array([[0.2, 0.3], [0.4, 0.9], [0.7, 0.4]])
+SIZES = (1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.5, 1.5, 3.0, 5.0, 20.0, 100.0, 1000.0)
+
+
+def directions():
+    """Random, along an edge, across it, and near those."""
+    special = np.array([[0.6, 0.8], [1, 0], [0, 1], [0.5, 1], [1, -0.5]])
+    return np.concatenate([special, special + 1e-9, special - 1e-5])
+
+
+@pytest.mark.parametrize("offset", [(0, 0), (-40, 25)])
+def test_a_polygon_with_a_hole_is_right_to_1e_14_of_its_area_at_any_frequency(offset):
+    pytest.importorskip("mpmath")
+    from tests.core import fourier_truth
+
+    loops = [OUTLINE + offset, HOLE + offset]
+    q = np.concatenate([directions() * size / 3.5 for size in SIZES])
+    found = polygon_transform(loops, q)
+    error = np.abs(found.values - [fourier_truth.polygon(loops, row) for row in q])
+    assert error.max() <= 2e-15 * 4.5
+    assert (error <= found.error).all() and found.error.max() <= 1e-12
+
+
+def test_a_rectangle_has_its_closed_form_at_zero_and_everywhere():
+    low, high = np.array([0.5, -1.0]), np.array([2.0, 3.0])
+    q = np.concatenate([[[0, 0], [1e-30, 1e-31], [1e-300, 0]],
+                        np.random.default_rng(0).normal(size=(60, 2)) * np.logspace(-15, 3, 60)[:, None]])
+    sides = (high - low) * np.sinc(q * (high - low) / (2 * np.pi))
+    true = np.prod(sides * np.exp(-0.5j * q * (low + high)), axis=1)
+    loop = [low, (high[0], low[1]), high, (low[0], high[1])]
+    assert np.abs(polygon_transform([loop], q).values - true).max() <= 1e-14
+    assert np.abs(polygon_transform([loop[::-1]], q).values + true).max() <= 1e-14
+
+
+def test_corners_in_line_and_repeated_ones_change_nothing():
+    q = np.random.default_rng(0).normal(size=(60, 2)) * np.logspace(-15, 3, 60)[:, None]
+    more = np.insert(OUTLINE, 1, [[1, 0], [1, 0], [2, 0]], axis=0)
+    assert np.abs(polygon_transform([more], q).values - polygon_transform([OUTLINE], q).values).max() <= 1e-14
+
+
+def test_opposite_frequencies_are_conjugate_and_long_lists_are_their_parts():
+    q = np.random.default_rng(0).normal(size=(20000, 2)) * 30
+    values = polygon_transform([OUTLINE, HOLE], q).values
+    assert np.array_equal(values, polygon_transform([OUTLINE, HOLE], -q).values.conj())
+    assert abs(values[777] - polygon_transform([OUTLINE, HOLE], q[777:778]).values[0]) <= 1e-15
+
+
+@pytest.mark.parametrize("loops", [[], [[[0, 0], [1, 0]]], [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]],
+                                   [[[0, 0], [1, 0], [0, np.nan]]]])
+def test_loops_that_are_none_are_refused(loops):
+    with pytest.raises(ValueError, match=r"^[A-Z].*\.$"):
+        polygon_transform(loops, [[1.0, 2.0]])
+
+
+def test_wave_vectors_of_three_numbers_are_refused():
+    with pytest.raises(ValueError, match="rows of 2"):
+        polygon_transform([OUTLINE], [[1.0, 2.0, 3.0]])

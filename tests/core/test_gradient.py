@@ -1,0 +1,201 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Derivatives of moments by vertices: identities, rational arithmetic, and differences of what is measured."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core.gradient import area_gradient, volume_gradient
+from body_moments.core.mass import MassProperties
+from body_moments.core.moments import index, monomials
+from body_moments.core.polyhedron import solid_and_area
+
+from tests.core import bodies, exact
+
+EYE = np.eye(3, dtype=int)
+SHEAR = np.array([[1.0, 0.4, -0.2], [0.1, 0.7, 0.3], [0.0, -0.25, 1.5]])
+BODIES = {
+    "ball": bodies.sphere(2), "torus": bodies.moved(bodies.torus(9, 7), SHEAR, (0.5, -0.25, 0.125)),
+    "far": bodies.moved(bodies.sphere(1), SHEAR, (1000.0, -500.0, 250.0)),
+    "tiny": bodies.moved(bodies.torus(6, 5), 1e-4 * SHEAR, (1e-3, 0.0, 0.0)),
+    "hollow": bodies.joined(bodies.box(high=(3, 3, 3)), bodies.inverted(bodies.box((1, 1, 1), (2, 2, 2)))),
+}
+KINDS = {"volume": volume_gradient, "area": area_gradient}
+
+
+def measured(part, kind):
+    return solid_and_area(bodies.surface(part), shell=True)[kind == "area"]
+
+
+def dyadic(part):
+    return np.round(part[0] * 64) / 64, part[1]
+
+
+@pytest.fixture(params=BODIES)
+def part(request):
+    return BODIES[request.param]
+
+
+@pytest.fixture(params=KINDS)
+def kind(request):
+    return request.param
+
+
+def size_of(part, gradient):
+    """(10,) what a moment of this degree is at most: the measure of all triangles."""
+    sides = np.linalg.norm(np.ptp(part[0], axis=0))
+    return gradient.scale.sum() * np.multiply.reduce(gradient.reach ** monomials(2), axis=1) * max(sides, 1e-300)
+
+
+def test_moving_everything_is_the_derivative_by_the_reference_point(part, kind):
+    moments = measured(part, kind)
+    gradient = KINDS[kind](bodies.surface(part), moments.about)
+    total = gradient.by_vertex.sum(axis=0)
+    bound = gradient.error().sum(axis=0) + len(part[0]) * 1e-16 * np.abs(gradient.by_vertex).sum(axis=0).max(axis=1)
+    for i, exponents in enumerate(monomials(2)):
+        for axis in range(3):
+            lower = exponents - EYE[axis]
+            truth = exponents[axis] * moments[tuple(lower)] if exponents[axis] else 0.0
+            assert abs(total[i, axis] - truth) <= bound[i] + 1e-14 * abs(truth)
+
+
+def test_a_moment_of_degree_n_grows_with_the_n_plus_third_power(part, kind):
+    moments = measured(part, kind)
+    gradient = KINDS[kind](bodies.surface(part), moments.about)
+    grown = np.einsum("nak,nk->a", gradient.by_vertex, part[0] - moments.about)
+    degree = monomials(2).sum(axis=1) + (3 if kind == "volume" else 2)
+    bound = (gradient.error().sum(axis=0) + 1e-15 * size_of(part, gradient)) * np.abs(part[0] - moments.about).max() * 3
+    assert (np.abs(grown - degree * moments.raw[:10]) <= bound + 1e-14 * np.abs(moments.raw[:10])).all()
+
+
+def test_turning_the_body_turns_its_moments(part, kind):
+    moments = measured(part, kind)
+    gradient = KINDS[kind](bodies.surface(part), moments.about)
+    places = part[0] - moments.about
+    size = gradient.scale.sum() * np.abs(places).max() * 4
+    for axis in range(3):
+        turn = np.cross(EYE[axis], places)
+        rate = np.einsum("nak,nk->a", gradient.by_vertex, turn)
+        cross = np.cross(EYE[axis], np.eye(3)).T  # x -> axis × x
+        assert abs(rate[0]) <= 1e-14 * size
+        assert np.abs(rate[1:4] - cross @ moments.raw[1:4]).max() <= 1e-14 * size * np.abs(places).max()
+        second = cross @ moments.second() + moments.second() @ cross.T
+        for i in range(3):
+            for j in range(3):
+                found = rate[index(*(EYE[i] + EYE[j]))]
+                assert abs(found - second[i, j]) <= 1e-14 * size * np.abs(places).max() ** 2
+
+
+@pytest.mark.parametrize("name", ["ball", "torus", "hollow"])
+def test_volume_derivatives_are_those_of_rational_arithmetic(name):
+    points, triangles = dyadic(BODIES[name])
+    about = np.array([0.25, -0.5, 0.125])
+    gradient = volume_gradient(bodies.surface((points, triangles)), about)
+    bound = gradient.error()
+    h = 2.0 ** -6
+    for vertex in (0, len(points) // 2, len(points) - 1):
+        for axis in range(3):
+            def at(steps, vertex=vertex, axis=axis):
+                moved = points.copy()
+                moved[vertex, axis] += steps * h
+                return exact.volume_moments(moved, triangles, about)[:10]
+
+            near, far = ([a - b for a, b in zip(at(k), at(-k))] for k in (1, 2))
+            truth = [(8 * one - other) / (12 * Fraction(h)) for one, other in zip(near, far)]  # exact to degree 4
+            for i in range(10):
+                assert abs(Fraction(float(gradient.by_vertex[vertex, i, axis])) - truth[i]) <= bound[vertex, i]
+                assert bound[vertex, i] < 1e-11
+
+
+@pytest.mark.parametrize("name", ["ball", "torus", "hollow"])
+def test_area_derivatives_are_those_of_many_digits(name):
+    points, triangles = dyadic(BODIES[name])
+    about = np.array([0.25, -0.5, 0.125])
+    gradient = area_gradient(bodies.surface((points, triangles)), about)
+    bound = gradient.error()
+    h = 2.0 ** -20
+    for vertex in (0, len(points) - 1):
+        for axis in range(3):
+            def at(steps, vertex=vertex, axis=axis):
+                moved = points.copy()
+                moved[vertex, axis] += steps * h
+                touched = triangles[(triangles == vertex).any(axis=1)]
+                return exact.area_moments(moved, touched, about, digits=60)[:10]
+
+            near, far = ([a - b for a, b in zip(at(k), at(-k))] for k in (1, 2))
+            truth = [(8 * one - other) / (12 * Fraction(h)) for one, other in zip(near, far)]
+            for i in range(10):
+                off = abs(Fraction(float(gradient.by_vertex[vertex, i, axis])) - truth[i])
+                assert off <= bound[vertex, i] + 1e-18
+                assert bound[vertex, i] < 1e-10
+
+
+def test_center_and_inertia_follow_with_nothing_more(kind):
+    part = BODIES["torus"]
+    moments = measured(part, kind).about_center()
+    gradient = KINDS[kind](bodies.surface(part), moments.about)
+    center, inertia = gradient.center(moments.total), gradient.inertia()
+    rng = np.random.default_rng(1)
+    step = rng.normal(size=part[0].shape)
+    h = 1e-5
+
+    def at(scale):
+        return MassProperties.from_moments(measured((part[0] + scale * step, part[1]), kind))
+
+    one, other = at(h), at(-h)
+    assert np.abs((one.center - other.center) / (2 * h) - np.einsum("nik,nk->i", center, step)).max() < 1e-8
+    rate = np.einsum("nijk,nk->ij", inertia, step)
+    assert np.abs((one.inertia - other.inertia) / (2 * h) - rate).max() < 1e-8 * np.abs(rate).max()
+
+
+def test_far_away_the_derivatives_are_the_same():
+    near = dyadic(bodies.sphere(2))
+    far = bodies.moved(near, offset=(1024.0, -4096.0, 8192.0))
+    one = volume_gradient(bodies.surface(near), np.zeros(3))
+    other = volume_gradient(bodies.surface(far), np.array([1024.0, -4096.0, 8192.0]))
+    assert np.array_equal(one.by_vertex, other.by_vertex)
+
+
+def test_quads_are_derived_as_they_are_cut():
+    quads = bodies.mesh(bodies.CORNERS * [3, 2, 1], bodies.SIDES.tolist())
+    triangles = bodies.surface(bodies.box(high=(3, 2, 1)))
+    for derive in KINDS.values():
+        one, other = derive(quads, np.ones(3)), derive(triangles, np.ones(3))
+        assert np.abs(one.by_vertex - other.by_vertex).max() < 1e-15
+
+
+def test_the_corner_of_a_box_changes_its_volume_by_a_third_of_its_three_sides():
+    points, triangles = bodies.box(high=(3, 2, 1))
+    gradient = volume_gradient(bodies.surface((points, triangles)), np.zeros(3)).by_vertex[:, 0]
+    normals = np.cross(points[triangles[:, 1]] - points[triangles[:, 0]],
+                       points[triangles[:, 2]] - points[triangles[:, 0]])
+    for vertex in range(8):
+        assert np.abs(gradient[vertex] - normals[(triangles == vertex).any(axis=1)].sum(axis=0) / 6).max() < 1e-15
+
+
+def test_a_triangle_without_area_and_a_loose_vertex_give_nothing():
+    points, triangles = bodies.sphere(0)
+    points = np.concatenate([points, [[9.0, 9.0, 9.0]]])
+    more = np.concatenate([triangles, [[0, 0, 1], [2, 2, 2]]])
+    for derive in KINDS.values():
+        one, other = derive(bodies.surface((points, triangles)), np.zeros(3)), derive(
+            bodies.surface((points, more)), np.zeros(3))
+        assert np.array_equal(one.by_vertex, other.by_vertex)
+        assert not one.by_vertex[-1].any()
+        assert np.isfinite(other.error()).all()
+
+
+def test_a_mesh_of_many_blocks_is_derived_as_one(monkeypatch):
+    part = bodies.moved(bodies.sphere(3), SHEAR)
+    whole = volume_gradient(bodies.surface(part), np.zeros(3)).by_vertex
+    monkeypatch.setattr("body_moments.core.gradient.BLOCK", 37)
+    pieces = volume_gradient(bodies.surface(part), np.zeros(3)).by_vertex
+    assert np.abs(whole - pieces).max() < 1e-16
+
+
+def test_fewer_orders_are_the_same_numbers(kind):
+    part = bodies.moved(bodies.torus(7, 5), SHEAR)
+    whole, first = (KINDS[kind](bodies.surface(part), np.zeros(3), order=order) for order in (2, 1))
+    assert np.array_equal(whole.by_vertex[:, :4], first.by_vertex) and first.error().shape == (35, 4)
+    assert np.array_equal(whole.error()[:, :4], first.error())

@@ -1,0 +1,251 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The papers' formulae against each other and against plain integration, in rational arithmetic: zero difference."""
+
+import random
+from fractions import Fraction
+from itertools import product
+from math import isqrt
+
+import numpy as np
+import pytest
+from body_moments.core import durso, sheynin_tuzikov, zhang_chen
+from body_moments.core.moments import monomials
+from body_moments.core.polyhedron import solid_moments
+from body_moments.core.recursion import moments_to_order
+from body_moments.core.surface import Surface
+
+from tests.core import exact, rational
+
+F = Fraction
+STAR = [(0, 0), (3, 1), (6, 0), (5, 3), (6, 6), (3, 5), (0, 6), (1, 3)]
+STAR_CAPS = [(0, 1, 7), (1, 2, 3), (3, 4, 5), (5, 6, 7), (1, 3, 5, 7)]
+
+
+def exponents(order):
+    return [tuple(row) for row in monomials(order).tolist()]
+
+
+def box():
+    """Off the origin, no two sides alike."""
+    points = exact.box((F(7, 3), F(-5, 2), F(11, 7)), (F(5), F(1, 3), F(9, 2)))
+    return points, exact.BOX_QUADS
+
+
+def prism():
+    """A concave eight-pointed star prism, sheared and moved off the origin: two concave n-gons and eight quads."""
+    n = len(STAR)
+    flat = [(F(x), F(y), F(z)) for z in (2, 5) for x, y in STAR]
+    points = [(x + z / 3 + 4, y - z / 5 + 1, z + x / 7 - 3) for x, y, z in flat]
+    sides = [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n)]
+    return points, [*sides, tuple(range(n))[::-1], tuple(range(n, 2 * n))]
+
+
+def tetrahedron(seed=1):
+    rng = random.Random(seed)
+    points = [tuple(F(rng.randint(-99, 99), rng.randint(1, 99)) for _ in range(3)) for _ in range(4)]
+    faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    a, b, c, d = points
+    if sheynin_tuzikov.dot(sheynin_tuzikov.minus(d, a), sheynin_tuzikov.cross(
+            sheynin_tuzikov.minus(b, a), sheynin_tuzikov.minus(c, a))) < 0:
+        faces = [face[::-1] for face in faces]
+    return points, faces
+
+
+BODIES = {"box": box, "concave prism": prism, "tetrahedron": tetrahedron}
+
+
+def triangles(points, faces):
+    """Convex faces as fans; the star's own caps as the convex pieces that they consist of."""
+    cut = []
+    for face in faces:
+        if len(face) == len(STAR):
+            pieces = [tuple(face[i] for i in cap) for cap in STAR_CAPS]
+            cut += exact.fan(pieces)
+        else:
+            cut += exact.fan([face])
+    return cut
+
+
+@pytest.mark.parametrize("body", BODIES)
+def test_durso_and_sheynin_tuzikov_agree_exactly_to_third_order(body):
+    points, faces = BODIES[body]()
+    truth = dict(zip(exponents(3), sheynin_tuzikov.volume_moments(points, faces, 3)))
+    for rank, formula in enumerate(durso.PRINTED):
+        tensor = durso.tensor(points, faces, formula)
+        for entry in product(range(3), repeat=rank):
+            value = tensor[entry] if rank else tensor
+            assert value - truth[tuple(entry.count(axis) for axis in range(3))] == 0
+
+
+@pytest.mark.parametrize("body", BODIES)
+def test_sheynin_tuzikov_agrees_exactly_with_plain_integration_to_sixth_order(body):
+    points, faces = BODIES[body]()
+    cut = triangles(points, faces)
+    rows = exponents(6)
+    values = sheynin_tuzikov.volume_moments(points, faces, 6)
+    chosen = rows if body == "tetrahedron" else rows[:20] + rows[20::7]  # the others share all code
+    for row in chosen:
+        assert values[rows.index(row)] == rational.enclosed(points, cut, row)
+
+
+def test_sheynin_tuzikov_and_the_recursion_in_rationals_agree_exactly_to_sixth_order():
+    points, faces = prism()
+    floats = np.array(points, float)
+    cut = triangles(points, faces)
+    truth = exact.volume_moments(floats, cut, order=6)
+    assert sheynin_tuzikov.volume_moments(rational.fractions(floats), cut, 6) == truth
+
+
+def test_the_add_ons_recursion_is_within_its_bounds_of_sheynin_tuzikov_to_sixth_order():
+    points, faces = prism()
+    floats = np.array(points, float)
+    cut = triangles(points, faces)
+    found, _ = moments_to_order(Surface.from_triangles(floats, np.array(cut)), 6)
+    truth = sheynin_tuzikov.volume_moments(rational.fractions(floats), cut, 6, [F(x) for x in found.about])
+    for value, bound, exactly in zip(found.raw, found.error, truth):
+        assert abs(F(value) - exactly) <= F(bound)
+
+
+def test_sheynin_tuzikov_gives_the_closed_form_of_a_box_to_eighth_order():
+    points, faces = box()
+    low, high = points[0], points[-1]
+    for (p, q, r), value in zip(exponents(8), sheynin_tuzikov.volume_moments(points, faces, 8)):
+        sides = [(high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1) for i, n in enumerate((p, q, r))]
+        assert value == sides[0] * sides[1] * sides[2]
+
+
+def exact_root(square):
+    root = F(isqrt(square.numerator), isqrt(square.denominator))
+    assert root * root == square
+    return root
+
+
+def test_surface_moments_are_exact_where_areas_are_rational():
+    points, faces = box()
+    rows = exponents(6)
+    values = sheynin_tuzikov.surface_moments(points, faces, 6, root=exact_root)
+    cut = exact.fan(faces)
+    double = []
+    for a, b, c in cut:
+        normal = sheynin_tuzikov.cross(sheynin_tuzikov.minus(points[b], points[a]),
+                                       sheynin_tuzikov.minus(points[c], points[a]))
+        double.append(exact_root(sheynin_tuzikov.dot(normal, normal)))
+    for row, value in zip(rows, values):
+        assert value == rational.facets(points, cut, row, double)
+    sides = [high - low for low, high in zip(points[0], points[-1])]
+    assert values[0] == 2 * (sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0])
+
+
+def test_the_moments_about_a_point_are_those_of_the_moved_body():
+    points, faces = prism()
+    about = (F(1, 3), F(-2), F(5, 7))
+    moved = [tuple(x - o for x, o in zip(point, about)) for point in points]
+    assert (sheynin_tuzikov.volume_moments(points, faces, 4, about)
+            == sheynin_tuzikov.volume_moments(moved, faces, 4))
+
+
+def test_many_triangles_at_once_in_floats_agree_with_fractions_and_with_the_add_on():
+    points, faces = prism()
+    cut = triangles(points, faces)
+    floats = np.array(points, float)
+    exactly = rational.fractions(floats)
+    about = (5.0, 4.0, 1.0)
+    volume, surface = sheynin_tuzikov.triangle_moments(floats, cut, 5, about)
+    truth = sheynin_tuzikov.volume_moments(exactly, cut, 5, about=[F(x) for x in about])
+    reach = np.abs(floats - about).max()
+    scale = float(truth[0]) * reach ** monomials(5).sum(axis=1)
+    assert np.abs(volume - np.array(truth, float)).max() / scale.min() < 1e-13
+    assert (np.abs(volume - np.array(truth, float)) <= 1e-14 * scale).all()
+    areas = sheynin_tuzikov.surface_moments(exactly, cut, 5, [F(x) for x in about], root=lambda s: float(s) ** 0.5)
+    assert (np.abs(surface - np.array(areas, float)) <= 1e-14 * surface[0] * reach ** monomials(5).sum(axis=1)).all()
+    measured = solid_moments(Surface.from_triangles(floats, np.array(cut))).shifted(about)
+    assert (np.abs(measured.raw - volume[:20]) <= measured.error + 1e-14 * scale[:20]).all()
+
+
+def test_the_printed_third_order_formula_is_wrong_and_not_even_symmetric():
+    for body, wrong in (("box", 12), ("concave prism", 27)):
+        points, faces = BODIES[body]()
+        right, printed = (durso.tensor(points, faces, f) for f in (durso.THIRD, durso.THIRD_AS_PRINTED))
+        assert sum(a != b for a, b in zip(right.ravel(), printed.ravel())) == wrong
+        assert any(printed[i, j, k] != printed[j, i, k] for i, j, k in product(range(3), repeat=3))
+        assert all(right[i, j, k] == right[j, i, k] == right[i, k, j] for i, j, k in product(range(3), repeat=3))
+
+
+def test_durso_holds_at_any_order_with_any_apex_in_the_face():
+    points, faces = prism()
+    truth = sheynin_tuzikov.volume_moments(points, faces, 5)
+    assert durso.moments(points, faces, 5) == truth
+    assert durso.moments_from(points, faces, durso.feet(points, faces), 5) == truth
+    apexes = [tuple(3 * points[f[0]][i] - points[f[1]][i] - points[f[2]][i] for i in range(3)) for f in faces]
+    assert durso.moments_from(points, faces, apexes, 5) == truth
+
+
+def test_a_face_without_area_adds_nothing():
+    points, faces = box()
+    line = [*points, tuple((a + b) / 2 for a, b in zip(points[0], points[1]))]
+    for formula in durso.PRINTED:
+        assert np.all(durso.tensor(line, [*faces, (0, 8, 1)], formula) == durso.tensor(points, faces, formula))
+
+
+def jittered():
+    rng = random.Random(5)
+    points, faces = box()
+    return [tuple(x + F(rng.randint(-50, 50), 1000) for x in point) for point in points], faces
+
+
+def test_of_faces_that_are_not_planar_durso_has_the_volume_of_fans_from_their_means_and_no_consistent_center():
+    points, faces = jittered()
+    means = [tuple(sum(points[i][axis] for i in face) / F(len(face)) for axis in range(3)) for face in faces]
+    fans = durso.moments_from(points, faces, means, 1)
+    assert durso.tensor(points, faces, durso.ZEROTH) == fans[0]
+    offset = (F(10), F(20), F(30))
+    moved = [tuple(x + t for x, t in zip(point, offset)) for point in points]
+    first, shifted = (durso.tensor(p, faces, durso.FIRST) for p in (points, moved))
+    defect = [s - f - fans[0] * t for s, f, t in zip(shifted, first, offset)]
+    assert max(map(abs, defect)) > F(1, 1000)  # it belongs to no body
+    moved_means = [tuple(x + t for x, t in zip(mean, offset)) for mean in means]
+    moved_fans = durso.moments_from(moved, faces, moved_means, 1)
+    assert [s - f - fans[0] * t for s, f, t in zip(moved_fans[1:], fans[1:], offset)] == [0, 0, 0]
+
+
+@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("turned", [False, True])
+def test_zhang_chens_elementary_tetrahedra_agree_exactly_whichever_way_the_faces_wind(body, turned):
+    points, faces = BODIES[body]()
+    cut = triangles(points, faces)
+    truth = sheynin_tuzikov.volume_moments(points, faces, 4)
+    if turned:
+        cut = [face[::-1] for face in cut]
+    assert zhang_chen.signed_volume(points, cut) == (-truth[0] if turned else truth[0])
+    assert zhang_chen.mesh_moments(points, cut, exponents(4)) == truth
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_zhang_chens_elementary_triangles_agree_exactly_with_plain_integration(turned):
+    points = [(F(x) / 3 + 2, F(y) - F(x, 5) - 7) for x, y in STAR]
+    hole = [(F(3), F(-5)), (F(3), F(-4)), (F(7, 2), F(-4))]
+    n = len(points)
+    edges = [(i, (i + 1) % n) for i in range(n)] + [(n, n + 1), (n + 1, n + 2), (n + 2, n)]
+    points = points + hole
+    rows = [(p, q) for p in range(6) for q in range(6 - p)]
+    truth = [rational.enclosed(points, edges, row) for row in rows]
+    if turned:
+        edges = [edge[::-1] for edge in edges]
+    assert zhang_chen.signed_area(points, edges) == (-truth[0] if turned else truth[0]) != 0
+    assert zhang_chen.mesh_moments(points, edges, rows) == truth
+
+
+def test_the_tetrahedron_has_the_moments_that_the_papers_print():
+    a, b, c = (F(1), F(2), F(3)), (F(-2), F(5), F(1)), (F(4), F(-1), F(7))
+    zero = (F(0),) * 3
+    volume = zhang_chen.signed_volume([zero, a, b, c], [(1, 2, 3)])
+    moments = dict(zip(exponents(2), zhang_chen.mesh_moments([a, b, c], [(0, 1, 2)], exponents(2))))
+    x = [corner[0] for corner in (a, b, c)]
+    y = [corner[1] for corner in (a, b, c)]
+    assert volume == moments[0, 0, 0] > 0
+    assert moments[1, 0, 0] == volume / 4 * sum(x)
+    squares = x[0] ** 2 + x[1] ** 2 + x[2] ** 2 + x[0] * x[1] + x[1] * x[2] + x[2] * x[0]
+    assert moments[2, 0, 0] == volume / 10 * squares
+    mixed = x[0] * (y[1] + y[2]) + x[1] * (y[0] + y[2]) + x[2] * (y[0] + y[1])
+    assert moments[1, 1, 0] == volume / 10 * (x[0] * y[0] + x[1] * y[1] + x[2] * y[2] + mixed / 2)

@@ -1,0 +1,199 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Area moments of polygons against rational integration, and what makes a polygon ambiguous."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core.polygon import (
+    Flaws,
+    area_moments,
+    boundary_edges,
+    directed,
+    flaws,
+    nested,
+    outline_areas,
+    outline_moments,
+    winding_numbers,
+)
+from body_moments.core.simplex import multi_indices
+
+from tests.core import rational
+
+
+def rectangle(x, y, width, height):
+    return [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
+
+
+def shape(*outlines):
+    """(points, loops)"""
+    starts = np.cumsum([0] + [len(one) for one in outlines])
+    return np.array([p for one in outlines for p in one], float), [np.arange(a, b) for a, b in zip(starts, starts[1:])]
+
+
+STAR = [(0, 0), (3, 1), (6, 0), (5, 3), (6, 6), (3, 5), (0, 6), (1, 3)]
+HOLED = shape(STAR, rectangle(2, 2, 1, 2)[::-1])
+
+
+@pytest.mark.parametrize("scale, offset", [(1.0, (0, 0)), (2.0 ** -30, (1.0, 2.0)), (0.7, (1e4, -3e4)), (1e6, (5, 5))])
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_moments_to_eighth_order_of_a_star_with_a_hole_are_within_their_bounds(scale, offset, mirrored):
+    points, loops = HOLED
+    points = (points * [-1 if mirrored else 1, 1]) @ np.array([[1.0, 0.3], [-0.2, 1.1]]).T * scale + offset
+    loops = [loop[::-1] if mirrored else loop for loop in loops]
+    found = area_moments(points, directed(loops), 8)
+    exactly, about = rational.fractions(points), tuple(Fraction(x) for x in found.about)
+    for i, row in enumerate(multi_indices(2, 8).tolist()):
+        truth = rational.enclosed(exactly, directed(loops).tolist(), row, about)
+        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.error[i])
+        reach = np.abs(points - found.about).max()
+        assert found.error[i] <= 1e-11 * found.raw[0] * reach ** sum(row) * max(1.0, np.abs(offset).max() / scale / 1e4)
+    assert found.raw[0] > 0.0
+
+
+def test_rectangles_have_the_moments_of_products_to_twentieth_order():
+    points, loops = shape(rectangle(-1.5, 0.25, 4, 2))
+    found = area_moments(points, directed(loops), 20, about=(0.0, 0.0))
+    for i, (p, q) in enumerate(multi_indices(2, 20).tolist()):
+        truth = ((Fraction(5, 2) ** (p + 1) - Fraction(-3, 2) ** (p + 1)) / (p + 1)
+                 * (Fraction(9, 4) ** (q + 1) - Fraction(1, 4) ** (q + 1)) / (q + 1))
+        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.error[i])
+        assert abs(found.raw[i] / float(truth) - 1.0) < 1e-14
+    assert found[2, 0] == found.raw[3]
+
+
+def test_a_polygon_in_a_circle_reaches_the_circle_at_second_order():
+    errors = []
+    for n in (64, 128):
+        angle = 2 * np.pi * np.arange(n) / n
+        points = np.stack([np.cos(angle), np.sin(angle)], axis=1) * 2.0
+        found = area_moments(points, directed([np.arange(n)]), 4, about=(0.0, 0.0))
+        truth = {(0, 0): math.pi * 4, (2, 0): math.pi * 4, (4, 0): math.pi * 8, (2, 2): math.pi * 8 / 3}
+        errors.append([1.0 - found[row] / value for row, value in truth.items()])
+    assert (np.array(errors[0]) > 0).all()
+    assert np.abs(np.array(errors[0]) / errors[1] - 4.0).max() < 0.01
+
+
+def test_the_outline_has_its_length_and_its_moments():
+    points, loops = shape(rectangle(0, 0, 3, 4), rectangle(1, 1, 1, 1))
+    found = outline_moments(points, nested(points, loops), 1, about=(0.0, 0.0))
+    assert found.raw[0] == 14 + 4
+    assert found.raw[1] == pytest.approx(14 * 1.5 + 4 * 1.5, rel=1e-15)
+
+
+def test_an_open_outline_is_refused():
+    with pytest.raises(ValueError, match="open at 2"):
+        area_moments(np.eye(2), [(0, 1)], 0)
+
+
+@pytest.mark.parametrize("turned", range(8))
+def test_loops_of_any_direction_nest_as_outlines_holes_and_islands(turned):
+    points, loops = shape(rectangle(0, 0, 6, 6), rectangle(1, 1, 4, 4), rectangle(2, 2, 2, 2), rectangle(8, 0, 1, 1))
+    loops = [loop[::-1] if turned >> i & 1 else loop for i, loop in enumerate(loops)]
+    edges = nested(points, loops)
+    assert area_moments(points, edges, 0).raw[0] == 36 - 16 + 4 + 1
+    assert sorted(outline_areas(points, edges)) == [-16, 1, 4, 36]
+    assert flaws(points, edges).crossings == 0 and not flaws(points, edges).doubled
+
+
+def test_outlines_that_touch_along_edges_and_at_corners_are_no_flaw():
+    points, loops = shape(rectangle(0, 0, 4, 4), rectangle(4, 1, 2, 2), rectangle(6, 3, 1, 1), rectangle(4, 3, 1, 1))
+    edges = nested(points, loops)
+    assert area_moments(points, edges, 0).raw[0] == 16 + 4 + 1 + 1
+    found = flaws(points, edges)
+    assert not found.crossings and not found.doubled and not found.lost
+
+
+def test_what_overlaps_by_its_coordinates_errors_touches():
+    points, loops = shape(rectangle(0, 0, 4, 4), rectangle(4 - 1e-6, 1, 2, 2))
+    edges = nested(points, loops)
+    assert flaws(points, edges).doubled and flaws(points, edges).crossings == 2
+    assert flaws(points, edges, error=1e-6) == Flaws(0, False, False)
+
+
+def test_a_hole_that_touches_its_outline_from_within_is_a_hole():
+    points, loops = shape(rectangle(0, 0, 4, 4), rectangle(0, 1, 2, 2))
+    edges = nested(points, loops)
+    assert area_moments(points, edges, 0).raw[0] == 12
+    assert not flaws(points, edges).doubled
+
+
+PENTAGRAM = [(math.cos(4 * math.pi * k / 5), math.sin(4 * math.pi * k / 5)) for k in range(5)]
+
+
+@pytest.mark.parametrize("outlines, crossings", [
+    ([[(0, 0), (2, 2), (2, 0), (0, 2)]], 1),
+    ([PENTAGRAM], 5),
+    ([rectangle(0, 0, 4, 4), rectangle(2, 2, 4, 4)], 2),
+    ([rectangle(0, 1, 9, 1), rectangle(4, -3, 1, 9)], 4),
+])
+@pytest.mark.parametrize("offset", [0.0, 1e5])
+def test_outlines_that_cross_are_found(outlines, crossings, offset):
+    points, loops = shape(*outlines)
+    assert flaws(points + offset, directed(loops)).crossings == crossings
+
+
+def test_regions_on_one_another_are_found_where_no_edges_cross():
+    points, loops = shape(rectangle(0, 0, 4, 4), rectangle(1, 1, 1, 1))
+    assert flaws(points, directed(loops)) == flaws(points, directed(loops)[::-1])
+    assert flaws(points, directed(loops)).doubled and not flaws(points, directed(loops)).crossings
+    points, loops = shape(rectangle(0, 0, 4, 4), rectangle(0, 0, 4, 4), rectangle(0, 0, 4, 2))
+    assert flaws(points, directed(loops[:2])).doubled and flaws(points, directed(loops[1:])).doubled
+    # Through a corner of the other, so that no edge crosses another in its inside.
+    points, loops = shape([(0, 0), (4, 0), (4, 2), (4, 4), (0, 4)], [(2, 2), (4, 2), (6, 0), (6, 4)])
+    assert flaws(points, directed(loops)).doubled
+
+
+def test_outlines_on_one_another_are_refused():
+    points, loops = shape(rectangle(0, 0, 4, 4), rectangle(0, 0, 4, 4))
+    with pytest.raises(ValueError, match="lie on one another"):
+        nested(points, loops)
+
+
+def test_the_search_for_crossings_tells_when_it_gives_up(monkeypatch):
+    from body_moments.core import polygon
+
+    monkeypatch.setattr(polygon, "PAIRS", 2)
+    points, loops = shape(STAR)
+    assert flaws(points, directed(loops)).lost
+
+
+def test_winding_numbers_are_whole_inside_and_outside_and_half_on_an_edge():
+    points, loops = HOLED
+    at = np.array([[1.5, 3.0], [2.5, 3.0], [50.0, 0.0], (points[0] + points[1]) / 2, (points[8] + points[9]) / 2])
+    assert winding_numbers(points, directed(loops), at) == pytest.approx([1, 0, 0, 0.5, 0.5], abs=1e-12)
+
+
+def test_the_boundary_of_triangles_is_what_no_neighbour_shares():
+    quads = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]])
+    found = {tuple(edge) for edge in boundary_edges(quads, 6).tolist()}
+    assert found == {(0, 1), (1, 2), (2, 5), (5, 4), (4, 3), (3, 0)}
+    twice = boundary_edges(np.array([[0, 1, 2], [0, 1, 2]]), 3)
+    assert sorted(map(tuple, twice.tolist())) == [(0, 1), (0, 1), (1, 2), (1, 2), (2, 0), (2, 0)]
+
+
+def lattice_polygon(rng, size):
+    """A triangle or quad, counter-clockwise, with corners on a coarse lattice."""
+    while True:
+        corners = rng.integers(0, size, (int(rng.integers(3, 5)), 2))
+        to = corners - corners.mean(axis=0)
+        corners = corners[np.argsort(np.arctan2(to[:, 1], to[:, 0]))]
+        if area_moments(corners, directed([np.arange(len(corners))]), 0).raw[0] > 0.4:
+            return corners
+
+
+@pytest.mark.parametrize("size", [4, 9])
+def test_flaws_of_random_regions_are_those_that_winding_numbers_show(size):
+    """On a lattice many outlines touch, share edges and corners, or lie on one another."""
+    rng = np.random.default_rng(size)
+    at = rng.uniform(0, size, (1000, 2))
+    seen = []
+    for _ in range(100):
+        points, loops = shape(*(lattice_polygon(rng, size) for _ in range(int(rng.integers(1, 4)))))
+        edges = directed(loops)
+        seen.append(bool((np.round(winding_numbers(points, edges, at)) > 1).any()))
+        found = flaws(points, edges)
+        assert (found.doubled or found.crossings > 0) == seen[-1]
+    assert 20 < sum(seen) < 80

@@ -1,0 +1,199 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments in n dimensions against closed forms and rational integration, and their bounds against the truth."""
+
+import math
+from fractions import Fraction
+from itertools import permutations
+
+import numpy as np
+import pytest
+from body_moments.core.moments import monomials
+from body_moments.core.polyhedron import solid_and_area
+from body_moments.core.simplex import enclosed_moments, facet_moments, multi_indices, place
+from body_moments.core.surface import Surface
+
+from tests.core import bodies, rational
+
+U = 2.0 ** -53
+
+
+def unit_simplex(n):
+    """The corners of the simplex 0, e_1 … e_n and its outward facets; on a line the facets' signs."""
+    points = np.vstack([np.zeros(n), np.eye(n)])
+    facets, signs = [], []
+    for left_out in range(n + 1):
+        corners = [i for i in range(n + 1) if i != left_out]
+        frame = [points[i] - points[left_out] for i in corners]
+        sign = round(np.linalg.det(np.array(frame)))
+        facets.append(corners if sign > 0 or n == 1 else [corners[1], corners[0], *corners[2:]])
+        signs.append(sign)
+    return points, np.array(facets), (np.array(signs) if n == 1 else None)
+
+
+def cube(n):
+    """The unit cube in n dimensions with Kuhn's simplices on each side, outward."""
+    points = np.array(np.meshgrid(*[[0.0, 1.0]] * n, indexing="ij")).reshape(n, -1).T
+    weights = 2 ** np.arange(n)[::-1]
+    facets, signs = [], []
+    for axis in range(n):
+        for side in (0, 1):
+            for order in permutations([k for k in range(n) if k != axis]):
+                corner = np.zeros(n, int)
+                corner[axis] = side
+                path = [corner]
+                for k in order:
+                    corner = corner.copy()
+                    corner[k] = 1
+                    path.append(corner)
+                inside = np.full(n, 0.5)
+                sign = np.sign(np.linalg.det(np.array(path) - inside))
+                row = [int(weights @ c) for c in path]
+                if sign < 0 and n > 1:
+                    row[0], row[1] = row[1], row[0]
+                facets.append(row)
+                signs.append(sign)
+    return points, np.array(facets), (np.array(signs) if n == 1 else None)
+
+
+def affine(n, seed):
+    rng = np.random.default_rng(seed)
+    return np.round(rng.normal(size=(n, n)) * 64) / 64 + np.eye(n), np.round(rng.normal(size=n) * 64) / 64
+
+
+def test_the_order_of_the_moments_in_space_is_that_of_all_other_moments():
+    assert np.array_equal(multi_indices(3, 7), monomials(7))
+    assert place(3, 7, (1, 2, 3)) == [tuple(row) for row in monomials(7)].index((1, 2, 3))
+    with pytest.raises(KeyError):
+        place(3, 2, (1, 1, 1))
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 5])
+def test_unit_simplices_have_dirichlets_moments_to_twelfth_order(n):
+    points, facets, signs = unit_simplex(n)
+    found = enclosed_moments(points, facets, 12, about=np.zeros(n), signs=signs)
+    truth = np.array([float(Fraction(math.prod(math.factorial(k) for k in row), math.factorial(sum(row) + n)))
+                      for row in multi_indices(n, 12).tolist()])
+    assert np.abs(found.raw / truth - 1.0).max() < 4e-15
+    assert (np.abs(found.raw - truth) <= found.error).all()
+    assert (found.error <= 1000 * U * truth).all()  # and the bound means something
+
+
+@pytest.mark.parametrize("n", [2, 3, 4, 5])
+def test_facets_of_unit_simplices_have_dirichlets_moments_to_twelfth_order(n):
+    points, facets, _ = unit_simplex(n)
+    found = facet_moments(points, facets, 12, about=np.zeros(n))
+    truth = []
+    for row in multi_indices(n, 12).tolist():
+        value = math.prod(map(math.factorial, row)) / math.factorial(sum(row) + n - 1)
+        # The slanted facet, √n larger than those in the coordinate planes, of which x^α sees those with α_i = 0.
+        truth.append(value * (math.sqrt(n) + row.count(0)))
+    assert np.abs(found.raw / truth - 1.0).max() < 1e-14
+    assert (np.abs(found.raw - truth) <= found.error + 8 * U * np.array(truth)).all()
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 5])
+def test_cubes_have_the_moments_of_products(n):
+    points, facets, signs = cube(n)
+    size, offset = np.array([1.0, 2.0, 0.5, 3.0, 1.5])[:n], np.array([-1.0, 0.25, 2.0, -3.0, 0.5])[:n]
+    order = 12 if n < 5 else 6
+    found = enclosed_moments(points * size + offset, facets, order, about=np.zeros(n), signs=signs)
+    low, high = [Fraction(x) for x in offset], [Fraction(x) for x in size + offset]
+    truth = np.array([float(math.prod((high[i] ** (k + 1) - low[i] ** (k + 1)) / (k + 1) for i, k in enumerate(row)))
+                      for row in multi_indices(n, order).tolist()])
+    assert (np.abs(found.raw - truth) <= found.error).all()
+    area = facet_moments(points * size + offset, facets, 0).raw[0]
+    assert area == pytest.approx(2 * sum(np.prod(size) / s for s in size), rel=1e-14)
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 4])
+@pytest.mark.parametrize("seed", [0, 1])
+def test_affine_images_agree_with_rational_integration_within_their_bounds(n, seed):
+    points, facets, signs = unit_simplex(n)
+    linear, offset = affine(n, seed)
+    points = points @ linear.T + offset  # exact: few digits
+    if np.linalg.det(linear) < 0 and n > 1:
+        facets = facets[:, [1, 0, *range(2, n)]]
+    elif np.linalg.det(linear) < 0:
+        signs = -signs
+    exactly = rational.fractions(points)
+    found = enclosed_moments(points, facets, 6, signs=signs)
+    about = tuple(Fraction(x) for x in found.about)
+    rows = multi_indices(n, 6).tolist()
+    chosen = range(len(rows)) if n < 4 else range(0, len(rows), 9)
+    for i in chosen:
+        truth = rational.enclosed(exactly, facets.tolist(), rows[i], about, None if signs is None else signs.tolist())
+        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.error[i])
+    assert found.raw[0] > 0
+    assert found.error[0] < 1e-13 * found.raw[0] * np.linalg.cond(linear)
+
+
+@pytest.mark.parametrize("offset", [0.0, 1e3, 1e7])
+def test_a_body_far_away_is_as_exact_about_its_own_center(offset):
+    points, facets, _ = cube(3)
+    points = points + np.array([offset, -2 * offset, 3 * offset])
+    found = enclosed_moments(points, facets, 4)
+    exactly = rational.fractions(points)
+    for i, row in enumerate(multi_indices(3, 4).tolist()):
+        truth = rational.enclosed(exactly, facets.tolist(), row, tuple(Fraction(x) for x in found.about))
+        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.error[i])
+        assert abs(float(truth) - found.raw[i]) < 1e-15
+
+
+@pytest.mark.parametrize("size", [1e-100, 1e-30, 1e-9, 1e12])
+def test_size_costs_no_digits(size):
+    points, facets, _ = cube(2)
+    order = 1 if size < 1e-90 else 6
+    found = enclosed_moments(points * size, facets, order, about=np.zeros(2))
+    for row, value in zip(multi_indices(2, order).tolist(), found.raw):
+        truth = Fraction(size) ** (sum(row) + 2) / ((row[0] + 1) * (row[1] + 1))
+        assert abs(float(Fraction(value) / truth) - 1.0) < 1e-15
+
+
+def test_an_order_that_leaves_the_range_of_floats_is_refused():
+    points, facets, _ = cube(2)
+    with pytest.raises(ValueError, match="larger unit"):
+        enclosed_moments(points * 1e60, facets, 6)
+
+
+def test_a_reversed_boundary_encloses_the_negative():
+    points, facets, _ = cube(3)
+    there, back = (enclosed_moments(points, f, 5, about=np.zeros(3)) for f in (facets, facets[:, ::-1]))
+    assert np.abs(there.raw + back.raw).max() <= (there.error + back.error).max()
+
+
+def test_triangle_meshes_agree_with_the_order_three_kernel_of_bodies():
+    points, triangles = bodies.moved(bodies.torus(12, 9), bodies.rotation(3), (4, -2, 9))
+    surface = Surface.from_triangles(points, triangles)
+    volume, area = solid_and_area(surface, shell=True)
+    mine = enclosed_moments(points, triangles, 3, about=volume.about)
+    assert (np.abs(mine.raw - volume.raw) <= mine.error + volume.error).all()
+    mine = facet_moments(points, triangles, 3, about=area.about)
+    assert (np.abs(mine.raw - area.raw) <= mine.error + area.error).all()
+    assert abs(mine.raw[0] / area.raw[0] - 1.0) < 1e-14
+
+
+def test_many_blocks_give_what_one_gives(monkeypatch):
+    from body_moments.core import simplex
+
+    points, triangles = bodies.torus(60, 40)
+    whole = enclosed_moments(points, triangles, 4)
+    monkeypatch.setattr(simplex, "MEMORY", 1)
+    parts = enclosed_moments(points, triangles, 4)
+    assert (np.abs(whole.raw - parts.raw) <= whole.error + parts.error).all()
+    assert np.abs(whole.raw - parts.raw).max() < 1e-13 * whole.raw[0]
+
+
+@pytest.mark.parametrize("points, simplices, words", [
+    ([[0.0, 0.0], [1.0, np.nan]], [[0, 1]], "finite"),
+    ([[0.0, 0.0], [1.0, 0.0]], [[0, 2]], "not there"),
+    ([[0.0, 0.0], [1.0, 0.0]], [[0, 1, 1]], "n corners"),
+    ([0.0, 1.0], [[0]], "rows"),
+])
+def test_bad_input_is_refused(points, simplices, words):
+    with pytest.raises(ValueError, match=words):
+        enclosed_moments(points, simplices, 2)
+
+
+def test_nothing_encloses_nothing():
+    assert not enclosed_moments(np.zeros((0, 3)), np.zeros((0, 3), int), 2).raw.any()

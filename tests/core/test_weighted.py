@@ -1,0 +1,216 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A density for each triangle or corner: against rational arithmetic, closed forms, and the sum over the parts."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core.components import part_densities
+from body_moments.core.mass import MassProperties
+from body_moments.core.solid import measure_solid
+from body_moments.core.surface import Surface
+from body_moments.core.weighted import as_mass, weighted_sheet, weighted_solid
+
+from tests.core import bodies, exact
+
+FAR = (4096.0, -8192.0, 2048.0)
+
+
+def sheet(part, density, dtype=np.float64, **more):
+    surface = bodies.surface(part, dtype)
+    like = measure_solid(surface, shell=True).area
+    return weighted_sheet(surface.points, surface.triangles, np.asarray(density, float), like, **more)
+
+
+def linear_truth(points, triangles, density, about):
+    """∫ ρ x^α dA with ρ linear on each triangle, by multiplying out: each factor of the integrand is the sum
+    of its corners' values times barycentric coordinates λ, and ∫ λ0^a λ1^b λ2^c dA = 2 A a! b! c! / (a+b+c+2)!."""
+    from itertools import product
+    from math import factorial, isqrt
+
+    root = 10**40
+    sums = [Fraction(0)] * 20
+    for triangle, rho in zip(triangles, density):
+        corner = [[Fraction(float(v)) - Fraction(float(o)) for v, o in zip(points[i], about)] for i in triangle]
+        u, v = ([b - a for a, b in zip(corner[0], corner[k])] for k in (1, 2))
+        normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+        square = sum(n * n for n in normal)
+        double = Fraction(isqrt(square.numerator * square.denominator * root * root), square.denominator * root)
+        for at, powers in enumerate(exact.MONOMIALS):
+            axes = [axis for axis, n in enumerate(powers) for _ in range(n)]
+            for choice in product(range(3), repeat=len(axes) + 1):  # which corner each factor, and the density, takes
+                value = Fraction(float(rho[choice[-1]]))
+                for axis, k in zip(axes, choice):
+                    value *= corner[k][axis]
+                counts = [choice.count(k) for k in range(3)]
+                weight = Fraction(factorial(counts[0]) * factorial(counts[1]) * factorial(counts[2]),
+                                  factorial(len(choice) + 2))
+                sums[at] += double * weight * value
+    return sums
+
+
+def within(found, expected):
+    return all(abs(Fraction(value) - true) <= Fraction(bound)
+               for value, true, bound in zip(found.raw.tolist(), expected, found.error.tolist()))
+
+
+@pytest.mark.parametrize("offset", [(0, 0, 0), FAR])
+@pytest.mark.parametrize("scale", [1.0, 2.0**-40, 2.0**30])
+def test_a_density_linear_on_each_triangle_is_exact(offset, scale):
+    rng = np.random.default_rng(1)
+    points, triangles = bodies.moved(bodies.sphere(1), np.diag([1.0, 2.0, 0.5]))
+    points = (np.round(points * 1024) / 1024 + offset) * scale
+    density = np.round(rng.random(len(points)) * 4096) / 16
+    found = sheet((points, triangles), density[triangles])
+    expected = linear_truth(points, triangles, density[triangles], found.about)
+    assert within(found, expected)
+    assert found.error[0] < 1e-9 * found.total if offset[0] else found.error[0] < 1e-12 * found.total
+    assert found.of == "area" and not found.input.any()
+
+
+def test_a_density_constant_on_the_corners_is_one_on_the_faces():
+    part = bodies.sphere(2)
+    density = np.random.default_rng(2).random(len(part[1])) * 1000.0
+    by_face, by_corner = sheet(part, density), sheet(part, np.repeat(density[:, None], 3, axis=1))
+    assert (np.abs(by_face.raw - by_corner.raw) <= by_face.error + by_corner.error).all()
+    one = sheet(part, np.ones(len(part[1])))
+    plain = measure_solid(bodies.surface(part), shell=True).area
+    assert (np.abs(one.raw - plain.raw) <= one.error + plain.error).all()
+
+
+def test_a_square_sheet_with_a_density_that_rises_along_x():
+    """ρ = x on the unit square: M = 1/2, centre (2/3, 1/2), I about it (1/24, 1/36, 5/72)."""
+    part = bodies.grid(5)
+    found = sheet(part, part[0][part[1], 0])
+    body = MassProperties.from_moments(as_mass(found))
+    assert body.mass == pytest.approx(0.5, rel=1e-14)
+    assert body.center == pytest.approx([2 / 3, 1 / 2, 0.0], abs=1e-14)
+    assert np.diag(body.inertia) == pytest.approx([1 / 24, 1 / 36, 5 / 72], rel=1e-13)
+    # to third order: ∫ x · x³ = 1/5, ∫ x · x² y = 1/8, ∫ x · x y² = 1/9, ∫ x y³ = 1/8
+    about = found.shifted((0, 0, 0))
+    assert [about[3, 0, 0], about[2, 1, 0], about[1, 2, 0], about[0, 3, 0]] == pytest.approx(
+        [1 / 5, 1 / 8, 1 / 9, 1 / 8], rel=1e-13)
+
+
+def test_what_float32_stored_is_within_the_input_bound():
+    points, triangles = bodies.sphere(2)
+    points = points / 3.0 + 100.0
+    density = np.random.default_rng(3).random(len(points)) * 7.0
+    single = points.astype(np.float32), triangles
+    found = sheet(single, density.astype(np.float32).astype(float)[triangles], np.float32, stored=True)
+    about = found.about
+    exactly = sheet((points, triangles), density[triangles]).shifted(about)
+    assert (np.abs(found.raw - exactly.raw) <= found.input + found.error + exactly.error).all()
+    assert found.input[0] < 1e-2 * found.total
+
+
+PARTS = bodies.joined(bodies.box((0, 0, 0), (1, 2, 3)), bodies.moved(bodies.sphere(1), offset=(5, 0, 0)),
+                      bodies.moved(bodies.torus(12, 8), offset=(0, 6, 0)))
+
+
+@pytest.mark.parametrize("offset", [(0, 0, 0), FAR])
+def test_the_parts_add_up_to_the_whole(offset):
+    part = bodies.moved(PARTS, offset=offset)
+    solid = measure_solid(bodies.surface(part))
+    parts = solid.components()
+    each = parts.moments(solid.volume)
+    assert parts.number == 3 and parts.within.tolist() == [0, 1, 2]
+    total = np.sum([one.raw for one in each], axis=0)
+    assert (np.abs(total - solid.volume.raw) <= solid.volume.error + np.sum([one.error for one in each], axis=0)).all()
+    for i, one in enumerate(each):
+        expected = exact.volume_moments(part[0].tolist(), parts.triangles[parts.part == i].tolist(), one.about)
+        assert within(one, expected)
+
+
+def test_a_density_for_each_part_is_exact():
+    solid = measure_solid(bodies.surface(PARTS))
+    parts = solid.components()
+    density = np.array([7820.0, 1240.0, 3.5])
+    found = weighted_solid(parts.points, parts.triangles, density[parts.part], solid.volume)
+    expected = [0] * 20
+    for i, value in enumerate(density):
+        own = exact.volume_moments(PARTS[0].tolist(), parts.triangles[parts.part == i].tolist(), found.about)
+        expected = [a + Fraction(value) * b for a, b in zip(expected, own)]
+    assert within(found, expected)
+    assert found.error[0] < 1e-12 * found.total
+
+
+def test_a_two_material_dumbbell():
+    """Two boxes of steel and wood, each 1 m³, 4 m apart: the centre is at the mean weighted by their densities."""
+    part = bodies.joined(bodies.box((0, 0, 0), (1, 1, 1)), bodies.box((4, 0, 0), (5, 1, 1)))
+    solid = measure_solid(bodies.surface(part))
+    parts = solid.components()
+    found = part_densities(parts, np.repeat([7820.0, 680.0], 12))
+    assert found.density.tolist() == [7820.0, 680.0] and not found.mixed.any()
+    body = MassProperties.from_moments(
+        as_mass(weighted_solid(parts.points, parts.triangles, found.density[parts.part], solid.volume)))
+    assert body.mass == pytest.approx(8500.0, rel=1e-14)
+    assert body.center == pytest.approx([(7820 * 0.5 + 680 * 4.5) / 8500, 0.5, 0.5], rel=1e-14)
+    arm = 7820 * 680 / 8500 * 16.0
+    assert np.diag(body.inertia) == pytest.approx([8500 / 6, 8500 / 6 + arm, 8500 / 6 + arm], rel=1e-13)
+
+
+def test_a_part_of_several_materials_takes_their_mean_by_area():
+    """A box of 1 x 2 x 3 whose two 2 x 3 sides are of another material: 12 of its 22 m²."""
+    part = bodies.box((0, 0, 0), (1, 2, 3))
+    normal = np.cross(part[0][part[1][:, 1]] - part[0][part[1][:, 0]], part[0][part[1][:, 2]] - part[0][part[1][:, 0]])
+    faces = np.where(np.abs(normal[:, 0]) > 0.0, 100.0, 1000.0)
+    found = part_densities(measure_solid(bodies.surface(part)).components(), faces)
+    assert found.mixed.tolist() == [True] and found.first.tolist() == [0]
+    assert found.density[0] == pytest.approx((12 * 100.0 + 10 * 1000.0) / 22, rel=1e-14)
+
+
+def test_caps_have_no_say_in_the_density_and_carry_it():
+    part = bodies.without(bodies.box((0, 0, 0), (1, 1, 1)), *bodies.TOP)
+    solid = measure_solid(bodies.surface(part))
+    parts = solid.components()
+    assert solid.method == "capped" and (parts.face == -1).any()
+    found = part_densities(parts, np.full(12, 500.0))
+    assert found.density.tolist() == [500.0] and not found.mixed.any()
+    mass = weighted_solid(parts.points, parts.triangles, found.density[parts.part], solid.volume)
+    assert mass.total == pytest.approx(500.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_cavity_takes_away_the_material_that_it_is_cut_from(turned):
+    """A steel box with a painted hole, in which a ball of cork lies; turned inside out as a whole it is the same."""
+    box, hole = bodies.box((0, 0, 0), (4, 4, 4)), bodies.inverted(bodies.box((1, 1, 1), (3, 3, 3)))
+    cork = bodies.box((1.5, 1.5, 1.5), (2.5, 2.5, 2.5))
+    part = bodies.joined(box, hole, cork)
+    if turned:
+        part = bodies.inverted(part)
+    solid = measure_solid(bodies.surface(part))
+    parts = solid.components()
+    found = part_densities(parts, np.repeat([8000.0, 1.0, 200.0], 12))
+    assert found.density.tolist() == [8000.0, 8000.0, 200.0]
+    mass = weighted_solid(parts.points, parts.triangles, found.density[parts.part], solid.volume)
+    assert mass.total == pytest.approx(8000.0 * (64 - 8) + 200.0, rel=1e-14)
+
+
+def test_a_cavity_within_two_materials_takes_the_inner_one_away_and_the_next_the_outer():
+    """Two nested outward boxes count both; a cavity in the inner one takes that away, a cavity in the cavity the
+    other."""
+    part = bodies.joined(
+        bodies.box((0, 0, 0), (8, 8, 8)), bodies.box((1, 1, 1), (7, 7, 7)),
+        bodies.inverted(bodies.box((2, 2, 2), (6, 6, 6))), bodies.inverted(bodies.box((3, 3, 3), (5, 5, 5))))
+    solid = measure_solid(bodies.surface(part))
+    found = part_densities(solid.components(), np.repeat([10.0, 3.0, 99.0, 99.0], 12))
+    assert found.density.tolist() == [10.0, 3.0, 3.0, 10.0]
+
+
+@pytest.mark.parametrize("make", [
+    lambda: bodies.surface(bodies.with_flipped(PARTS, 0, 30)),
+    lambda: bodies.surface(bodies.inverted(PARTS)),
+    lambda: bodies.surface(bodies.soup(PARTS)),
+    lambda: bodies.surface(bodies.without(PARTS, 5, 40)),
+    lambda: Surface(bodies.CORNERS * 2.0, quads=bodies.SIDES.copy()),
+    lambda: bodies.mesh(np.concatenate([bodies.CORNERS, bodies.CORNERS + (3, 0, 0)]),
+                        [*bodies.SIDES[:, ::-1].tolist(), *(bodies.SIDES + 8).tolist()]),
+])
+def test_mended_bodies_have_parts_that_add_up_too(make):
+    solid = measure_solid(make())
+    parts = solid.components()
+    total = np.sum([one.raw for one in parts.moments(solid.volume)], axis=0)
+    assert np.allclose(total, solid.volume.raw, rtol=1e-12, atol=1e-12 * np.abs(solid.volume.raw).max())
+    assert parts.face.max() < 1 + np.unique(parts.face[parts.face >= 0]).size
