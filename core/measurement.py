@@ -20,7 +20,8 @@ ONE_DENSITY = ("one value", "given mass")
 class Measurement:
     """One object in SI units and world axes.
 
-    kind: "solid" or "shell"; method: "exact", "capped", "reoriented", "open", "shell" or "union".
+    kind: "solid", "shell" or "wire"; method: "exact", "capped", "reoriented", "open", "shell", "union" or "wire", with
+        "NURBS" before it where B-spline patches were measured instead of their display mesh.
     density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area
     in m².
     volume_moments: to order 3, None for a thin shell; area_moments: to order 3 for a shell, else order 0; both to a
@@ -28,9 +29,11 @@ class Measurement:
     mass_moments: the moments that carry the mass, and the mass in kg per unit of them.
     rotation, location: (3, 3) and (3,) the object frame, its unit scale.
     error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"
-        for what storing coordinates as float32 may have moved.
+        for what storing coordinates as float32 may have moved; "estimated": True where the former are estimates.
     warnings: one sentence for each decision taken on the way.
     fingerprint: of what the numbers were computed from.
+    length: of a wire, m, whose density in kg/m is its mass by that and whose `density` is 0; else None.
+    display_volume: what the display mesh of B-spline patches would have given, m³; None where none was asked.
     density_from: "one value", "given mass", or where else the density came from, as a text. materials: names of those
         that were looked at for it.
     """
@@ -55,6 +58,8 @@ class Measurement:
     fingerprint: str
     density_from: str = "one value"
     materials: tuple[str, ...] = ()
+    length: float | None = None
+    display_volume: float | None = None
 
     @property
     def one_density(self) -> bool:

@@ -37,7 +37,7 @@ class Moments:
 
     raw: (K,) float64 in the order of `monomials`, unit^(dimension of `of` + degree).
     about: (3,) the point they are taken about, in the same coordinates.
-    of: what they measure: "volume", "area" or "mass".
+    of: what they measure: "volume", "area", "length" or "mass".
     error: (K,) bound of |raw - exact| for the coordinates as given: rounding, and truncation where a source says so.
     input: (K,) bound of the change when every coordinate moves by its float32 half ulp; zero for float64 sources.
     """
@@ -164,8 +164,8 @@ class Moments:
         """The moments of the body's image under an affine map.
 
         matrix: (4, 4), new = matrix[:3, :3] @ old + matrix[:3, 3]. The new `about` is the image of the old one.
-        Volume and mass follow any map, mass unchanged and volume by |det|. Areas follow a similarity only: ValueError
-        otherwise; what a float32 rotation lacks of a similarity goes into `input`.
+        Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity
+        only: ValueError otherwise; what a float32 rotation lacks of a similarity goes into `input`.
         """
         matrix = np.asarray(matrix, np.float64)
         return map_sum(self, matrix[None], matrix[:3, :3] @ self.about + matrix[:3, 3])
@@ -283,7 +283,8 @@ def _weights(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     deviation = _stretch_deviation(linear)
     if np.any(deviation > SIMILARITY):
         raise ValueError("areas change unevenly under a map that shears or scales unevenly: measure the mapped surface")
-    return np.cbrt(det) ** 2, 8 * U * np.cbrt(permanent) ** 2, deviation
+    power = 1 if of == "length" else 2
+    return np.cbrt(det) ** power, 8 * U * np.cbrt(permanent) ** power, deviation
 
 
 def _stretch_deviation(linear: NDArray) -> NDArray[np.float64]:

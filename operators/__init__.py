@@ -24,6 +24,7 @@ def _parts() -> tuple[ModuleType, ...]:
         find_similar,
         find_symmetry,
         fourier,
+        live,
         match_pose,
         measure_selected,
         moments_table,
@@ -42,6 +43,7 @@ def _parts() -> tuple[ModuleType, ...]:
     return (
         settings,
         staleness,
+        live,
         presets,
         measure_selected,
         section,

@@ -26,6 +26,9 @@ class Body:
     wall: of a shell of real thickness, the volume moments of its material; None of a thin one.
     method, warnings: as in `Measurement`.
     refined: gives what the principal frame is made from, with exact third order, where its bounds leave it undecided.
+    length: of a wire, its moments; else None.
+    estimated: whether the bounds of its errors are estimates.
+    display_volume: of a body that is measured without its display mesh, what that would have given, m³; else None.
     to_order: gives the volume's and the area's moments to a higher order: (order, area wanted), and None for an area
         that is not; itself None where only moments to order 3 are known.
     solids: the surfaces that were measured, and the (k, 4, 4) maps to where each stands.
@@ -42,6 +45,9 @@ class Body:
     mass: Moments | None = None
     wall: Moments | None = None
     refined: Callable[[], Moments] | None = None
+    length: Moments | None = None
+    estimated: bool = False
+    display_volume: float | None = None
     to_order: Callable[[int, bool], tuple[Moments, Moments | None]] | None = None
     solids: tuple[tuple[SolidMeasure, NDArray], ...] = ()
     pieces: Callable[[bool], Iterator[Surface]] | None = None

@@ -21,10 +21,12 @@ from ..core.measurement import Measurement
 from ..core.moments import Moments
 from . import wall_slider
 from .body import Body
+from .curve_body import region_body, wire_body
 from .density import density_field, density_key
 from .fingerprint import effective_hash, fingerprint, matrix_hash
 from .mesh_body import mesh_body
-from .read import Reading, Unreadable, read_object
+from .nurbs_body import nurbs_body
+from .read import Reading, Unreadable, read_lines, read_object, shows_flat_region
 from .wall_body import find_walls
 from .weigh import Weighed, weigh
 
@@ -36,10 +38,11 @@ KNOWN = 3  # the order to which every measurement has its moments
 class MeasureOptions:
     """What overrides the objects' own settings; None leaves the setting. SI units.
 
-    kind: "solid" or "shell"; density: kg/m³; mass: kg; thickness: m; overlap: "signed" or "union"; wall: of a shell,
-    "thin", "inward", "outward" or "centered"; unit_scale: metres per Blender unit, else the scene's. order: of the
-    moments that the measurement shall hold; None for what mass properties need. surface: those of the area too.
-    pose: the principal frame follows the body's shape to sixth order however many faces it has.
+    kind: "solid", "shell" or "wire"; density: kg/m³, of a wire kg/m; mass: kg; thickness: m; overlap: "signed" or
+    "union"; wall: of a shell, "thin", "inward", "outward" or "centered"; unit_scale: metres per Blender unit, else the
+    scene's. order: of the moments that the measurement shall hold; None for what mass properties need. surface: those
+    of the area too. pose: the principal frame follows the body's shape to sixth order however many faces it has.
+    compare: whether what needs no display mesh is compared with it.
     """
 
     kind: str | None = None
@@ -53,6 +56,7 @@ class MeasureOptions:
     order: int | None = None
     surface: bool = False
     pose: bool = False
+    compare: bool = True
 
 
 def measure_object(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
@@ -73,9 +77,19 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     options = resolved(options, obj, unit)
     shell = options.kind == "shell"
     try:
+        lines = _lines(obj, depsgraph, unit, options)
+        if lines is not None:
+            return _to_order(told(obj, *lines, options, unit), lines[1], options)
         density = None if given else density_field(obj.body_moments)
         reading = read_object(obj, depsgraph, materials=density is not None and density.kind == "materials",
                               attribute=density.attribute if density is not None and shell else None)
+        if reading.has_patches and density is None:
+            body = nurbs_body(reading, unit, wall=options.wall if shell else None, thickness=options.thickness,
+                              union=options.overlap == "union", threads=options.threads, compare=options.compare)
+            return _to_order(told(obj, reading, body, options, unit), body, options)
+        if reading.has_patches:
+            reading.warnings.append("A density that is not one value needs polygons: the display mesh of its surface "
+                                    "was measured, as fine as the viewport's resolution.")
         body = mesh_body(reading, unit, shell=shell, union=options.overlap == "union", threads=options.threads)
         weighed = None
         if density is not None:
@@ -94,18 +108,40 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
         raise Unreadable(obj.name, str(error)) from error
 
 
+def _lines(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float, options: MeasureOptions
+           ) -> tuple[Reading, Body] | None:
+    """A curve object as a wire, or as the flat region that it bounds; None for what is measured by its surface."""
+    if options.kind == "wire":
+        reading = read_lines(obj, depsgraph)
+        return reading, wire_body(reading.curves, reading.matrix, unit)
+    if options.kind != "shell" or obj.type != "CURVE" or not shows_flat_region(obj) or options.wall != "thin":
+        return None
+    reading = read_lines(obj, depsgraph)
+    filled = obj.data.dimensions == "2D" and obj.data.fill_mode != "NONE"
+    if not filled:
+        reading.warnings.append("The curve is not filled; the flat region that it bounds was measured.")
+    try:
+        return reading, region_body(reading.curves, reading.matrix, unit)
+    except ValueError:
+        if not filled:
+            raise
+    return None
+
+
 def resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> MeasureOptions:
     """The options with every gap filled from the object's settings."""
     settings = obj.body_moments
     density, mass = options.density, options.mass
+    kind = options.kind or settings.kind.lower()
     if density is None and mass is None:
-        density, mass = ((decimal(settings.density), None) if settings.mass_from == "DENSITY"
-                         else (None, decimal(settings.mass)))
+        given = settings.linear_density if kind == "wire" else settings.density
+        density, mass = (decimal(given), None) if settings.mass_from == "DENSITY" else (None, decimal(settings.mass))
     return MeasureOptions(
-        kind=options.kind or settings.kind.lower(), density=density, mass=mass,
+        kind=kind, density=density, mass=mass,
         thickness=decimal(settings.thickness) * unit if options.thickness is None else options.thickness,
         overlap=options.overlap or settings.overlap.lower(), wall=options.wall or settings.wall.lower(),
-        threads=options.threads, order=options.order, surface=options.surface, pose=options.pose)
+        threads=options.threads, order=options.order, surface=options.surface, pose=options.pose,
+        compare=options.compare)
 
 
 def _to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> Measurement:
@@ -143,14 +179,16 @@ def told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOp
          weighed: Weighed | None = None) -> Measurement:
     """The body as a measurement. options: resolved. ValueError where it has no mass."""
     shell = options.kind == "shell"
+    wire = options.kind == "wire"
     thin, solid = shell and body.wall is None, body.wall or body.volume
-    volume = _require_volume(body, options)
-    density = options.density if options.mass is None else options.mass / volume.total
+    volume = body.volume if wire else _require_volume(body, options)
+    extent = body.length if wire else volume  # what the density is of
+    density = options.density if options.mass is None else options.mass / extent.total
     if body.mass is not None:
         moments, factor = body.mass, 1.0
         density = body.mass.total / volume.total
     else:
-        moments, factor = (body.area, density * options.thickness) if thin else (solid, density)
+        moments, factor = (body.area, density * options.thickness) if thin else (body.length or solid, density)
     if not density > 0.0:
         raise ValueError("Its {:s} is zero; give it one.".format("density" if options.mass is None else "mass"))
     rotation, location = np.asarray(reading.rotation, np.float64), np.asarray(reading.location, np.float64) * unit
@@ -165,14 +203,17 @@ def told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOp
     settings = effective_hash(options.kind.upper(), options.density, options.mass, options.thickness,
                               options.overlap.upper(), unit, options.wall.upper(),
                               density_key(obj, weighed.materials) if weighed else "")
-    digested = [body.volume, body.area, *([] if body.mass is None else [body.mass])]
+    digested = [body.volume, body.area, *(one for one in (body.mass, body.length) if one is not None)]
+    of_surface = "shell" if shell and not body.method.endswith("shell") else body.method
     return Measurement(
-        name=obj.name, type=obj.type, kind=options.kind, method="shell" if shell else body.method, density=density,
+        name=obj.name, type=obj.type, kind=options.kind, method=of_surface, density=0.0 if wire else density,
         thickness=options.thickness if shell else 0.0, volume=volume.total, area=body.area.total,
         mass_properties=properties, volume_moments=None if thin else solid, area_moments=body.area,
         mass_moments=(moments, factor), health=body.health, warnings=(*reading.warnings, *body.warnings),
-        rotation=rotation, location=location,
-        error_bound={**bounds("error", properties.error), "input": bounds("input", properties.input)},
+        rotation=rotation, location=location, length=body.length.total if wire else None,
+        display_volume=body.display_volume,
+        error_bound={**bounds("error", properties.error), "input": bounds("input", properties.input),
+                     **({"estimated": True} if body.estimated else {})},
         fingerprint=fingerprint(b"".join(one.raw.tobytes() for one in digested), matrix_hash(obj), settings),
         density_from=weighed.source if weighed else "one value" if options.mass is None else "given mass",
         materials=weighed.materials if weighed else ())

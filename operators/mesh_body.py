@@ -43,7 +43,7 @@ def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, thread
 def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
     """Each part measured once in its own coordinates, and mapped to wherever it stands."""
     volumes, areas, healths, methods, warnings, parts = [], [], [], [], [], []
-    if not shell and reading.places > 1 and _boxes_meet(reading):
+    if not shell and reading.places > 1 and places_meet(reading):
         if sum((len(part.surface.triangles) + 2 * len(part.surface.quads)) * len(part.matrices)
                for part in reading.parts) <= COMPARED:
             return _as_one(reading, unit, threads)
@@ -65,7 +65,7 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
             warnings.extend(w for w in solid.warnings if w not in warnings)
         parts.append((solid, matrices))
     ranked = ("open", "capped", "reoriented", "exact")
-    return _body(sum_moments(volumes), sum_moments(areas), _together(healths), min(methods, key=ranked.index), warnings,
+    return _body(sum_moments(volumes), sum_moments(areas), together(healths), min(methods, key=ranked.index), warnings,
                  parts, [part.surface for part in reading.parts], threads)
 
 
@@ -119,7 +119,7 @@ def _realized(reading: Reading) -> Surface:
                    for part in reading.parts for matrix in part.matrices])
 
 
-def _boxes_meet(reading: Reading) -> bool:
+def places_meet(reading: Reading) -> bool:
     """Whether the boxes around any two of the places where parts stand share more than a rim."""
     centers, extents = [], []
     for part in reading.parts:
@@ -189,7 +189,7 @@ def even_surfaces(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface
         yield surface.mapped(row.reshape(3, 3)), moved, own
 
 
-def _together(healths: Iterable[tuple[Health, int]]) -> Health:
+def together(healths: Iterable[tuple[Health, int]]) -> Health:
     """One verdict for all parts and their instances: counts add; faults are named where there is one part only."""
     healths = list(healths)
     first, copies = healths[0]

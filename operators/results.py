@@ -18,7 +18,7 @@ from mathutils import Matrix
 
 from ..core.decimal import decimal
 from ..core.mass import MassProperties, combined
-from . import staleness
+from . import live, staleness
 from .write import properties
 
 
@@ -51,7 +51,13 @@ _refusals: dict[int, str] = {}
 
 
 def of_object(obj: Object, scene: Scene) -> properties.Stored | None:
-    """The stored results in the frame that the scene shows; None where there are none, or not all of them."""
+    """The results in the frame that the scene shows: the live ones where they are on, else those that are stored; None
+    where there are none, or not all of them."""
+    now = live.shown(obj)
+    if now is not None and now.measurement is not None:
+        one = now.measurement
+        body = one.in_object_frame() if scene.body_moments.frame == "OBJECT" else one.mass_properties
+        return properties.Stored(one.density, one.volume, one.area, body, one.error_bound)
     rows = properties.numbers(obj)
     if rows is None:
         return None

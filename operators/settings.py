@@ -18,7 +18,7 @@ from ..core.recursion import MAX_ORDER
 from . import wall_slider
 
 COPIED = (
-    *("kind", "wall", "thickness", "mass_from", "density", "material", "mass", "overlap"),
+    *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
     *("density_from", "density_polynomial", "density_frame", "density_attribute"),
 )
 
@@ -40,6 +40,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
         items=(
             ("SOLID", "Solid", "The surface bounds a body that is filled with the material"),
             ("SHELL", "Shell", "The surface itself is a sheet of the given thickness"),
+            ("WIRE", "Wire", "A curve itself is a wire of the given mass per length"),
         ),
         default="SOLID",
     )
@@ -113,6 +114,14 @@ class BodyMomentsObjectSettings(PropertyGroup):
         step=1000,
         precision=3,
         update=_forget_material,
+    )
+    linear_density: FloatProperty(
+        name="Linear Density",
+        description="Mass per length of a wire, in kg/m",
+        default=1.0,
+        min=0.0,
+        step=10,
+        precision=6,
     )
     mass: FloatProperty(
         name="Mass",
@@ -253,7 +262,7 @@ def keep(settings: PropertyGroup, options, scene: Scene) -> None:
             setattr(settings, name, getattr(options, name).upper())
     if options.density is not None:
         settings.mass_from, settings.density_from = "DENSITY", "VALUE"
-        settings.density = options.density
+        setattr(settings, "linear_density" if settings.kind == "WIRE" else "density", options.density)
     if options.mass is not None:
         settings.mass_from, settings.mass = "MASS", options.mass
     if options.thickness is not None:

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from bpy.types import Context, Object, Panel, UILayout
 
-from ..operators import results, staleness, wall_slider
+from ..operators import live, results, staleness, wall_slider
 from ..operators.units import SI_UNITS, Units
 from ..operators.write import properties
 from . import materials, rows
@@ -22,6 +22,7 @@ VERDICTS = {
     "exact": ("Exact, Closed Surface", "CHECKMARK", ""),
     "union": ("United Shells", "INFO", "By Blender's exact boolean, to 7 digits"),
     "shell": ("Shell", "MOD_SOLIDIFY", "The mass is in the surface"),
+    "wire": ("Wire", "CURVE_DATA", "The mass is along the curve"),
     "reoriented": ("Reoriented", "INFO", "Closed after flipped faces were turned"),
     "capped": ("Capped", "ERROR", "The surface is open; its holes were capped"),
     "open": ("Open", "CANCEL", "Not closed: the numbers depend on the reference point"),
@@ -30,6 +31,7 @@ AXES = ("X", "Y", "Z")
 NUMBERS = ("1", "2", "3")
 EQUAL = 1e-6  # moments closer than this, relatively, are told as equal
 BOUNDS = (("Rounding, at Most", None), ("Coordinates Stored as Float32, at Most", "input"))
+ESTIMATED = "Quadrature and Rounding, Estimated"
 BOUNDED = {
     "volume": ("Volume", "volume"),
     "area": ("Area", "area"),
@@ -63,7 +65,7 @@ class BodyPanel:
             layout.operator("object.body_moments_copy_settings", icon="PASTEDOWN")
         if found is not None:
             _numbers(layout, context, units, found)
-            _more(layout, units, found)
+            _more(layout, obj, units, found)
             _warnings(layout, context, obj)
             row = layout.row(align=True)
             row.operator("object.body_moments_copy_report", icon="COPYDOWN")
@@ -71,6 +73,14 @@ class BodyPanel:
         _actions(layout, obj)
         _analysis(layout)
         _totals(layout, context, units)
+
+
+def _method_and_warnings(obj: Object) -> tuple[str, list[str]]:
+    """Of the numbers that are shown: live or stored."""
+    now = live.shown(obj)
+    if now is not None and now.measurement is not None:
+        return now.measurement.method, list(now.measurement.warnings)
+    return properties.method_and_warnings(obj)
 
 
 def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> None:
@@ -82,15 +92,21 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
         rows.sentence(column, context, refusal, icon="BLANK1")
     if not measured:
         return
-    method, _ = properties.method_and_warnings(obj)
+    method, _ = _method_and_warnings(obj)
     *before, last = method.split() or [""]
     headline, icon, explanation = VERDICTS.get(last, (method.title(), "INFO", ""))
-    outdated = staleness.reason(obj, context.scene)
     column.label(text=" ".join([*before, headline]), icon=icon)
     if last == "shell" and obj.body_moments.wall != "THIN":
         explanation = "The mass is in walls of real thickness"
     if explanation:
         rows.sentence(column, context, explanation, icon="BLANK1")
+    now = live.shown(obj)
+    if now is not None and now.measurement is not None:
+        column.label(text="Live, in {:.0f} ms: Measure Stores It".format(1e3 * now.seconds), icon="REC")
+        return
+    if now is not None:
+        rows.sentence(column, context, now.reason, icon="ERROR")
+    outdated = staleness.reason(obj, context.scene)
     if outdated:
         row = column.row()
         row.alert = True
@@ -102,13 +118,18 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
     column = layout.column()
     column.use_property_split = True
     column.row().prop(settings, "kind", expand=True)
+    if obj.type == "SURFACE":
+        column.operator("object.body_moments_live", icon="REC", depress=live.is_live(obj))
     if settings.kind == "SHELL":
         column.prop(settings, "wall")
         column.prop(settings, "thickness")
         _largest(column, context, obj)
-    else:
+    elif settings.kind == "SOLID":
         column.prop(settings, "overlap")
     column.row().prop(settings, "mass_from", text="Given", expand=True)
+    if settings.mass_from == "DENSITY" and settings.kind == "WIRE":
+        column.prop(settings, "linear_density", text="Density kg/m")
+        return
     if settings.mass_from == "MASS":
         column.prop(settings, "mass", text="Mass kg")
         return
@@ -169,11 +190,15 @@ def _numbers(layout: UILayout, context: Context, units: Units, found: properties
     scene, source = context.scene, properties.density_from(context.object)
     column = layout.column(align=True)
     rows.value(column, units, "Mass", "mass", found.body.mass)
-    rows.value(column, units, "Density", "density", found.density)
-    if source:
-        rows.sentence(column, context, "The mean, from {:s}".format(source), icon="BLANK1")
-    rows.value(column, units, "Volume", "volume", found.volume)
-    rows.value(column, units, "Area", "area", found.area)
+    length = properties.optional(context.object, "body_length")
+    if length is None:
+        rows.value(column, units, "Density", "density", found.density)
+        if source:
+            rows.sentence(column, context, "The mean, from {:s}".format(source), icon="BLANK1")
+        rows.value(column, units, "Volume", "volume", found.volume)
+        rows.value(column, units, "Area", "area", found.area)
+    else:
+        rows.value(column, units, "Length", "length", length)
     layout.row().prop(scene.body_moments, "frame", expand=True)
     column = layout.column(align=True)
     rows.heading(column, "Center of Mass", "length", found.body.center)
@@ -198,7 +223,7 @@ def _free_axes(moments: np.ndarray) -> str:
     return "Axes 1 and 2 have equal moments" if first else "Axes 2 and 3 have equal moments" if second else ""
 
 
-def _more(layout: UILayout, units: Units, found: properties.Stored) -> None:
+def _more(layout: UILayout, obj: Object, units: Units, found: properties.Stored) -> None:
     header, body = layout.panel("body_moments_gyration", default_closed=True)
     header.label(text="Radii of Gyration")
     if body is not None:
@@ -210,13 +235,24 @@ def _more(layout: UILayout, units: Units, found: properties.Stored) -> None:
         column.label(text="At the center of mass, Ixy = −∫xy dm")
         entries = properties.tensor_entries(found.body.inertia)
         rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
+    if live.shown(obj) is not None:
+        return
+    display = properties.optional(obj, "body_display_volume")
+    if display is not None:
+        header, body = layout.panel("body_moments_display_mesh", default_closed=True)
+        header.label(text="Display Mesh Instead")
+        if body is not None:
+            column = body.column(align=True)
+            rows.value(column, units, "Volume", "volume", display)
+            rows.value(column, units, "Difference", "volume", display - found.volume)
+            column.label(text="{:+.3g} % of the volume".format(100.0 * (display / found.volume - 1.0)))
     header, body = layout.panel("body_moments_bounds", default_closed=True)
     header.label(text="Error Bounds")
     if body is not None:
-        _bounds(body, units, found)
+        _bounds(body, obj, units, found)
 
 
-def _bounds(layout: UILayout, units: Units, found: properties.Stored) -> None:
+def _bounds(layout: UILayout, obj: Object, units: Units, found: properties.Stored) -> None:
     sizes = {
         "volume": found.volume,
         "area": found.area,
@@ -225,15 +261,21 @@ def _bounds(layout: UILayout, units: Units, found: properties.Stored) -> None:
     }
     for heading, bound in BOUNDS:
         column = layout.column(align=True)
-        column.label(text=heading)
+        column.label(text=ESTIMATED if bound is None and _is_estimated(obj) else heading)
         values = found.error_bound if bound is None else found.error_bound[bound]
         for name, (label, quantity) in BOUNDED.items():
             rows.texts(column, label, units.bound(quantity, values[name], sizes[name]), repr(values[name]),
                        SI_UNITS[quantity])
 
 
+def _is_estimated(obj: Object) -> bool:
+    """Whether the bounds are estimates: those of splines are."""
+    method, _ = properties.method_and_warnings(obj)
+    return method.startswith("NURBS") or method == "wire"
+
+
 def _warnings(layout: UILayout, context: Context, obj: Object) -> None:
-    _, warnings = properties.method_and_warnings(obj)
+    _, warnings = _method_and_warnings(obj)
     if not warnings:
         return
     header, body = layout.panel("body_moments_warnings", default_closed=False)

@@ -355,6 +355,146 @@ def instances(count: int, rounds: int) -> None:
     table("{:,} instances of {:,} faces".format(count, 10_000), interleaved(rows, rounds), list(rows)[1:])
 
 
+def spline_bodies() -> dict[str, tuple[list, float | None]]:
+    """Closed bodies of clamped B-spline patches, each with its volume where that is known in closed form."""
+    from body_moments.core.bspline import Space, clamped
+    from body_moments.core.patch import Patch
+    from body_moments.core.patch_solid import measure_patches
+
+    half = np.sqrt(0.5)
+    around = Space((0.0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4), 3, 9)
+    circle = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)], float)
+    weights = np.array([1.0, half] * 4 + [1.0])
+
+    def turned(profile, space, profile_weights):
+        points = [[(x * out, y * out, z) for out, z in profile] for x, y in circle]
+        return Patch((around, space), np.array(points), np.outer(weights, profile_weights))
+
+    arch = Space((0.0, 0, 0, 1, 1, 2, 2, 2), 3, 5)
+    ball = turned([(0, -1), (1, -1), (1, 0), (1, 1), (0, 1)], arch, [1, half, 1, half, 1])
+    ring = turned([(0.75 + 0.25 * x, 0.25 * y) for x, y in circle], around, weights)
+    tube = turned([(1, -1), (1, 1)], clamped(2), [1, 1])
+    rng = np.random.default_rng(0)
+    u, v = np.linspace(0, 2 * np.pi, 8), np.linspace(-1, 1, 7)
+    out = np.sqrt(1.0 - v**2) * 1.2
+    blob = np.stack([np.outer(np.cos(u), out), np.outer(np.sin(u), out), np.outer(np.ones(8), v)], axis=-1)
+    blob *= 1.0 + 0.2 * rng.random((8, 7, 1))
+    blob[-1], blob[:, 0], blob[:, -1] = blob[0], blob[0, 0], blob[0, -1]
+    spaces = clamped(4, (1, 2, 3, 4), 0, 5), clamped(4, (1, 2, 3), 0, 4)
+    random = 10.0 ** rng.uniform(-0.5, 0.5, (8, 7))
+    random[-1] = random[0]
+    return {"unit sphere": ([ball], 4.0 * np.pi / 3.0), "torus": ([ring], 2.0 * np.pi**2 * 0.75 * 0.0625),
+            "capped cylinder": (list(measure_patches([tube]).patches), 2.0 * np.pi),
+            "bicubic closed 8 x 7": ([Patch(spaces, blob)], None),
+            "random rational 8 x 7": ([Patch(spaces, blob, random)], None)}
+
+
+def opencascade_shape(patches):
+    """The same patches as an OpenCascade compound of faces."""
+    from OCP.BRep import BRep_Builder
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+    from OCP.collections import Array1_double, Array1_int, Array2_double, Array2_gp_Pnt
+    from OCP.Geom import Geom_BSplineSurface
+    from OCP.gp import gp_Pnt
+    from OCP.TopoDS import TopoDS_Compound
+
+    builder, compound = BRep_Builder(), TopoDS_Compound()
+    builder.MakeCompound(compound)
+    for patch in patches:
+        rows, columns = patch.points.shape[:2]
+        poles, weights = Array2_gp_Pnt(1, rows, 1, columns), Array2_double(1, rows, 1, columns)
+        for i in range(rows):
+            for j in range(columns):
+                poles.SetValue(i + 1, j + 1, gp_Pnt(*patch.points[i, j].tolist()))
+                weights.SetValue(i + 1, j + 1, 1.0 if patch.weights is None else float(patch.weights[i, j]))
+        knots, counts = [], []
+        for space in patch.spaces:
+            values, repeats = np.unique(space.knots, return_counts=True)
+            knots.append(Array1_double(1, len(values)))
+            counts.append(Array1_int(1, len(values)))
+            for i, (value, repeat) in enumerate(zip(values.tolist(), repeats.tolist()), 1):
+                knots[-1].SetValue(i, value)
+                counts[-1].SetValue(i, repeat)
+        surface = Geom_BSplineSurface(poles, weights, *knots, *counts, *(space.order - 1 for space in patch.spaces))
+        builder.Add(compound, BRepBuilderAPI_MakeFace(surface, 1e-9).Face())
+    return compound
+
+
+def splines(rounds: int) -> None:
+    """B-spline bodies: volume and second moment against OpenCascade, and control points that move."""
+    from body_moments.core import patch_moments
+    from body_moments.core.bspline import clamped
+    from body_moments.core.patch import Patch
+    from body_moments.core.reevaluation import Evaluator
+
+    print("\nB-spline bodies: error of V and of the second moment about z, and time of one call")
+    for name, (patches, volume) in spline_bodies().items():
+        rules = patch_moments.RULES
+        patch_moments.RULES = tuple(2 * points for points in rules)
+        truth = patch_moments.volume_moments(patches, 2)[0].shifted(np.zeros(3))
+        patch_moments.RULES = rules
+        second = truth[2, 0, 0] + truth[0, 2, 0]
+        ways = {"ours": lambda patches=patches: _ours(patches)}
+        if optional("OCP"):
+            ways |= _opencascade(opencascade_shape(patches))
+        times = interleaved(ways, rounds)
+        for way, function in ways.items():
+            found = function()
+            print("    {:<24s}{:<28s}{:>10.1e}{:>10.1e}{:>10.2f} ms".format(
+                name, way, abs(found[0] / (volume or truth.total) - 1.0), abs(found[1] / second - 1.0),
+                statistics.median(times[way]) * 1e3))
+    rng = np.random.default_rng(0)
+    for count in (8, 40):
+        space = clamped(4, tuple(range(1, count - 3)), 0, count - 3)
+        points = rng.random((count, count, 3))
+        evaluator = Evaluator(Patch((space, space), points))
+        evaluator.moments(points)
+        times = interleaved({
+            "all ten moments": lambda e=evaluator, p=points: e.moments(p),
+            "after one point": lambda e=evaluator, i=count // 2: e.move(i, i, np.zeros(3))}, 20 * rounds)
+        for way, values in times.items():
+            print("    bicubic {:d} x {:d}, {:s}: {:.3f} ms".format(
+                count, count, way, statistics.median(values) * 1e3))
+
+
+def _ours(patches) -> tuple[float, float]:
+    from body_moments.core.patch_moments import volume_moments
+
+    moments = volume_moments(patches, 2, np.zeros(3))[0]
+    return moments.total, moments[2, 0, 0] + moments[0, 2, 0]
+
+
+def _opencascade(shape) -> dict[str, Callable[[], tuple[float, float]]]:
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    def told(properties) -> tuple[float, float]:
+        center, mass = properties.CentreOfMass(), properties.Mass()
+        return abs(mass), abs(properties.MatrixOfInertia().Value(3, 3) + mass * (center.X()**2 + center.Y()**2))
+
+    def plain() -> tuple[float, float]:
+        properties = GProp_GProps()
+        BRepGProp.VolumeProperties_s(shape, properties)
+        return told(properties)
+
+    def to(epsilon: float) -> Callable[[], tuple[float, float]]:
+        def run() -> tuple[float, float]:
+            properties = GProp_GProps()
+            BRepGProp.VolumeProperties_s(shape, properties, epsilon)
+            return told(properties)
+        return run
+
+    def kronrod(epsilon: float) -> Callable[[], tuple[float, float]]:
+        def run() -> tuple[float, float]:
+            properties = GProp_GProps()
+            BRepGProp.VolumePropertiesGK_s(shape, properties, epsilon, False, True, False, True)
+            return told(properties)
+        return run
+
+    return {"OpenCascade": plain, "OpenCascade, Eps 1e-6": to(1e-6), "OpenCascade, Eps 1e-9": to(1e-9),
+            "OpenCascade, GK 1e-6": kronrod(1e-6), "OpenCascade, GK 1e-9": kronrod(1e-9)}
+
+
 def fourier(quick: bool) -> None:
     """The Fourier transform on one thread: closed form on lists and grids, a large grid to a tolerance, and BornAgain's
     form factor of a tetrahedron where that is installed."""
@@ -405,6 +545,7 @@ def main() -> None:
     walls_and_derivatives(side // 4, rounds)
     memory(side)
     latency(rounds)
+    splines(3 if quick else rounds)
     fourier(quick)
     orders(quick)
     if not optional("bpy"):

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender in: evaluated objects as arrays, with their places and every decision taken."""
 
-from .objects import read_object
-from .reading import Painted, Part, Reading, Unreadable
-from .visibility import measurable, measurable_objects
+from .objects import read_lines, read_object, read_patches
+from .reading import Painted, Part, Reading, SplineReading, Unreadable
+from .visibility import measurable, measurable_objects, shows_flat_region
 
-__all__ = ["Painted", "Part", "Reading", "Unreadable", "measurable", "measurable_objects", "read_object"]
+__all__ = ["Painted", "Part", "Reading", "SplineReading", "Unreadable", "measurable", "measurable_objects",
+           "read_lines", "read_object", "read_patches", "shows_flat_region"]

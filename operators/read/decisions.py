@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .deformation import spline_modifiers
 from .instances import Gathered, shows_itself
 from .visibility import edit_modifiers, hidden_reason, instanced_by_parent, metaball_families
 
@@ -56,20 +57,21 @@ def decisions(obj, gathered: Gathered, depsgraph) -> Iterator[str]:
         yield "Shown only as instances of “{:s}”; measured once, where it stands.".format(
             obj.parent.name
         )
-    if obj.type == "SURFACE":
-        yield "Display mesh instead of the surface, as fine as the viewport's resolution."
+    for evaluated, splines in gathered.splines.items():
+        yield from _spline_notes(evaluated.original, splines, obj)
     if obj.type == "META":
         others = _family(obj, depsgraph)[1:]
         if others:
             yield "Holds the polygons of its metaball family: {:s}.".format(_names(others))
     yield from _mode(obj)
-    differences = list(_render_differences(obj, depsgraph.scene))
+    exact = {evaluated.original for evaluated, splines in gathered.splines.items() if splines}
+    differences = list(_render_differences(obj, depsgraph.scene, obj in exact))
     if differences:
         yield "Read as the viewport shows it; the render differs: {:s}.".format(
             "; ".join(differences)
         )
     for source in gathered.sources:
-        differences = list(_render_differences(source, depsgraph.scene)) if source != obj else []
+        differences = list(_render_differences(source, depsgraph.scene, source in exact)) if source != obj else []
         if differences:
             yield (
                 "The instanced “{:s}” is read as the viewport shows it; the render differs: {:s}."
@@ -111,7 +113,20 @@ def _mode(obj) -> Iterator[str]:
         yield "Read in Sculpt Mode, with the modifiers that act there."
 
 
-def _render_differences(obj, scene) -> Iterator[str]:
+def _spline_notes(source, splines, obj) -> Iterator[str]:
+    """What was decided about a surface object, `obj` or one that it instances."""
+    name = "" if source == obj else " of “{:s}”".format(source.name)
+    if splines is None:
+        meshed = spline_modifiers(source)[1]
+        yield "Display mesh{:s} instead of the surface, as fine as the viewport's resolution{:s}.".format(
+            name, ", as modifiers work on the mesh: {:s}".format(_names(meshed)) if meshed else ""
+        )
+    else:
+        yield from splines.notes
+
+
+def _render_differences(obj, scene, exact: bool = False) -> Iterator[str]:
+    """exact: the object is read without its display mesh, so that no resolution counts."""
     for modifier in obj.modifiers:
         shown, rendered = modifier.show_viewport, modifier.show_render
         if shown != rendered:
@@ -133,6 +148,8 @@ def _render_differences(obj, scene) -> Iterator[str]:
     for axis in ("u", "v"):
         rendered = getattr(data, "render_resolution_" + axis, 0)
         shown = getattr(data, "resolution_" + axis, 0)
+        if exact:
+            break
         if rendered and rendered != shown and (axis == "u" or obj.type == "SURFACE"):
             yield "the resolution {:s} is {:d} in the viewport, {:d} in the render".format(
                 axis, shown, rendered

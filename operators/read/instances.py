@@ -24,7 +24,8 @@ from numpy.typing import NDArray
 
 from ...core.surface import Surface
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
-from .reading import Painted, Part, Unreadable, float64_matrix
+from .reading import Painted, Part, SplineReading, Unreadable, float64_matrix
+from .splines import spline_reading
 from .visibility import GEOMETRY_TYPES, edit_modifiers, evaluated_geometry
 
 # Blender stops here too (MAX_DUPLI_RECUR).
@@ -42,6 +43,7 @@ class Gathered:
     left_out: how many of each kind of thing that has no surface.
     sources: the original objects that were read, without the first.
     vanished: how many instances are scaled to nothing.
+    splines: of each evaluated surface object that was read, its patches, None where its mesh has to do.
     materials, attribute: whether the faces' materials are wanted, and the name of the vertices' attribute.
     """
 
@@ -59,6 +61,7 @@ class Gathered:
         self.sources: dict[object, None] = {}
         self.vanished = 0
         self._surfaces: dict[Hashable, Surface] = {}
+        self.splines: dict[Hashable, SplineReading | None] = {}
         self._painted: dict[Hashable, Painted] = {}
         self._places: dict[Hashable, list[NDArray[np.float64]]] = {}
         self._path: list[object] = []
@@ -96,7 +99,7 @@ class Gathered:
                 self.vanished += int((~there).sum())
                 matrices = matrices[there]
             if len(matrices):
-                parts.append(Part(surface, matrices, self._painted[key]))
+                parts.append(Part(surface, matrices, self._painted[key], self.splines.get(key)))
         return parts
 
     def _object(self, evaluated, places: NDArray) -> None:
@@ -134,6 +137,8 @@ class Gathered:
     def _own(self, evaluated, geometry, places: NDArray) -> None:
         original = evaluated.original
         if original.type != "MESH":
+            if original.type == "SURFACE" and evaluated not in self.splines:
+                self.splines[evaluated] = spline_reading(evaluated, self.depsgraph, geometry.mesh)
             self._mesh(evaluated, geometry.mesh, places, evaluated)
         elif original.data.is_editmode:
             self._add(evaluated, lambda: self._edited(evaluated), places)

@@ -13,10 +13,13 @@ import numpy as np
 
 from ...core.rotation import rotation_matrix
 from ...core.surface import Surface
+from .curves import read_curves
 from .decisions import decisions, why_empty
+from .deformation import is_deformed
 from .instances import Gathered
-from .reading import Reading, Unreadable, float64_matrix
-from .visibility import NOT_EVALUATED, hidden_reason, require_kind
+from .reading import Part, Reading, Unreadable, float64_matrix
+from .splines import spline_reading
+from .visibility import NOT_EVALUATED, evaluated_geometry, hidden_reason, require_kind
 
 
 def read_object(
@@ -33,6 +36,53 @@ def read_object(
     obj = obj.original
     require_kind(obj)
     _require_readable_mode(obj)
+    evaluated, matrix = _evaluated(obj, depsgraph)
+    gathered = Gathered(evaluated, depsgraph, materials, attribute)
+    gathered.gather()
+    parts = gathered.parts()
+    if not parts:
+        raise Unreadable(obj.name, why_empty(obj, gathered, depsgraph))
+    for part in parts:
+        _require_finite(obj.name, part.surface)
+    reading = _placed(obj, evaluated, matrix)
+    reading.parts, reading.warnings = parts, list(decisions(obj, gathered, depsgraph))
+    return reading
+
+
+def read_lines(obj, depsgraph) -> Reading:
+    """As `read_object` for a curve object, but its curves instead of the surface that it may show.
+
+    Raises Unreadable for objects of other kinds too.
+    """
+    obj = obj.original
+    if obj.type != "CURVE":
+        raise Unreadable(obj.name, "Only a curve can be a wire; measure it as a solid or a shell.")
+    evaluated, matrix = _evaluated(obj, depsgraph)
+    reading = _placed(obj, evaluated, matrix)
+    reading.curves, reading.warnings = read_curves(obj, depsgraph)
+    return reading
+
+
+def read_patches(obj, depsgraph) -> Reading | None:
+    """As `read_object` for a surface object, but its patches alone: no display mesh, unless control points have to be
+    compared with it, and no word about the render. None where it shows more, or has to be measured by its mesh.
+    """
+    obj = obj.original
+    evaluated, matrix = _evaluated(obj, depsgraph)
+    if obj.type != "SURFACE" or obj.instance_type != "NONE" or len(obj.particle_systems):
+        return None
+    geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
+    splines = spline_reading(evaluated, depsgraph, geometry.mesh if is_deformed(evaluated) else None)
+    if splines is None:
+        return None
+    reading = _placed(obj, evaluated, matrix)
+    nothing = Surface(np.zeros((0, 3), np.float32))
+    reading.parts = [Part(nothing, matrix[None], splines=splines)]
+    return reading
+
+
+def _evaluated(obj, depsgraph) -> tuple:
+    """The evaluated object and its world matrix."""
     evaluated = obj.evaluated_get(depsgraph)
     if not evaluated.is_evaluated:
         raise Unreadable(obj.name, hidden_reason(obj, depsgraph) or NOT_EVALUATED)
@@ -42,14 +92,10 @@ def read_object(
             obj.name,
             "Its transform is not finite; reset its location, rotation and scale, or its parent's.",
         )
+    return evaluated, matrix
 
-    gathered = Gathered(evaluated, depsgraph, materials, attribute)
-    gathered.gather()
-    parts = gathered.parts()
-    if not parts:
-        raise Unreadable(obj.name, why_empty(obj, gathered, depsgraph))
-    for part in parts:
-        _require_finite(obj.name, part.surface)
+
+def _placed(obj, evaluated, matrix) -> Reading:
     location, rotation, _scale = evaluated.matrix_world.decompose()
     return Reading(
         name=obj.name,
@@ -57,8 +103,6 @@ def read_object(
         matrix=matrix,
         rotation=rotation_matrix(rotation),
         location=np.array(location[:], np.float64),
-        parts=parts,
-        warnings=list(decisions(obj, gathered, depsgraph)),
     )
 
 

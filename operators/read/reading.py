@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.curve import Curve
+from ...core.patch import Patch
 from ...core.surface import Surface
 
 # Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
@@ -42,6 +44,16 @@ class Painted:
     vertices: NDArray[np.float64] | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class SplineReading:
+    """patches: of the splines that show a surface, each facing as Blender's faces do. stored: by how much float32
+    may have moved their points. notes: sentences."""
+
+    patches: tuple[Patch, ...]
+    stored: float
+    notes: tuple[str, ...]
+
+
 @dataclass
 class Part:
     """One surface and the places where it stands.
@@ -49,11 +61,13 @@ class Part:
     matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column
     vectors.
     painted: what its faces and vertices carry, where that was asked for.
+    splines: where `surface` is but the display mesh of B-spline patches, those.
     """
 
     surface: Surface
     matrices: NDArray[np.float64]
     painted: Painted | None = None
+    splines: SplineReading | None = None
 
 
 @dataclass
@@ -64,6 +78,7 @@ class Reading:
     matrix: (4, 4) float64, the object's `matrix_world`.
     rotation: (3, 3), orthonormal to float64, and location: (3,), Blender units, as
         `matrix_world.decompose()` gives them: the object frame.
+    curves: of a curve object that is read as lines, in its own coordinates; else none.
     flattened: how many of the places have a matrix that flattens the surface, so that it encloses nothing.
     singular: all of them have. places: how many surfaces stand where, instances counted each.
     warnings: sentences without the object's name, one for each decision that was taken.
@@ -75,7 +90,13 @@ class Reading:
     rotation: NDArray[np.float64]
     location: NDArray[np.float64]
     parts: list[Part] = field(default_factory=list)
+    curves: list[Curve] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
+
+    @property
+    def has_patches(self) -> bool:
+        """Whether some of it are B-spline patches."""
+        return any(part.splines is not None for part in self.parts)
 
     @property
     def flattened(self) -> int:

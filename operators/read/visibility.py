@@ -37,8 +37,17 @@ def measurable(obj) -> bool:
     if obj.instance_type == "COLLECTION":
         return obj.instance_collection is not None
     if obj.type == "CURVE":
-        return _curve_has_surface(obj)
+        # As a wire it needs none, and as a shell what closed curves bound is one.
+        settings = getattr(obj, "body_moments", None)
+        return _curve_has_surface(obj) or (settings is not None and settings.kind != "SOLID")
     return obj.type in SURFACE_TYPES or (obj.type in GEOMETRY_TYPES and _has_nodes(obj))
+
+
+def shows_flat_region(obj) -> bool:
+    """Whether all that a curve object may show is the flat region that its curves bound."""
+    curve = obj.data
+    return not (curve.extrude or curve.bevel_depth or curve.offset or curve.bevel_object
+                or any(modifier.show_viewport for modifier in obj.modifiers))
 
 
 def measurable_objects(view_layer, selected_only: bool = False) -> list:

@@ -35,10 +35,13 @@ DESCRIPTIONS = {
     "body_materials": "The materials that were looked at for the density, one a line",
     "body_method": "How the numbers came about",
     "body_warnings": "What was decided on the way, one sentence a line",
+    "body_length": "Length of a wire in m",
+    "body_display_volume": "What the display mesh of a NURBS surface would have given as its volume, in m³",
     "body_fingerprint": "What the numbers were computed from",
 }
 LENGTHS = {"body_mass": 0, "body_density": 0, "body_volume": 0, "body_area": 0, "body_center_of_mass": 3,
            "body_inertia": 6, "body_principal_moments": 3, "body_principal_axes": 4, "body_error_bound": 8}
+OPTIONAL = ("body_length", "body_display_volume")  # of wires, and of what was measured without its display mesh
 BOUNDED = ("volume", "area", "center_of_mass", "inertia")
 ENTRIES = ("xx", "yy", "zz", "xy", "xz", "yz")
 TENSOR = ((0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2))
@@ -81,6 +84,12 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
         "body_warnings": "\n".join(measurement.warnings),
         "body_fingerprint": measurement.fingerprint,
     }
+    for key in OPTIONAL:
+        value = getattr(measurement, key.removeprefix("body_"))
+        if value is not None:
+            values[key] = value
+        elif key in obj:
+            del obj[key]
     varying = {} if measurement.one_density else {
         "body_density_from": measurement.density_from, "body_materials": "\n".join(measurement.materials)}
     for key in ("body_density_from", "body_materials"):
@@ -122,6 +131,12 @@ def is_stored(obj: bpy.types.Object) -> bool:
 def method_and_warnings(obj: bpy.types.Object) -> tuple[str, list[str]]:
     """How the stored numbers came about, and what was decided on the way."""
     return str(obj.get("body_method", "")), str(obj.get("body_warnings", "")).splitlines()
+
+
+def optional(obj: bpy.types.Object, key: str) -> float | None:
+    """One of OPTIONAL, None where the object does not carry it."""
+    value = obj.get(key)
+    return value if isinstance(value, float) else None
 
 
 def density_from(obj: bpy.types.Object) -> str:

@@ -65,15 +65,29 @@ def record(
         **({"thickness": measurement.thickness} if measurement.kind == "shell" else {}),
         **_inertial(properties),
     }
+    if measurement.length is not None:
+        entry |= {
+            "density": None,  # a wire has none, and no volume
+            "length": measurement.length,
+            "linear_density": properties.mass / measurement.length,
+        }
     if order is not None:
         volume = measurement.volume_moments
         if volume is None:
             volume = measurement.area_moments * measurement.thickness
         entry["moments"] = {"order": order, "about": [0.0, 0.0, 0.0]}
         entry["moments"]["volume"] = _about_origin(volume, order, measurement, frame)
+        if measurement.length is not None:
+            length = measurement.mass_moments[0]
+            entry["moments"]["length"] = _about_origin(length, min(order, length.order), measurement, frame)
         if surface is not None:
             entry["moments"]["surface"] = _about_origin(surface, order, measurement, frame)
     entry |= more or {}
+    if measurement.display_volume is not None:
+        entry["display_mesh"] = {
+            "volume": measurement.display_volume,
+            "difference": measurement.display_volume - measurement.volume,
+        }
     entry["health"] = measurement.health.as_record()
     entry["error_bound"] = measurement.error_bound
     entry["warnings"] = list(measurement.warnings)
@@ -232,6 +246,7 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number]
             for i, axis in enumerate("xyz")
         }
+    row |= _nested("display_mesh", entry.get("display_mesh", {}))
     row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"])
     for name in ("volume", "surface"):
         powers = entry.get("moments", {}).get(name, {})

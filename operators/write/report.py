@@ -28,6 +28,7 @@ METHODS = {
     "open": "open and not to be capped; the numbers depend on the reference point",
     "shell": "a shell; the mass is in the surface",
     "union": "overlapping shells, united",
+    "wire": "a wire; the mass is along the curve",
 }
 FINDINGS = {
     "boundary_edges": "boundary edges",
@@ -106,12 +107,19 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
             yield _line("Found", ", ".join(found))
         yield _line("Kind", "{}, {}".format(entry["kind"], entry["type"].lower()))
     yield _line("Mass", _number(entry["mass"]), "kg")
-    if "density" in entry:
+    if "length" in entry:
+        yield _line("Length", _number(entry["length"]), "m")
+        yield _line("Linear density", _number(entry["linear_density"]), "kg/m")
+    elif "density" in entry:
         yield _line("Density", _number(entry["density"]), "kg/m³")
     if "density_from" in entry:
         yield _line("Density from", entry["density_from"])
     yield _line("Volume", _number(entry["volume"]), "m³")
     yield _line("Surface area", _number(entry["area"]), "m²")
+    if "display_mesh" in entry:
+        yield _line("Its display mesh", "{} m³, {:+.3g} %".format(
+            _number(entry["display_mesh"]["volume"]),
+            100.0 * entry["display_mesh"]["difference"] / entry["volume"] if entry["volume"] else 0.0))
     if entry["center_of_mass"] is None or entry["inertia"] is None:
         return
     size = abs(entry["volume"] or 0.0) ** (1.0 / 3.0)
@@ -153,7 +161,7 @@ def _tensor(inertia: list[list[float]], frame: str) -> Iterable[str]:
 
 def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
     for label, values in (
-        ("Rounding, at most", bounds),
+        ("Errors, estimated" if bounds.get("estimated") else "Rounding, at most", bounds),
         ("float32 coordinates", bounds.get("input", {})),
     ):
         parts = [
@@ -196,7 +204,7 @@ def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[s
     entry = {
         "name": obj.name,
         "type": obj.type,
-        "kind": "shell" if method == "shell" else "solid",
+        "kind": {"shell": "shell", "wire": "wire"}.get(method.split()[-1] if method else "", "solid"),
         "method": method,
         "density": found.density,
         **({"density_from": source} if source else {}),
@@ -207,9 +215,15 @@ def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[s
         "inertia": found.body.inertia,
         "principal_moments": found.body.principal.moments,
         "principal_axes": found.body.principal.axes,
-        "error_bound": found.error_bound,
+        "error_bound": {**found.error_bound, **(
+            {"estimated": True} if method.startswith("NURBS") or method == "wire" else {})},
         "warnings": warnings,
     }
+    length, display = (properties.optional(obj, key) for key in properties.OPTIONAL)
+    if length is not None:
+        entry |= {"length": length, "linear_density": found.body.mass / length}
+    if display is not None:
+        entry["display_mesh"] = {"volume": display, "difference": display - found.volume}
     return plain(entry)
 
 

@@ -397,3 +397,23 @@ def test_the_menus_set_the_material_that_the_layout_points_at():
         assert buttons and {entry[1] for entry in buttons} == {wanted}
         if target:
             assert {entry[2].target for entry in buttons} == {"Steel"}
+def test_a_nurbs_surface_says_what_its_display_mesh_would_have_given_and_follows_edits():
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add()
+    assert ("operator", "object.body_moments_live") in [entry[:2] for entry in drawn()]
+    bpy.ops.object.body_moments_measure()
+    shown = labels(drawn())
+    assert "NURBS Exact, Closed Surface" in shown
+    assert "Display Mesh Instead" in shown and any("-1.33 %" in label for label in shown)
+    bpy.ops.object.body_moments_live()
+    assert any(label.startswith("Live, in") for label in labels(drawn()))
+    bpy.ops.object.body_moments_live()
+    assert not any(label.startswith("Live, in") for label in labels(drawn()))
+
+
+def test_a_wire_shows_its_length_and_asks_for_its_linear_density():
+    bpy.ops.curve.primitive_nurbs_circle_add()
+    bpy.context.object.body_moments.kind = "WIRE"
+    bpy.ops.object.body_moments_measure()
+    record = drawn()
+    assert "Wire" in labels(record) and "Length" in labels(record)
+    assert ("prop", "linear_density") in record

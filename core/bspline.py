@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""B-splines of one parameter: function spaces, their values and derivatives, and Gauss rules per knot span.
+
+A `Space` is what Soldea, Elber and Rivlin (Exact and efficient computation of moments of free-form surface and
+trivariate based geometry, section 2) call the function space of a direction: order and knots, without control points.
+Everything that can be computed before control points are known is a table over a space. The basis is evaluated by the
+triangular scheme of Cox and de Boor, for many parameters at once; derivatives are differences of lower orders.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Space:
+    """The B-splines of one order over one knot vector.
+
+    knots: non-decreasing, as many as basis functions plus `order`. order: degree + 1, at least 1.
+    count: control points. Basis function i takes control point i mod count, so that a closed direction has
+    order - 1 basis functions more than control points. ValueError for knots that make no such space.
+    """
+
+    knots: tuple[float, ...]
+    order: int
+    count: int
+
+    def __post_init__(self) -> None:
+        knots = np.asarray(self.knots, np.float64)
+        if self.order < 1 or self.count < 1 or len(knots) < 2 * self.order or self.functions < self.count:
+            raise ValueError("A spline of order {:d} needs at least as many points, and points plus order knots."
+                             .format(self.order))
+        if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
+            raise ValueError("Knots must be finite and must not decrease.")
+        if not self.domain[0] < self.domain[1]:
+            raise ValueError("The knots span no interval.")
+
+    @property
+    def functions(self) -> int:
+        """The number of basis functions."""
+        return len(self.knots) - self.order
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """Where all the basis functions add up to one."""
+        return self.knots[self.order - 1], self.knots[self.functions]
+
+    @cached_property
+    def spans(self) -> NDArray[np.int64]:
+        """(s,) the j of every interval knots[j] < knots[j + 1] in the domain."""
+        knots = np.asarray(self.knots)
+        j = np.arange(self.order - 1, self.functions)
+        return j[knots[j] < knots[j + 1]]
+
+    @cached_property
+    def intervals(self) -> NDArray[np.float64]:
+        """(s, 2) the bounds of the spans."""
+        knots = np.asarray(self.knots)
+        return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
+
+    def controls(self, spans: NDArray[np.integer]) -> NDArray[np.int64]:
+        """(..., order) the control points that act in each span."""
+        return (np.asarray(spans)[..., None] + np.arange(1 - self.order, 1)) % self.count
+
+    def locate(self, parameters: NDArray) -> NDArray[np.int64]:
+        """The span of each parameter, the nearest one outside of the domain."""
+        inner = self.intervals[1:, 0]
+        return self.spans[np.searchsorted(inner, parameters, side="right")]
+
+    def derivatives(self, spans: NDArray[np.integer], parameters: NDArray, most: int) -> list[NDArray[np.float64]]:
+        """The basis functions that act in the given spans and their derivatives, at most to order `most`.
+
+        spans, parameters: broadcast against each other to some shape (...). Returns most + 1 arrays (..., order).
+        """
+        knots = np.asarray(self.knots)
+        t = np.asarray(parameters, np.float64)
+        j = np.broadcast_to(spans, t.shape)
+        lower = [np.ones((*t.shape, 1))]  # by order, from 1
+        for order in range(2, self.order + 1):
+            before, after = self._neighbours(knots, j, order)
+            ratio = lower[-1] / (after - before)
+            values = np.zeros((*t.shape, order))
+            values[..., 1:] = ratio * (t[..., None] - before)
+            values[..., :-1] += ratio * (after - t[..., None])
+            lower.append(values)
+        found = [lower[-1]]
+        for derivative in range(1, most + 1):
+            if derivative >= self.order:
+                found.append(np.zeros_like(lower[-1]))
+                continue
+            values = lower[self.order - derivative - 1]
+            for order in range(self.order - derivative + 1, self.order + 1):
+                before, after = self._neighbours(knots, j, order)
+                ratio = (order - 1) * values / (after - before)
+                values = np.zeros((*t.shape, order))
+                values[..., 1:] = ratio
+                values[..., :-1] -= ratio
+            found.append(values)
+        return found
+
+    @staticmethod
+    def _neighbours(knots: NDArray, j: NDArray, order: int) -> tuple[NDArray, NDArray]:
+        """The first and the last knot of the order - 1 functions, one order lower, that act in span j."""
+        steps = np.arange(order - 1)
+        return knots[j[..., None] - (order - 2) + steps], knots[j[..., None] + 1 + steps]
+
+    def matrix(self, parameters: NDArray, derivative: int = 0) -> NDArray[np.float64]:
+        """(n, count) what each control point weighs at each of n parameters, or in a derivative there."""
+        parameters = np.asarray(parameters, np.float64)
+        spans = self.locate(parameters)
+        values = self.derivatives(spans, parameters, derivative)[derivative]
+        table = np.zeros((len(parameters), self.count))
+        np.add.at(table, (np.arange(len(parameters))[:, None], self.controls(spans)), values)
+        return table
+
+
+@lru_cache
+def gauss(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Nodes and weights of the Gauss-Legendre rule on [0, 1], exact to degree 2 points - 1; read-only."""
+    nodes, weights = leggauss(points)
+    nodes, weights = (nodes + 1.0) / 2.0, weights / 2.0
+    nodes.flags.writeable = weights.flags.writeable = False
+    return nodes, weights
+
+
+def clamped(order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0) -> Space:
+    """The space whose curves begin and end at their first and last control points. inner: knots in between."""
+    knots = (low,) * order + tuple(inner) + (high,) * order
+    return Space(knots, order, len(knots) - order)

@@ -1,0 +1,238 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether patches close, which way each faces, and the caps of what they leave open.
+
+Every patch has four sides, curves that run round it with the patch on their left. A side is closed where it is a point
+(a pole) or where it coincides with another side: of the same patch (a cyclic direction, a seam) or of another one, run
+the other way. Sides coincide where they agree parameter by parameter, or else point by point. A vector area of zero
+proves nothing: that of an open cylinder is zero too.
+
+Open sides are joined to loops, and a loop is closed by the cone to its centroid, which of a flat loop is the exact flat
+cap, as a signed sum whatever the loop's shape. A cone over a B-spline curve is a B-spline patch of degree one by the
+curve's, so that caps are patches as all others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .bspline import clamped
+from .curve import Curve
+from .patch import Patch
+from .patch_moments import vector_area
+from .topology import components
+
+SAMPLES = 33  # points at least by which sides are compared
+BLOCK = 256  # sides compared with all others at a time
+SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held, end, run forward), counter-clockwise
+
+
+@dataclass(frozen=True, eq=False)
+class Side:
+    """One side of a patch. forward: whether the patch's boundary runs the way of its curve."""
+
+    patch: int
+    curve: Curve
+    forward: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Loop:
+    """Open sides that run round a hole. caps: the patches that close it and face as theirs do. patch: one of theirs.
+    flat: whether it lies in a plane; out_of_plane: by how much it does not. slim: whether it has no area, so that it
+    is closed already. area: of the cap, an estimate."""
+
+    caps: tuple[Patch, ...]
+    patch: int
+    flat: bool
+    slim: bool
+    area: float
+    out_of_plane: float
+
+
+@dataclass(frozen=True, eq=False)
+class Closure:
+    """component: (n,) of each patch; number: of them. turned: (n,) which patches face against the first of theirs.
+    loops: the holes. open_sides, crowded, against: how many sides lie open, coincide with more than one other, or run
+    the same way as the side that they coincide with, before anything was turned. gap: the largest distance, times the
+    length, of sides that coincide. broken: (number,) components whose sides can be joined to no loops, or that have
+    one side only.
+    """
+
+    component: NDArray[np.intp]
+    number: int
+    turned: NDArray[np.bool_]
+    loops: tuple[Loop, ...]
+    open_sides: int
+    crowded: int
+    against: int
+    gap: float
+    broken: NDArray[np.bool_]
+
+
+def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
+    """Find out how patches close. tolerance: the distance within which points are the same."""
+    sides = [Side(i, patch.side(axis, end), forward) for i, patch in enumerate(patches) for axis, end, forward in SIDES]
+    count = max([SAMPLES] + [2 * len(side.curve.space.spans) + 1 for side in sides])
+    points = np.array([_evenly(side.curve, count) for side in sides])
+    length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
+    wide = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
+    left, right, same, gap, crowded = _matched(sides, points, np.flatnonzero(wide), tolerance)
+
+    owner = np.array([side.patch for side in sides])
+    forward = np.array([side.forward for side in sides])
+    # Two sides fit where one runs against the other; else one of their patches must turn.
+    against = same == (forward[left] == forward[right])
+    component, number = components(len(patches), owner[left], owner[right])
+    turned, conflict = _turned(len(patches), owner[left], owner[right], against)
+    broken = np.zeros(number, bool)
+    broken[component[conflict]] = True
+
+    free = wide.copy()
+    free[left] = free[right] = False
+    loops = []
+    for rows, complete in _loops(points, np.flatnonzero(free), forward ^ turned[owner], tolerance):
+        if not complete:
+            broken[component[owner[rows]]] = True
+            continue
+        loops.append(_capped([sides[k] for k in rows], points[rows], (forward ^ turned[owner])[rows], tolerance))
+    return Closure(component, number, turned, tuple(loops), int(free.sum()), crowded, int(against.sum()),
+                   float((gap * length[left]).sum()), broken)
+
+
+def _evenly(curve: Curve, count: int) -> NDArray[np.float64]:
+    low, high = curve.space.domain
+    return curve.at(low + (high - low) * np.linspace(0.0, 1.0, count))
+
+
+def _matched(sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tolerance: float
+             ) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
+    """Pairs of sides that coincide: (k,) and (k,), whether their curves run the same way, how far they are apart, and
+    the number of sides that would fit more than one other."""
+    middle = points.shape[1] // 2
+    keys = np.concatenate([points[:, 0] + points[:, -1], 2.0 * points[:, middle]], axis=1)[wide]
+    found = []
+    for start in range(0, len(wide), BLOCK):
+        near = np.abs(keys[start:start + BLOCK, None] - keys[None]).max(axis=2) <= 2.0 * tolerance
+        for i, j in np.argwhere(near) + (start, 0):
+            if i < j:
+                found += _apart(points[wide[i]], points[wide[j]], wide[i], wide[j], tolerance)
+    taken = {side for _, i, j, _ in found for side in (i, j)}
+    loose = [i for i in wide if i not in taken]
+    for a, i in enumerate(loose):  # the same curve by other parameters
+        for j in loose[a + 1:]:
+            if np.all(points[i].min(axis=0) <= points[j].max(axis=0) + tolerance) and \
+                    np.all(points[j].min(axis=0) <= points[i].max(axis=0) + tolerance):
+                found += _astride(sides[i].curve, sides[j].curve, points[i], points[j], i, j, tolerance)
+    pairs, used, crowded = [], set(), set()
+    for gap, i, j, same in sorted(found):
+        if i in used or j in used:
+            crowded |= {i, j} - used
+            continue
+        used |= {i, j}
+        pairs.append((i, j, same, gap))
+    left, right, same, gap = (np.array(column) for column in zip(*pairs)) if pairs else np.zeros((4, 0))
+    return left.astype(np.intp), right.astype(np.intp), same.astype(bool), gap, len(crowded)
+
+
+def _apart(one: NDArray, other: NDArray, i: int, j: int, tolerance: float) -> list[tuple[float, int, int, bool]]:
+    for same, row in ((False, other[::-1]), (True, other)):
+        gap = float(np.linalg.norm(one - row, axis=1).max())
+        if gap <= tolerance:
+            return [(gap, int(i), int(j), same)]
+    return []
+
+
+def _astride(one: Curve, other: Curve, at_one: NDArray, at_other: NDArray, i: int, j: int, tolerance: float
+             ) -> list[tuple[float, int, int, bool]]:
+    """Whether two curves coincide whatever their parameters are: every point of each is on the other one."""
+    gaps, ways = [], []
+    for curve, samples, points in ((other, at_other, at_one), (one, at_one, at_other)):
+        gap, way = _nearest(curve, samples, points)
+        gaps.append(gap)
+        ways.append(way)
+        if gap > tolerance:
+            return []
+    return [(max(gaps), int(i), int(j), bool(ways[0] > 0.0))]
+
+
+def _nearest(curve: Curve, samples: NDArray, points: NDArray) -> tuple[float, float]:
+    """How far the farthest of some points is from a curve, and whether the points run along (+) or against (-) it."""
+    low, high = curve.space.domain
+    steps = low + (high - low) * np.linspace(0.0, 1.0, len(samples))
+    t = steps[np.argmin(((points[:, None] - samples[None]) ** 2).sum(axis=2), axis=1)]
+    for _ in range(12):
+        slope = curve.velocity(t)
+        square = (slope ** 2).sum(axis=1)
+        step = ((points - curve.at(t)) * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0)
+        t = np.clip(t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0]), low, high)
+    gap = float(np.linalg.norm(points - curve.at(t), axis=1).max())
+    return gap, float((np.diff(points, axis=0) * curve.velocity((t[1:] + t[:-1]) / 2.0)).sum())
+
+
+def _turned(count: int, left: NDArray, right: NDArray, against: NDArray) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+    """Which patches must turn to face as the first of their component, and those that cannot."""
+    neighbours: list[list[tuple[int, bool]]] = [[] for _ in range(count)]
+    for i, j, flip in zip(left.tolist(), right.tolist(), against.tolist()):
+        neighbours[i].append((j, flip))
+        neighbours[j].append((i, flip))
+    turned, seen, conflict = np.zeros(count, bool), np.zeros(count, bool), []
+    for first in range(count):
+        pending = [] if seen[first] else [first]
+        seen[first] = True
+        while pending:
+            i = pending.pop()
+            for j, flip in neighbours[i]:
+                if not seen[j]:
+                    turned[j], seen[j] = turned[i] ^ flip, True
+                    pending.append(j)
+                elif turned[j] != turned[i] ^ flip:
+                    conflict.append(i)
+    return turned, np.array(conflict, np.intp)
+
+
+def _loops(points: NDArray, free: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
+           ) -> list[tuple[list[int], bool]]:
+    """Open sides in turn, each set with whether it ends where it began."""
+    start = {int(k): points[k, 0 if forward[k] else -1] for k in free}
+    end = {int(k): points[k, -1 if forward[k] else 0] for k in free}
+    found = []
+    while start:
+        first, origin = next(iter(start.items()))
+        del start[first]
+        rows = [first]
+        while np.linalg.norm(end[rows[-1]] - origin) > 2.0 * tolerance:
+            onward = [k for k, place in start.items() if np.linalg.norm(place - end[rows[-1]]) <= 2.0 * tolerance]
+            if not onward:
+                break
+            rows.append(onward[0])
+            del start[onward[0]]
+        found.append((rows, bool(np.linalg.norm(end[rows[-1]] - origin) <= 2.0 * tolerance)))
+    return found
+
+
+def _capped(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_], tolerance: float) -> Loop:
+    """The cone from a loop's centroid."""
+    run = np.concatenate([row if ahead else row[::-1] for row, ahead in zip(points, forward)])
+    steps = np.diff(np.concatenate([run, run[:1]]), axis=0)
+    weigh = np.linalg.norm(steps, axis=1)
+    center = ((run + steps / 2.0) * weigh[:, None]).sum(axis=0) / weigh.sum()
+    arms = run - center
+    _, _, axes = np.linalg.svd(arms, full_matrices=False)
+    off = float(np.abs(arms @ axes[2]).max())
+    width = np.linalg.norm(np.cross(arms, steps), axis=1).sum() / 2.0
+    caps = []
+    for side, ahead in zip(sides, forward):
+        curve = side.curve
+        weights = None if curve.weights is None else np.stack([curve.weights] * 2)
+        cone = Patch((clamped(2), curve.space), np.stack([np.broadcast_to(center, curve.points.shape), curve.points]),
+                     weights)
+        caps.append(cone.turned() if ahead else cone)
+    flat = off <= tolerance
+    # A way there and back has no net area; of a loop in space only its cone's area tells.
+    area = float(np.linalg.norm(vector_area(caps))) if flat else width
+    return Loop(tuple(caps), sides[0].patch, flat, area <= tolerance * weigh.sum(), area, off)

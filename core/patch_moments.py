@@ -1,0 +1,274 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments of what B-spline patches bound, of the patches themselves, and of sheets upon them.
+
+Soldea, Elber and Rivlin, sections 2 and 3, with the radial flux in place of their z-flux, so that no axis is special:
+
+    ∫ x^p y^q z^r dV = 1 / (p+q+r+3) · ∫∫ x^p y^q z^r S · (S_s x S_t) ds dt.
+
+Of a polynomial patch of degree d the integrand has degree (n + 3) d - 2 in each parameter for moments of order n (the
+top coefficient of S · (S_s x S_t) cancels), so a Gauss rule of ceil(((n + 3) d - 1) / 2) points in every span is exact.
+A rational integrand, an area's square root and the jacobian of a sheet have no finite degree: there the rules grow by
+halves until two of them agree, and where the finest does not settle it, cells are cut in four. The sum of what they
+still differ by is reported, as an estimate: it is that of the coarser rule, while the result is the finer one's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .bspline import gauss
+from .moments import Moments, U, monomials
+from .patch import Cells, Patch, at_gauss_points
+
+TOLERANCE = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
+AREA_TOLERANCE = 1e-11
+RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
+COARSE_RULES = (8, 12, 18)  # where less is asked for
+DEEPEST = 14  # times that a cell is cut
+MOST_POINTS = 12_000_000  # evaluated at most
+BLOCK = 12288  # points at a time: their arrays stay in the cache
+ROUNDING = 64.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
+
+Rule = tuple[int, int]
+Integrand = Callable[[Patch, Cells, Rule], tuple[NDArray, NDArray]]
+
+
+@dataclass(frozen=True, eq=False)
+class Integral:
+    """values: (K,). estimate: (K,) of their truncation. scale: (K,) the largest they could be. settled: whether the
+    estimate is below the tolerance."""
+
+    values: NDArray[np.float64]
+    estimate: NDArray[np.float64]
+    scale: NDArray[np.float64]
+    settled: bool
+
+
+def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
+    """(3,) the middle of the box around all control points: the reference point."""
+    low = np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
+    high = np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
+    return low + (high - low) / 2.0
+
+
+def patches_reach(patches: Sequence[Patch], about: NDArray) -> float:
+    """How far any point can be from `about`: within their control points."""
+    return max(float(np.sqrt(((patch.points - about) ** 2).sum(axis=-1).max())) for patch in patches)
+
+
+def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | None = None,
+                   tolerance: float = TOLERANCE) -> tuple[Moments, bool]:
+    """The volume moments of the body that closed, outward patches bound.
+
+    about: (3,), by default the middle of their box. Patches that do not close are closed by the cone from there.
+    Returns the moments, whose `error` is an estimate of truncation (zero for polynomial patches) and rounding, and
+    whether the truncation is below `tolerance`.
+    """
+    about = patches_center(patches) if about is None else np.asarray(about, np.float64)
+    reach = patches_reach(patches, about)
+    degree = monomials(order).sum(axis=1)
+
+    def flux(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, NDArray]:
+        (s, along, across), weights = at_gauss_points(patch, cells, rule, 1, about)
+        size = weights * _length(along) * _length(across)
+        return moments_of(s, weights * _triple(s, along, across), order), size.sum(axis=(1, 2))
+
+    exact = [patch for patch in patches if patch.weights is None]
+    rational = [patch for patch in patches if patch.weights is not None]
+    values, estimate, sizes, settled = np.zeros(len(degree)), np.zeros(len(degree)), 0.0, True
+    for patch in exact:
+        rule = tuple(exact_points(space.order, order) for space in patch.spaces)
+        rows, size = _blocks(patch, Cells.of(patch), rule, flux)
+        values += rows.sum(axis=0)
+        sizes += size.sum()
+    if rational:
+        found = adaptive(rational, flux, reach ** (degree + 1.0), tolerance, order)
+        values, settled = values + found.values, found.settled
+        estimate, sizes = found.estimate, sizes + found.scale[0] / max(reach, 1e-300)
+    divisor = degree + 3.0
+    orders = max(sum(space.order for space in patch.spaces) for patch in patches)
+    error = (estimate + ROUNDING * U * (orders + degree) * sizes * reach ** (degree + 1.0)) / divisor
+    return Moments(values / divisor, about, "volume", error), settled
+
+
+def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None,
+                 tolerance: float = AREA_TOLERANCE) -> tuple[Moments, bool]:
+    """The area moments of patches by quadrature; `error` is an estimate. Otherwise as `volume_moments`."""
+    about = patches_center(patches) if about is None else np.asarray(about, np.float64)
+    reach = patches_reach(patches, about)
+    degree = monomials(order).sum(axis=1)
+
+    def area(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, NDArray]:
+        (s, along, across), weights = at_gauss_points(patch, cells, rule, 1, about)
+        element = weights * _length(np.stack(_cross(along, across)))
+        return moments_of(s, element, order), element.sum(axis=(1, 2))
+
+    found = adaptive(patches, area, reach ** degree.astype(np.float64), tolerance)
+    orders = max(sum(space.order for space in patch.spaces) for patch in patches)
+    return Moments(found.values, about, "area", found.estimate + ROUNDING * U * orders * found.scale), found.settled
+
+
+def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: int = 3,
+                  about: NDArray | None = None, tolerance: float = AREA_TOLERANCE) -> tuple[Moments, bool]:
+    """The volume moments of {S + h n : inner ≤ h ≤ outer}, n the patches' unit normal: a sheet with real thickness.
+
+    Across the sheet the integrand is a polynomial of degree n + 2, so a rule of ceil((n + 3) / 2) points is exact.
+    ValueError where the sheet is thicker than its surface's radius of curvature, so that it runs through itself there.
+    """
+    about = patches_center(patches) if about is None else np.asarray(about, np.float64)
+    reach = patches_reach(patches, about) + max(abs(inner), abs(outer))
+    degree = monomials(order).sum(axis=1)
+    nodes, steps = gauss(ceil((order + 3) / 2))
+    heights, steps = inner + (outer - inner) * nodes, (outer - inner) * steps
+
+    def sheet(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, NDArray]:
+        (s, along, across, *second), weights = at_gauss_points(patch, cells, rule, 2, about)
+        normal = np.stack(_cross(along, across))
+        length = _length(normal)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            unit = np.where(length > 0.0, normal / length, 0.0)
+            turning = [_tangent(np.stack(_cross(second[k], across)) + np.stack(_cross(along, second[k + 1])), unit)
+                       / np.where(length > 0.0, length, 1.0) for k in (0, 1)]
+        # (1 - k h) and (1 - k' h), k and k' the curvatures, must both be positive: their product, and their sum too.
+        bend = _dot(np.stack(_cross(along, turning[1])) + np.stack(_cross(turning[0], across)), unit)
+        for height in (inner, outer):
+            product = _stretch(along, across, turning, unit, height)
+            if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
+                raise ValueError("The sheet is thicker than its surface's radius of curvature, so that it runs through "
+                                 "itself. Make it thinner.")
+        total = 0.0
+        for height, step in zip(heights, steps):
+            element = weights * step * _stretch(along, across, turning, unit, height)
+            total = total + moments_of(s + height * unit, element, order)
+        return total, (weights * length).sum(axis=(1, 2)) * (outer - inner)
+
+    found = adaptive(patches, sheet, reach ** degree.astype(np.float64), tolerance)
+    orders = max(sum(space.order for space in patch.spaces) for patch in patches)
+    return Moments(found.values, about, "volume", found.estimate + ROUNDING * U * orders * found.scale), found.settled
+
+
+def vector_area(patches: Sequence[Patch], points: int = 16) -> NDArray[np.float64]:
+    """(3,) the integral of the unit normals, by a fixed rule: of a flat patch its area along its normal."""
+    total = np.zeros(3)
+    for patch in patches:
+        (_, along, across), weights = at_gauss_points(patch, Cells.of(patch), (points, points), 1, np.zeros(3))
+        total += (np.stack(_cross(along, across)) * weights).sum(axis=(1, 2, 3))
+    return total
+
+
+def exact_points(order: int, degree: int) -> int:
+    """The Gauss points in a span of a polynomial direction of this order that make moments of this degree exact."""
+    return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
+
+
+def adaptive(patches: Sequence[Patch], integrand: Integrand, unit: NDArray, tolerance: float,
+             degree: int | None = None) -> Integral:
+    """An integral over patches, cell by cell to the rule that settles it.
+
+    integrand: gives (c, K) contributions and (c,) sizes of cells. unit: (K,) what a cell's size times it bounds.
+    degree: of moments whose integrand is a polynomial along a direction in which the weights are the same, so that
+    there fewer points are exact; None where there is none.
+    A cell is settled when two rules agree to the tolerance of its own scale, or of its share of the whole one.
+    """
+    values, estimate = np.zeros(len(unit)), np.zeros(len(unit))
+    rules = RULES if tolerance < AREA_TOLERANCE else COARSE_RULES
+    work = [(patch, Cells.of(patch), None, 0) for patch in patches]
+    whole, count, spent, settled, depth = 0.0, sum(len(cells) for _, cells, _, _ in work), 0, True, 0
+    while work:
+        waiting, compared = [], []
+        for patch, cells, coarse, rule in work:
+            if coarse is None:
+                coarse, size = _blocks(patch, cells, _rule(patch, rules[rule], degree), integrand)
+                spent += len(cells) * rules[rule] ** 2
+            fine, size = _blocks(patch, cells, _rule(patch, rules[rule + 1], degree), integrand)
+            spent += len(cells) * rules[rule + 1] ** 2
+            compared.append((patch, cells, coarse, fine, size, rule))
+        if not whole:
+            whole = sum(float(size.sum()) for *_, size, _ in compared)
+        last = spent > MOST_POINTS or depth >= DEEPEST
+        for patch, cells, coarse, fine, size, rule in compared:
+            with np.errstate(divide="ignore", invalid="ignore"):
+                # The worst of all moments stands for each: one may agree by chance.
+                differ = np.where(unit > 0.0, np.abs(fine - coarse) / unit, 0.0).max(axis=1)
+            good = differ <= tolerance * np.maximum(size, whole / count)
+            settled &= bool(good.all()) or not last
+            taken = np.ones_like(good) if last else good
+            values += fine[taken].sum(axis=0)
+            estimate += differ[taken].sum() * unit
+            if taken.all():
+                continue
+            if rule + 2 < len(rules):
+                waiting.append((patch, cells[~taken], fine[~taken], rule + 1))
+            else:
+                waiting.append((patch, cells[~taken].split(), None, 0))
+        depth += any(coarse is None for _, _, coarse, _ in waiting)
+        work = waiting
+    return Integral(values, estimate, whole * unit, settled)
+
+
+def _rule(patch: Patch, points: int, degree: int | None) -> Rule:
+    """So many points along each direction, or fewer where they are exact."""
+    if degree is None or patch.weights is None:
+        return points, points
+    steady = (patch.weights == patch.weights[:1]).all(), (patch.weights == patch.weights[:, :1]).all()
+    exact = tuple(exact_points(space.order, degree) if same else points for space, same in zip(patch.spaces, steady))
+    return min(points, exact[0]), min(points, exact[1])
+
+
+def _blocks(patch: Patch, cells: Cells, rule: Rule, integrand: Integrand) -> tuple[NDArray, NDArray]:
+    step = max(1, BLOCK // (rule[0] * rule[1]))
+    rows = [integrand(patch, cells[start:start + step], rule) for start in range(0, len(cells), step)]
+    if len(rows) == 1:
+        return rows[0]
+    return np.concatenate([row[0] for row in rows]), np.concatenate([row[1] for row in rows])
+
+
+def moments_of(points: NDArray, weights: NDArray, order: int) -> NDArray[np.float64]:
+    """(c, K) the sums of weights (c, m, n) times the monomials of points (3, c, m, n), in the order of `monomials`."""
+    x, y, z = points
+    columns: dict[tuple[int, int, int], NDArray] = {}
+    by_p = weights
+    for p in range(order + 1):
+        by_q = by_p
+        for q in range(order - p + 1):
+            by_r = by_q
+            for r in range(order - p - q + 1):
+                columns[p, q, r] = by_r.sum(axis=(1, 2))
+                if r < order - p - q:
+                    by_r = by_r * z
+            if q < order - p:
+                by_q = by_q * y
+        if p < order:
+            by_p = by_p * x
+    return np.stack([columns[tuple(row)] for row in monomials(order).tolist()], axis=1)
+
+
+def _cross(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def _dot(a: NDArray, b: NDArray) -> NDArray[np.float64]:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _triple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
+    return _dot(a, _cross(b, c))
+
+
+def _length(a: NDArray) -> NDArray[np.float64]:
+    return np.sqrt(_dot(a, a))
+
+
+def _tangent(a: NDArray, unit: NDArray) -> NDArray[np.float64]:
+    return a - _dot(a, unit) * unit
+
+
+def _stretch(along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float) -> NDArray:
+    """The jacobian of the sheet at a height: |S_s x S_t| (1 - 2 H h + K h²), by the offset surface's derivatives."""
+    return _dot(_cross(along + height * turning[0], across + height * turning[1]), unit)

@@ -1,0 +1,205 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What kind of body B-spline patches bound, what had to be decided to measure it, and its moments.
+
+The counterpart of `solid` for surfaces that are not made of polygons, with the same verdicts: patches that face against
+the rest of their part are turned, holes are capped, parts that are inside out and in no other's material are turned,
+and what cannot be closed is measured as a signed sum and called open. Parts are compared by samples of their patches.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .closure import Closure, close_patches
+from .moments import Moments, sum_moments
+from .nesting import decide, relate, sort_shells
+from .patch import Patch
+from .patch_moments import area_moments, patches_center, sheet_moments, volume_moments
+from .solid import NO_VOLUME, ROUNDING, Health
+from .weld import TOLERANCE
+
+EACH = 8  # samples of a span, for comparing parts
+CURVED = 1e-6  # of the size: a rim that lies this near to a plane is flat to float32
+
+
+@dataclass(frozen=True, eq=False)
+class PatchMeasure:
+    """volume: Moments of the body; its error is an estimate. area: Moments of the patches, without caps; an estimate.
+    method: "exact", "capped", "reoriented" or "open". warnings: one sentence for each decision taken.
+    patches: those whose signed sum `volume` is, caps among them. signs: (n,) how each of those that were given counts:
+    1, -1, or 0 for a flat part. closure: how they close.
+    """
+
+    volume: Moments
+    area: Moments
+    health: Health
+    method: str
+    warnings: tuple[str, ...]
+    patches: tuple[Patch, ...]
+    signs: NDArray[np.float64]
+    closure: Closure
+
+
+def measure_patches(patches: Sequence[Patch], *, order: int = 3, area_order: int = 0, stored: float = 0.0
+                    ) -> PatchMeasure:
+    """The moments of the body that patches bound, in their own coordinates and unit.
+
+    order: of the volume's moments; area_order: of the area's. stored: by how much storing the control points may have
+    moved each, for the moments' `input`. ValueError, with what to do, where there is nothing to measure.
+    """
+    if not patches:
+        raise ValueError("It has no patches. Give it some.")
+    size = patches_size(patches)
+    if not size > 0.0:
+        raise ValueError("All of its control points are in one place. Give it an extent.")
+    tolerance = max(TOLERANCE * size, 4.0 * stored)
+    closure = close_patches(patches, tolerance)
+    facing = [patch.turned() if turn else patch for patch, turn in zip(patches, closure.turned)]
+    about = patches_center(patches)
+    area, settled = area_moments(patches, area_order, about)
+    notes = [] if settled else ["The estimate of its area's error is above what was asked for."]
+
+    parts = [[patch for patch, own in zip(facing, closure.component) if own == k] for k in range(closure.number)]
+    caps = np.zeros((closure.number, 3))
+    for loop in closure.loops:
+        own = closure.component[loop.patch]
+        parts[own] += loop.caps
+        if not loop.slim:
+            caps[own] += (loop.flat, not loop.flat, loop.area)
+    measured = [volume_moments(part, order, about) for part in parts]
+    capped = caps.any(axis=1)
+    noise = np.where(capped, NO_VOLUME * size + 4.0 * stored, ROUNDING * size) * area.total
+    total = np.array([moments.total for moments, _ in measured])
+    solid = ~closure.broken & (np.abs(total) > noise)
+    turn, compared = _compared(parts, total, solid, tolerance)
+    kept = solid if solid.any() else closure.broken
+    volumes = [moments * (-1.0 if flip else 1.0) for (moments, _), flip, keep in zip(measured, turn, kept) if keep]
+    if not all(fine for (_, fine), keep in zip(measured, kept) if keep):
+        notes.append("The estimate of its volume's error is above rounding; its weights are extreme.")
+    volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
+    is_open = bool(closure.broken.any() or not solid.any())
+    if is_open and volume.total < 0.0:
+        volume = replace(volume, raw=-volume.raw)
+    reach = size + 4.0 * stored
+    volume = replace(volume, input=_moved(volume, stored, closure.gap, area.total, reach))
+    area = replace(area, input=_moved(area, stored, 0.0, 2.0 * area.total / reach, reach))
+    mixed = _mixed(closure)
+    notes = [*_told(closure, mixed, turn, caps[solid], area.total, solid.any(), size), *compared["notes"], *notes]
+    share = float(caps[solid, 2].sum() / area.total) if area.total > 0.0 else 0.0
+    method = ("open" if is_open else "capped" if capped[solid].any() else
+              "reoriented" if mixed or turn.any() else "exact")
+    health = Health(
+        closed=not (closure.broken.any() or capped.any()), boundary_edges=closure.open_sides,
+        non_manifold_edges=closure.crowded, inconsistent_edges=closure.against, components=closure.number,
+        inverted_components=int(turn.sum()), cap_area_share=share, **compared["counts"])
+    outward = [patch.turned() if flip else patch
+               for part, flip, keep in zip(parts, turn, kept) if keep for patch in part]
+    counted = np.where(turn, -1.0, 1.0) * kept
+    signs = counted[closure.component] * np.where(closure.turned, -1.0, 1.0)
+    return PatchMeasure(volume, area, health, method, tuple(notes), tuple(outward), signs, closure)
+
+
+def measure_sheet(patches: Sequence[Patch], inner: float, outer: float, *, order: int = 3, stored: float = 0.0
+                  ) -> tuple[Moments, Moments, bool]:
+    """The volume moments of a sheet of real thickness, from the height `inner` to `outer` along the patches' normals,
+    their area's moments, and whether both estimates are below the tolerance. ValueError where the sheet would run
+    through itself."""
+    about = patches_center(patches)
+    area, fine = area_moments(patches, order, about)
+    sheet, settled = sheet_moments(patches, inner, outer, order, about)
+    size = patches_size(patches)
+    reach = size + max(abs(inner), abs(outer)) + 4.0 * stored
+    area = replace(area, input=_moved(area, stored, 0.0, 2.0 * area.total / reach, reach))
+    sheet = replace(sheet, input=_moved(sheet, stored, 0.0, 2.0 * sheet.total / reach, reach))
+    return sheet, area, fine and settled
+
+
+def patches_size(patches: Sequence[Patch]) -> float:
+    """The diagonal of the box around all control points."""
+    low = np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
+    high = np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
+    return float(np.linalg.norm(high - low))
+
+
+def _moved(moments: Moments, stored: float, gap: float, area: float, reach: float) -> NDArray[np.float64]:
+    """(K,) what a skin moved by `stored`, and a gap of that area along seams, may change: at most the area they sweep
+    times the largest value of the monomial, which is at most `reach` to its degree."""
+    degree = np.array([0] + [n for n in range(1, moments.order + 1) for _ in range((n + 1) * (n + 2) // 2)])
+    return (stored * area + gap) * reach ** degree.astype(np.float64)
+
+
+def _compared(parts: list[list[Patch]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
+              ) -> tuple[NDArray[np.bool_], dict]:
+    """Which parts to turn, with the counts and sentences about parts in others' material."""
+    turned = solid & (total < 0.0)
+    if len(parts) == 1 or not solid.any():
+        return turned, {"counts": {}, "notes": []}
+    points, triangles, shell = [], [], []
+    count = 0
+    for number, part in enumerate(parts):
+        for patch in part:
+            grid = patch.samples(EACH)
+            corners = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2]) + count
+            a, b, c, d = (corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:])
+            faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
+            points.append(grid.reshape(-1, 3))
+            triangles.append(faces)
+            shell.append(np.full(len(faces), number))
+            count += len(points[-1])
+    points, triangles, shell = np.concatenate(points), np.concatenate(triangles), np.concatenate(shell)
+    shells = sort_shells(points, triangles, shell, len(parts))
+    shells = replace(shells, volume=total)
+    relations = relate(points, shells, solid, tolerance)
+    turned, nested, cavities = decide(shells, relations, solid)
+    crossing = len(np.unique(relations.crossing))
+    notes = []
+    if nested.any():
+        notes.append("{:d} of its parts lie inside others and face outward, so that space counts twice. Flip what is a "
+                     "cavity.".format(int(nested.sum())))
+    if crossing:
+        notes.append("{:d} of its parts overlap, so that what they share counts twice.".format(crossing))
+    return turned, {"counts": {"nested_components": int(nested.sum()), "cavities": int(cavities.sum()),
+                               "overlapping_components": crossing}, "notes": notes}
+
+
+def _mixed(closure: Closure) -> int:
+    """How many patches face against the rest of their part: the fewer of both kinds in each."""
+    turned = np.bincount(closure.component, closure.turned, closure.number)
+    return int(np.minimum(turned, np.bincount(closure.component, minlength=closure.number) - turned).sum())
+
+
+def _told(closure: Closure, mixed: int, turn: NDArray, caps: NDArray, area: float, solid: bool, size: float
+          ) -> list[str]:
+    notes = []
+    if mixed:
+        notes.append("One patch faces against the rest and was measured as if turned; switch its direction."
+                     if mixed == 1 else
+                     "{:d} patches face against the rest and were measured as if turned; switch their "
+                     "direction.".format(mixed))
+    if turn.any():
+        notes.append("{:s} inside out and measured as if turned; switch the direction of its patches to mend that."
+                     .format("It is" if closure.number == 1 else "{:d} of its {:d} parts are".format(
+                         int(turn.sum()), closure.number)))
+    if closure.broken.any():
+        notes.append("The open sides of its patches make no loops that could be capped, or it has one side only: these "
+                     "numbers depend on the reference point.")
+    if not solid:
+        if not closure.broken.any():
+            notes.append("It is flat and encloses no volume: measure a shell.")
+        return notes
+    flat, curved, share = caps.sum(axis=0)
+    if flat:
+        notes.append("{:s} capped exactly ({:.3g} % of the area).".format(
+            "One flat rim was" if flat == 1 else "{:d} flat rims were".format(int(flat)), 100.0 * share / area))
+    if curved:
+        worst = max(loop.out_of_plane for loop in closure.loops)
+        notes.append("{:s} capped by the cone to {:s} center, {:.2g} % of the size out of plane ({:.3g} % of the "
+                     "area).".format(
+                         "One rim in space was" if curved == 1 else "{:d} rims in space were".format(int(curved)),
+                         "its" if curved == 1 else "each one's", 100.0 * worst / size, 100.0 * share / area))
+    return notes

@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curve objects: wires, and the flat regions that closed ones bound, from control points."""
+
+import json
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.operators.read import Unreadable, measurable
+from body_moments.operators.write.record import record, to_json
+
+from tests.blender.bodies import add, measured, only
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+def bezier_area(obj):
+    """The area of four cubic quarters by Green's theorem, with the handles' length k: 4 (1/2 + 3k/5 - 3k²/20)."""
+    point = obj.data.splines[0].bezier_points[0]
+    k = (point.handle_left - point.co).length
+    return 4.0 * (0.5 + 0.6 * k - 0.15 * k * k)
+
+
+def circle(kind="nurbs"):
+    getattr(bpy.ops.curve, "primitive_{:s}_circle_add".format(kind))()
+    return bpy.context.object
+
+
+def poly(points, cyclic=False):
+    data = bpy.data.curves.new("Poly", "CURVE")
+    data.dimensions = "3D"
+    spline = data.splines.new("POLY")
+    spline.points.add(len(points) - 1)
+    spline.points.foreach_set("co", np.c_[np.asarray(points, float), np.ones(len(points))].ravel())
+    spline.use_cyclic_u = cyclic
+    return add(data, "Poly")
+
+
+def test_a_circle_is_a_wire_of_its_length():
+    obj = circle()
+    obj.body_moments.kind, obj.body_moments.linear_density = "WIRE", 2.5
+    wire = measured(obj)
+    assert wire.method == "wire" and wire.volume == 0.0 and wire.area == 0.0
+    assert wire.length == pytest.approx(2.0 * np.pi, rel=1e-8)
+    assert wire.mass_properties.mass == pytest.approx(5.0 * np.pi, rel=1e-8)
+    assert np.allclose(wire.mass_properties.principal.moments, np.array([2.5, 2.5, 5.0]) * np.pi, rtol=1e-7)
+    obj.scale = (2.0, 2.0, 2.0)
+    assert measured(obj).length == pytest.approx(4.0 * np.pi, rel=1e-8)
+    obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.0
+    assert measured(obj).mass_properties.mass == pytest.approx(3.0)
+
+
+def test_an_ellipse_is_not_a_scaled_length():
+    obj = circle()
+    obj.body_moments.kind, obj.scale = "WIRE", (2.0, 1.0, 1.0)
+    t = (np.arange(100_000) + 0.5) * (2.0 * np.pi / 100_000)
+    exact = np.sqrt(4.0 * np.sin(t) ** 2 + np.cos(t) ** 2).mean() * 2.0 * np.pi
+    assert measured(obj).length == pytest.approx(exact, rel=1e-8)
+
+
+def test_straight_splines_are_rods():
+    obj = poly([(0, 0, 0), (3, 0, 0), (3, 4, 0)])
+    obj.body_moments.kind = "WIRE"
+    rods = measured(obj)
+    assert rods.length == pytest.approx(7.0)
+    assert np.allclose(rods.mass_properties.center, [(1.5 * 3 + 3 * 4) / 7, 8 / 7, 0])
+    obj.data.splines[0].use_cyclic_u = True
+    assert measured(obj).length == pytest.approx(12.0)
+
+
+@pytest.mark.parametrize("dimensions", ["2D", "3D"])
+def test_the_region_of_a_bezier_circle_is_that_of_its_curve(dimensions):
+    obj = circle("bezier")
+    obj.data.dimensions = dimensions
+    if dimensions == "2D":
+        obj.data.fill_mode = "BOTH"
+    obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
+    disc = measured(obj)
+    assert disc.method == "NURBS shell"
+    assert disc.area == pytest.approx(bezier_area(obj), rel=1e-6)
+    assert disc.area / np.pi == pytest.approx(1.000191785, rel=1e-8)
+    assert any("not filled" in warning for warning in disc.warnings) == (dimensions == "3D")
+    assert disc.mass_properties.inertia[0, 1] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_ring_has_its_hole():
+    obj = circle()
+    obj.data.dimensions, obj.data.fill_mode = "2D", "BOTH"
+    inner = circle()
+    inner.scale = (0.5, 0.5, 0.5)
+    bpy.ops.object.transform_apply(scale=True)
+    only(obj, inner)
+    bpy.ops.object.join()
+    obj.body_moments.kind = "SHELL"
+    ring = measured(obj)
+    assert ring.area == pytest.approx(0.75 * np.pi, rel=1e-7)
+    assert ring.method == "NURBS shell"
+
+
+def test_what_bounds_no_region_is_measured_by_its_fill_or_refused():
+    crossing = poly([(0, 0, 0), (2, 0, 0), (0, 1, 0), (2, 1, 0)], cyclic=True)
+    crossing.body_moments.kind = "SHELL"
+    with pytest.raises(Unreadable, match="cross"):
+        measured(crossing)
+    crossing.data.dimensions, crossing.data.fill_mode = "2D", "BOTH"
+    found = measured(crossing)
+    assert found.method == "shell" and found.area > 0.0  # whatever Blender fills
+
+
+def test_hooks_and_keys_bend_a_wire_with_a_bevel_and_without():
+    obj = circle("bezier")
+    obj.body_moments.kind = "WIRE"
+    plain = measured(obj).length
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Large")
+    for point in key.data:
+        point.co, point.handle_left, point.handle_right = (3.0 * np.array(value) for value in (
+            point.co, point.handle_left, point.handle_right))
+    key.value = 0.5
+    hook = add(None, "Hook", select=False)
+    modifier = obj.modifiers.new("Hook", "HOOK")
+    modifier.object = hook
+    modifier.vertex_indices_set(list(range(12)))
+    hook.scale = (1.5, 1.5, 1.5)
+    assert measured(obj).length == pytest.approx(3.0 * plain, rel=1e-6)
+    obj.data.bevel_depth = 0.1
+    assert measured(obj).length == pytest.approx(3.0 * plain, rel=1e-6)
+
+
+def test_a_wire_is_stored_recorded_and_cleared():
+    obj = circle()
+    obj.body_moments.kind = "WIRE"
+    assert measurable(obj)
+    bpy.ops.object.body_moments_measure()
+    assert obj["body_length"] == pytest.approx(2.0 * np.pi, rel=1e-8) and obj["body_density"] == 0.0
+    entry = record(measured(obj), order=2)
+    assert entry["linear_density"] == pytest.approx(1.0) and entry["density"] is None
+    assert entry["moments"]["length"]["2,0,0"] == pytest.approx(np.pi, rel=1e-7)
+    json.loads(to_json([entry]))
+    obj.data.dimensions, obj.body_moments.kind = "2D", "SHELL"
+    bpy.ops.object.body_moments_measure()
+    assert "body_length" not in obj and obj["body_method"] == "NURBS shell"
+    bpy.ops.object.body_moments_clear()
+    assert not any(key.startswith("body_") for key in tuple(obj.keys()) if key != "body_moments")
+
+
+def test_a_plain_line_is_still_refused_as_a_solid_and_a_mesh_as_a_wire():
+    obj = circle()
+    assert not measurable(obj)
+    with pytest.raises(Unreadable, match="bevel"):
+        measured(obj)
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.object
+    cube.body_moments.kind = "WIRE"
+    with pytest.raises(Unreadable, match="curve"):
+        measured(cube)

@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Basis functions against rational polynomials, and Blender's rules for knots."""
+
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+import pytest
+from body_moments.core.blender_knots import blender_knots, blender_space, is_valid
+from body_moments.core.bspline import Space, clamped, gauss
+
+from tests.core.exact_splines import span_polynomials
+
+SPACES = [clamped(order, (0.25, 0.5, 0.5)) for order in range(2, 7)] + [
+    Space((0.0, 0.5, 1.0, 1.5, 3.0, 3.25, 4.0), 3, 4), blender_space(6, 4, True, False, False),
+    Space((1e6, 1e6, 1e6, 1e6 + 0.5, 1e6 + 1, 1e6 + 1, 1e6 + 1), 3, 4)]
+
+
+@pytest.mark.parametrize("space", SPACES)
+def test_values_and_derivatives_are_those_of_the_exact_polynomials(space):
+    for j in space.spans:
+        polynomials = span_polynomials(space, int(j))
+        low, high = space.knots[j], space.knots[j + 1]
+        for share in (0.0, 0.125, 0.5, 1.0):
+            t = low + share * (high - low)
+            found = space.derivatives(np.array([j]), np.array([t]), 2)
+            for derivative, values in enumerate(found):
+                exact = []
+                for row in polynomials:
+                    for _ in range(derivative):
+                        row = [power * value for power, value in enumerate(row)][1:] or [Fraction(0)]
+                    exact.append(float(sum(value * Fraction(t) ** power for power, value in enumerate(row))))
+                scale = max(1.0, np.abs(exact).max())
+                assert np.abs(values[0] - exact).max() <= 1e-14 * scale * space.order
+
+
+@pytest.mark.parametrize("space", SPACES)
+def test_weights_of_control_points_add_up_to_one_all_over_the_domain(space):
+    table = space.matrix(np.linspace(*space.domain, 41))
+    assert np.abs(table.sum(axis=1) - 1.0).max() <= 4e-16 * space.order
+    assert (table >= 0.0).all()
+
+
+def test_a_cyclic_direction_ends_as_it_begins():
+    space = blender_space(7, 5, True, False, False)
+    first, last = space.matrix(np.array(space.domain))
+    assert np.abs(first - last).max() <= 4e-16
+
+
+@pytest.mark.parametrize("knots, order, count", [
+    ((0, 0, 1, 1), 2, 3), ((0, 1, 0, 1), 2, 2), ((0, 0, 0, 0), 2, 2), ((0, 0, float("nan"), 1), 2, 2), ((0, 1), 2, 1)])
+def test_knots_that_make_no_space_are_refused(knots, order, count):
+    with pytest.raises(ValueError, match=r"\.$"):
+        Space(tuple(float(knot) for knot in knots), order, count)
+
+
+@pytest.mark.parametrize("points", [1, 2, 5, 12, 27])
+def test_gauss_is_exact_to_its_degree_and_not_beyond(points):
+    nodes, weights = gauss(points)
+    for degree in range(2 * points):
+        assert abs(weights @ nodes ** degree - 1.0 / (degree + 1)) <= 1e-15
+    if points <= 5:
+        assert abs(weights @ nodes ** (2 * points) - 1.0 / (2 * points + 1)) > 1e-8
+
+
+@pytest.mark.parametrize("settings, knots, domain", [
+    ((6, 4, False, False, False), list(range(10)), (3, 6)),
+    ((6, 4, False, False, True), [0, 0, 0, 0, 1, 2, 3, 3, 3, 3], (0, 3)),
+    ((7, 4, False, True, False), [0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3], (1, 2)),
+    ((7, 4, False, True, True), [0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2], (0, 2)),
+    ((6, 4, True, False, False), None, (3, 9)),
+    ((6, 4, True, True, False), None, (1, 3)),
+    ((5, 3, True, False, True), [0, 1, 1, 2, 3, 4, 5, 5, 6, 7], (1, 5)),
+])
+def test_knots_are_those_that_blender_makes(settings, knots, domain):
+    if knots is not None:
+        assert blender_knots(*settings).tolist() == knots
+    assert blender_space(*settings).domain == domain
+
+
+def test_every_valid_setting_makes_a_space_or_none_and_never_fails():
+    for count, order, *flags in product(range(1, 12), range(2, 7), *[(False, True)] * 3):
+        space = blender_space(count, order, *flags)
+        if not is_valid(count, order, *flags):
+            assert space is None
+        elif space is not None:
+            assert space.count == count and space.domain[0] < space.domain[1]

@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curves as wires and as rims of flat regions, against closed forms and polygons of straight pieces."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core.bspline import Space, clamped
+from body_moments.core.curve import Curve
+from body_moments.core.curve_moments import length_moments, plane_moments
+from body_moments.core.mass import MassProperties
+from body_moments.core.plane_region import plane_region
+
+from tests.core.exact_splines import ROUND, circle
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+def ring(radius=1.0, center=(0.0, 0.0, 0.0)):
+    corners, weights = circle()
+    return Curve(ROUND, np.c_[corners, np.zeros(8)] * radius + center, weights)
+
+
+def polyline(points):
+    count = len(points)
+    return Curve(Space((0.0, *map(float, range(count)), count - 1.0), 2, count), points)
+
+
+def rotation(seed=0):
+    matrix, _ = np.linalg.qr(np.random.default_rng(seed).standard_normal((3, 3)))
+    return matrix * np.sign(np.linalg.det(matrix))
+
+
+def test_the_wire_of_a_circle():
+    moments = length_moments([ring(2.0)])
+    assert abs(moments.total / (4.0 * np.pi) - 1.0) <= 1e-14
+    assert abs(moments[2, 0, 0] / (8.0 * np.pi) - 1.0) <= 1e-14
+    assert moments.of == "length" and abs(moments.total - 4.0 * np.pi) <= moments.error[0]
+    body = MassProperties.from_moments(moments, 3.0)
+    assert np.allclose(body.principal.moments, 12.0 * np.pi * np.array([2.0, 2.0, 4.0]), rtol=1e-13)
+
+
+def test_the_wire_of_straight_pieces_is_the_sum_of_rods():
+    points = np.array([(0, 0, 0), (3, 0, 0), (3, 4, 0), (3, 4, 12.0)]) + 100.0
+    moments = length_moments([polyline(points)])
+    assert abs(moments.total - 19.0) <= 1e-12
+    middles, lengths = (points[1:] + points[:-1]) / 2.0, np.array([3.0, 4.0, 12.0])
+    assert np.abs(moments.center - (middles * lengths[:, None]).sum(axis=0) / 19.0).max() <= 1e-12
+
+
+def test_the_length_of_a_parabola_is_its_closed_form():
+    parabola = Curve(clamped(3), [(0, 0, 0), (0.5, 0, 0), (1, 1, 0)])  # y = x²
+    exact = np.sqrt(5.0) / 2.0 + np.arcsinh(2.0) / 4.0
+    moments = length_moments([parabola], 0)
+    assert abs(moments.total - exact) <= moments.error[0] <= 1e-11
+
+
+def test_a_wire_with_a_cusp_has_an_estimate_that_holds():
+    cusp = Curve(clamped(4), [(0, 0, 0), (1, 1, 0), (0, 1, 0), (1, 0, 0)])  # symmetric, its speed zero half-way
+    moments = length_moments([cusp], 0)
+    t = (np.arange(2_000_000) + 0.5) / 2_000_000
+    speed = np.linalg.norm(3 * ((1 - t)**2)[:, None] * [1, 1, 0] + (6 * t * (1 - t))[:, None] * [-1, 0, 0]
+                           + (3 * t**2)[:, None] * [1, -1, 0], axis=1)
+    assert abs(moments.total - speed.mean()) <= moments.error[0] + 1e-11
+    assert moments.error[0] <= 1e-9
+
+
+def test_the_region_of_a_circle_is_exact():
+    moments = plane_moments([ring(2.0, (5.0, 1.0, 3.0))], UP)
+    assert abs(moments.total / (4.0 * np.pi) - 1.0) <= 1e-14
+    central = moments.about_center()
+    assert np.abs(moments.center - [5.0, 1.0, 3.0]).max() <= 1e-14
+    assert abs(central[2, 0, 0] / (4.0 * np.pi) - 1.0) <= 1e-14
+    assert abs(central[0, 0, 2]) <= 1e-13 and abs(central[3, 0, 0]) <= 1e-13
+
+
+@pytest.mark.parametrize("degree", [2, 3, 5])
+def test_the_region_under_a_polynomial_is_exact(degree):
+    """Between y = x^n, raised to that degree, and the axis, over [0, 1]."""
+    order = degree + 1
+    points = [(i / degree, 1.0 if i == degree else 0.0, 0.0) for i in range(order)]
+    curves = [Curve(clamped(order), points), polyline([(1, 1, 0), (1, 0, 0), (0, 0, 0)])]
+    moments = plane_moments(curves, -UP, about=np.zeros(3))
+    for p in range(4):
+        for q in range(4 - p):
+            exact = Fraction(1, (q + 1) * (p + degree * (q + 1) + 1))
+            assert abs(moments[p, q, 0] - float(exact)) <= 1e-15
+
+
+def test_holes_are_left_out_and_islands_in_them_are_not():
+    for turn in (np.eye(3), rotation()):
+        rings = [Curve(c.space, c.points @ turn.T, c.weights) for c in (ring(1.0), ring(3.0), ring(2.0).reversed())]
+        curves, normal = plane_region(rings)
+        moments = plane_moments(curves, normal)
+        assert abs(moments.total / (np.pi * (9.0 - 4.0 + 1.0)) - 1.0) <= 1e-13
+        assert abs(normal @ turn[:, 2]) == pytest.approx(1.0, abs=1e-12)
+
+
+def test_a_reversed_curve_is_the_same_run_backwards():
+    for curve in (ring(), Curve(clamped(4, (0.25,)), np.random.default_rng(0).uniform(-1, 1, (5, 3)))):
+        assert np.abs(curve.samples(5)[::-1] - curve.reversed().samples(5)).max() <= 1e-14
+
+
+@pytest.mark.parametrize("curves, reason", [
+    ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 0)])], "not closed"),
+    ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0), (0, 0, 0)])], "one plane"),
+    ([polyline([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0)])], "cross"),
+    ([ring(), ring(1.0, (0.5, 0.0, 0.0))], "cross")])
+def test_curves_that_bound_no_region_are_refused(curves, reason):
+    with pytest.raises(ValueError, match=reason):
+        plane_region(curves)
+
+
+def test_lengths_follow_a_similarity_and_no_other_map():
+    moments = length_moments([ring()])
+    assert abs(moments.mapped(np.diag([2.0, 2.0, 2.0, 1.0])).total / (4.0 * np.pi) - 1.0) <= 1e-14
+    with pytest.raises(ValueError):
+        moments.mapped(np.diag([2.0, 1.0, 1.0, 1.0]))

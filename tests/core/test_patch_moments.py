@@ -1,0 +1,223 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments of patches against rational arithmetic and closed forms; estimates against finer rules."""
+
+import numpy as np
+import pytest
+from body_moments.core import patch_moments
+from body_moments.core.bspline import Space, clamped
+from body_moments.core.moments import monomials
+from body_moments.core.patch import Cells, Patch, at_gauss_points
+from body_moments.core.patch_moments import (
+    _blocks,
+    area_moments,
+    exact_points,
+    moments_of,
+    patches_reach,
+    sheet_moments,
+    volume_moments,
+)
+
+from tests.core.exact_splines import flux_moment, sphere, torus
+
+ORIGIN = np.zeros(3)
+
+
+def random_patch(rng, spaces, weights=None):
+    """Control points with few bits, so that rational arithmetic stays small."""
+    shape = (spaces[0].count, spaces[1].count)
+    return Patch(spaces, rng.integers(-8, 9, (*shape, 3)) / 8.0, weights)
+
+
+
+def z_flux_difference(patch, exponents):
+    """What the flux of the cone from the origin over the rim adds to the z-flux of the patch: the radial flux is the
+    patch's alone, and both are one for a closed body, so the rim's cones are measured exactly as patches too."""
+    total = flux_moment(patch, exponents)
+    for axis, end, forward in ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False)):
+        curve = patch.side(axis, end)
+        cone = Patch((clamped(2), curve.space), np.stack([np.zeros_like(curve.points), curve.points]))
+        total += flux_moment(cone.turned() if forward else cone, exponents)
+    return total
+
+
+@pytest.mark.parametrize("orders", [(2, 2), (3, 2), (3, 3), (4, 4), (5, 3), (5, 5), (6, 6)])
+def test_polynomial_patches_are_exact_at_every_order(orders):
+    rng = np.random.default_rng(sum(orders))
+    patch = random_patch(rng, tuple(clamped(order) for order in orders))
+    moments, settled = volume_moments([patch], 3, ORIGIN)
+    assert settled
+    exponents = [(0, 0, 0), (1, 0, 0), (0, 0, 2), (1, 1, 1)] if max(orders) < 6 else [(0, 0, 0), (0, 1, 0), (1, 1, 0)]
+    for row in exponents:
+        exact = float(z_flux_difference(patch, row))
+        scale = patches_reach([patch], ORIGIN) ** sum(row) * max(abs(moments.total), 1e-3)
+        assert abs(moments[row] - exact) <= 1e-13 * scale
+        assert abs(moments[row] - exact) <= moments.error[np.argwhere((monomials(3) == row).all(axis=1))[0, 0]]
+
+
+def test_several_spans_with_uneven_and_repeated_knots_are_exact():
+    rng = np.random.default_rng(3)
+    spaces = clamped(3, (0.25, 0.375)), Space((0.0, 0.5, 1.0, 1.5, 2.0, 2.0, 3.0, 3.25, 4.0, 5.0), 4, 6)
+    patch = random_patch(rng, spaces)
+    moments, _ = volume_moments([patch], 2, ORIGIN)
+    for row in [(0, 0, 0), (0, 1, 0), (1, 0, 1)]:
+        exact = float(z_flux_difference(patch, row))
+        assert abs(moments[row] - exact) <= 1e-14
+
+
+@pytest.mark.parametrize("order, degree, count", [(4, 0, 4), (4, 1, 6), (4, 2, 7), (4, 3, 9), (4, 4, 10), (2, 0, 1)])
+def test_the_number_of_gauss_points_is_what_the_degree_needs(order, degree, count):
+    assert exact_points(order, degree) == count
+
+
+def test_one_gauss_point_fewer_would_not_do():
+    rng = np.random.default_rng(0)
+    patch = random_patch(rng, (clamped(4), clamped(4)))
+    exact = float(z_flux_difference(patch, (1, 0, 0)))
+
+    def flux(number):
+        (s, a, b), w = at_gauss_points(patch, Cells.of(patch), (number, number), 1, ORIGIN)
+        normal = np.cross(a, b, axis=0)
+        return moments_of(s, (s * normal).sum(axis=0) * w, 1)[:, 1].sum() / 4.0
+
+    needed = exact_points(4, 1)
+    assert abs(flux(needed) - exact) <= 1e-14
+    assert abs(flux(needed - 1) - exact) > 1e-9
+
+
+@pytest.mark.parametrize("shift", [0.0, 1e3])
+def test_the_unit_sphere_and_a_torus_are_exact(shift):
+    move = np.eye(4)
+    move[:3, 3] = shift * np.array([1.0, -2.0, 0.5])
+    moments, settled = volume_moments([sphere().mapped(move)], 4)
+    noise = 1e-14 if shift == 0.0 else 1e-11  # control points far away are rounded themselves
+    assert settled
+    assert abs(moments.total / (4.0 * np.pi / 3.0) - 1.0) <= noise
+    for row in np.eye(3, dtype=int):
+        assert abs(moments[tuple(2 * row)] / (4.0 * np.pi / 15.0) - 1.0) <= noise
+        assert abs(moments[tuple(4 * row)] / (4.0 * np.pi / 35.0) - 1.0) <= noise
+    R, r = 0.75, 0.25
+    volume = 2.0 * np.pi**2 * R * r**2
+    moments, settled = volume_moments([torus(R, r).mapped(move)], 2)
+    assert settled
+    assert abs(moments.total / volume - 1.0) <= noise
+    assert abs(moments[0, 0, 2] / (volume * r**2 / 4.0) - 1.0) <= 10.0 * noise
+    assert abs(moments[2, 0, 0] / (volume * (4.0 * R**2 + 3.0 * r**2) / 8.0) - 1.0) <= noise
+
+
+def test_a_sphere_stored_in_float32_encloses_what_its_weights_say():
+    ball = sphere()
+    points = (ball.points * np.float64(np.float32(0.99999988))).astype(np.float32)
+    weights = ball.weights.astype(np.float32)
+    moments, _ = volume_moments([Patch(ball.spaces, points, weights)])
+    assert abs(moments.total / (4.0 * np.pi / 3.0) - 1.0) < 1e-6
+
+
+@pytest.mark.parametrize("matrix", [
+    np.diag([2.0, 3.0, 0.5, 1.0]), np.diag([1e-6, 1e-6, 1e-6, 1.0]),
+    np.array([[1, 0.3, 0, 5], [0, 1, -0.7, -2], [0.2, 0, 1, 1], [0, 0, 0, 1.0]])])
+def test_moments_of_a_mapped_patch_are_the_mapped_moments(matrix):
+    plain, _ = volume_moments([torus()])
+    mapped, _ = volume_moments([torus().mapped(matrix)])
+    expected = plain.mapped(matrix).shifted(mapped.about)
+    scale = patches_reach([torus().mapped(matrix)], mapped.about) ** monomials(3).sum(axis=1) * mapped.total
+    assert (np.abs(mapped.raw - expected.raw) <= 2e-14 * scale).all()
+
+
+def test_a_turned_patch_has_the_opposite_flux():
+    plain, _ = volume_moments([sphere()])
+    turned, _ = volume_moments([sphere().turned()])
+    assert np.abs(plain.raw + turned.raw).max() <= 1e-15
+
+
+def truth(patch, order, pieces=4, points=40):
+    """The flux by a fixed rule in pieces of every cell, with no estimate to trust."""
+    cells = Cells.of(patch)
+    for _ in range(pieces):
+        cells = cells.split()
+
+    def flux(patch, cells, rule):
+        (s, a, b), w = at_gauss_points(patch, cells, rule, 1, ORIGIN)
+        return moments_of(s, (s * np.cross(a, b, axis=0)).sum(axis=0) * w, order), np.ones(len(cells))
+
+    rows, _ = _blocks(patch, cells, (points, points), flux)
+    return rows.sum(axis=0) / (monomials(order).sum(axis=1) + 3.0)
+
+
+def random_rational(rng, spread):
+    orders = rng.integers(2, 5, 2)
+    spaces = tuple(clamped(int(order), (0.5,) * int(rng.random() < 0.2)) for order in orders)
+    shape = tuple(space.count for space in spaces)
+    return Patch(spaces, rng.uniform(-1.0, 1.0, (*shape, 3)), 10.0 ** rng.uniform(-spread, spread, shape))
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_the_estimate_is_never_below_the_true_error_of_random_rational_patches(seed, monkeypatch):
+    """1,000 patches in all, weights from 0.1 to 10, against rules of twice as many points."""
+    rng = np.random.default_rng(seed)
+    patches = [random_rational(rng, 1.0) for _ in range(100)]
+    found = [volume_moments([patch], 2, ORIGIN) for patch in patches]
+    monkeypatch.setattr(patch_moments, "RULES", tuple(2 * points for points in patch_moments.RULES))
+    for patch, (moments, settled) in zip(patches, found):
+        exact, _ = volume_moments([patch], 2, ORIGIN)
+        assert settled
+        assert (np.abs(moments.raw - exact.raw) <= moments.error).all()
+        assert moments.error[0] <= 1e-12  # so it tells something
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 4e-15])
+def test_the_estimate_holds_against_a_fixed_fine_rule(tolerance):
+    rng = np.random.default_rng(8)
+    for _ in range(8):
+        patch = random_rational(rng, 1.0)
+        moments, settled = volume_moments([patch], 2, ORIGIN, tolerance=tolerance)
+        assert settled
+        assert (np.abs(moments.raw - truth(patch, 2)) <= moments.error + 1e-14).all()
+
+
+def test_areas_of_spheres_and_tori_come_with_an_estimate_that_holds():
+    moments, settled = area_moments([sphere()], 2)
+    assert settled and abs(moments.total - 4.0 * np.pi) <= moments.error[0] <= 1e-9
+    assert abs(moments[2, 0, 0] - 4.0 * np.pi / 3.0) <= moments.error[4]
+    moments, _ = area_moments([torus()], 0)
+    assert abs(moments.total - 4.0 * np.pi**2 * 0.75 * 0.25) <= moments.error[0] <= 1e-9
+
+
+def test_sheets_have_real_thickness():
+    for low, high in ((-0.05, 0.05), (0.0, 0.1), (-0.3, -0.1)):
+        moments, settled = sheet_moments([sphere()], low, high)
+        assert settled
+        assert abs(moments.total / (4.0 * np.pi / 3.0 * ((1 + high) ** 3 - (1 + low) ** 3)) - 1.0) <= 1e-13
+        second = 4.0 * np.pi / 15.0 * ((1 + high) ** 5 - (1 + low) ** 5)
+        assert abs(moments[0, 0, 2] / second - 1.0) <= 1e-13
+    sheet, _ = sheet_moments([torus()], -0.05, 0.05)
+    R, r = 0.75, 0.25
+    shells = [2.0 * np.pi**2 * R * (r + h) ** 2 for h in (0.05, -0.05)]
+    assert abs(sheet.total / (shells[0] - shells[1]) - 1.0) <= 1e-13
+
+
+def test_a_sheet_thicker_than_its_radius_is_refused():
+    with pytest.raises(ValueError, match="thinner"):
+        sheet_moments([torus()], -0.3, 0.3)
+    sheet_moments([torus()], -0.24, 0.24)
+    with pytest.raises(ValueError, match="thinner"):
+        sheet_moments([sphere()], -1.5, 1.5)  # beyond the center both curvatures are: their product is positive again
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
+def test_weights_that_are_not_positive_are_refused(bad):
+    weights = np.ones((3, 3))
+    weights[1, 1] = bad
+    with pytest.raises(ValueError, match="weights"):
+        Patch((clamped(3), clamped(3)), np.zeros((3, 3, 3)), weights)
+
+
+def test_points_that_are_not_finite_are_refused():
+    points = np.zeros((3, 3, 3))
+    points[0, 0, 0] = np.nan
+    with pytest.raises(ValueError, match="finite"):
+        Patch((clamped(3), clamped(3)), points)
+
+
+def test_equal_weights_make_a_polynomial_patch():
+    assert Patch((clamped(3), clamped(3)), np.zeros((3, 3, 3)), np.full((3, 3), 0.7)).weights is None

@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What patches bound: whether they close, which way they face, what caps them, and what is said about it."""
+
+import numpy as np
+import pytest
+from body_moments.core.bspline import Space, clamped
+from body_moments.core.patch import Patch
+from body_moments.core.patch_solid import measure_patches, measure_sheet
+
+from tests.core.exact_splines import sphere, torus, tube
+
+BALL = 4.0 * np.pi / 3.0
+
+
+def flat(corners, orders=(2, 2), inner=((), ())):
+    """A bilinear patch over four corners (00, 10, 11, 01), of higher order and with more knots if asked: its control
+    points are at the Greville abscissae, so that its parameters stay even."""
+    spaces = tuple(clamped(order, knots) for order, knots in zip(orders, inner))
+    steps = [np.array([sum(space.knots[i + 1:i + space.order]) / (space.order - 1) for i in range(space.count)])
+             for space in spaces]
+    a, b, c, d = (np.asarray(corner, float) for corner in corners)
+    s, t = steps[0][:, None, None], steps[1][None, :, None]
+    return Patch(spaces, (1 - s) * (1 - t) * a + s * (1 - t) * b + s * t * c + (1 - s) * t * d)
+
+
+def box(size=(1.0, 2.0, 3.0), offset=(5.0, -3.0, 2.0), orders=((2, 2),) * 6, inner=(((), ()),) * 6):
+    """Six outward patches."""
+    corner = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * size + np.asarray(offset)
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return [flat([corner[i] for i in face], order, knots) for face, order, knots in zip(faces, orders, inner)]
+
+
+def test_closed_patches_are_exact_without_a_word():
+    for patch, volume in ((sphere(), BALL), (torus(), 2.0 * np.pi**2 * 0.75 / 16.0)):
+        found = measure_patches([patch])
+        assert (found.method, found.warnings, found.health.closed) == ("exact", (), True)
+        assert abs(found.volume.total / volume - 1.0) <= 1e-14
+
+
+def test_a_patch_that_is_inside_out_is_turned_and_said():
+    found = measure_patches([sphere().turned()])
+    assert found.method == "reoriented" and found.health.inverted_components == 1
+    assert "inside out" in found.warnings[0]
+    assert abs(found.volume.total / BALL - 1.0) <= 1e-14
+
+
+def test_an_open_cylinder_has_no_vector_area_and_is_still_open():
+    found = measure_patches([tube()])
+    assert found.method == "capped" and not found.health.closed and found.health.boundary_edges == 2
+    assert abs(found.volume.total / (2.0 * np.pi) - 1.0) <= 1e-14
+    assert abs(found.volume[0, 0, 2] / (2.0 * np.pi / 3.0) - 1.0) <= 1e-14
+    assert abs(found.volume[2, 0, 0] / (np.pi / 2.0) - 1.0) <= 1e-14
+    assert abs(found.health.cap_area_share - 0.5) <= 1e-6
+    assert found.area.total == pytest.approx(4.0 * np.pi, rel=1e-12)
+
+
+@pytest.mark.parametrize("far", [0.0, 1e4])
+def test_the_volume_of_a_capped_patch_does_not_depend_on_where_it_is(far):
+    rng = np.random.default_rng(4)
+    space = clamped(4, (0.3, 0.6))
+    bowl = np.stack(np.meshgrid(np.arange(6.0), np.arange(6.0), indexing="ij"), axis=-1)
+    points = np.concatenate([bowl, rng.uniform(0.0, 2.0, (6, 6, 1))], axis=2)
+    here, there = (measure_patches([Patch((space, space), points + shift)]) for shift in (0.0, far))
+    assert here.method == there.method == "capped"
+    assert "space" in here.warnings[-1]
+    assert abs(there.volume.total / here.volume.total - 1.0) <= 1e-9
+
+
+def test_the_cap_of_a_flat_rim_is_exact_whatever_the_rims_shape():
+    """An L-shaped prism's walls: the centroid is not even in the flat region's kernel."""
+    outline = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4), (0, 0)]
+    space = Space((0.0, *map(float, range(7)), 6.0), 2, 7)
+    points = np.array([[(x, y, z) for z in (2.0, 5.0)] for x, y in outline])
+    found = measure_patches([Patch((space, clamped(2)), points)])
+    assert found.method == "capped" and "2 flat rims" in found.warnings[0]
+    assert abs(found.volume.total - 7.0 * 3.0) <= 1e-13
+    center = (2.0 * 4.0 + 0.5 * 3.0) / 7.0
+    assert np.abs(found.volume.center - [center, (0.5 * 4.0 + 2.5 * 3.0) / 7.0, 3.5]).max() <= 1e-14
+    assert abs(found.health.cap_area_share - 14.0 / (16.0 * 3.0)) <= 1e-12
+
+
+def test_six_patches_of_different_resolution_make_a_box():
+    orders = ((2, 2), (3, 4), (2, 3), (5, 2), (4, 4), (2, 2))
+    inner = (((), ()), ((0.5,), ()), ((0.25, 0.5), ()), ((), (0.5,)), ((0.1,), (0.9,)), ((0.5,), (0.5,)))
+    found = measure_patches(box(orders=orders, inner=inner))
+    assert (found.method, found.warnings, found.health.components) == ("exact", (), 1)
+    assert abs(found.volume.total - 6.0) <= 1e-13
+    assert np.abs(found.volume.center - [5.5, -2.0, 3.5]).max() <= 1e-13
+
+
+def test_sides_coincide_whatever_their_parameters_are():
+    patches = box()
+    space = Space((0.0, 0.0, 0.1, 1.0, 1.0), 2, 3)  # its parameters run slowly first
+    points = patches[0].points
+    between = points[:1] * 0.7 + points[1:] * 0.3
+    patches[0] = Patch((space, patches[0].spaces[1]), np.concatenate([points[:1], between, points[1:]]))
+    found = measure_patches(patches)
+    assert (found.method, found.warnings) == ("exact", ())
+    assert abs(found.volume.total - 6.0) <= 1e-13
+
+
+def test_patches_that_face_against_the_rest_are_turned_and_counted():
+    patches = box()
+    patches[1], patches[4] = patches[1].turned(), patches[4].turned()
+    found = measure_patches(patches)
+    assert found.method == "reoriented"
+    assert "2 patches face against" in found.warnings[0]
+    assert found.health.inconsistent_edges == 6  # the two share one
+    assert abs(found.volume.total - 6.0) <= 1e-13
+
+
+def test_a_box_without_a_face_is_capped_exactly():
+    found = measure_patches(box()[:5])
+    assert found.method == "capped" and found.health.boundary_edges == 4
+    assert abs(found.volume.total - 6.0) <= 1e-13
+
+
+def test_two_short_sides_along_a_long_one_leave_no_hole():
+    """A T-junction between patches: the open sides run there and back."""
+    patches = box(size=(1.0, 1.0, 1.0), offset=(3.0, 1.0, 0.0))
+    a, b, c, d = patches[0].points[0, 0], patches[0].points[1, 0], patches[0].points[1, 1], patches[0].points[0, 1]
+    halves = [flat([a, b, (b + c) / 2, (a + d) / 2]), flat([(a + d) / 2, (b + c) / 2, c, d])]
+    found = measure_patches([*halves, *patches[1:]])
+    assert found.method == "exact"
+    assert abs(found.volume.total - 1.0) <= 1e-13
+
+
+def test_a_patch_of_one_side_only_is_open():
+    """A Möbius band closes upon itself the wrong way round."""
+    turns = np.linspace(0.0, 2.0 * np.pi, 17)
+    arm = np.stack([np.cos(turns) * np.cos(turns / 2), np.sin(turns) * np.cos(turns / 2), np.sin(turns / 2)], axis=1)
+    middle = np.stack([3.0 * np.cos(turns), 3.0 * np.sin(turns), 0.0 * turns], axis=1)
+    space = Space((0.0, *map(float, range(17)), 16.0), 2, 17)
+    found = measure_patches([Patch((space, clamped(2)), np.stack([middle - arm, middle + arm], axis=1))])
+    assert found.method == "open"
+    assert "one side" in found.warnings[0]
+
+
+def test_a_cavity_is_subtracted_and_a_nested_ball_counted_twice():
+    small = sphere().mapped(np.diag([0.5, 0.5, 0.5, 1.0]))
+    hollow = measure_patches([sphere(), small.turned()])
+    assert (hollow.method, hollow.health.cavities) == ("exact", 1)
+    assert abs(hollow.volume.total / (BALL * 0.875) - 1.0) <= 1e-14
+    nested = measure_patches([sphere(), small])
+    assert nested.health.nested_components == 1 and "twice" in nested.warnings[0]
+    assert abs(nested.volume.total / (BALL * 1.125) - 1.0) <= 1e-14
+
+
+def test_a_flat_patch_encloses_nothing_and_says_so():
+    found = measure_patches([flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], (3, 3))])
+    assert found.method == "open" and abs(found.volume.total) <= 1e-15
+    assert "shell" in found.warnings[-1]
+
+
+def test_a_sheet_has_volume_of_its_own():
+    sheet, area, settled = measure_sheet([flat([(0, 0, 0), (2, 0, 0), (2, 3, 0), (0, 3, 0)], (3, 2))], -0.25, 0.25)
+    assert settled and abs(sheet.total - 3.0) <= 1e-14 and abs(area.total - 6.0) <= 1e-13
+    assert abs(sheet.about_center()[0, 0, 2] - 6.0 * 0.5**3 / 12.0) <= 1e-15
+
+
+def test_stored_float32_is_a_bound():
+    ball = sphere().mapped(np.diag([1.0, 2.0, 3.0, 1.0]))
+    stored = 2.0**-24 * 6.0
+    exact = measure_patches([ball], stored=stored).volume
+    rng = np.random.default_rng(0)
+    for _ in range(5):
+        move = rng.uniform(-1, 1, ball.points.shape)
+        move *= stored / np.linalg.norm(move, axis=2, keepdims=True)
+        move[:, 0], move[:, -1] = move[0, 0], move[0, -1]
+        moved = measure_patches([Patch(ball.spaces, ball.points + move, ball.weights)]).volume.shifted(exact.about)
+        assert (np.abs(moved.raw - exact.raw) <= exact.input + exact.error + moved.error).all()
+
+
+def test_all_points_in_one_place_are_refused():
+    with pytest.raises(ValueError, match="one place"):
+        measure_patches([Patch((clamped(2), clamped(2)), np.ones((2, 2, 3)))])

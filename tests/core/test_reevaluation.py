@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Control points that move: tables against measuring anew, and the paper's Φ against both."""
+
+import numpy as np
+import pytest
+from body_moments.core.blender_knots import blender_space
+from body_moments.core.bspline import clamped
+from body_moments.core.following import FollowedBody
+from body_moments.core.patch import Patch
+from body_moments.core.patch_moments import area_moments, volume_moments
+from body_moments.core.patch_solid import measure_patches
+from body_moments.core.phi import phi, phi_moments
+from body_moments.core.reevaluation import Evaluator
+
+from tests.core.exact_splines import flux_moment, sphere, torus, tube
+
+ABOUT = np.array([0.25, -0.5, 0.125])
+SPACES = [
+    (clamped(4, (0.2, 0.4, 0.6, 0.8)), clamped(4, (0.2, 0.4, 0.6, 0.8))),
+    (blender_space(11, 4, True, False, False), blender_space(9, 3, False, False, True)),
+    (blender_space(20, 3, True, False, True), blender_space(25, 2, False, False, False)),
+    (blender_space(4, 4, True, False, False), blender_space(3, 3, True, False, False)),
+]
+
+
+@pytest.mark.parametrize("order", [0, 1, 2, 3])
+@pytest.mark.parametrize("spaces", SPACES)
+def test_tables_give_the_moments_of_measuring_anew(spaces, order):
+    rng = np.random.default_rng(order)
+    points = rng.uniform(-1, 1, (spaces[0].count, spaces[1].count, 3))
+    evaluator = Evaluator(Patch(spaces, points), order, ABOUT)
+    for _ in range(3):
+        points = points + rng.uniform(-0.2, 0.2, points.shape)
+        anew, _ = volume_moments([Patch(spaces, points)], order, ABOUT)
+        assert (np.abs(evaluator.moments(points).raw - anew.raw) <= anew.error).all()
+
+
+@pytest.mark.parametrize("rational", [False, True])
+@pytest.mark.parametrize("spaces", SPACES)
+def test_one_moved_point_gives_what_all_points_anew_give(spaces, rational):
+    rng = np.random.default_rng(1)
+    shape = (spaces[0].count, spaces[1].count)
+    points = rng.uniform(-1, 1, (*shape, 3))
+    weights = rng.uniform(0.5, 2.0, shape) if rational else None
+    evaluator = Evaluator(Patch(spaces, points, weights), 2, ABOUT, with_area=True)
+    evaluator.moments(points, weights)
+    fresh = Evaluator(Patch(spaces, points, weights), 2, ABOUT, with_area=True)
+    for _ in range(30):
+        i, j = (int(rng.integers(count)) for count in shape)
+        points[i, j] += rng.uniform(-0.5, 0.5, 3)
+        if rational:
+            weights[i, j] *= rng.uniform(0.8, 1.25)
+        moved = evaluator.move(i, j, points[i, j], weights[i, j] if rational else 1.0)
+    anew = fresh.moments(points, weights)
+    assert np.abs(moved.raw - anew.raw).max() <= 1e-13
+    assert evaluator.area == pytest.approx(fresh.area, rel=1e-13)
+
+
+def test_one_point_touches_only_its_spans(monkeypatch):
+    space = blender_space(40, 4, False, False, True)
+    rng = np.random.default_rng(2)
+    evaluator = Evaluator(Patch((space, space), rng.uniform(-1, 1, (40, 40, 3))), 2)
+    evaluator.moments(rng.uniform(-1, 1, (40, 40, 3)))
+    touched = []
+    flux = evaluator._flux
+    monkeypatch.setattr(evaluator, "_flux", lambda rows, columns, each: touched.append((rows, columns))
+                        or flux(rows, columns, each))
+    evaluator.move(20, 17, np.zeros(3))
+    evaluator.move(0, 39, np.zeros(3))
+    sizes = [(rows.stop - rows.start, columns.stop - columns.start) for rows, columns in touched]
+    assert sizes == [(4, 4), (1, 1)]
+
+
+@pytest.mark.parametrize("patch", [sphere(), torus()])
+def test_rational_patches_are_re_evaluated_to_rounding(patch):
+    anew, _ = volume_moments([patch], 2, ABOUT)
+    assert np.abs(Evaluator(patch, 2, ABOUT).moments(patch.points, patch.weights).raw - anew.raw).max() <= 1e-13
+
+
+@pytest.mark.parametrize("spaces", [
+    (clamped(3), clamped(3)), (clamped(3), clamped(2, (0.25,))), (blender_space(3, 3, True, False, False), clamped(3))])
+def test_the_papers_tensors_give_the_exact_moments(spaces):
+    rng = np.random.default_rng(5)
+    points = rng.integers(-8, 9, (spaces[0].count, spaces[1].count, 3)) / 8.0
+    found = phi_moments(points, tuple(phi(spaces, order) for order in range(3)))
+    assert len(found) == 10
+    for exponents, value in found.items():
+        assert abs(value - float(flux_moment(Patch(spaces, points), exponents))) <= 1e-14
+
+
+def test_tensors_and_tables_agree_on_a_closed_body():
+    spaces = (blender_space(3, 3, True, False, False), blender_space(3, 3, True, False, False))
+    rng = np.random.default_rng(6)
+    points = rng.uniform(-1, 1, (3, 3, 3))
+    found = phi_moments(points, tuple(phi(spaces, order) for order in range(3)))
+    moments = Evaluator(Patch(spaces, points), 2, np.zeros(3)).moments(points)
+    for exponents, value in found.items():
+        assert abs(value - moments[exponents]) <= 1e-14
+
+
+def test_tensors_that_would_not_fit_are_refused():
+    with pytest.raises(ValueError, match="small patches"):
+        phi((clamped(4, (0.5,)), clamped(4, (0.5,))), 2)
+
+
+@pytest.mark.parametrize("patch", [torus(), sphere(), tube()])
+def test_a_followed_body_is_that_of_measuring_anew(patch):
+    rng = np.random.default_rng(7)
+    body = FollowedBody([patch])
+    points = patch.points.copy()
+    kept = 0
+    for step in range(12):
+        points = points.copy()
+        if step % 3 == 2:
+            points *= rng.uniform(0.9, 1.1, 3)
+        elif patch.points.shape[1] == 5:  # not a pole, nor off the seam
+            points[3, 2] += rng.uniform(-0.2, 0.2, 3)
+        else:
+            points[3, 1] += rng.uniform(-0.05, 0.05, 3)
+        now = Patch(patch.spaces, points, patch.weights)
+        kept += body.follow([now])
+        anew = measure_patches([now])
+        assert body.measure.method == anew.method
+        assert np.abs(body.volume.shifted(anew.volume.about).raw - anew.volume.raw).max() <= 1e-12
+        assert body.area == pytest.approx(area_moments([now])[0].total, rel=1e-3)
+    assert kept >= 8
+
+
+def test_a_followed_body_that_opens_is_measured_anew():
+    ball = sphere()
+    body = FollowedBody([ball])
+    points = ball.points.copy()
+    points[:, -1] += 0.1 * (points[:, 1] - [0.0, 0.0, -1.0])  # the pole becomes a rim
+    assert not body.follow([Patch(ball.spaces, points, ball.weights)])
+    assert body.measure.method == "capped"
+
+
+def test_another_function_space_is_measured_anew():
+    body = FollowedBody([torus()])
+    assert not body.follow([sphere()])
+    assert abs(body.volume.total - 4.0 * np.pi / 3.0) <= 1e-13
