@@ -18,10 +18,10 @@ from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
-from ..core.canonical import ORDER, Frames
+from ..core.canonical import ORDER
 from ..core.measurement import Measurement
 from ..core.moments import Moments
-from ..core.pose import frames_alike, pose_matrix
+from ..core.pose import pose_matrix
 from ..core.recursion import moments_to_order
 from ..core.signature import Signature, signature
 from ..core.surface import Surface, joined
@@ -44,7 +44,8 @@ class Shape:
 
     @property
     def center(self) -> NDArray[np.float64]:
-        return self.measurement.mass_properties.center
+        """(3,) of the shape; where the density varies, not that of mass."""
+        return self.moments.about
 
     @property
     def size(self) -> float:
@@ -64,15 +65,12 @@ class Shape:
         """The surfaces of the body, where they stand."""
         return self.body.pieces(self._sheets)
 
-    @cached_property
-    def frames(self) -> Frames:
-        return frames_alike(self.moments)
-
     def pose(self) -> dict[str, Any]:
-        """The pose for a record: see DESIGN.md."""
-        axes = self.measurement.mass_properties.principal.axes
-        found = symmetry(self.moments)
-        return {"matrix": pose_matrix(self.center, axes), "unique": found.unique, "symmetry": found.group}
+        """The pose for a record: see DESIGN.md. Where the density varies, third moments of the mass alone are known,
+        which cannot tell a symmetry."""
+        body = self.measurement.mass_properties
+        pose = {"matrix": pose_matrix(body.center, body.principal.axes), "unique": body.principal.unique}
+        return {**pose, "symmetry": None if self.body.mass is not None else symmetry(self.moments).group}
 
     def signature(self, order: int = BY_MOMENTS) -> Signature:
         """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature."""
