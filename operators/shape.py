@@ -31,6 +31,7 @@ from .body import Body
 from .measure import MeasureOptions, measure_body
 from .read import Unreadable
 
+POLYGONS = "Its signature is known of polygons only; convert it to a mesh first."
 SAMPLES = 1500  # points of a surface that are held against another one
 
 
@@ -72,8 +73,14 @@ class Shape:
         pose = {"matrix": pose_matrix(body.center, body.principal.axes), "unique": body.principal.unique}
         return {**pose, "symmetry": None if self.body.mass is not None else symmetry(self.moments).group}
 
+    @property
+    def has_surface(self) -> bool:
+        """Whether there are polygons, which a signature and a comparison of surfaces need."""
+        return self.body.pieces is not None
+
     def signature(self, order: int = BY_MOMENTS) -> Signature:
-        """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature."""
+        """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature.
+        Needs a surface."""
         points = self.points_about_center()
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
         sheets = self._sheets
@@ -106,13 +113,22 @@ class NoShape(Unreadable):
         self.measurement = measurement
 
 
+def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
+                     options: MeasureOptions | None = None) -> Shape:
+    """As `shape_of`, of bodies with polygons only."""
+    shape = shape_of(obj, depsgraph, options)
+    if not shape.has_surface:
+        raise NoShape(shape.measurement, POLYGONS)
+    return shape
+
+
 def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
              options: MeasureOptions | None = None) -> Shape:
     """Measure an object for its shape. Raises `Unreadable`, and `NoShape` where it has none."""
     measurement, body = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
-    if body.to_order is None or body.pieces is None:
-        raise NoShape(measurement, "Pose and signature are known of surfaces only, and not of walls of real thickness; "
-                                   "set Wall to Thin, or make it a mesh.")
+    if body.to_order is None or body.length is not None:
+        raise NoShape(measurement, "Pose and signature are not known of wires, nor of walls of real thickness; set "
+                                   "Wall to Thin, or make it a mesh.")
     if measurement.method.endswith("open"):
         raise NoShape(measurement, "It is open, so that its pose and signature would depend on a reference point; "
                                    "close it, or measure it as a shell.")
