@@ -349,3 +349,12 @@ def test_instances_are_part_of_the_shape():
     depsgraph = bpy.context.evaluated_depsgraph_get()
     one, other = (shape_of(thing, depsgraph).signature(8) for thing in (obj, empty))
     assert compared(one, other).distance() < 1e-4
+
+
+def test_clearing_takes_the_symmetry_away():
+    obj = wedge()
+    run("find_symmetry")
+    assert obj.is_property_set("body_moments_symmetry")
+    assert run("clear") == {"FINISHED"}
+    assert not obj.is_property_set("body_moments_symmetry")
+    assert run("clear") == {"CANCELLED"}
