@@ -8,6 +8,8 @@ from . import selection, staleness
 from .channels import Refused
 from .write import properties, section
 
+SYMMETRY = "body_moments_symmetry"
+
 
 class OBJECT_OT_body_moments_clear(Operator):
     """Remove the stored mass properties and sections from the selected objects. Settings stay"""
@@ -24,13 +26,15 @@ class OBJECT_OT_body_moments_clear(Operator):
         objects = [
             obj
             for obj in context.view_layer.objects.selected
-            if any(key in obj for key in (*properties.DESCRIPTIONS, section.KEY))
+            if any(key in obj for key in (*properties.DESCRIPTIONS, section.KEY)) or obj.is_property_set(SYMMETRY)
         ]
 
         def remove(obj) -> bool:
             if not obj.is_editable:
                 raise Refused("it is linked from another file; make it local first")
-            return properties.clear(obj) | section.clear(obj)
+            symmetric = obj.is_property_set(SYMMETRY)
+            obj.property_unset(SYMMETRY)
+            return properties.clear(obj) | section.clear(obj) | symmetric
 
         count, failures = selection.each(self, objects, remove, (Refused,))
         staleness.settle(context, objects)

@@ -20,7 +20,7 @@ from ..core.signature import Likeness, Signature
 from . import selection, snapping
 from .measure import MeasureOptions
 from .read import measurable_objects
-from .shape import shape_of
+from .shape import surface_shape_of
 
 ORDER = 12  # of the descriptors: more than tell parts apart, a fourth of the time that 20 takes
 LISTED = 20
@@ -197,7 +197,7 @@ class OBJECT_OT_body_moments_select_found(Operator):
 
 
 def _signature(context: Context, obj: Object) -> Signature:
-    shape = shape_of(obj, context.evaluated_depsgraph_get(), MeasureOptions(threads=THREADS))
+    shape = surface_shape_of(obj, context.evaluated_depsgraph_get(), MeasureOptions(threads=THREADS))
     return shape.signature(ORDER)
 
 

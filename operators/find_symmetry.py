@@ -22,7 +22,7 @@ from ..core.canonical import NOISE
 from ..core.symmetry import Symmetry, confirmed, symmetry
 from . import selection, snapping, staleness
 from .fingerprint import scale_hash
-from .shape import Shape, Skin, shape_of
+from .shape import Shape, Skin, surface_shape_of
 
 KEPT = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
 
@@ -85,7 +85,7 @@ class OBJECT_OT_body_moments_find_symmetry(Operator):
 
 
 def _find(context: Context, obj: Object, tolerance: float) -> str:
-    shape = shape_of(obj, context.evaluated_depsgraph_get())
+    shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
     skin = Skin(shape)
     # Moments are looked at as loosely as the surface.
     allowed = symmetry(shape.moments, max(NOISE, tolerance))

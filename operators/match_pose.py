@@ -12,7 +12,8 @@ from ..core.decimal import decimal
 from ..core.matching import FITS, Match, match
 from . import reframe, selection, snapping
 from .channels import Channels, Refused, world
-from .shape import Shape, Skin, shape_of
+from .density import fixed_to
+from .shape import Shape, Skin, surface_shape_of
 from .units import Units
 
 
@@ -41,7 +42,7 @@ class OBJECT_OT_body_moments_match_pose(Operator):
         active = context.object
         others = [obj for obj in selection.selected(context) if obj != active]
         try:
-            target = shape_of(active, context.evaluated_depsgraph_get())
+            target = surface_shape_of(active, context.evaluated_depsgraph_get())
         except snapping.REFUSALS as error:
             self.report({"ERROR"}, "{:s}: {:s}".format(active.name, getattr(error, "reason", str(error))))
             return {"CANCELLED"}
@@ -80,9 +81,12 @@ def _lay(context: Context, obj: Object, target: Shape, skin: Skin) -> tuple[Matc
     """Lay one object onto the target; how well it lies, and whether it was moved."""
     if obj.library is not None:
         raise Refused("it is linked from another file; make it local first")
+    if fixed_to(obj) == "world":
+        raise Refused("its density is a polynomial of world coordinates, and does not move with it; give it in its own "
+                      "coordinates first")
     if obj in _parents(context.object):
         raise Refused("the active object is its child and would move with it; clear the parent first")
-    shape = shape_of(obj, context.evaluated_depsgraph_get())
+    shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
     own = Skin(shape)
 
     def residual(way: NDArray) -> NDArray[np.float64]:

@@ -18,10 +18,10 @@ from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
-from ..core.canonical import ORDER, Frames
+from ..core.canonical import ORDER
 from ..core.measurement import Measurement
 from ..core.moments import Moments
-from ..core.pose import frames_alike, pose_matrix
+from ..core.pose import pose_matrix
 from ..core.recursion import moments_to_order
 from ..core.signature import Signature, signature
 from ..core.surface import Surface, joined
@@ -31,6 +31,7 @@ from .body import Body
 from .measure import MeasureOptions, measure_body
 from .read import Unreadable
 
+POLYGONS = "Its signature is known of polygons only; convert it to a mesh first."
 SAMPLES = 1500  # points of a surface that are held against another one
 
 
@@ -44,7 +45,8 @@ class Shape:
 
     @property
     def center(self) -> NDArray[np.float64]:
-        return self.measurement.mass_properties.center
+        """(3,) of the shape; where the density varies, not that of mass."""
+        return self.moments.about
 
     @property
     def size(self) -> float:
@@ -64,18 +66,21 @@ class Shape:
         """The surfaces of the body, where they stand."""
         return self.body.pieces(self._sheets)
 
-    @cached_property
-    def frames(self) -> Frames:
-        return frames_alike(self.moments)
-
     def pose(self) -> dict[str, Any]:
-        """The pose for a record: see DESIGN.md."""
-        axes = self.measurement.mass_properties.principal.axes
-        found = symmetry(self.moments)
-        return {"matrix": pose_matrix(self.center, axes), "unique": found.unique, "symmetry": found.group}
+        """The pose for a record: see DESIGN.md. Where the density varies, third moments of the mass alone are known,
+        which cannot tell a symmetry."""
+        body = self.measurement.mass_properties
+        pose = {"matrix": pose_matrix(body.center, body.principal.axes), "unique": body.principal.unique}
+        return {**pose, "symmetry": None if self.body.mass is not None else symmetry(self.moments).group}
+
+    @property
+    def has_surface(self) -> bool:
+        """Whether there are polygons, which a signature and a comparison of surfaces need."""
+        return self.body.pieces is not None
 
     def signature(self, order: int = BY_MOMENTS) -> Signature:
-        """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature."""
+        """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature.
+        Needs a surface."""
         points = self.points_about_center()
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
         sheets = self._sheets
@@ -108,13 +113,22 @@ class NoShape(Unreadable):
         self.measurement = measurement
 
 
+def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
+                     options: MeasureOptions | None = None) -> Shape:
+    """As `shape_of`, of bodies with polygons only."""
+    shape = shape_of(obj, depsgraph, options)
+    if not shape.has_surface:
+        raise NoShape(shape.measurement, POLYGONS)
+    return shape
+
+
 def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
              options: MeasureOptions | None = None) -> Shape:
     """Measure an object for its shape. Raises `Unreadable`, and `NoShape` where it has none."""
     measurement, body = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
-    if body.to_order is None or body.pieces is None:
-        raise NoShape(measurement, "Pose and signature are known of surfaces only, and not of walls of real thickness; "
-                                   "set Wall to Thin, or make it a mesh.")
+    if body.to_order is None or body.length is not None:
+        raise NoShape(measurement, "Pose and signature are not known of wires, nor of walls of real thickness; set "
+                                   "Wall to Thin, or make it a mesh.")
     if measurement.method.endswith("open"):
         raise NoShape(measurement, "It is open, so that its pose and signature would depend on a reference point; "
                                    "close it, or measure it as a shell.")

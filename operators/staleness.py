@@ -139,7 +139,8 @@ def symmetry_reason(obj: Object) -> str:
 
 
 def _symmetry_mark(obj: Object) -> str:
-    return obj.body_moments_symmetry.fingerprint
+    # Asked first: reading a group that is not there makes one.
+    return obj.body_moments_symmetry.fingerprint if obj.is_property_set("body_moments_symmetry") else ""
 
 
 def _section_edited(obj: Object) -> bool:

@@ -35,9 +35,9 @@ class ShapePanel:
 
 
 def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
-    kept = obj.body_moments_symmetry
-    if not kept.group:
+    if not obj.is_property_set("body_moments_symmetry"):
         return
+    kept = obj.body_moments_symmetry
     column = layout.column(align=True)
     column.label(text="Symmetry {:s}".format(kept.group), icon="CHECKMARK")
     outdated = staleness.symmetry_reason(obj)

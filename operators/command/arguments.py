@@ -24,6 +24,7 @@ _LATER_FORMATS = ("urdf", "sdf", "mjcf", "usd")
 _EPILOG = """\
 FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz or .fbx. Without one,
 the file that Blender has open is measured. All numbers are SI: kilograms and meters.
+`similar LIBRARY --to NAME` in the place of `measure` compares bodies measured with --signature.
 exit code: 0 all measured, 1 something is listed under errors, 2 wrong usage, 70 a fault of the
 program"""
 

@@ -26,7 +26,7 @@ from ...core.measurement import Measurement
 from .. import settings
 from ..measure import MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
-from ..shape import NoShape, shape_of
+from ..shape import POLYGONS, NoShape, shape_of
 from ..staleness import settle
 from ..write import record
 from ..write.properties import store
@@ -163,9 +163,13 @@ class Run:
             told = replace(one, warnings=(*one.warnings, refusal.reason))
             return told, dict.fromkeys(asked)
         more = {"pose": shape.pose()} if self.options.pose else {}
-        if self.options.signature:
+        one = shape.measurement
+        if self.options.signature and shape.has_surface:
             more["signature"] = shape.signature().as_record()
-        return shape.measurement, more
+        elif self.options.signature:
+            more["signature"] = None
+            one = replace(one, warnings=(*one.warnings, POLYGONS))
+        return one, more
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
         self.faults += 1

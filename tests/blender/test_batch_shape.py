@@ -142,3 +142,15 @@ def test_records_without_a_signature_are_named(tmp_path, capsys):
     good, _ = shape_file(tmp_path)
     code, _ = ask(tmp_path, good, path, "--to", "Box")
     assert code == 1 and "--signature" in capsys.readouterr().err
+
+
+def test_a_nurbs_surface_has_a_pose_but_no_signature_and_a_wire_has_neither():
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add(location=(1, 2, 3))
+    ball = document("--pose", "--signature")["objects"][0]
+    assert ball["method"].startswith("NURBS") and ball["pose"]["unique"] is False and ball["signature"] is None
+    assert any("polygons" in warning for warning in ball["warnings"])
+    bpy.ops.curve.primitive_nurbs_path_add()
+    wire = bpy.context.object
+    wire.body_moments.kind = "WIRE"
+    entry = document("--pose", "--object", wire.name)["objects"][0]
+    assert entry["method"] == "wire" and entry["pose"] is None

@@ -309,3 +309,52 @@ def test_the_panel_shows_what_was_found(panel):
     assert any(line.startswith("Scaled Copy ×2") for line in text)
     names = {entry[2].name for entry in record if entry[0] == "operator" and hasattr(entry[2], "name")}
     assert names == {"Copy", "Image", "Big", "Other"}
+
+
+def test_a_signature_goes_beyond_order_20_by_quadrature():
+    from body_moments.operators.shape import shape_of
+
+    shape = shape_of(wedge(location=(1, 2, 3), scale=2.0), bpy.context.evaluated_depsgraph_get())
+    long, short = shape.signature(26), shape.signature()
+    assert len(long.zernike) == 196 and len(short.zernike) == 121
+    assert np.abs(long.zernike[:121] - short.zernike).max() < 1e-9
+
+
+def test_a_shell_has_a_pose_and_a_signature_of_its_sheet():
+    from body_moments.operators.shape import shape_of
+
+    obj = wedge(location=(1, 2, 3))
+    obj.body_moments.kind = "SHELL"
+    bpy.context.view_layer.update()
+    shape = shape_of(obj, bpy.context.evaluated_depsgraph_get())
+    assert shape.moments.of == "area" and shape.pose()["symmetry"] == "C1"
+    assert len(shape.signature(6).fourier) == 0 and len(shape.signature(6).zernike) == 16
+
+
+def test_instances_are_part_of_the_shape():
+    from body_moments.core.signature import compared
+    from body_moments.operators.shape import shape_of
+
+    obj = wedge()
+    array = obj.modifiers.new("Array", "ARRAY")
+    array.relative_offset_displace = (2.0, 0.0, 0.0)
+    group = bpy.data.collections.new("Two")
+    for x in (0.0, 2.0):
+        one = wedge("One", location=(x, 0, 0))
+        bpy.context.scene.collection.objects.unlink(one)
+        group.objects.link(one)
+    empty = add(None, "Both", location=(5, 5, 5), rotation=(1, 2, 3))
+    empty.instance_type, empty.instance_collection = "COLLECTION", group
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    one, other = (shape_of(thing, depsgraph).signature(8) for thing in (obj, empty))
+    assert compared(one, other).distance() < 1e-4
+
+
+def test_clearing_takes_the_symmetry_away():
+    obj = wedge()
+    run("find_symmetry")
+    assert obj.is_property_set("body_moments_symmetry")
+    assert run("clear") == {"FINISHED"}
+    assert not obj.is_property_set("body_moments_symmetry")
+    assert run("clear") == {"CANCELLED"}
