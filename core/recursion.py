@@ -52,11 +52,15 @@ def moments_to_order(body: Surface | Iterable[Surface | NDArray], order: int, *,
     reach: how far the body extends from there, roughly; of such a stream by default what its first piece does.
 
     `error` bounds the rounding of every moment, `input` what storing coordinates as float32 may have changed (of a
-    closed surface). Memory: a block's scratch for each thread, about 10 MB, beside what `body` holds. ValueError where
+    closed surface). Memory: a block's scratch for each thread, some 20 MB, beside what `body` holds. ValueError where
     coordinates are not finite, a face names no vertex, or a moment would be beyond the range of numbers.
     """
     if order < 0:
         raise ValueError("The order of moments is 0 or more.")
+    if about is not None:
+        about = np.array(about, np.float64)
+        if about.shape != (3,) or not np.isfinite(about).all():
+            raise ValueError("The point that moments are about has three finite coordinates.")
     pieces = [body] if isinstance(body, Surface) else body
     if isinstance(pieces, (list, tuple)) and about is None:
         about = _middle_of([_as_surface(piece) for piece in pieces])
@@ -86,11 +90,13 @@ def _middle_of(surfaces: list[Surface]) -> NDArray[np.float64] | None:
 
 
 def _fast(stream: Iterable[Surface], order: int, area: bool, threads: int, progress: Callable[[int], None] | None,
-          about: ArrayLike | None) -> tuple[Moments, Moments | None]:
+          about: NDArray | None) -> tuple[Moments, Moments | None]:
     """By the kernel for low orders, piece by piece."""
     volume = shell = None
     done, exact = 0, order == FAST
     for surface in stream:
+        if not len(surface.triangles) + len(surface.quads):
+            continue
         if about is None:
             about = _middle_of([surface])
         one, other = solid_and_area(surface, threads, area, exact=exact, about=about)
@@ -145,9 +151,9 @@ class _Stream:
     """One body being measured, piece by piece."""
 
     def __init__(self, order: int, area: bool, threads: int, progress: Callable[[int], None] | None,
-                 about: ArrayLike | None, reach: float | None):
+                 about: NDArray | None, reach: float | None):
         self.order, self.area, self.threads, self.progress = order, area, max(1, threads), progress
-        self.center = None if about is None else np.array(about, np.float64)
+        self.center = about
         self.exponent = None if reach is None else frexp(reach)[1]
         self.size = min(max(NUMBERS // rows_of(order) // 64 * 64, FEWEST), MOST)
         self.idle: list[Levels] = []

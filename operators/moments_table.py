@@ -155,7 +155,7 @@ def _active(cls: type[Operator], context: Context) -> Object | None:
 
 class OBJECT_OT_body_moments_compute_moments(Operator):
     """Compute all moments of the active object to the chosen order, of its volume and of its surface. Time grows with
-    the fifth power of high orders: a million triangles take a second to order 4 and half a minute to order 20
+    the third power of the order: a million triangles take a second to order 4 and some twenty to order 20
     """
 
     bl_idname = "object.body_moments_compute_moments"

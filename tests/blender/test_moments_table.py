@@ -171,3 +171,17 @@ def test_only_the_last_objects_are_kept(box, monkeypatch):
         bpy.context.view_layer.objects.active = obj
         compute(1)
     assert [moments_table.found(obj) is not None for obj in others] == [False, True, True]
+
+
+def test_a_script_gets_the_moments_of_an_object_as_the_readme_says(box):
+    from body_moments.operators.measure import MeasureOptions, measure_object
+
+    options = MeasureOptions(order=12, surface=True)
+    one = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get(), options)
+    central = one.volume_moments.about_center()
+    assert central.order == one.area_moments.order == 12
+    assert central[4, 4, 4] == pytest.approx(box_moment((4, 4, 4), (0, 0, 0), (2, 1, 3)), rel=1e-5)
+    own = one.volume_moments.in_frame(one.rotation, one.location)
+    assert own[4, 4, 4] == pytest.approx(box_moment((4, 4, 4), (0, 0, 0), (1, 2, 3)), rel=1e-12)
+    plain = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get())
+    assert plain.volume_moments.order == 3 and plain.area_moments.order == 0  # nothing that nobody asked for

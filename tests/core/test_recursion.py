@@ -171,7 +171,8 @@ def test_pieces_make_the_whole(path, order):
     streamed = moments_to_order(iter(pieces), order, area=True, about=about, reach=2.0)
     assert np.array_equal(streamed[0].about, about)
     assert_within(streamed[0], exact.volume_moments(points, triangles, about, order))
-    blind = moments_to_order(iter(pieces), order, area=True)  # about the middle of the first piece
+    pieces.insert(0, np.zeros((0, 3, 3)))
+    blind = moments_to_order(iter(pieces), order, area=True)  # about the middle of the first that has faces
     assert np.abs(blind[0].about - whole[0].about).max() > 0.01
     assert_within(blind[0], exact.volume_moments(points, triangles, blind[0].about, order))
     assert_within(blind[1], exact.area_moments(points, triangles, blind[1].about, order=order))
@@ -227,6 +228,9 @@ def test_what_cannot_be_measured_is_refused(order):
         moments_to_order(Surface(np.where(points > 1.0, np.nan, points), quads=quads), order)
     with pytest.raises(ValueError, match="corners"):
         moments_to_order([np.zeros((4, 3))], order)
+    for about in ((0.0, 1.0), (0.0, np.nan, 0.0)):
+        with pytest.raises(ValueError, match="three finite"):
+            moments_to_order(Surface(points, quads=quads), order, about=about)
     with pytest.raises(ValueError, match="order"):
         moments_to_order(Surface(points, quads=quads), -1)
 
