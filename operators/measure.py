@@ -79,14 +79,14 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     try:
         lines = _lines(obj, depsgraph, unit, options)
         if lines is not None:
-            return _to_order(told(obj, *lines, options, unit), lines[1], options)
+            return _to_order(told(obj, *lines, options, unit), lines[1], options), lines[1]
         density = None if given else density_field(obj.body_moments)
         reading = read_object(obj, depsgraph, materials=density is not None and density.kind == "materials",
                               attribute=density.attribute if density is not None and shell else None)
         if reading.has_patches and density is None:
             body = nurbs_body(reading, unit, wall=options.wall if shell else None, thickness=options.thickness,
                               union=options.overlap == "union", threads=options.threads, compare=options.compare)
-            return _to_order(told(obj, reading, body, options, unit), body, options)
+            return _to_order(told(obj, reading, body, options, unit), body, options), body
         if reading.has_patches:
             reading.warnings.append("A density that is not one value needs polygons: the display mesh of its surface "
                                     "was measured, as fine as the viewport's resolution.")
