@@ -160,7 +160,7 @@ def _to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> 
 
 def _higher(body: Body, shell: bool) -> Callable[[], Moments] | None:
     """What gives the moments of higher order of what the principal frame is made from, where they are known."""
-    if body.to_order is None or body.mass is not None:
+    if body.to_order is None or body.mass is not None or body.length is not None:
         return None
     return lambda: body.to_order(ORDER, shell)[1 if shell else 0]
 
