@@ -30,11 +30,11 @@ class _Settings:
     filepath: StringProperty(name="File Path", description="The .npz file to write", subtype="FILE_PATH",
                              options={"SKIP_SAVE"})
     of: EnumProperty(
-        name="Of", default="BODY",
+        name="Of", default="BODY", description="What is transformed",
         items=(("BODY", "Body", "∫ exp(−i q·x) dV of a solid, in m³; of a shell, its area's times its thickness"),
                ("AREA", "Area", "∫ exp(−i q·x) dA over its faces, in m²")))
     frame: EnumProperty(
-        name="Frame", default="WORLD",
+        name="Frame", default="WORLD", description="The axes of the frequencies, and the origin",
         items=(("WORLD", "World", "Along the world's axes, about its origin"),
                ("OBJECT", "Object", "Along the object's axes, about its origin, with unit scale")))
     count: IntProperty(

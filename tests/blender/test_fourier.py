@@ -95,6 +95,20 @@ def test_a_shell_is_its_area_times_its_thickness():
         transform(box, options=MeasureOptions(kind="shell", thickness=0.0))
 
 
+def test_a_wall_of_real_thickness_is_refused_with_the_remedy():
+    box = files.add_box(center=(0, 0, 0))
+    thick = MeasureOptions(kind="shell", thickness=0.1, wall="inward")
+    with pytest.raises(Unreadable, match="Thin.*area.*Solidify"):
+        transform(box, options=thick)
+    assert transform(box, np.zeros((1, 3)), thick, area=True)[0].values[0] == pytest.approx(22.0, rel=1e-14)
+
+
+def test_of_a_nurbs_surface_it_is_said_that_the_display_mesh_is_transformed():
+    bpy.ops.surface.primitive_nurbs_surface_torus_add()
+    found, notes = transform(bpy.context.object, np.zeros((1, 3)), MeasureOptions(overlap="signed"))
+    assert found.values[0].real > 0.0 and any("display mesh" in note for note in notes)
+
+
 def test_flipped_faces_are_turned_and_holes_capped_as_they_are_for_the_mass():
     box = files.add_box()
     box.data.polygons[2].flip()

@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the sub-panels offer, pressed in the sidebar on the demo's bracket, one after the other."""
+
+import pytest
+
+from tests.window.conftest import ROOT, open_window
+
+BRACKET = "bpy.data.objects['Bracket']"
+# A person opens them with a click on their headers; here they are registered anew, as panels that start open.
+OPEN = """
+import bpy
+for cls in [cls for cls in bpy.types.Panel.__subclasses__() if cls.__name__.startswith("VIEW3D_PT_body_moments_")]:
+    if "DEFAULT_CLOSED" in getattr(cls, "bl_options", set()):
+        bpy.utils.unregister_class(cls)
+        cls.bl_options = cls.bl_options - {"DEFAULT_CLOSED"}
+        bpy.utils.register_class(cls)
+"""
+
+
+@pytest.fixture(scope="module")
+def window(run_blender, tmp_path_factory):
+    file = tmp_path_factory.mktemp("demo") / "bracket.blend"
+    script = ROOT / "tests" / "demo.py"
+    run_blender("--background", "--python-exit-code", "1", "--python", script, "--", "build", file)
+    with open_window(run_blender, file, tmp_path_factory.mktemp("log")) as opened:
+        yield opened
+
+
+def shown(window, name):
+    window.point_at_view()
+    window.redraw()
+    window.picture(name)
+
+
+def test_moments_of_any_order_are_computed_and_shown(window):
+    window.ask(OPEN)
+    window.open_tab("Moments")
+    window.press("object.body_moments_measure")
+    window.wait(f"'body_mass' in {BRACKET}")
+    window.press("object.body_moments_compute_moments")
+    shown(window, "subpanel-moments")
+    window.press("object.body_moments_copy_moments")
+    window.wait("'0,0,0' in bpy.context.window_manager.clipboard or '0;0;0' in bpy.context.window_manager.clipboard")
+
+
+def test_its_symmetry_is_found(window):
+    window.press("object.body_moments_find_symmetry")
+    window.wait(f"{BRACKET}.body_moments_symmetry.group")
+    shown(window, "subpanel-shape")
+
+
+def test_a_copy_of_it_is_found_and_told(window):
+    window.ask(
+        f"copy = {BRACKET}.copy()\ncopy.name = 'Twin'\nbpy.context.scene.collection.objects.link(copy)\n"
+        "copy.location.x += 0.2\ncopy.rotation_euler.z = 1.0"
+    )
+    window.press("object.body_moments_find_similar")
+    window.wait("len(bpy.context.scene.body_moments_search.found)")
+    assert window.get("bpy.context.scene.body_moments_search.found[0].name") == "Twin"
+    assert window.get("bpy.context.scene.body_moments_search.found[0].verdict") == "copy"
+    shown(window, "subpanel-similar")
+
+
+def test_the_section_of_selected_faces_is_measured(window):
+    window.ask(
+        f"bpy.context.view_layer.objects.active = {BRACKET}\nbpy.ops.object.select_all(action='DESELECT')\n"
+        f"{BRACKET}.select_set(True)\nbpy.ops.object.mode_set(mode='EDIT')\n"
+        "bpy.ops.mesh.select_mode(type='FACE')\nbpy.ops.mesh.select_all(action='DESELECT')\n"
+        f"import bmesh\nbm = bmesh.from_edit_mesh({BRACKET}.data)\n"
+        "max(bm.faces, key=lambda face: face.calc_area()).select_set(True)\n"
+        f"bmesh.update_edit_mesh({BRACKET}.data)"
+    )
+    window.press("object.body_moments_measure_section")
+    window.wait(f"'body_section' in {BRACKET}")
+    shown(window, "subpanel-section")
+    window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
+
+
+def test_a_wall_of_real_thickness_slides(window):
+    window.ask(f"s = {BRACKET}.body_moments\ns.kind, s.wall, s.thickness = 'SHELL', 'INWARD', 0.001")
+    window.press("object.body_moments_measure")
+    window.wait(f"{BRACKET}['body_method'] == 'shell'")
+    thin = window.get(f"{BRACKET}['body_mass']")
+    window.ask(f"{BRACKET}.body_moments.thickness = 0.0005")
+    window.wait(f"0.4 < {BRACKET}['body_mass'] / {thin!r} < 0.6")
+    shown(window, "subpanel-wall")
+
+
+def test_nothing_went_wrong_while_the_panels_were_drawn(window):
+    assert "Traceback" not in window.output()
