@@ -31,7 +31,7 @@ AREA_TOLERANCE = 1e-11
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
 COARSE_RULES = (8, 12, 18)  # where less is asked for
 DEEPEST = 14  # times that a cell is cut
-MOST_POINTS = 12_000_000  # evaluated at most
+MOST_POINTS = 6_000_000  # evaluated at most
 BLOCK = 12288  # points at a time: their arrays stay in the cache
 ROUNDING = 64.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
 

@@ -24,7 +24,6 @@ from .solid import NO_VOLUME, ROUNDING, Health
 from .weld import TOLERANCE
 
 EACH = 8  # samples of a span, for comparing parts
-CURVED = 1e-6  # of the size: a rim that lies this near to a plane is flat to float32
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,6 +19,7 @@ from ..core.moments import Moments, are_similarities, map_sum, sum_moments
 from ..core.patch import Patch
 from ..core.patch_moments import area_moments, volume_moments
 from ..core.patch_solid import PatchMeasure, measure_patches, measure_sheet
+from ..core.surface import Surface
 from .body import Body
 from .mesh_body import in_metres, mesh_body, places_meet, together
 from .read import Part, Reading
@@ -74,11 +75,14 @@ def nurbs_body(reading: Reading, unit: float, *, wall: str | None, thickness: fl
             found, faces = [*found, more], [*faces, *([outside] if with_area else [])]
         return sum_moments(found), sum_moments(faces) if with_area else None
 
+    def pieces(sheets: bool) -> Iterator[Surface]:  # of the display mesh: what asks for them asks for polygons
+        return mesh_body(reading, unit, shell=sheets, union=False, threads=threads).pieces(sheets)
+
     health = together([(one.health, len(part.matrices)) for one, part in zip(measures, own)]
                       + [(one.health, 1) for one in others])
     method = min((one.method for one in (*measures, *others)), key=RANKED.index)
     return Body(volume, area, health, _told(reading, method), tuple(dict.fromkeys(warnings)), refined=lambda: volume,
-                display_volume=display, to_order=to_order, estimated=True)
+                display_volume=display, to_order=to_order, pieces=pieces, estimated=True)
 
 
 def _parts(reading: Reading) -> tuple[list[Part], Reading]:

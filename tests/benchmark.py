@@ -5,7 +5,8 @@
     python tests/benchmark.py [--quick] [--stream M]
 
 Every table interleaves its rows in one process, so that its ratios hold whatever else the machine does. It prints
-medians and least times and asserts nothing: a busy machine is no failure. What is not installed is left out.
+medians and least times and asserts nothing: a busy machine is no failure. What is not installed is left out;
+OpenCascade (cadquery-ocp) has to be installed by hand, as it brings more than a gigabyte.
 """
 
 from __future__ import annotations
