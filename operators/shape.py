@@ -19,6 +19,7 @@ from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
 from ..core.canonical import ORDER
+from ..core.distance import triangle_distances
 from ..core.measurement import Measurement
 from ..core.moments import Moments
 from ..core.pose import pose_matrix
@@ -32,6 +33,7 @@ from .measure import MeasureOptions, measure_body
 from .read import Unreadable
 
 POLYGONS = "Its signature is known of polygons only; convert it to a mesh first."
+EXACT, NEAR = 1e-5, 1e-2  # of the size: between them single precision mistakes the distances of thin triangles
 SAMPLES = 1500  # points of a surface that are held against another one
 
 
@@ -145,6 +147,7 @@ class Skin:
         triangles = whole.all_triangles()[0]
         corners = (whole.points - self._center) / self._scale
         self._tree = BVHTree.FromPolygons(corners.tolist(), triangles.tolist(), all_triangles=True)
+        self._corners = corners[triangles]
         used = np.unique(triangles)
         pick = np.linspace(0, len(used) - 1, min(len(used), SAMPLES // 2)).astype(int)
         middles = whole.points[triangles[np.linspace(0, len(triangles) - 1, min(len(triangles), SAMPLES // 2)).astype(
@@ -156,4 +159,9 @@ class Skin:
         """(n,) of (n, 3) points from the surface."""
         nearest = self._tree.find_nearest
         scaled = (points - self._center) / self._scale
-        return np.array([nearest(Vector(point))[3] for point in scaled.tolist()]) * self._scale
+        found = np.array([nearest(Vector(point))[3] for point in scaled.tolist()])
+        for i in np.flatnonzero((found > EXACT) & (found < NEAR)).tolist():
+            around = self._tree.find_nearest_range(Vector(scaled[i].tolist()), NEAR)
+            own = self._corners[[index for _, _, index, _ in around]].reshape(-1, 3, 3)
+            found[i] = min(found[i], triangle_distances(scaled[i], own).min(initial=np.inf))
+        return found * self._scale

@@ -1,0 +1,39 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Distances of points from triangles, against closed forms and a fine sampling."""
+
+import numpy as np
+import pytest
+from body_moments.core.distance import triangle_distances
+
+RIGHT = np.array([[[0.0, 0, 0], [4, 0, 0], [0, 3, 0]]])
+
+
+@pytest.mark.parametrize("point, distance", [
+    ((1, 1, 2), 2.0), ((1, 1, -2), 2.0), ((1, 0.5, 0), 0.0),  # over the inside, and in it
+    ((2, -3, 4), 5.0), ((-3, 1, 4), 5.0), ((4, 3, 0), 2.4),  # beyond each edge
+    ((-3, -4, 0), 5.0), ((7, -4, 0), 5.0), ((-3, 7, 12), 13.0)])  # beyond each corner
+def test_planes_edges_and_corners(point, distance):
+    for corners in (RIGHT, RIGHT[:, ::-1], np.roll(RIGHT, 1, axis=1)):
+        assert triangle_distances(point, corners)[0] == pytest.approx(distance, abs=1e-15)
+
+
+def test_many_triangles_at_once_and_none_nearer_than_their_samples():
+    rng = np.random.default_rng(0)
+    corners = rng.standard_normal((50, 3, 3))
+    corners[:5, 2] = corners[:5, 0] + 1e-9  # slivers
+    weights = rng.dirichlet((0.5, 0.5, 0.5), 20000)
+    for point in rng.standard_normal((5, 3)):
+        found = triangle_distances(point, corners)
+        sampled = np.array([np.linalg.norm(weights @ one - point, axis=1).min() for one in corners])
+        assert (found <= sampled + 1e-12).all() and (sampled - found < 0.1).all()
+
+
+def test_a_triangle_without_area_is_its_edges():
+    line, dot = [[0, 0, 0], [2, 0, 0], [1, 0, 0]], [[1, 1, 1]] * 3
+    assert triangle_distances((1, 3, 4), np.array([line, dot], float)) == pytest.approx([5.0, 13.0**0.5])
+
+
+def test_points_on_a_long_sliver_are_on_it():
+    corners = np.array([[[0.1, 0.2, 0.3], [3.1, 0.2, 0.3], [1.7, 0.2 + 1e-6, 0.3]]])
+    assert triangle_distances(corners[0].mean(axis=0), corners)[0] < 1e-15
