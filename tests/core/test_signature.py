@@ -18,7 +18,7 @@ PARTS = ("invariants", "zernike", "fourier", "chirality")
 def signed(part, order=20):
     center = moments(part, 1).center
     points = part[0] - center
-    return signature(moments((points, part[1]), order).shifted(np.zeros(3)), np.linalg.norm(points, axis=1).max())
+    return signature(moments((points, part[1]), order, np.zeros(3)), np.linalg.norm(points, axis=1).max())
 
 
 @pytest.mark.parametrize("part", [shapes.WEDGE, shapes.THREE_BOXES, bodies.box(), bodies.sphere(1)])
