@@ -30,8 +30,8 @@ if "body_moments" not in sys.modules:
     sys.modules["body_moments"] = module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
 
-from body_moments.core.density import grid_moments  # noqa: E402
-from body_moments.core.mass import MassProperties  # noqa: E402
+from body_moments.core.density import grid_moments
+from body_moments.core.mass import MassProperties
 
 
 @dataclass(frozen=True)

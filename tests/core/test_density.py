@@ -80,9 +80,8 @@ def test_blocks_are_the_whole(monkeypatch):
     coefficients, axes = spline((2, 4, 3), 5)
     whole = density_moments(coefficients, axes)
     monkeypatch.setattr(density, "BLOCK", 7)
-    for found in (density_moments(coefficients, axes), density_moments(
-            lambda: [((0, 0, 0), coefficients[:2]), ((2, 1, 0), coefficients[2:, 1:]), ((2, 0, 0), coefficients[2:, :1])],
-            axes)):
+    parts = [((0, 0, 0), coefficients[:2]), ((2, 1, 0), coefficients[2:, 1:]), ((2, 0, 0), coefficients[2:, :1])]
+    for found in (density_moments(coefficients, axes), density_moments(lambda: parts, axes)):
         assert (np.abs(found.raw - whole.raw) <= found.error + whole.error).all()
         check(found, coefficients, axes)
 
