@@ -24,6 +24,7 @@ def _parts() -> tuple[ModuleType, ...]:
         find_similar,
         find_symmetry,
         fourier,
+        import_scan,
         live,
         match_pose,
         measure_selected,
@@ -63,6 +64,7 @@ def _parts() -> tuple[ModuleType, ...]:
         match_pose,
         find_similar,
         find_symmetry,
+        import_scan,
         batch,
     )
 

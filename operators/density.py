@@ -11,12 +11,13 @@ import bpy
 
 from ..core.decimal import decimal
 from ..core.polynomial import Polynomial, parse
+from .grid_options import GridOptions
 
 
 @dataclass(frozen=True, eq=False)
 class DensityField:
-    """kind: "materials", "polynomial" or "attribute". polynomial, in_world: kg/m³ of metres, along the world's axes or
-    each surface's own; text: as it was typed. attribute: the name of the vertices' attribute."""
+    """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of metres, along the
+    world's axes or each surface's own; text: as it was typed. attribute: the name of the vertices' attribute."""
 
     kind: str
     polynomial: Polynomial | None = None
@@ -35,6 +36,10 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
     if settings.density_from == "POLYNOMIAL":
         text = settings.density_polynomial.strip()
         return DensityField("polynomial", parse(text), settings.density_frame == "WORLD", text)
+    if settings.density_from == "VOLUME":
+        if settings.density_volume is None:
+            raise ValueError("The Volume object that its density comes from is not chosen; choose one.")
+        return DensityField("volume")
     if not settings.density_attribute:
         raise ValueError("The vertex attribute that holds its density has no name; set one.")
     return DensityField("attribute", attribute=settings.density_attribute)
@@ -55,14 +60,26 @@ def fixed_to(obj: bpy.types.Object) -> str:
     return "world" if settings.density_frame == "WORLD" else "own"
 
 
+def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
+    """The same of a Volume object. density: as for `GridOptions.of`."""
+    grid = GridOptions.of(obj.body_moments, density)
+    return "" if grid.solid else repr(grid.key)
+
+
 def density_key(obj: bpy.types.Object, used: Iterable[str]) -> str:
     """What of the settings and of materials decides the density, as a text; "" for one value or a given mass.
 
     used: the full names of the materials that the last measurement met, beside those in the object's slots.
     """
     settings = obj.body_moments
+    if obj.type == "VOLUME":
+        return grid_key(obj)
     if settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
         return ""
+    if settings.density_from == "VOLUME":
+        source = settings.density_volume
+        place = None if source is None else [tuple(row) for row in source.matrix_world]
+        return "" if source is None else repr((GridOptions.of(source.body_moments).key, place))
     if settings.density_from == "POLYNOMIAL":
         return repr((settings.density_frame, settings.density_polynomial.strip()))
     if settings.density_from == "ATTRIBUTE":

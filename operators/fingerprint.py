@@ -43,7 +43,8 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     settings = obj.body_moments
     unit = decimal(scene.unit_settings.scale_length)
     given = settings.linear_density if settings.kind == "WIRE" else settings.density
-    return effective_hash(settings.kind, decimal(given) if settings.mass_from == "DENSITY" else None,
+    return effective_hash("SOLID" if obj.type == "VOLUME" else settings.kind,
+                          decimal(given) if settings.mass_from == "DENSITY" else None,
                           decimal(settings.mass) if settings.mass_from == "MASS" else None,
                           decimal(settings.thickness) * unit, settings.overlap, unit, settings.wall,
                           density_key(obj, str(obj.get("body_materials", "")).splitlines()))

@@ -19,14 +19,18 @@ from ..core.decimal import decimal
 from ..core.mass import MassProperties
 from ..core.measurement import Measurement
 from ..core.moments import Moments
-from . import wall_slider
+from . import staleness, wall_slider
 from .body import Body
 from .curve_body import region_body, wire_body
-from .density import density_field, density_key
+from .density import density_field, density_key, grid_key
 from .fingerprint import effective_hash, fingerprint, matrix_hash
+from .grid_body import grid_body
+from .grid_options import GridOptions
+from .inside_body import inside_body
 from .mesh_body import mesh_body
 from .nurbs_body import nurbs_body
 from .read import Reading, Unreadable, read_lines, read_object, shows_flat_region
+from .read.volume import VolumeReading, volume_reading
 from .wall_body import find_walls
 from .weigh import Weighed, weigh
 
@@ -73,20 +77,24 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     """As `measure_object`, with the body that was measured."""
     scene = depsgraph.scene
     unit = options.unit_scale or decimal(scene.unit_settings.scale_length)
+    grid = GridOptions.of(obj.body_moments, options.density)
+    with staleness.paused(), volume_reading(obj, depsgraph, grid.grid) as volume:
+        if volume is not None:
+            return _measure_grid(obj, volume, grid, options, unit)
     given = options.density is not None or options.mass is not None
     options = resolved(options, obj, unit)
     shell = options.kind == "shell"
     try:
         lines = _lines(obj, depsgraph, unit, options)
         if lines is not None:
-            return _to_order(told(obj, *lines, options, unit), lines[1], options), lines[1]
+            return to_order(told(obj, *lines, options, unit), lines[1], options), lines[1]
         density = None if given else density_field(obj.body_moments)
         reading = read_object(obj, depsgraph, materials=density is not None and density.kind == "materials",
                               attribute=density.attribute if density is not None and shell else None)
         if reading.has_patches and density is None:
             body = nurbs_body(reading, unit, wall=options.wall if shell else None, thickness=options.thickness,
                               union=options.overlap == "union", threads=options.threads, compare=options.compare)
-            return _to_order(told(obj, reading, body, options, unit), body, options), body
+            return to_order(told(obj, reading, body, options, unit), body, options), body
         if reading.has_patches:
             reading.warnings.append("A density that is not one value needs polygons: the display mesh of its surface "
                                     "was measured, as fine as the viewport's resolution.")
@@ -94,16 +102,19 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
         weighed = None
         if density is not None:
             _require_volume(body, options)
-            weighed = weigh(reading, body, density, unit=unit, shell=shell, thickness=options.thickness,
-                            others=options.density, threads=options.threads)
-            body = replace(body, mass=weighed.mass, warnings=(*body.warnings, *weighed.warnings))
+            if density.kind == "volume":
+                body, weighed = _filled(obj, body, shell, depsgraph, unit)
+            else:
+                weighed = weigh(reading, body, density, unit=unit, shell=shell, thickness=options.thickness,
+                                others=options.density, threads=options.threads)
+                body = replace(body, mass=weighed.mass, warnings=(*body.warnings, *weighed.warnings))
         walls = find_walls(reading, body, options.wall) if shell and options.wall != "thin" else None
         if walls is not None:
             body = walls.body(options.thickness)
         measurement = told(obj, reading, body, options, unit, weighed)
         if walls is not None:
             wall_slider.keep(obj, reading, walls, measurement, unit)
-        return _to_order(measurement, body, options), body
+        return to_order(measurement, body, options), body
     except ValueError as error:
         raise Unreadable(obj.name, str(error)) from error
 
@@ -128,6 +139,36 @@ def _lines(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float, o
     return None
 
 
+def _measure_grid(obj: bpy.types.Object, volume: VolumeReading, grid: GridOptions, options: MeasureOptions,
+                  unit: float) -> tuple[Measurement, Body]:
+    """As `measure_body`, of a grid of voxels."""
+    if options.kind in ("shell", "wire"):
+        raise ValueError("A grid of voxels is no sheet; measure it as a solid.")
+    key = grid_key(obj, options.density) if obj.type == "VOLUME" else density_key(obj, ())
+    options = resolved(replace(options, kind="solid"), obj, unit)
+    body = grid_body(volume, grid, unit, options.threads)
+    weighed = None if body.mass is None else Weighed(body.mass, "grid “{:s}”".format(volume.grid))
+    return to_order(told(obj, volume, body, options, unit, weighed, key), body, options), body
+
+
+def _filled(obj: bpy.types.Object, body: Body, shell: bool, depsgraph: bpy.types.Depsgraph, unit: float
+            ) -> tuple[Body, Weighed]:
+    """The solid with the density of the Volume object that its settings name."""
+    if shell:
+        raise ValueError("A grid is a density inside a solid, not on a sheet; measure it as a solid, or choose another "
+                         "source of density.")
+    source = obj.body_moments.density_volume
+    grid = GridOptions.of(source.body_moments)
+    try:
+        with staleness.paused(), volume_reading(source, depsgraph, grid.grid) as volume:
+            if volume is None:
+                raise Unreadable(source.name, "It shows no grid of voxels.")
+            body = inside_body(body, volume, grid, unit)
+            return body, Weighed(body.mass, "grid “{:s}” of “{:s}”".format(volume.grid, source.name))
+    except Unreadable as error:
+        raise ValueError("Its density is to come from “{:s}”: {:s}".format(source.name, error.reason)) from error
+
+
 def resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> MeasureOptions:
     """The options with every gap filled from the object's settings."""
     settings = obj.body_moments
@@ -144,7 +185,7 @@ def resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> Mea
         compare=options.compare)
 
 
-def _to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> Measurement:
+def to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> Measurement:
     """With moments to the order that was asked for. What a measurement holds anyway is not measured again."""
     shell, order = options.kind == "shell", options.order
     if order is None or (order < KNOWN and (shell or not options.surface)):
@@ -175,9 +216,10 @@ def _require_volume(body: Body, options: MeasureOptions) -> Moments:
     return volume
 
 
-def told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOptions, unit: float,
-         weighed: Weighed | None = None) -> Measurement:
-    """The body as a measurement. options: resolved. ValueError where it has no mass."""
+def told(obj: bpy.types.Object | None, reading: Reading | VolumeReading, body: Body, options: MeasureOptions,
+         unit: float, weighed: Weighed | None = None, key: str | None = None) -> Measurement:
+    """The body as a measurement. obj: None for what is in a file only. options: resolved. key: in place of
+    `density_key`. ValueError where it has no mass."""
     shell = options.kind == "shell"
     wire = options.kind == "wire"
     thin, solid = shell and body.wall is None, body.wall or body.volume
@@ -185,8 +227,8 @@ def told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOp
     extent = body.length if wire else volume  # what the density is of
     density = options.density if options.mass is None else options.mass / extent.total
     if body.mass is not None:
-        moments, factor = body.mass, 1.0
-        density = body.mass.total / volume.total
+        moments, factor = body.mass, 1.0 if options.mass is None else options.mass / body.mass.total
+        density = body.mass.total * factor / volume.total
     else:
         moments, factor = (body.area, density * options.thickness) if thin else (body.length or solid, density)
     if not density > 0.0:
@@ -202,18 +244,20 @@ def told(obj: bpy.types.Object, reading: Reading, body: Body, options: MeasureOp
 
     settings = effective_hash(options.kind.upper(), options.density, options.mass, options.thickness,
                               options.overlap.upper(), unit, options.wall.upper(),
-                              density_key(obj, weighed.materials) if weighed else "")
+                              (density_key(obj, weighed.materials) if weighed else "") if key is None else key)
     digested = [body.volume, body.area, *(one for one in (body.mass, body.length) if one is not None)]
     of_surface = "shell" if shell and not body.method.endswith("shell") else body.method
     return Measurement(
-        name=obj.name, type=obj.type, kind=options.kind, method=of_surface, density=0.0 if wire else density,
-        thickness=options.thickness if shell else 0.0, volume=volume.total, area=body.area.total,
+        name=reading.name, type=reading.type, kind=options.kind, method=of_surface,
+        density=0.0 if wire else density, thickness=options.thickness if shell else 0.0, volume=volume.total,
+        area=body.area.total,
         mass_properties=properties, volume_moments=None if thin else solid, area_moments=body.area,
         mass_moments=(moments, factor), health=body.health, warnings=(*reading.warnings, *body.warnings),
         rotation=rotation, location=location, length=body.length.total if wire else None,
         display_volume=body.display_volume,
         error_bound={**bounds("error", properties.error), "input": bounds("input", properties.input),
                      **({"estimated": True} if body.estimated else {})},
-        fingerprint=fingerprint(b"".join(one.raw.tobytes() for one in digested), matrix_hash(obj), settings),
+        fingerprint=fingerprint(b"".join(one.raw.tobytes() for one in digested),
+                                "" if obj is None else matrix_hash(obj), settings),
         density_from=weighed.source if weighed else "one value" if options.mass is None else "given mass",
         materials=weighed.materials if weighed else ())

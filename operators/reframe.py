@@ -79,6 +79,9 @@ def check(obj: Object) -> None:
         raise Refused(
             "it shows a collection and has no geometry of its own; make the instances real first"
         )
+    if obj.type == "VOLUME":
+        raise Refused("its voxels cannot be moved within the object; add an empty at its principal frame, or align the "
+                      "object itself")
     if obj.type not in {"MESH", "CURVE", "SURFACE", "META", "FONT"}:
         raise Refused("its geometry has no transform of its own; convert it to a mesh first")
     if obj.instance_type in {"VERTS", "FACES"} and obj.children:

@@ -15,11 +15,13 @@ from bpy.types import Context, Material, Object, PropertyGroup, Scene
 from ..core.decimal import decimal
 from ..core.materials import BY_NAME
 from ..core.recursion import MAX_ORDER
+from ..core.transfer import CT
 from . import wall_slider
 
 COPIED = (
     *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
     *("density_from", "density_polynomial", "density_frame", "density_attribute"),
+    *("density_volume", "grid", "grid_as", "values_from", "value_density", "transfer_table", "spline_order"),
 )
 
 
@@ -74,6 +76,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
                 "Vertex Attribute",
                 "Of a shell: a float attribute on its vertices, in kg/m³, linear in between",
             ),
+            ("VOLUME", "Volume Object", "Of a solid: the grid of a Volume object, constant in each voxel"),
         ),
         default="VALUE",
     )
@@ -175,6 +178,58 @@ class BodyMomentsObjectSettings(PropertyGroup):
         name="Material",
         description="Name of the material that the density was taken from",
     )
+    grid: StringProperty(
+        name="Grid",
+        description="Name of the grid that is measured; empty for “density”, or else the first that can be one",
+    )
+    grid_as: EnumProperty(
+        name="Measure As",
+        description="What the values of the grid are",
+        items=(
+            ("DENSITY", "Density", "The values tell how much mass there is at each place"),
+            ("SOLID", "Solid", "The grid is a level set: the solid that it bounds is filled with the material"),
+        ),
+        default="DENSITY",
+    )
+    values_from: EnumProperty(
+        name="Values",
+        description="How the values of the grid become densities",
+        items=(
+            ("FACTOR", "Factor", "Each value times the same density"),
+            ("TABLE", "Table", "By a transfer table, as for CT numbers"),
+        ),
+        default="FACTOR",
+    )
+    value_density: FloatProperty(
+        name="Density of Value 1",
+        description="Density in kg/m³ where the grid's value is 1",
+        default=1.0,
+        min=0.0,
+        soft_max=25000.0,
+        step=100,
+        precision=4,
+    )
+    transfer_table: StringProperty(
+        name="Transfer Table",
+        description=(
+            "Pairs of a value and a density in kg/m³, separated by commas; straight between them, constant beyond. "
+            "The default turns CT numbers into tissue densities"
+        ),
+        default=CT,
+    )
+    spline_order: IntProperty(
+        name="Spline Order",
+        description="The values are the coefficients of a spline of this order: 1 voxels, 2 trilinear, 4 cubic",
+        default=1,
+        min=1,
+        max=6,
+    )
+    density_volume: PointerProperty(
+        name="Volume",
+        description="The Volume object whose grid is the density inside of this solid",
+        type=Object,
+        poll=lambda _settings, obj: obj.type == "VOLUME",
+    )
 
 
 class BodyMomentsMaterialSettings(PropertyGroup):
@@ -263,6 +318,8 @@ def keep(settings: PropertyGroup, options, scene: Scene) -> None:
     if options.density is not None:
         settings.mass_from, settings.density_from = "DENSITY", "VALUE"
         setattr(settings, "linear_density" if settings.kind == "WIRE" else "density", options.density)
+        if settings.id_data.type == "VOLUME":
+            settings.values_from, settings.value_density = "FACTOR", options.density
     if options.mass is not None:
         settings.mass_from, settings.mass = "MASS", options.mass
     if options.thickness is not None:

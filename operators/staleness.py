@@ -75,11 +75,11 @@ def mark_retold(obj: Object) -> None:
 def paused() -> Iterator[None]:
     """Nothing is noted in here: for changes that leave every object's shape as it was."""
     global _paused
-    _paused = True
+    before, _paused = _paused, True
     try:
         yield
     finally:
-        _paused = False
+        _paused = before
 
 
 def generation() -> int:

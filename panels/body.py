@@ -15,11 +15,12 @@ from bpy.types import Context, Object, Panel, UILayout
 from ..operators import live, results, staleness, wall_slider
 from ..operators.units import SI_UNITS, Units
 from ..operators.write import properties
-from . import materials, rows
+from . import grid, materials, rows
 
 # method: (headline, icon, explanation)
 VERDICTS = {
     "exact": ("Exact, Closed Surface", "CHECKMARK", ""),
+    "grid exact": ("Exact, from a Grid", "VOLUME_DATA", ""),
     "union": ("United Shells", "INFO", "By Blender's exact boolean, to 7 digits"),
     "shell": ("Shell", "MOD_SOLIDIFY", "The mass is in the surface"),
     "wire": ("Wire", "CURVE_DATA", "The mass is along the curve"),
@@ -94,7 +95,8 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
         return
     method, _ = _method_and_warnings(obj)
     *before, last = method.split() or [""]
-    headline, icon, explanation = VERDICTS.get(last, (method.title(), "INFO", ""))
+    headline, icon, explanation = VERDICTS.get(method) or VERDICTS.get(last, (method.title(), "INFO", ""))
+    before = [] if method in VERDICTS else [word[:1].upper() + word[1:] for word in before]
     column.label(text=" ".join([*before, headline]), icon=icon)
     if last == "shell" and obj.body_moments.wall != "THIN":
         explanation = "The mass is in walls of real thickness"
@@ -115,8 +117,17 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
 
 def _material(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
+    if obj.type == "VOLUME" and grid.settings_rows(layout, context, obj):
+        return
     column = layout.column()
     column.use_property_split = True
+    if obj.type == "VOLUME":
+        column.row().prop(settings, "mass_from", text="Given", expand=True)
+        if settings.mass_from == "MASS":
+            column.prop(settings, "mass", text="Mass kg")
+        else:
+            _one_density(column, settings, "Material")
+        return
     column.row().prop(settings, "kind", expand=True)
     if obj.type == "SURFACE":
         column.operator("object.body_moments_live", icon="REC", depress=live.is_live(obj))
@@ -142,6 +153,8 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
             column.prop_search(settings, "density_attribute", obj.data, "attributes", results_are_suggestions=True)
         else:
             column.prop(settings, "density_attribute")
+    elif settings.density_from == "VOLUME":
+        column.prop(settings, "density_volume")
     elif settings.density_from == "MATERIALS":
         _materials(layout, obj)
     else:
@@ -196,7 +209,8 @@ def _numbers(layout: UILayout, context: Context, units: Units, found: properties
         if source:
             rows.sentence(column, context, "The mean, from {:s}".format(source), icon="BLANK1")
         rows.value(column, units, "Volume", "volume", found.volume)
-        rows.value(column, units, "Area", "area", found.area)
+        if found.area:  # a grid of densities has no surface
+            rows.value(column, units, "Area", "area", found.area)
     else:
         rows.value(column, units, "Length", "length", length)
     layout.row().prop(scene.body_moments, "frame", expand=True)

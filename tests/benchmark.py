@@ -530,6 +530,82 @@ def fourier(quick: bool) -> None:
         table("A tetrahedron at 5,000 wave vectors", interleaved(rows, 3), ["bornagain"])
 
 
+def densities(rounds: int) -> None:
+    """The volumetric scheme: all moments to order 2 of 128 x 128 x 256 coefficients, and one coefficient changed."""
+    from body_moments.core.density import Trivariate, density_moments
+    from body_moments.core.density_tables import Axis
+
+    rng = np.random.default_rng(0)
+    coefficients = rng.random((128, 128, 256))
+    axes = [Axis.uniform(count, 4) for count in coefficients.shape]
+    x, y, z = (np.arange(n) - n / 2.0 for n in coefficients.shape)
+
+    def voxel_sum() -> None:
+        for p in range(3):
+            for q in range(3 - p):
+                for r in range(3 - p - q):
+                    (coefficients * x[:, None, None] ** p * y[:, None] ** q * z ** r).sum()
+
+    rows = {"ours, cubic splines, float64": lambda: density_moments(coefficients, axes, 2),
+            "ours, cubic splines, float32": lambda: density_moments(single, axes, 2),
+            "straightforward voxel sum": voxel_sum}
+    single = coefficients.astype(np.float32)
+    times = interleaved(rows, rounds)
+    table("128 x 128 x 256 coefficients, moments to order 2 (the paper: 21,100 ms)", times, [list(rows)[-1]])
+    live = Trivariate(coefficients, axes, 2)
+    places = rng.integers(0, coefficients.shape, (1000, 3)).tolist()
+    start = time.perf_counter()
+    for i, j, k in places:
+        live.set_coefficient(i, j, k, 0.5)
+    one = (time.perf_counter() - start) / len(places)
+    ratio = statistics.median(times["straightforward voxel sum"]) / one
+    print("    {:<40s}{:>10.1f} us (the paper: 8,370 us), {:,.0f}x the voxel sum".format(
+        "one coefficient changed", one * 1e6, ratio))
+
+
+def volumes(rounds: int) -> None:
+    """Voxels read from Volume objects, by each of the two ways."""
+    import bpy
+    from body_moments.operators.read import volume as reader
+    from body_moments.operators.read.vdb import openvdb
+
+    module = openvdb()
+    if module is None:
+        print("\nThere is no openvdb module here: reading volumes was not measured.")
+        return
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    grid = module.FloatGrid()
+    grid.copyFromArray(np.random.default_rng(0).random((128, 128, 128), dtype=np.float32))
+    grid.name = "density"
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "cloud.vdb")
+        module.write(path, grid)
+        volume = bpy.data.volumes.new("Cloud")
+        volume.filepath = path
+        obj = bpy.data.objects.new("Cloud", volume)
+        bpy.context.scene.collection.objects.link(obj)
+        bpy.context.view_layer.update()
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+
+        def read(unchanged: bool = True, module: bool = True) -> None:
+            kept = reader._unchanged_file, reader.openvdb
+            if not unchanged:
+                reader._unchanged_file = lambda *_: ""
+            if not module:
+                reader.openvdb = lambda: None
+            try:
+                with reader.volume_reading(obj, depsgraph) as reading:
+                    for _ in reading.blocks():
+                        pass
+            finally:
+                reader._unchanged_file, reader.openvdb = kept
+
+        rows = {"from its file": read, "as if a modifier had made it": lambda: read(unchanged=False),
+                "by nodes, without openvdb": lambda: read(module=False)}
+        table("{:,} voxels read from a Volume object, Blender {:s}".format(128**3, bpy.app.version_string),
+              interleaved(rows, rounds), [])
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="a tenth of the faces, fewer rounds")
@@ -547,6 +623,7 @@ def main() -> None:
     memory(side)
     latency(rounds)
     splines(3 if quick else rounds)
+    densities(rounds)
     fourier(quick)
     orders(quick)
     if not optional("bpy"):
@@ -559,6 +636,7 @@ def main() -> None:
         sys.modules["body_moments"].register()
         blender(side, rounds)
         instances(1000 if quick else 10_000, rounds)
+        volumes(rounds)
         sys.modules["body_moments"].unregister()
 
 

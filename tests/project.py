@@ -6,6 +6,7 @@
     python tests/project.py test         pass the tests, on every Blender there is
     python tests/project.py build        build the extension's zip into dist/
     python tests/project.py benchmark    times and ratios against trimesh and libigl
+    python tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
     python tests/project.py lint         check the style
 
 Each sets up what it needs in .envs/: one environment for each Blender that exists as a Python
@@ -371,6 +372,10 @@ def benchmark(options: argparse.Namespace) -> int:
     return show([python, "-P", TESTS / "benchmark.py", *options.arguments])
 
 
+def tables(options: argparse.Namespace) -> int:
+    return show([prepare_blender(any_blender()), "-P", TESTS / "paper_tables.py"])
+
+
 def lint(options: argparse.Namespace) -> int:
     python = prepare("lint", sys.executable, RUNNING, ["requirements-lint.txt"])
     return show([python, "-m", "ruff", "check", "--no-cache", ROOT])
@@ -386,6 +391,7 @@ def main() -> int:
         (test, "pass the tests"),
         (build, "build the extension's zip"),
         (benchmark, "times and ratios against trimesh and libigl"),
+        (tables, "the paper's tables of trivariate densities beside ours"),
         (lint, "check the style"),
     ):
         command = commands.add_parser(function.__name__, help=text)

@@ -10,20 +10,19 @@ import argparse
 import math
 from pathlib import Path
 
+from ...core.density_tables import MAX_ORDER as MAX_SPLINE_ORDER
 from ...core.recursion import MAX_ORDER
 from ..write.record import FORMATS, FRAMES
 from . import fourier
 
 DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
 
-_LATER_OPTIONS = (
-    *("--spacing", "--origin", "--spline-order", "--density-scale"),
-)
 _LATER_FORMATS = ("urdf", "sdf", "mjcf", "usd")
 
 _EPILOG = """\
-FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz or .fbx. Without one,
-the file that Blender has open is measured. All numbers are SI: kilograms and meters.
+FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz or .fbx, or an array or
+scan of densities: .npy, .npz, .nrrd, .nhdr, .nii, .nii.gz, or .raw if called NAME_XxYxZ_TYPE.raw.
+Without one, the file that Blender has open is measured. All numbers are SI: kilograms and meters.
 `similar LIBRARY --to NAME` in the place of `measure` compares bodies measured with --signature.
 exit code: 0 all measured, 1 something is listed under errors, 2 wrong usage, 70 a fault of the
 program"""
@@ -35,12 +34,6 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     Raises SystemExit(2) with a message on the standard error, or SystemExit(0) after --help.
     """
     parser = _parser()
-    for word in argv:
-        option = word.partition("=")[0]
-        if option == "--":
-            break
-        if option in _LATER_OPTIONS:
-            parser.error("{} is not supported yet".format(option))
     options = parser.parse_intermixed_args(argv)
     if file_needed and not options.files:
         parser.error("the name of a FILE is needed")
@@ -94,7 +87,34 @@ def _parser() -> argparse.ArgumentParser:
         "--unit-scale",
         type=_positive,
         metavar="S",
-        help="meters per unit in files that carry no unit: .stl, .obj, .ply (1)",
+        help="meters per unit in files that carry no unit: .stl, .obj, .ply, arrays (1)",
+    )
+    add(
+        "--spacing",
+        type=_spacing,
+        metavar="X,Y,Z",
+        help="arrays: how far samples are apart (the header's, or 1)",
+    )
+    add(
+        "--origin",
+        type=_triple,
+        metavar="X,Y,Z",
+        help="arrays: where the first sample stands (the header's, or 0)",
+    )
+    add(
+        "--spline-order",
+        type=_spline_order,
+        default=1,
+        metavar="K",
+        help="arrays: the samples are the coefficients of a spline of this order: 1 voxels, 2 "
+        "trilinear, 4 cubic (1)",
+    )
+    add(
+        "--density-scale",
+        type=_positive,
+        default=1.0,
+        metavar="S",
+        help="arrays: kg/m³ where a sample is 1 (1)",
     )
     add(
         "--frame",
@@ -150,6 +170,31 @@ def _positive(text: str) -> float:
     if not (0.0 < value < math.inf):
         raise argparse.ArgumentTypeError("{!r} is not a positive number".format(text))
     return value
+
+
+def _triple(text: str) -> tuple[float, ...]:
+    try:
+        values = tuple(float(word) for word in text.split(","))
+    except ValueError:
+        values = ()
+    if len(values) != 3 or not all(map(math.isfinite, values)):
+        raise argparse.ArgumentTypeError("{!r} is not three numbers X,Y,Z".format(text))
+    return values
+
+
+def _spacing(text: str) -> tuple[float, ...]:
+    values = _triple(text)
+    if min(values) <= 0.0:
+        raise argparse.ArgumentTypeError("{!r} is not three positive numbers X,Y,Z".format(text))
+    return values
+
+
+def _spline_order(text: str) -> int:
+    if text not in {str(order) for order in range(1, MAX_SPLINE_ORDER + 1)}:
+        raise argparse.ArgumentTypeError(
+            "{!r} is not an order from 1 to {}".format(text, MAX_SPLINE_ORDER)
+        )
+    return int(text)
 
 
 def _order(text: str) -> int:

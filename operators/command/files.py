@@ -20,6 +20,8 @@ from pathlib import Path
 import addon_utils
 import bpy
 
+from ...core import scans
+
 BLEND = ".blend"
 UNITLESS = (".stl", ".obj", ".ply")
 
@@ -39,7 +41,6 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
         lambda path: bpy.ops.wm.usd_import(filepath=path, import_visible_only=False),
     ),
 }
-_ARRAYS = (".npy", ".npz", ".nrrd", ".nii", ".nii.gz")
 _PACKED = (b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # how a .blend compressed with zstd or gzip begins
 
 
@@ -49,8 +50,7 @@ class Unusable(Exception):
 
 def suffix(path: str) -> str:
     """What the file's name ends with, in lower case."""
-    name = path.lower()
-    return next((end for end in _ARRAYS if name.endswith(end)), Path(name).suffix)
+    return scans.suffix(path) or Path(path.lower()).suffix
 
 
 def open_file(path: str) -> None:
@@ -103,10 +103,8 @@ def save_file(path: str) -> None:
 
 
 def _check(path: str, kind: str) -> None:
-    if kind in _ARRAYS:
-        raise Unusable("Arrays and scans ({}) are not supported yet.".format(kind))
     if kind != BLEND and kind not in _IMPORTERS:
-        known = " ".join((BLEND, *_IMPORTERS))
+        known = " ".join((BLEND, *_IMPORTERS, *scans.SUFFIXES))
         raise Unusable("Files of this kind cannot be measured; these can: {}.".format(known))
     if os.path.isdir(path):
         raise Unusable("This is a folder; name the files in it.")

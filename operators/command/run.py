@@ -22,8 +22,10 @@ from typing import Any
 
 import bpy
 
+from ...core import scans
 from ...core.measurement import Measurement
 from .. import settings
+from ..array_body import ArrayOptions, measure_array
 from ..measure import MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
 from ..shape import POLYGONS, NoShape, shape_of
@@ -74,28 +76,32 @@ class Run:
         measured: list[tuple[bpy.types.Object, Measurement]] = []
         objects, errors = [], []
         try:
-            self._open(path, file)
-            note = _unit_note(path, self.options.unit_scale)
-            # Not by way of the scene, whose unit scale is a float32 with limits.
-            unit = (self.options.unit_scale or 1.0) if _unitless(path) else None
-            wanted = replace(self._wanted, unit_scale=unit)
-            chosen, errors = _chosen(self.options.object)
-            errors.extend(_missing_links())
-            for label, obj in chosen:
-                try:
-                    one, more = self._measure(obj, wanted)
-                    surface = one.area_moments if self.options.surface_moments else None
-                    told = replace(one, name=label, warnings=one.warnings + note)
-                    objects.append(
-                        record.record(told, self.options.frame, self.options.order, surface, more)
-                    )
-                    measured.append((obj, one))
-                except Unreadable as refusal:
-                    errors.append(_error(label, refusal.reason))
-                except Exception as error:
-                    errors.append(self._fault(label, error))
-            if self.options.fourier:
-                errors.extend(self._fourier(chosen, wanted, objects))
+            if path is not None and scans.suffix(path):
+                objects, measured, errors = self._array(path)
+                wanted = self._wanted
+            else:
+                self._open(path, file)
+                note = _unit_note(path, self.options.unit_scale)
+                # Not by way of the scene, whose unit scale is a float32 with limits.
+                unit = (self.options.unit_scale or 1.0) if _unitless(path) else None
+                wanted = replace(self._wanted, unit_scale=unit)
+                chosen, errors = _chosen(self.options.object)
+                errors.extend(_missing_links())
+                for label, obj in chosen:
+                    try:
+                        one, more = self._measure(obj, wanted)
+                        surface = one.area_moments if self.options.surface_moments else None
+                        told = replace(one, name=label, warnings=one.warnings + note)
+                        objects.append(
+                            record.record(told, self.options.frame, self.options.order, surface, more)
+                        )
+                        measured.append((obj, one))
+                    except Unreadable as refusal:
+                        errors.append(_error(label, refusal.reason))
+                    except Exception as error:
+                        errors.append(self._fault(label, error))
+                if self.options.fourier:
+                    errors.extend(self._fourier(chosen, wanted, objects))
             if self.options.write:
                 errors.extend(_store(path, measured, wanted))
         except Unusable as refusal:
@@ -113,6 +119,28 @@ class Run:
             blender=".".join(map(str, bpy.app.version)),
             frame=self.options.frame,
         )
+
+    def _array(self, path: str) -> tuple[list, list, list]:
+        """The records, measurements and errors of a scan or an array, which is one body, called like
+        its file.
+        """
+        name = os.path.basename(path)[: -len(scans.suffix(path))]
+        names = [name] if self.options.object is None else self.options.object
+        errors = [_error(one, "The file has no object of this name.") for one in names if one != name]
+        if self.options.fourier:
+            errors.append(_error(None, "Of an array of densities no Fourier transform is computed."))
+        if name not in names:
+            return [], [], errors
+        taken = ("spacing", "origin", "spline_order", "density_scale", "unit_scale")
+        array = ArrayOptions(**{one: getattr(self.options, one) for one in taken})
+        try:
+            one = measure_array(path, name, array, self._wanted)
+        except Unreadable as refusal:
+            return [], [], [*errors, _error(None, refusal.reason)]
+        asked = [more for more in ("pose", "signature") if getattr(self.options, more)]
+        surface = one.area_moments if self.options.surface_moments else None
+        told = record.record(one, self.options.frame, self.options.order, surface, dict.fromkeys(asked))
+        return [told], [(None, one)], errors
 
     def _open(self, path: str | None, file: str | None) -> None:
         if path is not None:

@@ -65,27 +65,41 @@ def decisions(obj, gathered: Gathered, depsgraph) -> Iterator[str]:
             yield "Holds the polygons of its metaball family: {:s}.".format(_names(others))
     yield from _mode(obj)
     exact = {evaluated.original for evaluated, splines in gathered.splines.items() if splines}
-    differences = list(_render_differences(obj, depsgraph.scene, obj in exact))
-    if differences:
-        yield "Read as the viewport shows it; the render differs: {:s}.".format(
-            "; ".join(differences)
-        )
+    yield from _rendered(obj, depsgraph.scene, obj in exact)
     for source in gathered.sources:
         differences = list(_render_differences(source, depsgraph.scene, source in exact)) if source != obj else []
         if differences:
             yield (
                 "The instanced “{:s}” is read as the viewport shows it; the render differs: {:s}."
             ).format(source.name, "; ".join(differences))
+    yield from _node_errors(obj)
+    if gathered.vanished:
+        yield "Left out: {:d} instances scaled to zero.".format(gathered.vanished)
+    if gathered.left_out:
+        yield "Left out, as they have no surface: {:s}.".format(_listing(gathered.left_out))
+
+
+def modifier_decisions(obj, scene) -> Iterator[str]:
+    """The same of what the object's modifiers made, whatever that is."""
+    yield from _rendered(obj, scene)
+    yield from _node_errors(obj)
+
+
+def _rendered(obj, scene, exact: bool = False) -> Iterator[str]:
+    differences = list(_render_differences(obj, scene, exact))
+    if differences:
+        yield "Read as the viewport shows it; the render differs: {:s}.".format(
+            "; ".join(differences)
+        )
+
+
+def _node_errors(obj) -> Iterator[str]:
     for modifier in obj.modifiers:
         for warning in getattr(modifier, "node_warnings", ()):
             if warning.type == "ERROR":
                 yield "Its modifier “{:s}” reports an error: {:s}".format(
                     modifier.name, warning.message
                 )
-    if gathered.vanished:
-        yield "Left out: {:d} instances scaled to zero.".format(gathered.vanished)
-    if gathered.left_out:
-        yield "Left out, as they have no surface: {:s}.".format(_listing(gathered.left_out))
 
 
 def _family(obj, depsgraph) -> list:

@@ -22,6 +22,7 @@ from . import properties
 from .record import TENSOR, document, plain
 
 METHODS = {
+    "grid exact": "from a grid of voxels, whose values are taken as they are",
     "exact": "closed; the numbers are those of the surface itself",
     "reoriented": "closed after flipped faces were turned",
     "capped": "open; holes were capped",
@@ -96,7 +97,10 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     if "method" in entry:
         yield _line(
             "Verdict",
-            "{}: {}".format(entry["method"], METHODS.get(entry["method"].split()[-1], "")),
+            "{}: {}".format(
+                entry["method"],
+                METHODS.get(entry["method"]) or METHODS.get(entry["method"].split()[-1], ""),
+            ),
         )
         found = [
             "{} {}".format(entry["health"][name], words)

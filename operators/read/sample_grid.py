@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One grid of a volume by the node Sample Grid, where Blender has come without the openvdb module.
+
+A mesh with a vertex at the center of each voxel stores there, by a node tree, what the nearest voxel of the volume
+holds: the same values to the bit. Mesh, tree and a scene to evaluate them in live for this reading only, so that
+nothing of the user's scene is changed or evaluated anew. The extent is that of Blender's bounding box; empty space
+cannot be told before it is sampled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.surface import Surface
+
+BLOCK = 1 << 21  # voxels that are sampled at a time
+MOST = 1 << 29  # voxels that are sampled at all
+KINDS = {"FLOAT": ("FLOAT", np.float32), "INT": ("INT", np.int32), "BOOLEAN": ("BOOLEAN", np.bool_),
+         "MASK": ("BOOLEAN", np.bool_)}
+
+
+class SampledGrid:
+    """As `vdb.VdbGrid`; `level_set` is not known here."""
+
+    level_set = False
+
+    def __init__(self, obj, depsgraph, grid, bound_box) -> None:
+        if grid.data_type not in KINDS or (bpy.app.version < (5, 0) and grid.data_type != "FLOAT"):
+            raise ValueError("Its grid “{:s}” holds values of a kind that can only be read with the openvdb module, "
+                             "which this Blender lacks; convert it to floats.".format(grid.name))
+        self._obj, self._depsgraph, self._name = obj, depsgraph, grid.name
+        self._kind, self._dtype = KINDS[grid.data_type]
+        self.to_object = np.array([row[:] for row in grid.matrix_object], np.float64)
+        corners = np.array([[*corner] for corner in bound_box], np.float64)
+        index = (corners - self.to_object[:3, 3]) @ np.linalg.inv(self.to_object[:3, :3]).T
+        low, high = np.floor(index.min(axis=0)).astype(np.int64) - 1, np.ceil(index.max(axis=0)).astype(np.int64) + 1
+        self.low, self.shape = low, high - low + 1
+        if np.prod(self.shape.astype(float)) > MOST:
+            raise ValueError("Its grid “{:s}” has {:d} x {:d} x {:d} voxels, which is too many without the openvdb "
+                             "module, which this Blender lacks.".format(grid.name, *self.shape.tolist()))
+        with self._sampler() as sample:
+            self.background = float(sample(low - 2, (1, 1, 1))[0, 0, 0])
+
+    def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
+        """The voxels of the box, as blocks, each with where it begins in the box."""
+        planes = max(1, BLOCK // int(np.prod(self.shape[1:])))
+        with self._sampler() as sample:
+            for start in range(0, int(self.shape[0]), planes):
+                shape = (min(planes, int(self.shape[0]) - start), *self.shape[1:].tolist())
+                yield (start, 0, 0), sample(self.low + (start, 0, 0), shape)
+
+    def polygons(self) -> Surface:
+        raise ValueError("A level set cannot be told from a density without the openvdb module, which this Blender "
+                         "lacks; use the node Grid to Mesh, and measure that.")
+
+    @contextmanager
+    def _sampler(self):
+        """Gives a function from the first voxel of a block and its shape to the values."""
+        made = []
+
+        def keep(collection, block):
+            made.append((collection, block))
+            return block
+
+        try:
+            mesh = keep(bpy.data.meshes, bpy.data.meshes.new("Body Moments Reading"))
+            tree = keep(bpy.data.node_groups, bpy.data.node_groups.new("Body Moments Reading", "GeometryNodeTree"))
+            probe = keep(bpy.data.objects, bpy.data.objects.new("Body Moments Reading", mesh))
+            scene = keep(bpy.data.scenes, bpy.data.scenes.new("Body Moments Reading"))
+            scene.frame_current = self._depsgraph.scene.frame_current
+            _fill(tree, self._obj, self._name, self._kind)
+            probe.modifiers.new("Body Moments Reading", "NODES").node_group = tree
+            scene.collection.objects.link(probe)
+
+            def sample(first: NDArray, shape: tuple[int, int, int]) -> NDArray:
+                count = int(np.prod(shape))
+                places = np.empty((*shape, 3), np.float32)
+                steps = np.ogrid[tuple(slice(a, a + n) for a, n in zip(first.tolist(), shape))]
+                for axis, (*row, offset) in enumerate(self.to_object[:3]):
+                    places[..., axis] = sum(factor * step for factor, step in zip(row, steps)) + offset
+                if len(mesh.vertices) != count:
+                    mesh.clear_geometry()
+                    mesh.vertices.add(count)
+                mesh.attributes["position"].data.foreach_set("vector", places.reshape(-1))
+                mesh.update_tag()
+                mesh.update()
+                layer = scene.view_layers[0]
+                layer.update()
+                values = np.zeros(count, self._dtype)
+                evaluated = probe.evaluated_get(layer.depsgraph).data
+                if "value" not in evaluated.attributes:
+                    raise ValueError("Its grid “{:s}” cannot be sampled.".format(self._name))
+                evaluated.attributes["value"].data.foreach_get("value", values)
+                return values.reshape(shape)
+
+            yield sample
+        finally:
+            for collection, block in reversed(made):
+                collection.remove(block)
+
+
+def _fill(tree, obj, name: str, kind: str) -> None:
+    """The nodes: the values of the object's named grid at the vertices, as the attribute "value"."""
+    for direction in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
+    start, end, info, named, sample, place, store = (tree.nodes.new(node) for node in (
+        "NodeGroupInput", "NodeGroupOutput", "GeometryNodeObjectInfo", "GeometryNodeGetNamedGrid",
+        "GeometryNodeSampleGrid", "GeometryNodeInputPosition", "GeometryNodeStoreNamedAttribute"))
+    info.inputs["Object"].default_value = obj
+    named.data_type = sample.data_type = store.data_type = kind
+    store.domain = "POINT"
+    named.inputs["Name"].default_value = name
+    store.inputs["Name"].default_value = "value"
+    if hasattr(sample, "interpolation_mode"):
+        sample.interpolation_mode = "NEAREST"
+    else:
+        sample.inputs["Interpolation"].default_value = "Nearest Neighbor"
+    for source, target in (
+            (start.outputs[0], store.inputs["Geometry"]), (info.outputs["Geometry"], named.inputs["Volume"]),
+            (named.outputs["Grid"], sample.inputs["Grid"]), (place.outputs[0], sample.inputs["Position"]),
+            (sample.outputs[0], store.inputs["Value"]), (store.outputs[0], end.inputs[0])):
+        tree.links.new(source, target)

@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A grid of voxels as an object shows it: of a Volume object, or of any that its nodes turn into a volume.
+
+Voxels are handed out by Blender in no other way than as a file or through nodes. What Blender has read from a .vdb file
+and not changed is read from that file; what it has made is written, where its openvdb module can read it again, to
+Blender's temporary folder for as long as the reading lasts; else it is sampled by nodes.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.rotation import rotation_matrix
+from ...core.surface import Surface
+from .decisions import modifier_decisions
+from .reading import Unreadable, float64_matrix
+from .sample_grid import SampledGrid
+from .vdb import VdbGrid, openvdb
+from .visibility import NOT_EVALUATED, hidden_reason
+
+SCALARS = {"BOOLEAN", "MASK", "FLOAT", "DOUBLE", "INT", "INT64"}
+PREFERRED = "density"
+
+
+@dataclass
+class VolumeReading:
+    """One grid, and where it stands.
+
+    name, type, matrix, rotation, location, warnings: as in `Reading`.
+    grid: its name. level_set: whether it says to be one. to_object: (4, 4) float64 from voxels to the object.
+    shape: (3,) of the box that holds its voxels; low: (3,) where that begins. background: what is in no voxel.
+    blocks: yields what is there, (offset in the box, array). polygons: gives the surface of a level set.
+    """
+
+    name: str
+    type: str
+    matrix: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    grid: str
+    level_set: bool
+    to_object: NDArray[np.float64]
+    low: NDArray[np.int64]
+    shape: tuple[int, int, int]
+    background: float
+    blocks: Callable[[], Iterable[tuple[tuple[int, int, int], NDArray]]]
+    polygons: Callable[[], Surface]
+    warnings: list[str] = field(default_factory=list)
+
+
+@contextmanager
+def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | None]:
+    """One grid of the object, by default "density" or else the first that can be one, as long as the context lasts;
+    None where the object shows polygons, or no volume.
+
+    Raises Unreadable with the reason and the remedy.
+    """
+    obj = obj.original
+    volume = _volume(obj, depsgraph)
+    if volume is None:
+        yield None
+        return
+    evaluated = obj.evaluated_get(depsgraph)
+    matrix = float64_matrix(evaluated.matrix_world)
+    if not np.isfinite(matrix).all():
+        raise Unreadable(obj.name, "Its transform is not finite; reset its location, rotation and scale.")
+    warnings: list[str] = []
+    chosen = _chosen(obj, volume, grid, warnings)
+    hidden = hidden_reason(obj, depsgraph)
+    if hidden:
+        warnings.append("Measured although it is not shown. {:s}".format(hidden))
+    warnings.extend(modifier_decisions(obj, depsgraph.scene))
+    try:
+        with _opened(obj, volume, chosen, depsgraph) as source:
+            location, rotation, _ = evaluated.matrix_world.decompose()
+            yield VolumeReading(
+                obj.name, obj.type, matrix, rotation_matrix(rotation), np.array(location[:], np.float64), chosen.name,
+                source.level_set, source.to_object, source.low, tuple(source.shape.tolist()), source.background,
+                source.blocks, source.polygons, warnings)
+    except ValueError as error:
+        raise Unreadable(obj.name, str(error)) from error
+
+
+def _volume(obj, depsgraph):
+    """The evaluated volume with its grids loaded, or None."""
+    if obj.type not in {"VOLUME", "MESH", "CURVE", "FONT", "SURFACE", "POINTCLOUD", "CURVES"}:
+        return None
+    if obj.type != "VOLUME" and not any(modifier.type == "NODES" for modifier in obj.modifiers):
+        return None
+    evaluated = obj.evaluated_get(depsgraph)
+    try:
+        geometry = evaluated.evaluated_geometry()
+    except (TypeError, RuntimeError):
+        raise Unreadable(obj.name, hidden_reason(obj, depsgraph) or NOT_EVALUATED) from None
+    if geometry.mesh is not None and len(geometry.mesh.polygons):
+        return None
+    # An object's own volume lives as long as the object, that of a geometry set as long as the set.
+    volume = evaluated.data if isinstance(evaluated.data, bpy.types.Volume) else geometry.volume
+    if volume is None:
+        return None
+    if not volume.grids.load():
+        raise Unreadable(obj.name, "Its file cannot be read: {:s}.".format(
+            volume.grids.error_message.rstrip(".") or "it is missing or damaged"))
+    if not len(volume.grids):
+        if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:
+            return None
+        raise Unreadable(obj.name, "It has no grids; give it a file, or a modifier that makes them.")
+    return _Kept(geometry, volume)
+
+
+@dataclass
+class _Kept:
+    """A volume with the geometry set that may own it."""
+
+    geometry: object
+    data: object
+
+
+def _chosen(obj, volume: _Kept, name: str, warnings: list[str]):
+    """The grid of that name, or the one that is meant most likely."""
+    grids = {grid.name: grid for grid in volume.data.grids}
+    listing = ", ".join("“{:s}”".format(one) for one in grids)
+    if name:
+        if name not in grids:
+            raise Unreadable(obj.name, "It has no grid “{:s}”; it has: {:s}.".format(name, listing))
+        if grids[name].data_type not in SCALARS:
+            raise Unreadable(obj.name, "Its grid “{:s}” does not hold plain numbers and is no density; choose another "
+                                       "one.".format(name))
+        return grids[name]
+    scalars = {one: grid for one, grid in grids.items() if grid.data_type in SCALARS}
+    if not scalars:
+        raise Unreadable(obj.name, "None of its grids holds plain numbers; it has: {:s}.".format(listing))
+    chosen = scalars.get(PREFERRED) or next(iter(scalars.values()))
+    if len(grids) > 1:
+        warnings.append("Of its grids “{:s}” is measured; left out: {:s}.".format(
+            chosen.name, ", ".join("“{:s}”".format(one) for one in grids if one != chosen.name)))
+    return chosen
+
+
+@contextmanager
+def _opened(obj, volume: _Kept, grid, depsgraph) -> Iterator[VdbGrid | SampledGrid]:
+    if openvdb() is None:
+        yield SampledGrid(obj, depsgraph, grid, obj.evaluated_get(depsgraph).bound_box)
+        return
+    path = _unchanged_file(obj, volume)
+    if path:
+        yield VdbGrid(path, grid.name)
+        return
+    with tempfile.TemporaryDirectory(prefix="body_moments_", dir=bpy.app.tempdir or None) as folder:
+        path = os.path.join(folder, "volume.vdb")
+        if not volume.data.grids.save(filepath=path):
+            raise ValueError("Blender cannot write its voxels to the temporary folder; make room there.")
+        yield VdbGrid(path, grid.name)
+
+
+def _unchanged_file(obj, volume: _Kept) -> str:
+    """The file that the grids are read from, where nothing has changed them since; else ""."""
+    if obj.type != "VOLUME" or any(modifier.show_viewport for modifier in obj.modifiers):
+        return ""
+    if getattr(obj.data, "packed_file", None) is not None:
+        return ""
+    path = volume.data.grids.frame_filepath
+    path = bpy.path.abspath(path, library=obj.data.library) if path else ""
+    return path if os.path.isfile(path) else ""

@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Arrays and scans on the command line: the options of the contract, and records as objects have them."""
+
+import gzip
+import json
+
+import numpy as np
+import pytest
+from body_moments.operators import batch
+
+from tests.core.scan_files import nifti, nrrd, written
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def run(tmp_path, *words):
+    out = tmp_path / "out.json"
+    code = batch.main(["measure", "--output", str(out), *map(str, words)], channel=2, file_needed=True)
+    return code, json.loads(out.read_text(encoding="utf-8"))
+
+
+def box(dtype="f4", value=1.0):
+    """4 x 2 x 6 voxels."""
+    return np.full((4, 2, 6), value, dtype)
+
+
+def test_a_box_of_voxels_has_the_inertia_of_a_box(tmp_path):
+    np.save(tmp_path / "box.npy", box())
+    code, document = run(tmp_path, tmp_path / "box.npy", "--spacing", "0.5,0.5,0.5", "--origin=-1,0,10",
+                         "--density-scale", "2", "--order", "2")
+    assert code == 0 and document["errors"] == []
+    (entry,) = document["objects"]
+    assert (entry["name"], entry["type"], entry["kind"], entry["method"]) == ("box", "ARRAY", "solid", "grid exact")
+    assert entry["mass"] == pytest.approx(12.0, rel=1e-14)
+    assert entry["volume"] == pytest.approx(6.0, rel=1e-14)
+    assert entry["density"] == pytest.approx(2.0, rel=1e-14)
+    assert entry["center_of_mass"] == pytest.approx([-0.25, 0.25, 11.25], rel=1e-14)
+    assert np.diag(entry["inertia"]) == pytest.approx([10.0, 13.0, 5.0], rel=1e-12)
+    assert entry["moments"]["volume"]["0,0,0"] == pytest.approx(6.0)
+    assert document["total"]["mass"] == pytest.approx(12.0)
+
+
+def test_cubic_splines_reproduce_the_paper(tmp_path):
+    from tests.paper_tables import ROWS
+
+    row = ROWS[0]
+    np.save(tmp_path / "ball.npy", row.grid())
+    spacing = ",".join([str(row.spacing)] * 3)
+    _, document = run(tmp_path, tmp_path / "ball.npy", "--spacing", spacing, "--spline-order", "4")
+    entry = document["objects"][0]
+    assert entry["mass"] == pytest.approx(111.296875, rel=1e-13)
+    assert np.diag(entry["inertia"]) == pytest.approx([400.942057291666667] * 3, rel=1e-12)
+
+
+def test_scans_bring_their_own_units_and_places(tmp_path):
+    files = [written(tmp_path / "a.nii", nifti(box("i2"), spacing=(2, 2, 2), slope=3.0)),
+             written(tmp_path / "b.nii.gz", gzip.compress(nifti(box("u1"), spacing=(2, 2, 2)))),
+             written(tmp_path / "c.nrrd", nrrd(box(), "spacings: 2 2 2", 'units: "mm" "mm" "mm"', encoding="gzip"))]
+    code, documents = run(tmp_path, *files)
+    assert code == 0
+    masses = [document["objects"][0]["mass"] for document in documents]
+    assert masses == pytest.approx([3 * 48 * 8e-9, 48 * 8e-9, 48 * 8e-9], rel=1e-6)
+    assert [document["objects"][0]["name"] for document in documents] == ["a", "b", "c"]
+
+
+def test_given_mass_object_names_and_notes(tmp_path):
+    np.savez(tmp_path / "m.npz", density=box())
+    code, document = run(tmp_path, tmp_path / "m.npz", "--mass", "7", "--unit-scale", "0.001")
+    assert document["objects"][0]["mass"] == pytest.approx(7.0)
+    assert document["objects"][0]["volume"] == pytest.approx(48e-9)
+    code, document = run(tmp_path, tmp_path / "m.npz", "--density", "5", "--object", "m", "--object", "n")
+    assert code == 1
+    assert [error["name"] for error in document["errors"]] == ["n"]
+    warnings = document["objects"][0]["warnings"]
+    assert any("density was not used" in warning for warning in warnings)
+    assert any("1 unit is taken" in warning for warning in warnings)
+
+
+@pytest.mark.parametrize("data, options, text", [
+    (b"nonsense", (), "does not begin"),
+    (nrrd(-box()), (), "negative densities"),
+    (nrrd(box("f4", 0.0)), (), "Every voxel"),
+    (nrrd(box("f4", np.nan)), (), "not finite"),
+    (nrrd(box()), ("--kind", "shell"), "no sheet"),
+    (nrrd(box()), ("--write",), "Only a .blend"),
+])
+def test_what_cannot_be_measured_is_an_error_and_no_crash(tmp_path, data, options, text):
+    code, document = run(tmp_path, written(tmp_path / "a.nrrd", data), *options)
+    assert code == 1
+    (error,) = document["errors"]
+    assert error["name"] is None and text in error["reason"]
+
+
+@pytest.mark.parametrize("words", [("--spacing", "1,2"), ("--spacing", "1,0,2"), ("--origin", "1,nan,2"),
+                                   ("--spline-order", "0"), ("--spline-order", "2.5"), ("--density-scale", "-1")])
+def test_impossible_options_are_wrong_usage(tmp_path, words):
+    np.save(tmp_path / "a.npy", box())
+    assert batch.main(["measure", str(tmp_path / "a.npy"), *words], channel=2, file_needed=True) == 2
+
+
+def test_a_scene_with_a_cloud_goes_through_every_option(tmp_path):
+    import bpy
+
+    from tests.blender.grids import vdb_grid, volume_object
+
+    values = np.random.default_rng(0).random((5, 6, 9)).astype("f4")
+    volume_object(tmp_path / "a.vdb", vdb_grid(values))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
+    code, document = run(tmp_path, tmp_path / "a.blend", "--order", "4", "--surface-moments", "--pose", "--signature",
+                         "--density", "2", "--frame", "object", "--write")
+    assert code == 0 and document["errors"] == []
+    (entry,) = document["objects"]
+    assert (entry["type"], entry["method"]) == ("VOLUME", "grid exact")
+    assert entry["mass"] == pytest.approx(2.0 * values.sum(dtype=float), rel=1e-12)
+    assert entry["pose"] is None and entry["signature"] is None
+    assert set(entry["moments"]["surface"].values()) == {0.0}
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
+    obj = bpy.data.objects["Cloud"]
+    assert obj["body_mass"] == entry["mass"]
+    assert obj.body_moments.value_density == 2.0
+    code, document = run(tmp_path, tmp_path / "a.blend", "--fourier", tmp_path / "f.npz", "--grid", "4", "--qmax", "1")
+    assert code == 1
+    assert "Fourier" in document["errors"][0]["reason"]

@@ -1,0 +1,376 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Volume objects: voxels to the bit by both ways of reading them, and numbers through every transform and type."""
+
+import os
+import tempfile
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.operators import staleness
+from body_moments.operators.measure import MeasureOptions, measure_object
+from body_moments.operators.read import Unreadable, sample_grid, vdb
+from body_moments.operators.read import volume as volume_module
+from body_moments.operators.read.volume import volume_reading
+from body_moments.operators.write import properties
+
+from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+SHEARED = np.array([[0.5, 0.125, 0.0, 3.0], [0.0, -0.25, 0.0625, -2.0], [0.25, 0.0, 1.0, 0.5], [0, 0, 0, 1]])
+
+
+def depsgraph():
+    bpy.context.view_layer.update()
+    return bpy.context.evaluated_depsgraph_get()
+
+
+def measure(obj, **options):
+    return measure_object(obj, depsgraph(), MeasureOptions(**options))
+
+
+def dense(reading) -> np.ndarray:
+    """The whole box, in the values' own type."""
+    blocks = list(reading.blocks())
+    array = np.full(reading.shape, reading.background, blocks[0][1].dtype)
+    for start, block in blocks:
+        array[tuple(slice(a, a + n) for a, n in zip(start, block.shape))] = block
+    return array
+
+
+def by_nodes(monkeypatch):
+    monkeypatch.setattr(volume_module, "openvdb", lambda: None)
+
+
+def random_values(dtype, shape=(9, 20, 33), seed=0):
+    values = np.random.default_rng(seed).uniform(0.0, 4.0, shape)
+    return (values * (values > 1.0)).astype(dtype)
+
+
+def expected_body(values, matrix):
+    """Mass, center and inertia of voxels with these densities by a plain sum over boxes."""
+    index = np.stack(np.meshgrid(*map(np.arange, values.shape), indexing="ij"), axis=-1).reshape(-1, 3)
+    masses = values.reshape(-1).astype(float) * abs(np.linalg.det(matrix[:3, :3]))
+    points = index @ matrix[:3, :3].T + matrix[:3, 3]
+    mass = masses.sum()
+    center = masses @ points / mass
+    arms = points - center
+    second = np.einsum("n,ni,nj->ij", masses, arms, arms) + mass * matrix[:3, :3] @ matrix[:3, :3].T / 12
+    return mass, center, np.trace(second) * np.eye(3) - second
+
+
+def check(measurement, values, matrix):
+    mass, center, inertia = expected_body(values, matrix)
+    body = measurement.mass_properties
+    size = np.sqrt(np.trace(inertia) / mass)
+    assert body.mass == pytest.approx(mass, rel=1e-6)
+    assert np.abs(body.center - center).max() <= 1e-6 * (size + np.abs(center).max())
+    assert np.abs(body.inertia - inertia).max() <= 3e-6 * np.trace(inertia)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int32, np.int64, np.bool_])
+def test_voxels_of_every_type_are_read_to_the_bit(tmp_path, dtype):
+    values = random_values(dtype)
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values, "density", SHEARED, (-5, 130, 7)))
+    with volume_reading(obj, depsgraph()) as reading:
+        found = dense(reading)
+        assert found.dtype == values.dtype
+        corner = np.array(np.nonzero(values)).min(axis=1)
+        assert (reading.low == corner + (-5, 130, 7)).all()
+        end = corner + reading.shape
+        assert np.array_equal(found, values[tuple(map(slice, corner, end))])
+        assert np.array_equal(reading.to_object, SHEARED)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.int32, np.bool_])
+@pytest.mark.parametrize("matrix", [np.eye(4), SHEARED], ids=["plain", "sheared"])
+def test_sampling_by_nodes_gives_the_same_bits(tmp_path, monkeypatch, dtype, matrix):
+    values = random_values(dtype, (17, 40, 9))
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values, "density", matrix, (-3, 5, 100)))
+    with volume_reading(obj, depsgraph()) as reading:
+        first, low = dense(reading), reading.low
+    by_nodes(monkeypatch)
+    if dtype != np.float32 and bpy.app.version < (5, 0):  # its nodes know grids of floats only
+        with pytest.raises(Unreadable, match="convert it to floats"):
+            measure(obj)
+        return
+    with volume_reading(obj, depsgraph()) as reading:
+        assert isinstance(reading.blocks.__self__, sample_grid.SampledGrid)
+        second = dense(reading)
+        assert reading.background == 0
+        start = low - reading.low
+        inner = tuple(slice(a, a + n) for a, n in zip(start, first.shape))
+        assert second.dtype == first.dtype
+        assert np.array_equal(second[inner], first)
+        assert np.count_nonzero(second) == np.count_nonzero(first)
+
+
+@pytest.mark.parametrize("nodes", [False, True])
+def test_what_a_modifier_makes_is_read(monkeypatch, nodes):
+    bpy.ops.mesh.primitive_cube_add(location=(3, 0, 0))
+    fog = mesh_to_volume(bpy.context.object)
+    fog.modifiers[0].interior_band_width = 0.01
+    if nodes:
+        by_nodes(monkeypatch)
+    found = measure(fog)
+    assert found.method == "grid exact"
+    assert found.mass_properties.mass == pytest.approx(8.0, rel=0.25)
+    assert found.mass_properties.center == pytest.approx([3, 0, 0], abs=0.11)
+
+
+def test_both_ways_measure_the_same(monkeypatch, tmp_path):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(random_values(np.float32), matrix=SHEARED))
+    obj.location, obj.rotation_euler, obj.scale = (1, 2, 3), (0.3, 0.2, 1.0), (2, -1, 0.5)
+    first = measure(obj)
+    by_nodes(monkeypatch)
+    second = measure(obj)
+    assert second.mass_properties.mass == pytest.approx(first.mass_properties.mass, rel=1e-14)
+    assert second.mass_properties.inertia == pytest.approx(first.mass_properties.inertia, rel=1e-9, abs=1e-9)
+    assert second.volume == pytest.approx(first.volume, rel=1e-14)
+
+
+def snapshot():
+    return {name: [(block.name, block.users, block.session_uid) for block in getattr(bpy.data, name)]
+            for name in ("objects", "meshes", "node_groups", "scenes", "volumes", "collections", "worlds")}
+
+
+@pytest.mark.parametrize("nodes", [False, True])
+def test_reading_leaves_nothing_behind(tmp_path, monkeypatch, nodes):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(random_values(np.float32)))
+    if nodes:
+        by_nodes(monkeypatch)
+    properties.store(obj, measure(obj))
+    staleness.settle(bpy.context, [obj])
+    before, scene = snapshot(), bpy.context.scene
+    measure(obj)
+    with pytest.raises(RuntimeError, match="stop"), volume_reading(obj, depsgraph()) as reading:
+        next(iter(reading.blocks()))
+        raise RuntimeError("stop")
+    assert snapshot() == before
+    assert bpy.context.scene == scene
+    assert staleness.reason(obj, scene) == ""
+
+
+def test_the_temporary_folder_is_empty_afterwards(tmp_path, monkeypatch):
+    bpy.ops.mesh.primitive_cube_add()
+    fog = mesh_to_volume(bpy.context.object)
+    seen = []
+    original = vdb.VdbGrid.__init__
+
+    def watched(self, path, name):
+        seen.append(path)
+        original(self, path, name)
+
+    monkeypatch.setattr(vdb.VdbGrid, "__init__", watched)
+    measure(fog)
+    assert seen and not os.path.exists(os.path.dirname(seen[0]))
+
+
+TRANSFORMS = {
+    "plain": {},
+    "moved": {"location": (100, -200, 300)},
+    "turned": {"rotation_euler": (0.3, 0.5, -1.0)},
+    "uneven": {"scale": (2, 0.5, 3), "rotation_euler": (0.1, 0.2, 0.3)},
+    "mirrored": {"scale": (-1, 1, 1), "location": (1, 2, 3)},
+    "tiny": {"scale": (1e-6, 1e-6, 1e-6)},
+}
+
+
+@pytest.mark.parametrize("name", TRANSFORMS)
+@pytest.mark.parametrize("matrix", [np.eye(4), SHEARED], ids=["plain", "sheared"])
+def test_grid_and_object_transforms(tmp_path, name, matrix):
+    values = random_values(np.float32, (6, 7, 8))
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values, matrix=matrix, offset=(-2, 4, 9)))
+    for key, value in TRANSFORMS[name].items():
+        setattr(obj, key, value)
+    found = measure(obj)
+    offset = np.eye(4)
+    offset[:3, 3] = (-2, 4, 9)
+    check(found, values, np.array(obj.matrix_world, float) @ matrix @ offset)
+    filled = np.count_nonzero(values) * abs(np.linalg.det((np.array(obj.matrix_world, float) @ matrix)[:3, :3]))
+    assert found.volume == pytest.approx(filled, rel=1e-6)
+    assert found.density == pytest.approx(found.mass_properties.mass / found.volume, rel=1e-12)
+
+
+def test_a_sheared_parent_and_the_unit_scale(tmp_path):
+    values = random_values(np.float32, (5, 5, 5))
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values))
+    parent = linked(bpy.data.objects.new("Parent", None))
+    parent.scale, parent.rotation_euler = (3, 1, 1), (0, 0, 0.5)
+    obj.parent, obj.rotation_euler = parent, (0.2, 0, 0.7)
+    bpy.context.scene.unit_settings.scale_length = 0.001
+    found = measure(obj)
+    matrix = np.array(obj.matrix_world, float)
+    matrix[:3] *= 0.001
+    check(found, values, matrix)
+
+
+def test_a_uniform_fog_is_a_box():
+    """Values of one half in 4 x 2 x 6 voxels of 0.5: a box of 2 x 1 x 3 m."""
+    with tempfile.TemporaryDirectory() as folder:
+        obj = volume_object(folder + "/a.vdb", vdb_grid(np.full((4, 2, 6), 0.5, np.float32),
+                                                        matrix=np.diag([0.5, 0.5, 0.5, 1.0])))
+        obj.body_moments.value_density = 4.0
+        found = measure(obj)
+    body = found.mass_properties
+    assert body.mass == pytest.approx(12.0, rel=1e-14)
+    assert np.diag(body.inertia) == pytest.approx([10.0, 13.0, 5.0], rel=1e-13)
+    assert found.volume == pytest.approx(6.0, rel=1e-14)
+    assert found.area == 0.0
+
+
+@pytest.mark.parametrize("order", [2, 4])
+def test_the_spline_order_spreads_the_mass(tmp_path, order):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(random_values(np.float32, (6, 6, 6))))
+    voxels = measure(obj).mass_properties
+    obj.body_moments.spline_order = order
+    smooth = measure(obj)
+    more = smooth.mass_properties.inertia - voxels.inertia
+    assert smooth.mass_properties.mass == pytest.approx(voxels.mass, rel=1e-13)
+    assert more == pytest.approx(voxels.mass * (order - 1) / 6 * np.eye(3), rel=1e-9, abs=1e-9 * voxels.mass)
+    assert any("spline of order {:d}".format(order) in warning for warning in smooth.warnings)
+
+
+def test_given_mass_and_density_options(tmp_path):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(random_values(np.float32)))
+    plain = measure(obj)
+    assert measure(obj, mass=5.0).mass_properties.mass == pytest.approx(5.0, rel=1e-14)
+    twice = measure(obj, density=2.0)
+    assert twice.mass_properties.mass == pytest.approx(2.0 * plain.mass_properties.mass, rel=1e-14)
+    with pytest.raises(Unreadable, match="no sheet"):
+        measure(obj, kind="shell")
+
+
+def test_ct_numbers_become_tissue(tmp_path):
+    values = np.array([-1000.0, -98.0, 14.0, 1600.0], np.float32).reshape(1, 1, 4)
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values, background=-2000.0))
+    with pytest.raises(Unreadable, match="negative densities"):
+        measure(obj)
+    obj.body_moments.values_from = "TABLE"
+    found = measure(obj)
+    assert found.mass_properties.mass == pytest.approx(1.21 + 930 + 1030 + 1964.2, rel=1e-14)
+    assert any("background, -2000" in warning for warning in found.warnings)
+    obj.body_moments.transfer_table = "1 2, 1 3"
+    with pytest.raises(Unreadable, match="ascend"):
+        measure(obj)
+
+
+def test_the_grid_is_chosen(tmp_path):
+    one, two = random_values(np.float32, (4, 4, 4)), random_values(np.float32, (4, 4, 4), 7)
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(one, "alpha"), vdb_grid(two, "density"))
+    found = measure(obj)
+    assert found.mass_properties.mass == pytest.approx(two.sum(dtype=float), rel=1e-12)
+    assert any("“alpha”" in warning for warning in found.warnings)
+    obj.body_moments.grid = "alpha"
+    assert measure(obj).mass_properties.mass == pytest.approx(one.sum(dtype=float), rel=1e-12)
+    obj.body_moments.grid = "nothing"
+    with pytest.raises(Unreadable, match="no grid “nothing”; it has: “alpha”, “density”"):
+        measure(obj)
+
+
+def test_vectors_are_no_density(tmp_path):
+    grid = vdb.openvdb().Vec3SGrid()
+    grid.name = "velocity"
+    grid.fill((0, 0, 0), (3, 3, 3), (1.0, 0.0, 0.0))
+    obj = volume_object(tmp_path / "a.vdb", grid)
+    with pytest.raises(Unreadable, match="None of its grids holds plain numbers"):
+        measure(obj)
+    obj.body_moments.grid = "velocity"
+    with pytest.raises(Unreadable, match="plain numbers"):
+        measure(obj)
+
+
+def level_set(path, radius=2.0, size=0.1):
+    grid = vdb.openvdb().createLevelSetSphere(radius=radius, center=(5.0, 0.0, 0.0), voxelSize=size)
+    grid.name = "distance"
+    return volume_object(path, grid)
+
+
+def test_a_level_set_is_refused_as_a_density_and_measured_as_the_solid_it_bounds(tmp_path):
+    obj = level_set(tmp_path / "a.vdb")
+    with pytest.raises(Unreadable, match="level set"):
+        measure(obj)
+    obj.body_moments.grid_as = "SOLID"
+    found = measure(obj)
+    assert found.method == "grid exact"
+    exact = 4 / 3 * np.pi * 8
+    assert 0.0 < exact - found.volume < 4e-3 * exact  # its polygons are chords
+    finer = level_set(tmp_path / "b.vdb", size=0.05)
+    finer.body_moments.grid_as = "SOLID"
+    assert exact - measure(finer).volume == pytest.approx((exact - found.volume) / 4, rel=0.1)
+    assert found.mass_properties.mass == pytest.approx(1000 * found.volume, rel=1e-12)
+    assert found.mass_properties.center == pytest.approx([5, 0, 0], abs=1e-3)
+    assert "level set" in found.warnings[0]
+
+
+def test_a_density_is_refused_as_a_solid(tmp_path):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(random_values(np.float32)))
+    obj.body_moments.grid_as = "SOLID"
+    with pytest.raises(Unreadable, match="does not say to be a level set"):
+        measure(obj)
+
+
+def test_what_cannot_be_measured_says_why(tmp_path):
+    empty = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
+    with pytest.raises(Unreadable, match="no grids"):
+        measure(empty)
+    missing = linked(bpy.data.objects.new("Missing", bpy.data.volumes.new("Missing")))
+    missing.data.filepath = str(tmp_path / "none.vdb")
+    with pytest.raises(Unreadable):
+        measure(missing)
+    nothing = volume_object(tmp_path / "a.vdb", vdb_grid(np.zeros((4, 4, 4), np.float32)))
+    with pytest.raises(Unreadable, match="Every voxel"):
+        measure(nothing)
+    bad = vdb_grid(np.ones((4, 4, 4), np.float32))
+    bad.getAccessor().setValueOn((1, 1, 1), float("nan"))
+    with pytest.raises(Unreadable, match="not finite"):
+        measure(volume_object(tmp_path / "b.vdb", bad))
+    flat = volume_object(tmp_path / "c.vdb", vdb_grid(random_values(np.float32)))
+    flat.scale = (1, 0, 1)
+    with pytest.raises(Unreadable, match="singular"):
+        measure(flat)
+    far = np.zeros((2, 2, 2), np.float32)
+    far[0, 0, 0] = 1.0
+    grid = vdb_grid(far, offset=(-2**30, -2**30, -2**30))
+    grid.fill((2**30,) * 3, (2**30,) * 3, 1.0)
+    with pytest.raises(Unreadable, match="spread over"):
+        measure(volume_object(tmp_path / "d.vdb", grid))
+
+
+def test_two_clouds_far_apart_cost_nothing_between(tmp_path):
+    grid = vdb_grid(np.ones((4, 4, 4), np.float32))
+    grid.fill((40000, 0, 0), (40003, 3, 3), 1.0)
+    obj = volume_object(tmp_path / "a.vdb", grid)
+    with volume_reading(obj, depsgraph()) as reading:
+        assert sum(block.size for _, block in reading.blocks()) < 10**5
+    assert measure(obj).mass_properties.center == pytest.approx([20001.5, 1.5, 1.5], rel=1e-12)
+
+
+def test_a_mesh_that_its_nodes_turn_into_a_volume():
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.object
+    tree = bpy.data.node_groups.new("Fog", "GeometryNodeTree")
+    for direction in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
+    start, end, fog = (tree.nodes.new(name) for name in (
+        "NodeGroupInput", "NodeGroupOutput", "GeometryNodeMeshToVolume"))
+    tree.links.new(start.outputs[0], fog.inputs[0])
+    tree.links.new(fog.outputs[0], end.inputs[0])
+    cube.modifiers.new("Fog", "NODES").node_group = tree
+    found = measure(cube)
+    assert found.method == "grid exact"
+    assert found.mass_properties.center == pytest.approx([0, 0, 0], abs=0.05)
+    properties.store(cube, found)
+    staleness.settle(bpy.context, [cube])
+    assert staleness.reason(cube, bpy.context.scene) == ""
+
+
+def test_higher_orders_of_the_voxels_that_are_not_empty(tmp_path):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(np.full((4, 2, 6), 0.5, np.float32)))
+    found = measure(obj, order=4, surface=True)
+    moments = found.volume_moments.shifted([1.5, 0.5, 2.5])
+    assert moments[4, 0, 0] == pytest.approx(2 * 2**5 / 5 * 2 * 6, rel=1e-13)
+    assert moments[0, 2, 2] == pytest.approx(4 * (2 / 3) * (2 * 27 / 3), rel=1e-13)
+    assert not found.area_moments.raw.any()

@@ -1,0 +1,108 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A scan becomes a Volume object that weighs what the file does."""
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.scans import placed, read_scan
+from body_moments.operators.array_body import ArrayOptions, measure_array
+from body_moments.operators.measure import MeasureOptions, measure_object
+from body_moments.operators.read.volume import volume_reading
+
+from tests.core.scan_files import nifti, nrrd, written
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def samples(dtype="f4", low=0):
+    return np.random.default_rng(0).integers(low, 100, (5, 6, 7)).astype(dtype)
+
+
+def imported(path, **options):
+    assert bpy.ops.object.body_moments_import_scan(filepath=str(path), **options) == {"FINISHED"}
+    return bpy.context.object
+
+
+def measure(obj):
+    return measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions())
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.001])
+def test_an_imported_scan_weighs_what_the_file_does(tmp_path, unit):
+    bpy.context.scene.unit_settings.scale_length = unit
+    sform = [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]]
+    path = written(tmp_path / "a.nii", nifti(samples("i2"), sform=sform, slope=0.5))
+    obj = imported(path)
+    assert obj.type == "VOLUME" and obj.select_get() and (tmp_path / "a.vdb").is_file()
+    bpy.context.view_layer.update()
+    found, expected = measure(obj), measure_array(str(path), "a", ArrayOptions(), MeasureOptions())
+    assert found.mass_properties.mass == pytest.approx(expected.mass_properties.mass, rel=1e-12)
+    assert found.mass_properties.center == pytest.approx(expected.mass_properties.center, rel=1e-9)
+    assert found.mass_properties.inertia == pytest.approx(expected.mass_properties.inertia, rel=1e-9, abs=1e-15)
+    assert found.volume == pytest.approx(expected.volume, rel=1e-12)
+
+
+def test_no_sample_is_lost_and_ct_numbers_go_by_the_table(tmp_path):
+    values = samples("f4", -1000)
+    obj = imported(written(tmp_path / "ct.nrrd", nrrd(values, "spacings: 1 1 1")))
+    assert obj.body_moments.values_from == "TABLE"
+    bpy.context.view_layer.update()
+    with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
+        ((_, found),) = reading.blocks()
+        assert np.array_equal(found, values)
+    assert measure(obj).volume == pytest.approx(values.size)
+
+
+def test_samples_that_float32_cannot_hold_stay_exact(tmp_path):
+    values = samples("f8") + 2.0**-30
+    obj = imported(written(tmp_path / "a.nrrd", nrrd(values)))
+    bpy.context.view_layer.update()
+    with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
+        assert np.array_equal(next(iter(reading.blocks()))[1], values)
+
+
+def test_a_raw_file_by_hand_and_a_spacing(tmp_path):
+    values = samples("u2")
+    path = written(tmp_path / "a.raw", values.astype(">u2").tobytes(order="F"))
+    obj = imported(path, raw_shape=(5, 6, 7), raw_type="uint16", raw_big_endian=True, use_spacing=True,
+                   spacing=(0.5, 0.5, 0.5))
+    bpy.context.view_layer.update()
+    assert measure(obj).mass_properties.mass == pytest.approx(values.sum() / 8)
+
+
+def refusal(path, **options):
+    with pytest.raises(RuntimeError) as told:
+        bpy.ops.object.body_moments_import_scan(filepath=str(path), **options)
+    return str(told.value)
+
+
+def test_what_cannot_be_imported_leaves_nothing(tmp_path):
+    before = len(bpy.data.objects), len(bpy.data.volumes)
+    assert "does not begin" in refusal(written(tmp_path / "a.nrrd", b"nonsense"))
+    assert "no scans" in refusal(written(tmp_path / "a.txt", b"nonsense"))
+    good = written(tmp_path / "b.nrrd", nrrd(samples()))
+    written(tmp_path / "b.vdb", b"mine")
+    assert "already" in refusal(good)
+    assert (tmp_path / "b.vdb").read_bytes() == b"mine"
+    bad = samples()
+    bad[1, 1, 1] = np.inf
+    assert "not finite" in refusal(written(tmp_path / "c.nrrd", nrrd(bad)))
+    assert (len(bpy.data.objects), len(bpy.data.volumes)) == before
+    imported(good, overwrite=True)
+
+
+def test_it_is_in_the_import_menu():
+    import body_moments.operators.import_scan as module
+
+    assert module._menu in bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
+
+
+def test_reading_back_needs_no_scan(tmp_path):
+    path = written(tmp_path / "a.nrrd", nrrd(samples(), "spacings: 1 2 3"))
+    matrix, _ = placed(read_scan(path), None, None, None)
+    obj = imported(path)
+    path.unlink()
+    bpy.context.view_layer.update()
+    with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
+        assert np.array_equal(reading.to_object, matrix)

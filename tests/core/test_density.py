@@ -1,0 +1,209 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments of trivariate densities against exact rational arithmetic, closed forms and each other."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core import density
+from body_moments.core.density import Trivariate, density_moments, grid_moments
+from body_moments.core.density_tables import Axis
+from body_moments.core.mass import MassProperties
+from body_moments.core.moments import monomials
+
+from .trivariate import exact_moments
+
+
+def knots(rng, order: int, count: int) -> np.ndarray:
+    return np.sort(rng.integers(-64, 64, count + order)) / 16.0
+
+
+def spline(orders, seed=0, signed=False, clipped=False):
+    rng = np.random.default_rng(seed)
+    axes = [Axis(knots(rng, order, 4 + i), order) for i, order in enumerate(orders)]
+    if clipped:
+        axes = [axis.clipped() if axis.knots[axis.order - 1] < axis.knots[axis.count] else axis for axis in axes]
+    coefficients = rng.integers(-9 if signed else 0, 9, [axis.count for axis in axes]) / 8.0
+    return coefficients, axes
+
+
+def check(moments, coefficients, axes, relative=1e-13):
+    """Against exact values: within the stated bound, and within `relative` of each moment's natural size."""
+    exact = exact_moments(coefficients, axes, moments.order, moments.about)
+    size = exact_moments(np.abs(coefficients), axes, 0, moments.about)[0]
+    reach = max(axis.reach(center) for axis, center in zip(axes, moments.about))
+    for value, bound, truth, degree in zip(moments.raw, moments.error, exact, monomials(moments.order).sum(axis=1)):
+        off = abs(float(Fraction(value) - truth))
+        assert off <= bound
+        assert off <= relative * float(size) * reach**degree
+
+
+@pytest.mark.parametrize("orders", [(1, 1, 1), (2, 2, 2), (3, 4, 1), (4, 4, 4), (5, 2, 6), (6, 6, 6)])
+@pytest.mark.parametrize("clipped", [False, True])
+@pytest.mark.parametrize("signed", [False, True])
+def test_any_order_and_knots_against_exact_arithmetic(orders, clipped, signed):
+    coefficients, axes = spline(orders, sum(orders), signed, clipped)
+    check(density_moments(coefficients, axes, 4), coefficients, axes)
+
+
+def test_high_orders_of_moments():
+    coefficients, axes = spline((4, 3, 2))
+    check(density_moments(coefficients, axes, 8), coefficients, axes)
+
+
+def test_bounds_are_not_wild():
+    coefficients, axes = spline((4, 4, 4))
+    moments = density_moments(coefficients, axes, 2)
+    assert moments.error[0] < 1e-13 * moments.total
+    assert moments.error[[4, 7, 9]].max() < 1e-11 * moments.raw[[4, 7, 9]].min()
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.uint8, np.int16, np.int64, np.bool_, ">f4", ">i2"])
+@pytest.mark.parametrize("layout", ["C", "F", "reversed", "strided"])
+def test_any_type_and_layout_gives_the_same_numbers(dtype, layout):
+    rng = np.random.default_rng(1)
+    values = rng.integers(0, 2, (5, 6, 7))
+    axes = [Axis.uniform(count, 4, 0.5, 3.0) for count in values.shape]
+    array = np.asarray(values, dtype, order="F" if layout == "F" else "C")
+    if layout == "reversed":
+        array = np.ascontiguousarray(array[::-1, :, ::-1])[::-1, :, ::-1]
+    elif layout == "strided":
+        array = np.repeat(np.repeat(array, 2, axis=1), 3, axis=2)[:, ::2, ::3]
+    expected = density_moments(values.astype(float), axes)
+    found = density_moments(array, axes)
+    assert (np.abs(found.raw - expected.raw) <= found.error + expected.error).all()
+    check(found, values, axes)
+
+
+def test_blocks_are_the_whole(monkeypatch):
+    coefficients, axes = spline((2, 4, 3), 5)
+    whole = density_moments(coefficients, axes)
+    monkeypatch.setattr(density, "BLOCK", 7)
+    parts = [((0, 0, 0), coefficients[:2]), ((2, 1, 0), coefficients[2:, 1:]), ((2, 0, 0), coefficients[2:, :1])]
+    for found in (density_moments(coefficients, axes), density_moments(lambda: parts, axes)):
+        assert (np.abs(found.raw - whole.raw) <= found.error + whole.error).all()
+        check(found, coefficients, axes)
+
+
+def test_a_memory_map_is_measured_slab_by_slab(tmp_path, monkeypatch):
+    values = np.random.default_rng(0).random((40, 30, 20)).astype(np.float32)
+    np.save(tmp_path / "grid.npy", values)
+    mapped = np.load(tmp_path / "grid.npy", mmap_mode="r")
+    expected = grid_moments(values, values.shape, np.eye(4))
+    monkeypatch.setattr(density, "BLOCK", 600)
+    largest = 0
+    contract = density._contract
+
+    def watched(block, factors):
+        nonlocal largest
+        largest = max(largest, block.size)
+        return contract(block, factors)
+
+    monkeypatch.setattr(density, "_contract", watched)
+    found = grid_moments(mapped, values.shape, np.eye(4))
+    assert largest <= 600
+    assert np.allclose(found.raw, expected.raw, rtol=1e-13)
+
+
+def test_one_voxel_in_the_corner_of_a_large_grid_is_a_unit_cube():
+    values = np.zeros((300, 300, 300), np.uint8)
+    values[299, 0, 7] = 1
+    body = MassProperties.from_moments(grid_moments(values, values.shape, np.eye(4)))
+    assert body.mass == 1.0
+    assert body.center == pytest.approx([299, 0, 7], abs=1e-13)
+    assert np.abs(body.inertia - np.eye(3) / 6.0).max() <= 1e-14
+
+
+@pytest.mark.parametrize("order", range(1, 7))
+@pytest.mark.parametrize("scale", [1e-9, 1.0, 1e6])
+def test_smoothing_adds_mass_times_k_twelfths_of_the_spacing_squared(order, scale):
+    """The whole of the paper's gain over the discrete sum: I_xx = discrete + M k g² / 6."""
+    rng = np.random.default_rng(2)
+    values = rng.random((4, 5, 6))
+    spacing = np.array([0.5, 0.25, 2.0]) * scale
+    matrix = np.diag([*spacing, 1.0])
+    matrix[:3, 3] = np.array([1e4, -3.0, 0.0]) * scale
+    body = MassProperties.from_moments(grid_moments(values, values.shape, matrix, order))
+    index = np.stack(np.meshgrid(*map(np.arange, values.shape), indexing="ij"), axis=-1).reshape(-1, 3)
+    masses = values.reshape(-1) * np.prod(spacing)
+    points = index * spacing
+    center = masses @ points / masses.sum()
+    arms = points - center
+    second = np.einsum("n,ni,nj->ij", masses, arms, arms) + np.diag(masses.sum() * order * spacing**2 / 12)
+    assert body.mass == pytest.approx(masses.sum(), rel=1e-14)
+    assert body.center == pytest.approx(center + matrix[:3, 3], rel=1e-13)
+    expected = np.trace(second) * np.eye(3) - second
+    assert np.abs(body.inertia - expected).max() <= 1e-12 * np.trace(second)
+
+
+def test_a_sheared_and_mirrored_grid_is_a_parallelepiped():
+    matrix = np.array([[-1.0, 0.5, 0.0, 9.0], [0.0, 2.0, 0.25, -4.0], [0.0, 0.0, 3.0, 1.0], [0, 0, 0, 1]])
+    found = grid_moments(np.full((4, 4, 4), 5.0), (4, 4, 4), matrix)
+    box = Axis.uniform(1, 1, 4.0)
+    one = density_moments(np.full((1, 1, 1), 5.0), [box] * 3)
+    to_box = matrix.copy()
+    to_box[:3, 3] += matrix[:3, :3] @ [1.5, 1.5, 1.5]
+    linear = to_box[:3, :3]
+    assert found.total == pytest.approx(5.0 * 64 * 6.0, rel=1e-14)
+    center = found.center
+    assert center == pytest.approx(to_box[:3, 3], abs=1e-13)
+    second = found.about_center().second()
+    assert second == pytest.approx(linear @ one.second() @ linear.T * 6.0, rel=1e-13)
+
+
+def test_one_coefficient_changes_the_moments_as_if_all_were_summed_anew():
+    coefficients, axes = spline((4, 4, 4), 3, signed=True)
+    live = Trivariate(coefficients, axes, 3)
+    rng = np.random.default_rng(4)
+    for _ in range(50):
+        place = tuple(rng.integers(0, coefficients.shape))
+        live.set_coefficient(*place, float(rng.integers(-64, 64)) / 8)
+    check(live.moments, live.coefficients, axes)
+
+
+def test_a_block_changes_them_too():
+    coefficients, axes = spline((2, 3, 4), 3)
+    live = Trivariate(coefficients, axes, 3)
+    live.set_block((1, 2, 0), np.arange(12.0).reshape(2, 2, 3) / 4)
+    live.set_block((0, 0, 0), np.zeros((1, 1, 1)))
+    assert live.coefficients[2, 3, 2] == 11.0 / 4
+    check(live.moments, live.coefficients, axes)
+    live.set_block((0, 0, 0), coefficients)
+    check(live.moments, coefficients, axes)
+
+
+def test_a_change_that_does_not_fit_changes_nothing():
+    coefficients, axes = spline((2, 2, 2))
+    live = Trivariate(coefficients, axes)
+    before = live.moments.raw
+    for start, values in (((3, 0, 0), np.ones((2, 1, 1))), ((-1, 0, 0), np.ones((1, 1, 1))),
+                          ((0, 0, 0), np.full((1, 1, 1), np.nan))):
+        with pytest.raises(ValueError):
+            live.set_block(start, values)
+    with pytest.raises(ValueError, match="finite"):
+        live.set_coefficient(0, 0, 0, float("inf"))
+    assert live.moments.raw is before
+    assert np.array_equal(live.coefficients, coefficients)
+
+
+def test_values_that_are_not_finite_are_refused():
+    for bad in (np.nan, np.inf, -np.inf):
+        values = np.ones((3, 3, 3))
+        values[1, 2, 0] = bad
+        with pytest.raises(ValueError, match="finite"), np.errstate(invalid="ignore"):
+            grid_moments(values, values.shape, np.eye(4))
+
+
+def test_shapes_and_transforms_that_do_not_fit_are_refused():
+    axes = [Axis.uniform(2)] * 3
+    with pytest.raises(ValueError, match="2 x 2 x 3"):
+        density_moments(np.ones((2, 2, 3)), axes)
+    with pytest.raises(ValueError, match="singular"):
+        grid_moments(np.ones((2, 2, 2)), (2, 2, 2), np.diag([1.0, 1.0, 0.0, 1.0]))
+
+
+def test_values_are_mapped_before_they_are_summed():
+    values = np.arange(27.0).reshape(3, 3, 3)
+    found = grid_moments(values, values.shape, np.eye(4), value=lambda block: np.interp(block, [5, 10], [0, 100]))
+    assert found.total == pytest.approx(np.interp(values, [5, 10], [0, 100]).sum())

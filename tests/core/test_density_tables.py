@@ -1,0 +1,133 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tables ∫ t^l B_i against exact rational integration, and the paper's theorem against both."""
+
+import random
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core.density_tables import Axis, full_supports
+from body_moments.core.moments import U
+from body_moments.core.soldea import integral_of_basis
+
+from .trivariate import integral
+
+DEGREE = 6
+
+
+def random_knots(order: int, seed: int, repeated: bool = False) -> list[float]:
+    rng = random.Random(seed)
+    knots = sorted(rng.randrange(-40, 40) / 8 for _ in range(order + 6))
+    if repeated:
+        knots[2:4] = [knots[2]] * 2
+        knots[-2:] = [knots[-1]] * 2
+    return knots
+
+
+def knots_of(kind: str, order: int) -> list[float]:
+    if kind == "uniform":
+        return [0.25 * i - 1.0 for i in range(order + 6)]
+    if kind == "clamped":
+        return [-1.0] * order + [-0.5, 0.125, 0.25, 2.0] + [3.0] * order
+    return random_knots(order, order, repeated=kind == "repeated")
+
+
+KINDS = ("uniform", "random", "repeated", "clamped")
+
+
+def worst(axis: Axis, center: float) -> tuple[float, float]:
+    """The largest error over the natural size of an entry, and over its stated bound."""
+    table = axis.table(DEGREE, center)
+    knots = [Fraction(knot) - Fraction(center) for knot in axis.knots.tolist()]
+    domain = (None, None) if axis.domain is None else [Fraction(end) - Fraction(center) for end in axis.domain]
+    error, excess = 0.0, 0.0
+    for power in range(DEGREE + 1):
+        for i in range(axis.count):
+            mass = integral(knots, i, axis.order, 0, *domain)
+            size = float(mass * max(abs(knots[i]), abs(knots[i + axis.order])) ** power)
+            off = abs(float(Fraction(table[power, i]) - integral(knots, i, axis.order, power, *domain)))
+            if size:
+                error = max(error, off / size)
+                excess = max(excess, off / (size * axis.roundings(DEGREE) * U))
+            else:
+                assert off == 0.0
+    return error, excess
+
+
+@pytest.mark.parametrize("order", range(1, 7))
+@pytest.mark.parametrize("kind", KINDS)
+def test_full_supports_are_exact_to_rounding(kind, order):
+    error, excess = worst(Axis(np.array(knots_of(kind, order)), order), 0.375)
+    assert error < 1e-14
+    assert excess < 1.0
+
+
+@pytest.mark.parametrize("order", range(1, 7))
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_domain_cuts_supports_where_it_ends(kind, order):
+    knots = knots_of(kind, order)
+    inside = Axis(np.array(knots), order, (knots[1] - 0.0625, (knots[-3] + knots[-2]) / 2 + 0.03125))
+    for axis in (inside, Axis(np.array(knots), order).clipped()):
+        error, excess = worst(axis, 0.375)
+        assert error < 1e-14
+        assert excess < 1.0
+
+
+def test_functions_sum_to_one_in_the_clipped_domain():
+    axis = Axis(np.array(random_knots(4, 3)), 4).clipped()
+    low, high = axis.domain
+    total = axis.table(3, 0.0).sum(axis=1)
+    assert total == pytest.approx([(high**n - low**n) / n for n in range(1, 5)], rel=1e-13)
+
+
+@pytest.mark.parametrize("order", (1, 2, 3, 4))
+@pytest.mark.parametrize("power", range(4))
+def test_theorem_4_2_is_exact_as_printed(order, power):
+    knots = [Fraction(n, 7) for n in sorted(random.Random(order).sample(range(-30, 60), order + 5))]
+    for i in range(3):
+        last = knots[i + order]
+        middle = (knots[i] + 3 * last) / 4
+        for t in (middle, last, knots[i + 1]):
+            assert integral_of_basis(knots, i, order, power, t) == integral(knots, i, order, power, high=t)
+
+
+def test_theorem_4_2_with_repeated_knots():
+    knots = [Fraction(n) for n in (0, 0, 1, 1, 3, 4, 4, 6)]
+    for i in range(4):
+        assert integral_of_basis(knots, i, 4, 2, knots[i + 4]) == integral(knots, i, 4, 2)
+
+
+@pytest.mark.parametrize("order", range(1, 7))
+def test_production_agrees_with_the_theorem(order):
+    knots = random_knots(order, 11)
+    table = full_supports(knots, order, 3)
+    exact = [Fraction(knot) for knot in knots]
+    for power in range(4):
+        for i in range(2):
+            expected = float(integral_of_basis(exact, i, order, power, exact[i + order]))
+            assert table[power, i] == pytest.approx(expected, rel=1e-13, abs=1e-13 * table[0, i])
+
+
+@pytest.mark.parametrize("order", range(1, 7))
+def test_a_uniform_function_has_variance_k_twelfths(order):
+    table = Axis.uniform(1, order, spacing=0.5, origin=7.0).table(4, 7.0)[:, 0]
+    k, g = order, 0.5
+    assert table == pytest.approx([g, 0.0, g * k * g**2 / 12, 0.0, g * g**4 * k * (5 * k - 2) / 240], rel=1e-14)
+
+
+def test_a_part_of_the_table_is_that_part():
+    axis = Axis(np.array(random_knots(3, 5)), 3).clipped()
+    assert np.array_equal(axis.table(2, 1.0, 2, 5), axis.table(2, 1.0)[:, 2:5])
+
+
+@pytest.mark.parametrize("knots, order, domain, text", [
+    ([0.0, 1.0], 2, None, "at least 3 knots"),
+    ([0.0, 2.0, 1.0], 1, None, "ascending"),
+    ([0.0, np.nan, 1.0], 1, None, "finite"),
+    ([0.0, 1.0], 0, None, "order of a spline"),
+    ([0.0, 1.0], 1, (1.0, 1.0), "empty"),
+])
+def test_impossible_knots_are_refused(knots, order, domain, text):
+    with pytest.raises(ValueError, match=text):
+        Axis(np.array(knots), order, domain)

@@ -1,0 +1,294 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scan files: every format, type, byte order and placement, and a clear sentence for every damaged one."""
+
+import gzip
+import io
+import random
+import struct
+import zipfile
+
+import numpy as np
+import pytest
+from body_moments.core.scans import SUFFIXES, placed, read_raw, read_scan, suffix
+
+from .scan_files import NIFTI_CODES, NRRD_NAMES, nifti, nrrd, written
+
+
+def values(dtype="f4", shape=(3, 4, 5)):
+    return np.arange(np.prod(shape)).reshape(shape).astype(dtype)
+
+
+@pytest.mark.parametrize("order", "<>")
+@pytest.mark.parametrize("kind", NRRD_NAMES)
+@pytest.mark.parametrize("encoding", ["raw", "gzip"])
+def test_nrrd_of_every_type(tmp_path, kind, order, encoding):
+    expected = values(order + kind)
+    scan = read_scan(written(tmp_path / "a.nrrd", nrrd(expected, encoding=encoding)))
+    assert np.array_equal(scan.samples, expected)
+    assert np.array_equal(scan.matrix, np.eye(4))
+    assert not scan.placed and scan.unit is None
+    assert isinstance(scan.samples, np.memmap) == (encoding == "raw")
+
+
+@pytest.mark.parametrize("order", "<>")
+@pytest.mark.parametrize("kind", NIFTI_CODES)
+@pytest.mark.parametrize("end", [".nii", ".nii.gz"])
+def test_nifti_of_every_type(tmp_path, kind, order, end):
+    expected = values(order + kind)
+    data = nifti(expected, spacing=(0.5, 0.25, 2))
+    scan = read_scan(written(tmp_path / ("a" + end), gzip.compress(data) if end == ".nii.gz" else data))
+    assert np.array_equal(scan.samples, expected)
+    assert np.array_equal(np.diag(scan.matrix), [0.5, 0.25, 2, 1])
+    assert scan.placed and scan.unit == 1e-3
+    assert (scan.slope, scan.intercept) == (1.0, 0.0)
+
+
+def test_nifti_places(tmp_path):
+    sform = [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]]
+    scan = read_scan(written(tmp_path / "s.nii", nifti(values(), sform=sform, quaternion=(0, 0, 0, 1, 2, 3))))
+    assert np.array_equal(scan.matrix[:3], sform)
+    # half a turn about x (a = 0, b = 1), third axis mirrored
+    turned = nifti(values(), spacing=(2, 3, 4), quaternion=(1, 0, 0, 5, 6, 7), qfac=-1.0)
+    scan = read_scan(written(tmp_path / "q.nii", turned))
+    assert np.array_equal(scan.matrix[:3], [[2, 0, 0, 5], [0, -3, 0, 6], [0, 0, 4, 7]])
+    third = (1 / 3) ** 0.5 * np.sin(np.pi / 3)  # a third of a turn about (1, 1, 1): x to y to z
+    scan = read_scan(written(tmp_path / "t.nii", nifti(values(), quaternion=(third, third, third, 0, 0, 0))))
+    assert np.allclose(scan.matrix[:3, :3], [[0, 0, 1], [1, 0, 0], [0, 1, 0]], atol=1e-7)
+
+
+def test_nifti_scales_and_has_a_fourth_dimension_of_one(tmp_path):
+    scan = read_scan(written(tmp_path / "a.nii", nifti(values("i2"), slope=2.0, intercept=-1024.0, dims=4)))
+    assert (scan.slope, scan.intercept) == (2.0, -1024.0)
+    assert scan.samples.shape == (3, 4, 5)
+
+
+def test_nrrd_places(tmp_path):
+    scan = read_scan(written(tmp_path / "a.nrrd", nrrd(
+        values(), "space: left-posterior-superior", "space directions: (0.5,0,0) (0.25,-2,0) (0,0.125,3)",
+        "space origin: (-9,8,7)", 'space units: "mm" "mm" "mm"')))
+    assert np.array_equal(scan.matrix[:3], [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]])
+    assert scan.placed and scan.unit == 1e-3
+    scan = read_scan(written(tmp_path / "b.nrrd", nrrd(values(), "spacings: 0.5 2 3", "axis mins: 1 2 3")))
+    assert np.array_equal(scan.matrix[:3], [[0.5, 0, 0, 1], [0, 2, 0, 2], [0, 0, 3, 3]])
+
+
+def test_detached_headers_and_skips(tmp_path):
+    expected = values("u2")
+    data = expected.tobytes(order="F")
+    written(tmp_path / "a.raw", b"one\ntwo\n1234" + data)
+    head = nrrd(expected, "data file: a.raw", "line skip: 2", "byte skip: 4", head=False)
+    assert np.array_equal(read_scan(written(tmp_path / "a.nhdr", head)).samples, expected)
+    head = nrrd(expected, "datafile: a.raw", "byteskip: -1", head=False)
+    assert np.array_equal(read_scan(written(tmp_path / "b.nhdr", head)).samples, expected)
+    packed = written(tmp_path / "a.gz", gzip.compress(b"1234" + data))
+    head = nrrd(expected, "data file: " + packed.name, "byte skip: 4", encoding="gzip", head=False)
+    assert np.array_equal(read_scan(written(tmp_path / "c.nhdr", head)).samples, expected)
+
+
+def test_raw_files_by_their_names_and_by_hand(tmp_path):
+    expected = values("u2")
+    path = written(tmp_path / "head_3x4x5_uint16.raw", expected.tobytes(order="F"))
+    assert np.array_equal(read_scan(path).samples, expected)
+    path = written(tmp_path / "any.raw", b"12" + expected.astype(">u2").tobytes(order="F"))
+    assert np.array_equal(read_raw(path, (3, 4, 5), "uint16", big_endian=True, skip=2).samples, expected)
+    with pytest.raises(ValueError, match="Call it NAME"):
+        read_scan(path)
+    with pytest.raises(ValueError, match="cut short"):
+        read_raw(path, (3, 4, 6), "uint16")
+    with pytest.raises(ValueError, match="none of uint8"):
+        read_raw(path, (3, 4, 5), "complex64")
+
+
+@pytest.mark.parametrize("layout", "CF")
+def test_numpy_arrays(tmp_path, layout):
+    expected = np.asarray(values("f8"), order=layout)
+    np.save(tmp_path / "a.npy", expected)
+    assert np.array_equal(read_scan(tmp_path / "a.npy").samples, expected)
+    np.savez_compressed(tmp_path / "a.npz", table=np.eye(3), other=expected + 1, density=expected)
+    scan = read_scan(tmp_path / "a.npz")
+    assert np.array_equal(scan.samples, expected)
+    assert scan.notes == ("Of its arrays “density” is measured; left out: “other”.",)
+
+
+@pytest.mark.parametrize("array, text", [
+    (np.ones((3, 3)), "2 dimensions"),
+    (np.ones((2, 3, 3, 3)), "4 dimensions"),
+    (np.ones((3, 3, 3), complex), "complex128"),
+    (np.ones((0, 3, 3)), "no samples"),
+    (np.zeros((2, 2, 2), "U3"), "real number"),
+    (np.zeros((2, 2, 2), object), "no whole array"),
+])
+def test_arrays_that_are_no_densities(tmp_path, array, text):
+    np.save(tmp_path / "a.npy", array)
+    with pytest.raises(ValueError, match=text):
+        read_scan(tmp_path / "a.npy")
+
+
+def test_what_is_given_takes_the_headers_place(tmp_path):
+    path = written(tmp_path / "a.nii", nifti(values(), spacing=(2, 2, 2)))
+    matrix, notes = placed(read_scan(path), None, None, None)
+    assert np.allclose(matrix, np.diag([0.002, 0.002, 0.002, 1]))
+    assert notes == ()
+    matrix, notes = placed(read_scan(path), (0.1, 0.2, 0.3), (1, 2, 3), None)
+    assert np.array_equal(matrix[:3], [[0.1, 0, 0, 1], [0, 0.2, 0, 2], [0, 0, 0.3, 3]])
+    assert notes == ("The given spacing and origin took the place of the header's.",)
+    matrix, notes = placed(read_scan(path), None, None, 5.0)
+    assert matrix[0, 0] == pytest.approx(0.002)
+    assert "own unit" in notes[0]
+    np.save(tmp_path / "a.npy", values())
+    matrix, notes = placed(read_scan(tmp_path / "a.npy"), None, None, None)
+    assert np.array_equal(matrix, np.eye(4))
+    assert "1 unit is taken" in notes[0]
+    matrix, notes = placed(read_scan(tmp_path / "a.npy"), (1, 2, 3), None, 0.001)
+    assert np.allclose(np.diag(matrix), [0.001, 0.002, 0.003, 1])
+    assert notes == ()
+
+
+def nifti_with(offset: int, form: str, *numbers) -> bytes:
+    data = bytearray(nifti(values()))
+    struct.pack_into("<" + form, data, offset, *numbers)
+    return bytes(data)
+
+
+@pytest.mark.parametrize("data, text", [
+    (b"", "cut short"),
+    (b"x" * 400, "does not begin"),
+    (nifti(values())[:-1], "cut short"),
+    (nifti_with(344, "4s", b"ni1\0"), "pair"),
+    (nifti_with(40, "h", 9), "9 dimensions"),
+    (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), "4 dimensions"),
+    (nifti_with(42, "h", -3), "impossible"),
+    (nifti_with(42, "3h", 32767, 32767, 32767), "cut short"),
+    (nifti_with(70, "h", 32), "data type 32"),
+    (nifti_with(72, "h", 7), "contradicts"),
+    (nifti_with(108, "f", float("nan")), "impossible place"),
+    (nifti_with(108, "f", 1e30), "impossible place"),
+    (nifti_with(112, "f", float("inf")), "not finite"),
+    (nifti_with(80, "f", 0.0), "impossible spacing"),
+    (nifti(values(), sform=np.zeros((3, 4))), "one plane"),
+    (nifti(values(), sform=np.full((3, 4), np.nan)), "one plane"),
+    (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "rotation that is none"),
+])
+def test_damaged_nifti_files_say_what_is_wrong(tmp_path, data, text):
+    with pytest.raises(ValueError, match=text):
+        read_scan(written(tmp_path / "a.nii", data))
+
+
+def nrrd_with(old: str, new: str) -> bytes:
+    data = nrrd(values())
+    assert old.encode() in data
+    return data.replace(old.encode(), new.encode())
+
+
+@pytest.mark.parametrize("data, text", [
+    (b"", "does not begin"),
+    (nrrd(values())[:-1], "cut short"),
+    (nrrd(values())[:60], "do not agree"),
+    (nrrd_with("type: float\n", ""), "lacks the field “type”"),
+    (nrrd_with("type: float", "type: block"), "no real number"),
+    (nrrd_with("sizes: 3 4 5", "sizes: 3 4"), "do not agree"),
+    (nrrd_with("sizes: 3 4 5", "sizes: 3 4 x"), "no row of numbers"),
+    (nrrd_with("sizes: 3 4 5", "sizes: 3 4 -5"), "impossible"),
+    (nrrd_with("sizes: 3 4 5", "sizes: 3 4 5000000000000"), "impossible|cut short"),
+    (nrrd_with("dimension: 3", "dimension: 4"), "do not agree"),
+    (nrrd_with("encoding: raw", "encoding: bzip2"), "not supported"),
+    (nrrd_with("encoding: raw", "encoding: gzip"), "unpacked"),
+    (nrrd_with("endian: little\n", ""), "endian"),
+    (nrrd(values(), "spacings: 1 0 1"), "spacings"),
+    (nrrd(values(), "spacings: nan nan nan"), "spacings"),
+    (nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)"), "one plane"),
+    (nrrd(values(), "space directions: (1,0,0) (0,1,0)"), "three vectors"),
+    (nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0)"), "not three numbers"),
+    (nrrd(values(), "data file: nowhere.raw"), "not there"),
+    (nrrd(values(), "data file: slice%03d.raw 1 9 1"), "several files"),
+    (nrrd(values(), "byte skip: a"), "no row of numbers"),
+    (nrrd(values(), "byte skip: -7"), "not one number"),
+    (nrrd(values(), "line skip: 9999"), "cut short"),
+])
+def test_damaged_nrrd_files_say_what_is_wrong(tmp_path, data, text):
+    with pytest.raises(ValueError, match=text):
+        read_scan(written(tmp_path / "a.nrrd", data))
+
+
+def npy_bytes(array=None) -> bytes:
+    stream = io.BytesIO()
+    np.save(stream, values() if array is None else array)
+    return stream.getvalue()
+
+
+def test_an_archive_without_a_volume(tmp_path):
+    np.savez(tmp_path / "a.npz", table=np.eye(3))
+    with pytest.raises(ValueError, match="None of its arrays"):
+        read_scan(tmp_path / "a.npz")
+
+
+def npz_bytes() -> bytes:
+    stream = io.BytesIO()
+    np.savez_compressed(stream, density=values())
+    return stream.getvalue()
+
+
+@pytest.mark.parametrize("shape", [b"(3, 4, 6)", b"(9, 9999,9999)", b"(3, 4, 5"])
+def test_an_archive_cannot_promise_more_than_it_holds(tmp_path, shape):
+    data = npy_bytes().replace(b"(3, 4, 5), }     ", (shape + b", }").ljust(17))
+    assert data != npy_bytes() and len(data) == len(npy_bytes())
+    with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
+        archive.writestr("density.npy", data)
+    with pytest.raises(ValueError, match="no whole archive"):
+        read_scan(tmp_path / "a.npz")
+
+
+SEEDS = {
+    ".npy": npy_bytes(), ".npz": npz_bytes(),
+    ".nrrd": nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0,1)", "space origin: (0,0,0)", "byte skip: 0",
+                  'space units: "mm" "mm" "mm"'),
+    ".nrrd gzip": nrrd(values(), "spacings: 1 1 1", encoding="gzip"),
+    ".nii": nifti(values(), quaternion=(0, 0, 0.5, 1, 2, 3)),
+    ".nii.gz": gzip.compress(nifti(values())),
+}
+
+
+@pytest.mark.parametrize("name", SEEDS)
+@pytest.mark.filterwarnings("ignore")
+def test_damage_anywhere_gives_a_sentence_or_an_array(tmp_path, name):
+    data, rng = SEEDS[name], random.Random(name)
+    path = tmp_path / ("a" + name.split()[0])
+    refused = 0
+    for _ in range(400):
+        damaged = bytearray(data)
+        for _ in range(rng.choice((1, 1, 2, 8))):
+            place = rng.randrange(min(len(damaged), 400))
+            action = rng.randrange(4)
+            if action == 0:
+                damaged[place] = rng.randrange(256)
+            elif action == 1:
+                damaged[place] ^= 1 << rng.randrange(8)
+            elif action == 2:
+                damaged[place:place] = rng.choice((b"9", b"-", b"\n", b"\0", b"99999999", b"nan", b"(", b"\xff"))
+            elif len(damaged) > 1:
+                del damaged[place:place + rng.choice((1, 4, 100))]
+            if not damaged:
+                damaged = bytearray(b"0")
+        path.write_bytes(damaged)
+        try:
+            scan = read_scan(path)
+        except ValueError as error:
+            refused += 1
+            assert str(error)[0].isupper() and str(error).endswith("."), error
+            continue
+        assert scan.samples.ndim == 3 and np.isfinite(scan.matrix).all()
+        np.asarray(scan.samples).sum(dtype=np.float64)  # every sample is there
+    assert refused > 50
+
+
+def test_what_is_no_scan(tmp_path):
+    assert [suffix("A.B" + end.upper()) for end in SUFFIXES] == list(SUFFIXES)
+    assert suffix("a.blend") == ""
+    with pytest.raises(ValueError, match="no scans"):
+        read_scan(tmp_path / "a.blend")
+    with pytest.raises(ValueError, match="no such file"):
+        read_scan(tmp_path / "a.npy")
+    (tmp_path / "b.npy").mkdir()
+    with pytest.raises(ValueError, match="not a regular file"):
+        read_scan(tmp_path / "b.npy")
