@@ -50,7 +50,13 @@ def region_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
     degree = np.array([0] + [n for n in (1, 2, 3) for _ in range((n + 1) * (n + 2) // 2)])
     area = Moments(area.raw, area.about, "area", area.error, 2.0 * stored * rim * reach ** degree.astype(np.float64))
     nothing = Moments(np.zeros_like(area.raw), area.about, "volume")
-    return Body(nothing, area, Health(closed=False, components=len(curves)), "NURBS shell", (), estimated=True)
+
+    def to_order(order: int, _with_area: bool) -> tuple[Moments, Moments]:
+        volume = Moments(np.zeros(monomial_count(order)), area.about, "volume")
+        return volume, plane_moments(curves, normal, order, area.about)
+
+    return Body(nothing, area, Health(closed=False, components=len(curves)), "NURBS shell", (), to_order=to_order,
+                estimated=True)
 
 
 def _placed(curves: list[Curve], matrix: np.ndarray, unit: float) -> tuple[list[Curve], float]:

@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.moments import Moments, are_similarities, map_sum, sum_moments
+from ..core.moments import Moments, are_similarities, map_sum, monomial_count, sum_moments
 from ..core.patch import Patch
 from ..core.patch_moments import area_moments, volume_moments
 from ..core.patch_solid import PatchMeasure, measure_patches, measure_sheet
@@ -145,8 +145,16 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
     area = sum_moments(areas)
     nothing = replace(area, raw=np.zeros_like(area.raw), error=np.zeros_like(area.raw), input=np.zeros_like(area.raw),
                       of="volume")
+
+    def to_order(order: int, _with_area: bool) -> tuple[Moments, Moments]:
+        found = [moments for part in own for moments in _areas(
+            part, area_moments(part.splines.patches, order)[0], in_metres(part.matrices, unit))]
+        volume = Moments(np.zeros(monomial_count(order)), area.about, "volume")
+        return volume, sum_moments(found + ([body.to_order(order, True)[1]] if meshes.parts else []))
+
     return Body(nothing, area, together(healths), _told(reading, "shell"), tuple(dict.fromkeys(warnings)),
-                wall=sum_moments(sheets) if sheets else None, estimated=True)
+                wall=sum_moments(sheets) if sheets else None, to_order=to_order if wall == "thin" else None,
+                estimated=True)
 
 
 def _distinct(patches: Sequence[Patch], matrices: NDArray) -> Iterator[tuple[list[Patch], NDArray]]:

@@ -7,6 +7,7 @@ import json
 import bpy
 import numpy as np
 import pytest
+from body_moments.operators.measure import MeasureOptions, measure_object
 from body_moments.operators.read import Unreadable, measurable
 from body_moments.operators.write.record import record, to_json
 
@@ -81,6 +82,13 @@ def test_the_region_of_a_bezier_circle_is_that_of_its_curve(dimensions):
     assert disc.area / np.pi == pytest.approx(1.000191785, rel=1e-8)
     assert any("not filled" in warning for warning in disc.warnings) == (dimensions == "3D")
     assert disc.mass_properties.inertia[0, 1] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_moments_of_higher_order_of_a_region_are_exact_too():
+    obj = circle()
+    obj.body_moments.kind = "SHELL"
+    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=6))
+    assert found.area_moments.shifted(np.zeros(3))[6, 0, 0] == pytest.approx(5.0 * np.pi / 64.0, rel=1e-7)
 
 
 def test_a_ring_has_its_hole():

@@ -151,6 +151,13 @@ def test_a_shell_is_thin_or_has_real_walls():
         measured(obj)
 
 
+def test_moments_of_higher_order_of_a_thin_shell():
+    obj = primitive("sphere")
+    obj.body_moments.kind = "SHELL"
+    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=4))
+    assert found.area_moments.shifted(np.zeros(3))[4, 0, 0] == pytest.approx(4.0 * np.pi / 5.0, rel=2e-6)
+
+
 def test_a_wall_follows_the_scale_of_the_surface_but_keeps_its_thickness():
     obj = primitive("sphere")
     obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
