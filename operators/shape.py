@@ -32,6 +32,7 @@ from .body import Body
 from .measure import MeasureOptions, measure_body
 from .read import Unreadable
 
+DISPLAY_MESH = "Its signature is that of its display mesh, as fine as the viewport's resolution."
 POLYGONS = "Its signature is known of polygons only; convert it to a mesh first."
 EXACT, NEAR = 1e-5, 1e-2  # of the size: between them single precision mistakes the distances of thin triangles
 SAMPLES = 1500  # points of a surface that are held against another one

@@ -28,7 +28,7 @@ from .. import settings
 from ..array_body import ArrayOptions, measure_array
 from ..measure import MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
-from ..shape import POLYGONS, NoShape, shape_of
+from ..shape import DISPLAY_MESH, POLYGONS, NoShape, shape_of
 from ..staleness import settle
 from ..write import record
 from ..write.properties import store
@@ -194,6 +194,8 @@ class Run:
         one = shape.measurement
         if self.options.signature and shape.has_surface:
             more["signature"] = shape.signature().as_record()
+            if one.method.startswith("NURBS"):
+                one = replace(one, warnings=(*one.warnings, DISPLAY_MESH))
         elif self.options.signature:
             more["signature"] = None
             one = replace(one, warnings=(*one.warnings, POLYGONS))

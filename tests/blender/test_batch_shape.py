@@ -144,11 +144,11 @@ def test_records_without_a_signature_are_named(tmp_path, capsys):
     assert code == 1 and "--signature" in capsys.readouterr().err
 
 
-def test_a_nurbs_surface_has_a_pose_but_no_signature_and_a_wire_has_neither():
+def test_a_nurbs_surface_has_the_signature_of_its_display_mesh_and_a_wire_has_none():
     bpy.ops.surface.primitive_nurbs_surface_sphere_add(location=(1, 2, 3))
     ball = document("--pose", "--signature")["objects"][0]
-    assert ball["method"].startswith("NURBS") and ball["pose"]["unique"] is False and ball["signature"] is None
-    assert any("polygons" in warning for warning in ball["warnings"])
+    assert ball["method"].startswith("NURBS") and ball["pose"]["unique"] is False and ball["signature"]
+    assert any("display mesh" in warning for warning in ball["warnings"])
     bpy.ops.curve.primitive_nurbs_path_add()
     wire = bpy.context.object
     wire.body_moments.kind = "WIRE"
