@@ -129,6 +129,8 @@ def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
              options: MeasureOptions | None = None) -> Shape:
     """Measure an object for its shape. Raises `Unreadable`, and `NoShape` where it has none."""
     measurement, body = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
+    if body.mass is not None and not body.solids:
+        raise NoShape(measurement, "Pose and signature tell shapes, and a grid of densities has none.")
     if body.to_order is None or body.length is not None:
         raise NoShape(measurement, "Pose and signature are not known of wires, nor of walls of real thickness; set "
                                    "Wall to Thin, or make it a mesh.")
