@@ -5,7 +5,9 @@
 They are left among the artefacts; the README shows copies of them (tests/window/pictures).
 """
 
+import math
 
+import numpy as np
 import pytest
 
 from tests import demo
@@ -55,6 +57,39 @@ def test_an_empty_shows_the_principal_frame(window):
     window.redraw()
     window.picture("readme-principal-frame")
     assert window.get(f"{BRACKET}['body_method']") == "exact"
+
+
+def test_a_nurbs_sphere_is_the_ball_that_it_is(window):
+    window.ask(
+        "bpy.context.scene.unit_settings.scale_length = 1.0\nbpy.context.scene.unit_settings.length_unit = 'METERS'\n"
+        "for obj in list(bpy.data.objects):\n    bpy.data.objects.remove(obj)\n"
+        "bpy.ops.surface.primitive_nurbs_surface_sphere_add()\nbpy.ops.view3d.view_selected()"
+    )
+    window.press("object.body_moments_measure")
+    sphere = "bpy.context.object"
+    window.wait(f"'body_volume' in {sphere}")
+    window.point_at_view()
+    window.redraw()
+    window.picture("readme-nurbs")
+    assert window.get(f"{sphere}['body_method']") == "NURBS exact"
+    assert window.get(f"{sphere}['body_volume']") == pytest.approx(4.0 * math.pi / 3.0 * (1.0 - 1.95e-7), rel=1e-8)
+
+
+def test_a_scan_is_imported_and_measured(window, tmp_path):
+    samples = np.zeros((24, 24, 24), np.float32)
+    samples[4:20, 6:18, 8:16] = 900.0
+    np.save(tmp_path / "scan.npy", samples)
+    window.ask(
+        "bpy.data.objects.remove(bpy.context.object)\n"
+        f"bpy.ops.object.body_moments_import_scan('EXEC_DEFAULT', True, filepath={str(tmp_path / 'scan.npy')!r})\n"
+        "bpy.ops.view3d.view_selected()"
+    )
+    window.press("object.body_moments_measure")
+    window.wait("'body_mass' in bpy.context.object")
+    window.point_at_view()
+    window.redraw()
+    window.picture("readme-volume")
+    assert window.get("bpy.context.object['body_mass']") == pytest.approx(16 * 12 * 8 * 900.0, rel=1e-12)
 
 
 def test_nothing_was_printed_by_a_failing_panel(window):
