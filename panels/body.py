@@ -128,7 +128,10 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
         else:
             _one_density(column, settings, "Material")
         return
-    column.row().prop(settings, "kind", expand=True)
+    row = _labelled(column, "Kind")
+    row.use_property_split = False
+    for kind in ("SOLID", "SHELL", "WIRE") if obj.type == "CURVE" or settings.kind == "WIRE" else ("SOLID", "SHELL"):
+        row.prop_enum(settings, "kind", kind)
     if obj.type == "SURFACE":
         column.operator("object.body_moments_live", icon="REC", depress=live.is_live(obj))
     if settings.kind == "SHELL":
@@ -187,13 +190,18 @@ def _materials(layout: UILayout, obj: Object) -> None:
     _one_density(column, settings, "Without One")
 
 
+def _labelled(column: UILayout, label: str) -> UILayout:
+    """A row beside a label, as Blender puts properties there."""
+    split = column.row(align=True).split(factor=0.4, align=True)
+    heading = split.row()
+    heading.alignment = "RIGHT"
+    heading.label(text=label)
+    return split.row(align=True)
+
+
 def _one_density(column: UILayout, settings, heading: str) -> None:
     """The object's own density, with the table and the user's presets."""
-    split = column.row(align=True).split(factor=0.4, align=True)
-    label = split.row()
-    label.alignment = "RIGHT"
-    label.label(text=heading)
-    row = split.row(align=True)
+    row = _labelled(column, heading)
     row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
     column.prop(settings, "density", text="Density kg/m³")

@@ -46,6 +46,10 @@ class Layout:
         assert name in data.bl_rna.properties
         self.record.append(("prop", name))
 
+    def prop_enum(self, data, name, value, **_options):
+        assert value in data.bl_rna.properties[name].enum_items
+        self.record.append(("prop", name))
+
     def operator(self, name, text=None, icon="NONE", **_options):
         assert icon in bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items
         category, function = name.split(".")
