@@ -9,11 +9,12 @@ is selected.
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerProperty, StringProperty
-from bpy.types import Context, Object, Operator, PropertyGroup, Scene
+from bpy.types import Context, Event, Object, Operator, PropertyGroup, Scene
 
 from ..core.library import Entry, nearest, read_library, verdict
 from ..core.signature import Likeness, Signature
@@ -115,31 +116,75 @@ class OBJECT_OT_body_moments_find_similar(_Find, Operator):
     scaled: SCALED
 
     def execute(self, context: Context) -> set[str]:
-        wanted = self.wanted(context)
-        if wanted is None:
+        if not self._begin(context):
             return {"CANCELLED"}
-        others = [obj for obj in measurable_objects(context.view_layer)
-                  if obj != context.object and obj.visible_get()]
-        entries, failures, objects = [], [], {}
-        with selection.progress(len(others)) as step:
-            for obj in others:
-                try:
-                    entry = Entry(obj.name, "", _signature(context, obj))
-                except snapping.REFUSALS as error:
-                    failures.append("{:s}: {:s}".format(obj.name, getattr(error, "reason", str(error))))
-                else:
-                    entries.append(entry)
-                    objects[entry] = obj
+        with selection.progress(len(self._others)) as step:
+            for _ in self._steps:
                 step()
-        rows = self.ranked(wanted, entries)
+        return self._finish(context)
+
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        if context.window is None:
+            return self.execute(context)
+        if not self._begin(context):
+            return {"CANCELLED"}
+        manager = context.window_manager
+        self._done, self._timer = 0, manager.event_timer_add(0.0, window=context.window)
+        manager.modal_handler_add(self)
+        manager.progress_begin(0, len(self._others))
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: Context, event: Event) -> set[str]:
+        if event.type == "ESC":
+            self._end(context)
+            self.report({"INFO"}, "The search was cancelled; nothing was changed")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        if next(self._steps, None) is None:
+            self._end(context)
+            return self._finish(context)
+        self._done += 1
+        context.window_manager.progress_update(self._done)
+        context.workspace.status_text_set(
+            "Comparing: {:d} of {:d} objects. Esc cancels".format(self._done, len(self._others)))
+        return {"RUNNING_MODAL"}
+
+    def _begin(self, context: Context) -> bool:
+        self._wanted = self.wanted(context)
+        self._others = [obj for obj in measurable_objects(context.view_layer)
+                        if obj != context.object and obj.visible_get()]
+        self._objects: dict[Entry, Object] = {}
+        self._failures: list[str] = []
+        self._steps = self._compare(context)
+        return self._wanted is not None
+
+    def _compare(self, context: Context) -> Iterator[Object]:
+        for obj in self._others:
+            try:
+                self._objects[Entry(obj.name, "", _signature(context, obj))] = obj
+            except snapping.REFUSALS as error:
+                self._failures.append("{:s}: {:s}".format(obj.name, getattr(error, "reason", str(error))))
+            yield obj
+
+    def _end(self, context: Context) -> None:
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
+
+    def _finish(self, context: Context) -> set[str]:
+        """Nothing is kept or selected before everything is compared, so that a cancelled search leaves nothing."""
+        rows = self.ranked(self._wanted, list(self._objects))
         self.keep(context, rows, "")
         if self.select:
             chosen = {"copy": True, "mirror image": self.mirrored, "scaled copy": self.scaled,
                       "scaled mirror": self.mirrored and self.scaled}
-            picked = [objects[entry] for entry, likeness in rows if chosen.get(verdict(likeness))]
+            picked = [self._objects[entry] for entry, likeness in rows if chosen.get(verdict(likeness))]
             for obj in context.view_layer.objects:
                 obj.select_set(obj in picked or obj == context.object)
-        return self.tell(rows, failures)
+        for area in context.screen.areas if context.screen else ():
+            area.tag_redraw()
+        return self.tell(rows, self._failures)
 
 
 class OBJECT_OT_body_moments_find_in_library(_Find, Operator):

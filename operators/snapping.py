@@ -121,7 +121,7 @@ def refresh(context: Context, objects: list[Object]) -> None:
     fresh = []
     for obj in stored:
         try:
-            properties.store(obj, measure_object(obj, depsgraph, MeasureOptions()))
+            properties.store(obj, measure_object(obj, depsgraph, MeasureOptions(pose=True)))
         except REFUSALS:  # what is stored stays, and the panel says that it is out of date
             continue
         fresh.append(obj)
