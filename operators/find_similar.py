@@ -10,18 +10,20 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerProperty, StringProperty
 from bpy.types import Context, Event, Object, Operator, PropertyGroup, Scene
 
-from ..core.library import Entry, nearest, read_library, verdict
-from ..core.signature import Likeness, Signature
+from ..core.library import UNCLEAR, Entry, nearest, read_library, verdict
+from ..core.matching import FITS, Match
+from ..core.signature import Likeness, compared
 from . import selection, snapping
 from .measure import MeasureOptions
 from .read import measurable_objects
-from .shape import surface_shape_of
+from .shape import Shape, Skin, matched, surface_shape_of
 
 ORDER = 12  # of the descriptors: more than tell parts apart, a fourth of the time that 20 takes
 LISTED = 20
@@ -63,15 +65,12 @@ class _Find:
             return False
         return True
 
-    def wanted(self, context: Context) -> Signature | None:
+    def wanted(self, context: Context) -> Shape | None:
         try:
-            return _signature(context, context.object)
+            return _shape(context, context.object)
         except snapping.REFUSALS as error:
             self.report({"ERROR"}, "{:s}: {:s}".format(context.object.name, getattr(error, "reason", str(error))))
             return None
-
-    def ranked(self, wanted: Signature, entries: list[Entry]) -> list[tuple[Entry, Likeness]]:
-        return nearest(wanted, entries, self.scaled, self.mirrored)
 
     def keep(self, context: Context, rows: list[tuple[Entry, Likeness]], looked_at: str) -> None:
         search = context.scene.body_moments_search
@@ -88,7 +87,7 @@ class _Find:
         for _, likeness in rows:
             counts[verdict(likeness)] = counts.get(verdict(likeness), 0) + 1
         same = ["{:d} {:s}".format(counts[name], name) for name in (
-            "copy", "scaled copy", "mirror image", "scaled mirror", "similar") if name in counts]
+            "copy", "scaled copy", "mirror image", "scaled mirror", *UNCLEAR, "similar") if name in counts]
         parts = ["Compared with {:s}".format("1 shape" if len(rows) == 1 else "{:d} shapes".format(len(rows)))]
         parts.append(", ".join(same) if same else "none is similar")
         if rows:
@@ -151,18 +150,29 @@ class OBJECT_OT_body_moments_find_similar(_Find, Operator):
         return {"RUNNING_MODAL"}
 
     def _begin(self, context: Context) -> bool:
-        self._wanted = self.wanted(context)
+        wanted = self.wanted(context)
         self._others = [obj for obj in measurable_objects(context.view_layer)
                         if obj != context.object and obj.visible_get()]
         self._objects: dict[Entry, Object] = {}
+        self._hands: dict[Entry, bool | None] = {}  # of those whose signatures do not tell it
         self._failures: list[str] = []
-        self._steps = self._compare(context)
-        return self._wanted is not None
+        if wanted is not None:
+            self._wanted = wanted.signature(ORDER)
+            self._steps = self._compare(context, wanted)
+        return wanted is not None
 
-    def _compare(self, context: Context) -> Iterator[Object]:
+    def _compare(self, context: Context, wanted: Shape) -> Iterator[Object]:
+        skin = None
         for obj in self._others:
             try:
-                self._objects[Entry(obj.name, "", _signature(context, obj))] = obj
+                shape = _shape(context, obj)
+                entry = Entry(obj.name, "", shape.signature(ORDER))
+                likeness = compared(self._wanted, entry.signature)
+                if verdict(likeness) in UNCLEAR:
+                    skin = skin or Skin(wanted)
+                    self._hands[entry] = _mirrored(matched(shape, wanted, Skin(shape), skin, 1.0 / likeness.scale),
+                                                   wanted.size)
+                self._objects[entry] = obj
             except snapping.REFUSALS as error:
                 self._failures.append("{:s}: {:s}".format(obj.name, getattr(error, "reason", str(error))))
             yield obj
@@ -174,7 +184,8 @@ class OBJECT_OT_body_moments_find_similar(_Find, Operator):
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing is kept or selected before everything is compared, so that a cancelled search leaves nothing."""
-        rows = self.ranked(self._wanted, list(self._objects))
+        rows = [(entry, replace(likeness, mirrored=self._hands.get(entry, likeness.mirrored)))
+                for entry, likeness in nearest(self._wanted, self._objects, self.scaled, self.mirrored)]
         self.keep(context, rows, "")
         if self.select:
             chosen = {"copy": True, "mirror image": self.mirrored, "scaled copy": self.scaled,
@@ -216,7 +227,7 @@ class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
         wanted = self.wanted(context)
         if wanted is None:
             return {"CANCELLED"}
-        rows = self.ranked(wanted, entries)
+        rows = nearest(wanted.signature(ORDER), entries, self.scaled, self.mirrored)
         self.keep(context, rows, path.name)
         return self.tell(rows, faults)
 
@@ -241,9 +252,13 @@ class OBJECT_OT_body_moments_select_found(Operator):
         return {"FINISHED"}
 
 
-def _signature(context: Context, obj: Object) -> Signature:
-    shape = surface_shape_of(obj, context.evaluated_depsgraph_get(), MeasureOptions(threads=THREADS))
-    return shape.signature(ORDER)
+def _shape(context: Context, obj: Object) -> Shape:
+    return surface_shape_of(obj, context.evaluated_depsgraph_get(), MeasureOptions(threads=THREADS))
+
+
+def _mirrored(found: Match, size: float) -> bool | None:
+    """Whether the surfaces say that it is a mirror image; None where they say neither."""
+    return False if found.largest <= FITS * size else True if found.mirrored else None
 
 
 CLASSES = (BodyMomentsSimilar, BodyMomentsSearch, OBJECT_OT_body_moments_find_similar,
