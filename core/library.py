@@ -14,6 +14,7 @@ from .signature import ALIKE, Likeness, Signature, compared
 
 SAME = 1e-4  # signatures nearer than this are one shape's: some float32 steps, and no more than a careless export
 SAME_SIZE = 1e-4
+UNCLEAR = ("copy or mirror", "scaled copy or mirror")  # verdicts where the signatures do not tell the hand
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,11 +63,13 @@ def same_size(likeness: Likeness) -> bool:
 
 
 def verdict(likeness: Likeness) -> str:
-    """What a shape is to the one that it was compared with, in two words."""
+    """What a shape is to the one that it was compared with, in a few words."""
     if likeness.shape > ALIKE:
         return "different"
     if likeness.shape > SAME:
         return "similar"
+    if likeness.mirrored is None:
+        return UNCLEAR[0] if same_size(likeness) else UNCLEAR[1]
     if likeness.mirrored:
         return "mirror image" if same_size(likeness) else "scaled mirror"
     return "copy" if same_size(likeness) else "scaled copy"

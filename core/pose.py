@@ -103,11 +103,15 @@ def free_axes(alike: Frames) -> tuple[int, ...]:
     return (tuple(i for i in range(3) if i not in alike.round_about) or (0, 1, 2)) if alike.round_about else ()
 
 
-def strict_frame(moments: Moments) -> PrincipalFrame:
+def strict_frame(moments: Moments, refine: Callable[[], Moments] | None = None) -> PrincipalFrame:
     """Zhang and Chen's own rule (eq. 11): axes 1 and 2 in the direction of positive M_300 and M_030, axis 3 completing
     a right-handed frame. ValueError where one of these is noise, or second moments are equal: there it has no answer.
+
+    refine: as for `principal_frame`.
     """
     fixed = _fixed(moments, None)
+    if refine is not None and not (np.abs(fixed.skew[:2]) > 2.0 * fixed.doubt[:2]).all():
+        fixed = _fixed(refine(), None)
     if fixed.spread.free:
         raise ValueError("Zhang and Chen's rule does not pose a body with equal principal moments.")
     if not (np.abs(fixed.skew[:2]) > fixed.doubt[:2]).all():

@@ -33,8 +33,9 @@ COUPLED_ORDER = 4  # of the moments that are coupled in threes
 CHIRAL_ORDER = 6
 FREQUENCIES = np.arange(1.0, 13.0)  # what orders to 20 resolve to a millionth
 ALIKE = 0.1  # beyond this nobody would call two shapes similar
-HANDED = 1e-6  # a chirality below this is noise
-DOUBT = 0.1  # of the difference of two shapes: what of their chiralities it may be
+HANDED = 1e-11  # a chirality below this is rounding
+DOUBT = 10.0  # by the difference of two shapes: what noise that makes it may make of chiralities
+CLEAR = 0.2  # chiralities whose difference is less than this share of their sum, or the other way round, tell a hand
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,8 +73,8 @@ class Signature:
 @dataclass(frozen=True)
 class Likeness:
     """shape: the difference of the shapes whatever their size and hand, 0 for the same. scale: the second body's size
-    by the first one's. hand: the difference of their chiralities. mirrored: whether it is a mirror image; None where
-    neither has a hand, or the shapes differ too much to tell."""
+    by the first one's. hand: the difference of their chiralities. mirrored: whether it is a mirror image; False
+    where neither has a hand, None where noise as large as the shapes' difference could make up their hands."""
 
     shape: float
     scale: float
@@ -115,8 +116,8 @@ def compared(a: Signature, b: Signature) -> Likeness:
     shape = sqrt((_relative(a.zernike[:n], b.zernike[:n]) ** 2 + _relative(a.invariants, b.invariants) ** 2) / 2.0)
     same, opposite = np.linalg.norm(a.chirality - b.chirality), np.linalg.norm(a.chirality + b.chirality)
     hand = max(np.linalg.norm(a.chirality), np.linalg.norm(b.chirality))
-    mirrored = None
-    if hand > HANDED + shape * DOUBT and min(same, opposite) < 0.5 * max(same, opposite):
+    mirrored = False if hand <= HANDED else None
+    if hand > HANDED + shape * DOUBT and min(same, opposite) < CLEAR * max(same, opposite):
         mirrored = bool(opposite < same)
     return Likeness(float(shape), b.size / a.size, float(same), mirrored)
 

@@ -9,18 +9,21 @@ is selected.
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerProperty, StringProperty
-from bpy.types import Context, Object, Operator, PropertyGroup, Scene
+from bpy.types import Context, Event, Object, Operator, PropertyGroup, Scene
 
-from ..core.library import Entry, nearest, read_library, verdict
-from ..core.signature import Likeness, Signature
+from ..core.library import UNCLEAR, Entry, nearest, read_library, verdict
+from ..core.matching import FITS, Match
+from ..core.signature import Likeness, compared
 from . import selection, snapping
 from .measure import MeasureOptions
 from .read import measurable_objects
-from .shape import surface_shape_of
+from .shape import Shape, Skin, matched, surface_shape_of
 
 ORDER = 12  # of the descriptors: more than tell parts apart, a fourth of the time that 20 takes
 LISTED = 20
@@ -62,15 +65,12 @@ class _Find:
             return False
         return True
 
-    def wanted(self, context: Context) -> Signature | None:
+    def wanted(self, context: Context) -> Shape | None:
         try:
-            return _signature(context, context.object)
+            return _shape(context, context.object)
         except snapping.REFUSALS as error:
             self.report({"ERROR"}, "{:s}: {:s}".format(context.object.name, getattr(error, "reason", str(error))))
             return None
-
-    def ranked(self, wanted: Signature, entries: list[Entry]) -> list[tuple[Entry, Likeness]]:
-        return nearest(wanted, entries, self.scaled, self.mirrored)
 
     def keep(self, context: Context, rows: list[tuple[Entry, Likeness]], looked_at: str) -> None:
         search = context.scene.body_moments_search
@@ -87,7 +87,7 @@ class _Find:
         for _, likeness in rows:
             counts[verdict(likeness)] = counts.get(verdict(likeness), 0) + 1
         same = ["{:d} {:s}".format(counts[name], name) for name in (
-            "copy", "scaled copy", "mirror image", "scaled mirror", "similar") if name in counts]
+            "copy", "scaled copy", "mirror image", "scaled mirror", *UNCLEAR, "similar") if name in counts]
         parts = ["Compared with {:s}".format("1 shape" if len(rows) == 1 else "{:d} shapes".format(len(rows)))]
         parts.append(", ".join(same) if same else "none is similar")
         if rows:
@@ -115,31 +115,87 @@ class OBJECT_OT_body_moments_find_similar(_Find, Operator):
     scaled: SCALED
 
     def execute(self, context: Context) -> set[str]:
-        wanted = self.wanted(context)
-        if wanted is None:
+        if not self._begin(context):
             return {"CANCELLED"}
-        others = [obj for obj in measurable_objects(context.view_layer)
-                  if obj != context.object and obj.visible_get()]
-        entries, failures, objects = [], [], {}
-        with selection.progress(len(others)) as step:
-            for obj in others:
-                try:
-                    entry = Entry(obj.name, "", _signature(context, obj))
-                except snapping.REFUSALS as error:
-                    failures.append("{:s}: {:s}".format(obj.name, getattr(error, "reason", str(error))))
-                else:
-                    entries.append(entry)
-                    objects[entry] = obj
+        with selection.progress(len(self._others)) as step:
+            for _ in self._steps:
                 step()
-        rows = self.ranked(wanted, entries)
+        return self._finish(context)
+
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        if context.window is None:
+            return self.execute(context)
+        if not self._begin(context):
+            return {"CANCELLED"}
+        manager = context.window_manager
+        self._done, self._timer = 0, manager.event_timer_add(0.0, window=context.window)
+        manager.modal_handler_add(self)
+        manager.progress_begin(0, len(self._others))
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: Context, event: Event) -> set[str]:
+        if event.type == "ESC":
+            self._end(context)
+            self.report({"INFO"}, "The search was cancelled; nothing was changed")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        if next(self._steps, None) is None:
+            self._end(context)
+            return self._finish(context)
+        self._done += 1
+        context.window_manager.progress_update(self._done)
+        context.workspace.status_text_set(
+            "Comparing: {:d} of {:d} objects. Esc cancels".format(self._done, len(self._others)))
+        return {"RUNNING_MODAL"}
+
+    def _begin(self, context: Context) -> bool:
+        wanted = self.wanted(context)
+        self._others = [obj for obj in measurable_objects(context.view_layer)
+                        if obj != context.object and obj.visible_get()]
+        self._objects: dict[Entry, Object] = {}
+        self._hands: dict[Entry, bool | None] = {}  # of those whose signatures do not tell it
+        self._failures: list[str] = []
+        if wanted is not None:
+            self._wanted = wanted.signature(ORDER)
+            self._steps = self._compare(context, wanted)
+        return wanted is not None
+
+    def _compare(self, context: Context, wanted: Shape) -> Iterator[Object]:
+        skin = None
+        for obj in self._others:
+            try:
+                shape = _shape(context, obj)
+                entry = Entry(obj.name, "", shape.signature(ORDER))
+                likeness = compared(self._wanted, entry.signature)
+                if verdict(likeness) in UNCLEAR:
+                    skin = skin or Skin(wanted)
+                    self._hands[entry] = _mirrored(matched(shape, wanted, Skin(shape), skin, 1.0 / likeness.scale),
+                                                   wanted.size)
+                self._objects[entry] = obj
+            except snapping.REFUSALS as error:
+                self._failures.append("{:s}: {:s}".format(obj.name, getattr(error, "reason", str(error))))
+            yield obj
+
+    def _end(self, context: Context) -> None:
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
+
+    def _finish(self, context: Context) -> set[str]:
+        """Nothing is kept or selected before everything is compared, so that a cancelled search leaves nothing."""
+        rows = [(entry, replace(likeness, mirrored=self._hands.get(entry, likeness.mirrored)))
+                for entry, likeness in nearest(self._wanted, self._objects, self.scaled, self.mirrored)]
         self.keep(context, rows, "")
         if self.select:
             chosen = {"copy": True, "mirror image": self.mirrored, "scaled copy": self.scaled,
                       "scaled mirror": self.mirrored and self.scaled}
-            picked = [objects[entry] for entry, likeness in rows if chosen.get(verdict(likeness))]
+            picked = [self._objects[entry] for entry, likeness in rows if chosen.get(verdict(likeness))]
             for obj in context.view_layer.objects:
                 obj.select_set(obj in picked or obj == context.object)
-        return self.tell(rows, failures)
+        for area in context.screen.areas if context.screen else ():
+            area.tag_redraw()
+        return self.tell(rows, self._failures)
 
 
 class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
@@ -171,7 +227,7 @@ class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
         wanted = self.wanted(context)
         if wanted is None:
             return {"CANCELLED"}
-        rows = self.ranked(wanted, entries)
+        rows = nearest(wanted.signature(ORDER), entries, self.scaled, self.mirrored)
         self.keep(context, rows, path.name)
         return self.tell(rows, faults)
 
@@ -196,9 +252,13 @@ class OBJECT_OT_body_moments_select_found(Operator):
         return {"FINISHED"}
 
 
-def _signature(context: Context, obj: Object) -> Signature:
-    shape = surface_shape_of(obj, context.evaluated_depsgraph_get(), MeasureOptions(threads=THREADS))
-    return shape.signature(ORDER)
+def _shape(context: Context, obj: Object) -> Shape:
+    return surface_shape_of(obj, context.evaluated_depsgraph_get(), MeasureOptions(threads=THREADS))
+
+
+def _mirrored(found: Match, size: float) -> bool | None:
+    """Whether the surfaces say that it is a mirror image; None where they say neither."""
+    return False if found.largest <= FITS * size else True if found.mirrored else None
 
 
 CLASSES = (BodyMomentsSimilar, BodyMomentsSearch, OBJECT_OT_body_moments_find_similar,

@@ -6,14 +6,13 @@ from __future__ import annotations
 
 import numpy as np
 from bpy.types import Context, Object, Operator
-from numpy.typing import NDArray
 
 from ..core.decimal import decimal
-from ..core.matching import FITS, Match, match
+from ..core.matching import FITS, Match
 from . import reframe, selection, snapping
 from .channels import Channels, Refused, world
 from .density import fixed_to
-from .shape import Shape, Skin, surface_shape_of
+from .shape import Shape, Skin, matched, surface_shape_of
 from .units import Units
 
 
@@ -87,14 +86,7 @@ def _lay(context: Context, obj: Object, target: Shape, skin: Skin) -> tuple[Matc
     if obj in _parents(context.object):
         raise Refused("the active object is its child and would move with it; clear the parent first")
     shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
-    own = Skin(shape)
-
-    def residual(way: NDArray) -> NDArray[np.float64]:
-        there = skin.distance((own.points - shape.center) @ way.T + target.center)
-        back = own.distance((skin.points - target.center) @ way + shape.center)
-        return np.concatenate([there, back])
-
-    found = match(shape.moments, target.moments, residual, target.size)
+    found = matched(shape, target, Skin(shape), skin)
     if found.mirrored:
         raise Refused("it is a mirror image of the active object, and no turn lays it there")
     unit = decimal(context.scene.unit_settings.scale_length)

@@ -36,6 +36,8 @@ from .weigh import Weighed, weigh
 
 AT_ONCE = 20_000  # faces up to which moments of higher order, for a frame that needs them, take no time to speak of
 KNOWN = 3  # the order to which every measurement has its moments
+UNASKED = ("Its principal axes are those nearest to the object's that moments to third order allow; with so many faces "
+           "higher ones were not looked at. Snapping and --pose do, and may choose others.")
 
 
 @dataclass(frozen=True)
@@ -234,9 +236,12 @@ def told(obj: bpy.types.Object | None, reading: Reading | VolumeReading, body: B
     if not density > 0.0:
         raise ValueError("Its {:s} is zero; give it one.".format("density" if options.mass is None else "mass"))
     rotation, location = np.asarray(reading.rotation, np.float64), np.asarray(reading.location, np.float64) * unit
+    higher = _higher(body, shell)
+    asked = options.pose or body.faces <= AT_ONCE
     properties = MassProperties.from_moments(
         moments, factor, prefer=rotation, refine=None if shell or body.mass is not None else body.refined,
-        higher=_higher(body, shell) if options.pose or body.faces <= AT_ONCE else None)
+        higher=higher if asked else None)
+    notes = () if asked or higher is None or properties.principal.unique else (UNASKED,)
 
     def bounds(of: str, delta: dict[str, float]) -> dict[str, float]:
         return {"volume": float(getattr(volume, of)[0]), "area": float(getattr(body.area, of)[0]),
@@ -252,7 +257,7 @@ def told(obj: bpy.types.Object | None, reading: Reading | VolumeReading, body: B
         density=0.0 if wire else density, thickness=options.thickness if shell else 0.0, volume=volume.total,
         area=body.area.total,
         mass_properties=properties, volume_moments=None if thin else solid, area_moments=body.area,
-        mass_moments=(moments, factor), health=body.health, warnings=(*reading.warnings, *body.warnings),
+        mass_moments=(moments, factor), health=body.health, warnings=(*reading.warnings, *body.warnings, *notes),
         rotation=rotation, location=location, length=body.length.total if wire else None,
         display_volume=body.display_volume,
         error_bound={**bounds("error", properties.error), "input": bounds("input", properties.input),

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ..core.canonical import ORDER
 from ..core.distance import triangle_distances
+from ..core.matching import Match, match
 from ..core.measurement import Measurement
 from ..core.moments import Moments
 from ..core.pose import pose_matrix
@@ -168,3 +169,14 @@ class Skin:
             own = self._corners[[index for _, _, index, _ in around]].reshape(-1, 3, 3)
             found[i] = min(found[i], triangle_distances(scaled[i], own).min(initial=np.inf))
         return found * self._scale
+
+
+def matched(source: Shape, target: Shape, own: Skin, skin: Skin, scale: float = 1.0) -> Match:
+    """How a shape comes to lie on another one, about their centers, and what is left between their surfaces. own, skin:
+    theirs. scale: what the source is multiplied by first."""
+    def residual(way: NDArray) -> NDArray[np.float64]:
+        there = skin.distance(scale * (own.points - source.center) @ way.T + target.center)
+        back = own.distance((skin.points - target.center) @ way / scale + source.center)
+        return np.concatenate([there, scale * back])
+
+    return match(source.moments, target.moments, residual, target.size)

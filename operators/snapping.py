@@ -23,7 +23,7 @@ from ..core.decimal import decimal
 from ..core.pose import strict_frame
 from . import reframe, selection, staleness
 from .channels import Refused
-from .measure import MeasureOptions, measure_object
+from .measure import MeasureOptions, measure_body, measure_object
 from .read import Unreadable
 from .write import properties
 
@@ -86,8 +86,7 @@ class Body:
 def body_of(context: Context, obj: Object, strict: bool = False) -> Body:
     """Measure an object; Refused where its numbers depend on a reference point. strict: with the
     axes of Zhang and Chen's rule, or refused where it has none."""
-    options = MeasureOptions(pose=True)
-    measurement = measure_object(obj, context.evaluated_depsgraph_get(), options)
+    measurement, measured = measure_body(obj, context.evaluated_depsgraph_get(), MeasureOptions(pose=True))
     if measurement.method.endswith("open"):
         raise Refused(
             "it is open and cannot be capped, so that its center is not its own; close it, or "
@@ -95,7 +94,10 @@ def body_of(context: Context, obj: Object, strict: bool = False) -> Body:
         )
     unit = decimal(context.scene.unit_settings.scale_length)
     body = measurement.mass_properties
-    principal = strict_frame(measurement.mass_moments[0]) if strict else body.principal
+    principal = body.principal
+    if strict:
+        varied = measurement.kind == "shell" or measured.mass is not None
+        principal = strict_frame(measurement.mass_moments[0], None if varied else measured.refined)
     return Body(
         obj=obj,
         center=body.center / unit,
@@ -121,7 +123,7 @@ def refresh(context: Context, objects: list[Object]) -> None:
     fresh = []
     for obj in stored:
         try:
-            properties.store(obj, measure_object(obj, depsgraph, MeasureOptions()))
+            properties.store(obj, measure_object(obj, depsgraph, MeasureOptions(pose=True)))
         except REFUSALS:  # what is stored stays, and the panel says that it is out of date
             continue
         fresh.append(obj)

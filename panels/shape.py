@@ -12,7 +12,8 @@ from . import rows
 SHOWN = 12  # elements of a symmetry, and similar shapes
 KINDS = {"AXIS": "{:d}-Fold", "PLANE": "Mirror", "ROUND": "Round"}
 ICONS = {"copy": "CHECKMARK", "scaled copy": "FULLSCREEN_ENTER", "mirror image": "MOD_MIRROR",
-         "scaled mirror": "MOD_MIRROR", "similar": "RADIOBUT_OFF", "different": "X"}
+         "scaled mirror": "MOD_MIRROR", "copy or mirror": "QUESTION", "scaled copy or mirror": "QUESTION",
+         "similar": "RADIOBUT_OFF", "different": "X"}
 
 
 class ShapePanel:

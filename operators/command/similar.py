@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ...core.library import Entry, nearest, read_library, verdict
 
-_COLUMNS = "{:>12} {:>10}  {:<14} {}\n"
+_COLUMNS = "{:>12} {:>10}  {:<21} {}\n"
 
 
 class Unanswerable(Exception):

@@ -185,6 +185,32 @@ def test_without_selecting_the_selection_stays():
     assert selected() == {"Wanted", "Other"} and found()["Copy"] == "copy"
 
 
+def prism(name, points, **where):
+    """A triangular prism, its points turned and moved within the object, which rounds them."""
+    turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
+    corners = [(*point, z) for z in (0.0, 1.5) for point in points]
+    mesh = bpy.data.meshes.new(name)
+    if where:
+        corners = np.array(corners) @ turn.T + [0.3, 0.2, 0.1]
+    mesh.from_pydata(np.array(corners).tolist(), [], [(2, 1, 0), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)])
+    return add(mesh, name, **where)
+
+
+def test_copies_whose_hands_rounding_hides_are_held_against_the_surface():
+    wanted = prism("Wanted", [(0, 0), (3, 0), (1, 1)])
+    prism("Copy", [(0, 0), (3, 0), (1, 1)], location=(9, 0, 0))
+    only(wanted)
+    from body_moments.core.library import verdict
+    from body_moments.core.signature import compared
+    from body_moments.operators.shape import surface_shape_of
+
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    first, second = (surface_shape_of(bpy.data.objects[name], depsgraph).signature(12) for name in ("Wanted", "Copy"))
+    assert verdict(compared(first, second)) == "copy or mirror"
+    assert run("find_similar") == {"FINISHED"}
+    assert found() == {"Copy": "copy"} and selected() == {"Wanted", "Copy"}
+
+
 def test_objects_that_cannot_be_compared_are_named(capfd):
     scene_of_shapes()
     empty = bpy.data.meshes.new("Nothing")

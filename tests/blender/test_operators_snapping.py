@@ -568,6 +568,34 @@ def test_a_round_body_turned_within_its_object_stays():
     assert run(AXES) == {"CANCELLED"} and (place(obj) == matrix).all()
 
 
+@pytest.mark.parametrize("cuts", [1, 5])
+def test_faces_change_neither_the_frame_that_is_snapped_to_nor_what_is_told_of_it(cuts, monkeypatch):
+    """Measure looks at moments beyond third order up to a number of faces only, and says so beyond."""
+    from body_moments.operators import measure
+    from body_moments.operators.write import properties
+
+    monkeypatch.setattr(measure, "AT_ONCE", 100)
+    bpy.ops.mesh.primitive_cube_add(location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
+    obj = bpy.context.object
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.subdivide(number_cuts=cuts)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    turned_within(obj)
+    body = measured(obj)
+    # The object's axes are kept where the body's own were not looked for.
+    nearest = np.abs(body.mass_properties.principal.axes.T @ place(obj)[:3, :3]).max(axis=0)
+    assert (nearest.min() < 0.95) == (cuts == 1)
+    assert (measure.UNASKED in body.warnings) == (cuts == 5)
+    properties.store(obj, body)
+    assert run(AXES) == {"FINISHED"}
+    sides = np.abs(np.array([vertex.co for vertex in obj.data.vertices])).max(axis=1)
+    assert np.abs(sides - 1.0).max() < 1e-5  # the same axes however many faces there are
+    # What is stored afterwards is what was snapped to, and a second time changes nothing.
+    assert np.abs(np.array(obj["body_principal_axes"]) - [1.0, 0.0, 0.0, 0.0]).max() < 1e-5
+    assert measure.UNASKED not in obj["body_warnings"]
+    assert run(AXES) == {"CANCELLED"}
+
+
 @pytest.mark.parametrize("name", [AXES, ALIGN])
 def test_the_strict_rule_poses_what_it_can_and_refuses_the_rest(name):
     add(mesh_body(points=[(0, 0, 0), (3, 0, 0), (3.5, 1, 0), (1, 1, 0), (1, 2.5, 0), (0, 2, 0)]),

@@ -6,7 +6,8 @@ import json
 
 import numpy as np
 import pytest
-from body_moments.core.signature import Signature, compared, signature
+from body_moments.core.library import SAME, verdict
+from body_moments.core.signature import HANDED, Signature, compared, signature
 from body_moments.operators.write.record import plain
 
 from tests.core import bodies, shapes
@@ -60,7 +61,32 @@ def test_bodies_that_are_their_own_mirror_images_have_no_hand():
         if group not in ("D4",):
             found = signed(bodies.moved(part, bodies.rotation(1)), 6)
             assert np.abs(found.chirality).max() < 1e-10, name
-            assert compared(found, found).mirrored is None
+            assert compared(found, found).mirrored is False
+
+
+@pytest.mark.parametrize("height", [0.1, 0.01, 1e-3])
+def test_the_hand_of_a_cube_with_one_corner_moved_a_little_is_told(height):
+    points, triangles = shapes.refined(bodies.box(), 1)
+    points[-1] *= 1.0 + height
+    part, rotation = (points, triangles), bodies.rotation(4)
+    first = signed(part, 12)
+    copy = signed(bodies.moved(part, rotation, (1, 2, 3)), 12)
+    image = signed(bodies.moved(shapes.mirrored(part), rotation, (1, 2, 3)), 12)
+    assert verdict(compared(first, copy)) == "copy" and verdict(compared(first, image)) == "mirror image"
+
+
+def test_what_noise_may_have_made_is_no_hand():
+    """Noise gives a body of no hand one, and two noisy copies either one's opposite by chance."""
+    rng = np.random.default_rng(0)
+    for name, (part, group) in shapes.SYMMETRIC.items():
+        if group in ("D4",):
+            continue
+        for noise in (1e-7, 1e-5, 1e-3):
+            one, other = (signed((part[0] + noise * rng.normal(size=part[0].shape), part[1]), 12) for _ in range(2))
+            likeness = compared(one, other)
+            handed = max(np.linalg.norm(found.chirality) for found in (one, other)) > HANDED
+            assert likeness.mirrored is (None if handed else False), (name, noise)
+            assert ("copy or mirror" in verdict(likeness)) == (handed and likeness.shape <= SAME)
 
 
 def test_different_shapes_are_far_apart_and_noisy_copies_near():
