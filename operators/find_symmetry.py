@@ -8,6 +8,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 from bpy.props import (
+    BoolProperty,
     CollectionProperty,
     EnumProperty,
     FloatProperty,
@@ -24,6 +25,7 @@ from . import selection, snapping, staleness
 from .fingerprint import scale_hash
 from .shape import Shape, Skin, surface_shape_of
 
+OF_DISPLAY_MESH = ", of its display mesh, as fine as the viewport's resolution"
 KEPT = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
 
 
@@ -43,6 +45,8 @@ class BodyMomentsSymmetry(PropertyGroup):
     compatible: StringProperty(name="By Moments", description="Schoenflies symbol of what the moments allow")
     tolerance: FloatProperty(name="Tolerance", description="By which the surface was held against its images, by the "
                                                            "body's radius of gyration")
+    of_display_mesh: BoolProperty(name="Of Display Mesh", description="What was looked at is the display mesh of a "
+                                                                      "NURBS surface")
     fingerprint: StringProperty()
     elements: CollectionProperty(type=BodyMomentsElement)
 
@@ -86,19 +90,20 @@ class OBJECT_OT_body_moments_find_symmetry(Operator):
 
 def _find(context: Context, obj: Object, tolerance: float) -> str:
     shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
-    skin = Skin(shape)
+    skin, moments = Skin(shape), shape.of_pieces()
     # Moments are looked at as loosely as the surface.
-    allowed = symmetry(shape.moments, max(NOISE, tolerance))
-    found = confirmed(allowed, shape.center, skin.points, skin.distance, tolerance * shape.size)
+    allowed = symmetry(moments, max(NOISE, tolerance))
+    found = confirmed(allowed, moments.about, skin.points, skin.distance, tolerance * shape.size)
     with staleness.paused():  # Blender reports what is written here as a change of the object
         _keep(obj, shape, found, allowed, tolerance)
         context.view_layer.update()
-    return "{:s}, {:s}".format(found.group, described(found))
+    return "{:s}, {:s}{:s}".format(found.group, described(found), OF_DISPLAY_MESH if shape.is_displayed else "")
 
 
 def _keep(obj: Object, shape: Shape, found: Symmetry, allowed: Symmetry, tolerance: float) -> None:
     kept = obj.body_moments_symmetry
     kept.group, kept.compatible, kept.tolerance = found.group, allowed.group, tolerance
+    kept.of_display_mesh = shape.is_displayed
     version, geometry, _, settings = shape.measurement.fingerprint.split(":")
     kept.fingerprint = ":".join([version, geometry, scale_hash(obj), settings])
     kept.elements.clear()

@@ -194,8 +194,8 @@ def to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> M
         return measurement
     if body.to_order is None:
         if order > KNOWN or (options.surface and not shell):
-            raise ValueError("Of such a body only moments to order {:d} are known; ask for no more."
-                             .format(KNOWN))
+            raise ValueError("Of a wall of real thickness only the moments of its volume to order {:d} are known; ask "
+                             "for no more, or set Wall to Thin.".format(KNOWN))
         return measurement
     volume, area = body.to_order(order, shell or options.surface)
     return replace(measurement, volume_moments=None if shell else volume, area_moments=area or measurement.area_moments)

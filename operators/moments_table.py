@@ -28,6 +28,10 @@ from .measure import MeasureOptions, Unreadable, measure_object
 from .read import measurable
 from .units import number
 
+NO_WIRE = (
+    "{:s}: It is a wire, which has neither volume nor surface; measure it as a solid or a shell. The command line "
+    "tells the moments of its length."
+)
 SHOWN = 4  # the highest order whose moments a panel shows one by one
 KEPT = 16  # objects
 NOISE = 1e-12  # of the largest moment of a degree: told as 0
@@ -175,6 +179,9 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         except Unreadable as error:
             self.report({"WARNING"}, str(error))
             return {"CANCELLED"}
+        if one.length is not None:
+            self.report({"WARNING"}, NO_WIRE.format(obj.name))
+            return {"CANCELLED"}
         area = one.area_moments.truncated(options.order)
         volume = area * one.thickness if one.volume_moments is None else one.volume_moments.truncated(options.order)
         key = (matrix_hash(obj), settings_hash(obj, scene), staleness.geometry_changes(obj))
@@ -182,8 +189,11 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         _kept[obj.session_uid] = Computed(obj.name, volume, area, one.rotation, one.location, key)
         while len(_kept) > KEPT:
             _kept.popitem(last=False)
-        self.report({"WARNING"} if one.warnings else {"INFO"}, ". ".join(
-            ["Computed {:d} moments of {:s}".format(len(volume.raw), obj.name), *one.warnings]))
+        told = "Computed {:d} moments of {:s}".format(len(volume.raw), obj.name)
+        if one.warnings:
+            self.report({"WARNING"}, " ".join([told + ".", *one.warnings]))
+        else:
+            self.report({"INFO"}, told)
         return {"FINISHED"}
 
 

@@ -63,6 +63,19 @@ class Shape:
         return self.body.to_order(ORDER, self._sheets)[1 if self._sheets else 0].about_center()
 
     @property
+    def is_displayed(self) -> bool:
+        """Whether its pieces are the display mesh of something smooth, whose moments differ a little."""
+        return self.measurement.method.startswith("NURBS")
+
+    def of_pieces(self) -> Moments:
+        """As `moments`, of the polygons alone: what has to be compared with them."""
+        if not self.is_displayed:
+            return self.moments
+        volume, area = moments_to_order(self.pieces(), ORDER, area=self._sheets, threads=self.threads,
+                                        about=self.center)
+        return (area if self._sheets else volume).about_center()
+
+    @property
     def _sheets(self) -> bool:
         return self.measurement.kind == "shell"
 

@@ -49,8 +49,8 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
     if kept.compatible != kept.group:
         text = "Moments to order 6 alone would allow {:s}".format(kept.compatible)
         rows.sentence(column, context, text, icon="BLANK1")
-    rows.sentence(column, context, "The surface lies on its images within {:.2g} of the radius of gyration".format(
-        kept.tolerance), icon="BLANK1")
+    rows.sentence(column, context, "The {:s} lies on its images within {:.2g} of the radius of gyration".format(
+        "display mesh" if kept.of_display_mesh else "surface", kept.tolerance), icon="BLANK1")
     if not kept.elements:
         return
     header, body = layout.panel("body_moments_symmetry", default_closed=True)

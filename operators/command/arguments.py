@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 from pathlib import Path
+
+import bpy
 
 from ...core.density_tables import MAX_ORDER as MAX_SPLINE_ORDER
 from ...core.recursion import MAX_ORDER
@@ -44,7 +47,22 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     if options.output is not None and options.output.is_dir():
         parser.error("argument --output: {} is a folder".format(options.output))
     fourier.check(options, parser)
+    _keep_what_is_read(options, parser)
     return options
+
+
+def _keep_what_is_read(options: argparse.Namespace, parser: argparse.ArgumentParser) -> None:
+    """Ends with a message where a result would be written over a file that is measured."""
+    read = [*options.files] or [bpy.data.filepath]
+    for name in ("output", "fourier"):
+        target = getattr(options, name)
+        if target is None or not target.exists():
+            continue
+        for path in read:
+            if os.path.exists(path) and os.path.samefile(path, target):
+                parser.error(
+                    "argument --{}: {} is the file that is measured; name another".format(name, target)
+                )
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -104,7 +122,6 @@ def _parser() -> argparse.ArgumentParser:
     add(
         "--spline-order",
         type=_spline_order,
-        default=1,
         metavar="K",
         help="arrays: the samples are the coefficients of a spline of this order: 1 voxels, 2 "
         "trilinear, 4 cubic (1)",
@@ -112,7 +129,6 @@ def _parser() -> argparse.ArgumentParser:
     add(
         "--density-scale",
         type=_positive,
-        default=1.0,
         metavar="S",
         help="arrays: kg/m³ where a sample is 1 (1)",
     )

@@ -35,6 +35,7 @@ from ..write.properties import store
 from . import fourier
 from .files import BLEND, UNITLESS, Unusable, open_file, save_file, suffix
 
+_OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale")
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 
 
@@ -81,7 +82,7 @@ class Run:
                 wanted = self._wanted
             else:
                 self._open(path, file)
-                note = _unit_note(path, self.options.unit_scale)
+                note = (*_unit_note(path, self.options.unit_scale), *_array_notes(self.options))
                 # Not by way of the scene, whose unit scale is a float32 with limits.
                 unit = (self.options.unit_scale or 1.0) if _unitless(path) else None
                 wanted = replace(self._wanted, unit_scale=unit)
@@ -131,8 +132,8 @@ class Run:
             errors.append(_error(None, "Of an array of densities no Fourier transform is computed."))
         if name not in names:
             return [], [], errors
-        taken = ("spacing", "origin", "spline_order", "density_scale", "unit_scale")
-        array = ArrayOptions(**{one: getattr(self.options, one) for one in taken})
+        taken = {one: getattr(self.options, one) for one in (*_OF_ARRAYS, "unit_scale")}
+        array = ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
         try:
             one = measure_array(path, name, array, self._wanted)
         except Unreadable as refusal:
@@ -281,6 +282,14 @@ def _unit_note(path: str | None, scale: float | None) -> tuple[str, ...]:
     if not unitless and scale is not None:
         return ("The file carries its own unit; --unit-scale was not used.",)
     return ()
+
+
+def _array_notes(options: Namespace) -> Iterator[str]:
+    """What was asked of arrays only, of a file that is none."""
+    given = [name for name in _OF_ARRAYS if getattr(options, name) is not None]
+    if given:
+        words = ", ".join("--" + name.replace("_", "-") for name in given)
+        yield "Only arrays and scans take {}; it was not used here.".format(words)
 
 
 def _store(

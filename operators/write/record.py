@@ -229,12 +229,13 @@ _COLUMNS = (
     *(f"principal_axis_{number}_{axis}" for number in (1, 2, 3) for axis in "xyz"),
     "symmetry",
 )  # fmt: skip
+_SOMETIMES = ("density_from", "thickness", "length", "linear_density", "principal_axes_unique")
 _LAST = ("warnings", "error")
 
 
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
     """A record as one flat row; what a list or a table holds gets a column each."""
-    row = {name: entry[name] for name in (*_COLUMNS, "density_from") if name in entry}
+    row = {name: entry[name] for name in (*_COLUMNS, *_SOMETIMES) if name in entry}
     row |= {
         f"center_of_mass_{axis}": value
         for axis, value in zip("xyz", entry["center_of_mass"], strict=True)
@@ -248,7 +249,7 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
         }
     row |= _nested("display_mesh", entry.get("display_mesh", {}))
     row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"])
-    for name in ("volume", "surface"):
+    for name in ("volume", "length", "surface"):
         powers = entry.get("moments", {}).get(name, {})
         row |= {f"{name}_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
     if entry.get("pose"):
@@ -258,6 +259,11 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             for i, line in enumerate(entry["pose"]["matrix"])
             for j, value in enumerate(line)
         }
+    for name, values in (entry.get("signature") or {}).items():
+        if isinstance(values, list):
+            row |= {f"signature_{name}_{number + 1}": value for number, value in enumerate(values)}
+        else:
+            row[f"signature_{name}"] = values
     row["warnings"] = entry["warnings"]
     return row
 

@@ -310,6 +310,27 @@ def test_main_writes_the_result_and_returns_the_exit_code(capfd, standard_output
     assert names(json.loads(capfd.readouterr().out)) == [files.BOX_NAME]
 
 
+@pytest.mark.parametrize("option", ["--output", "--fourier"])
+def test_no_result_is_written_over_the_file_that_is_measured(tmp_path, capfd, standard_output, option):
+    path = files.box_file(tmp_path / "part.blend")
+    link = tmp_path / "link"
+    link.symlink_to(path)
+    kept = (tmp_path / "part.blend").read_bytes()
+    waves = ("--grid", "4", "--qmax", "1") if option == "--fourier" else ()
+    for target in (path, link):
+        assert batch.main(["measure", path, option, str(target), *waves]) == 2
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert batch.main(["measure", option, path, *waves]) == 2
+    assert (tmp_path / "part.blend").read_bytes() == kept
+    assert "name another" in capfd.readouterr().err
+
+
+def test_options_of_arrays_are_told_to_be_unused_elsewhere():
+    files.add_box()
+    (warning,) = measured("--spacing", "1,2,3", "--density-scale", "1")["warnings"]
+    assert "--spacing, --density-scale" in warning and "not used" in warning
+
+
 def test_options_and_files_may_be_mixed(tmp_path):
     path = files.box_file(tmp_path / "part.stl")
     line = run("--density", "2", path, "--frame", "object", path, "--unit-scale", "0.001")

@@ -162,6 +162,35 @@ def test_an_object_without_a_surface_is_refused_with_the_reason():
         bpy.ops.object.body_moments_compute_moments()
 
 
+def test_a_wire_is_refused_with_the_reason(capfd):
+    curve = bpy.data.curves.new("Wire", "CURVE")
+    curve.dimensions = "3D"
+    curve.splines.new("POLY").points.add(1)
+    curve.splines[0].points[1].co = (1.0, 0.0, 0.0, 1.0)
+    obj = bpy.data.objects.new("Wire", curve)
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    obj.body_moments.kind = "WIRE"
+    assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
+    assert "neither volume nor surface" in capfd.readouterr().out
+
+
+def test_a_wall_s_moments_end_at_order_three_and_the_remedy_is_told(box, capfd):
+    box.body_moments.kind, box.body_moments.wall, box.body_moments.thickness = "SHELL", "INWARD", 0.01
+    settings(moments_order=4)
+    assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
+    assert "set Wall to Thin" in capfd.readouterr().out
+
+
+def test_warnings_follow_as_sentences(box, capfd):
+    box.data.polygons[0].use_smooth = True
+    modifier = box.modifiers.new("Less", "DECIMATE")
+    modifier.show_render = False
+    compute(1)
+    told = capfd.readouterr().out
+    assert "moments of {}. ".format(box.name) in told and ".." not in told
+
+
 def test_only_the_last_objects_are_kept(box, monkeypatch):
     from body_moments.operators import moments_table
 

@@ -269,6 +269,15 @@ def test_the_symmetry_of_what_blender_adds(make, group):
     assert obj.body_moments_symmetry.group == group
 
 
+def test_a_ball_of_nurbs_has_the_symmetry_of_its_display_mesh_and_says_so(capfd):
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add()
+    obj = bpy.context.object
+    assert run("find_symmetry") == {"FINISHED"}
+    kept = obj.body_moments_symmetry
+    assert kept.group != "C1" and kept.of_display_mesh
+    assert "display mesh" in capfd.readouterr().out
+
+
 def test_the_elements_are_in_the_object_s_own_axes():
     bpy.ops.mesh.primitive_cone_add(vertices=5, rotation=(0.3, 0.4, 0.5), location=(1, 2, 3))
     obj = bpy.context.object

@@ -303,3 +303,16 @@ def test_csv_has_a_column_for_each_moment_that_was_asked_for():
     table = rows(record.to_csv([one_document(box(), order=2)]))
     assert float(table[0]["volume_moment_2_0_0"]) == pytest.approx(2.0, rel=1e-14)
     assert "volume_moment_3_0_0" not in table[0]
+
+
+def test_csv_leaves_out_nothing_that_json_tells():
+    shell = replace(box(), kind="shell", thickness=0.25)
+    wire = replace(box("w"), kind="wire", length=2.0)
+    document = one_document(shell, wire, order=1)
+    first, second = document["objects"]
+    first["signature"] = {"size": 2.0, "invariants": [0.5, -3.0]}
+    table = rows(record.to_csv([document]))
+    assert float(table[0]["thickness"]) == 0.25 and table[0]["principal_axes_unique"] in ("true", "false")
+    assert float(table[0]["signature_size"]) == 2.0 and float(table[0]["signature_invariants_2"]) == -3.0
+    assert float(table[1]["length"]) == 2.0 and float(table[1]["linear_density"]) == second["linear_density"]
+    assert float(table[1]["length_moment_1_0_0"]) == second["moments"]["length"]["1,0,0"]
