@@ -22,10 +22,11 @@ from numpy.typing import NDArray
 from .bspline import gauss
 from .curve import Curve
 from .moments import Moments, U, monomials
-from .patch_moments import DEEPEST, ROUNDING, TOLERANCE
+from .patch_moments import ROUNDING, TOLERANCE
 
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # points; each is compared with the one before
+DEEPEST = 26  # times that a piece is halved: one that turns back is as short as rounding then
 
 
 def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
@@ -68,7 +69,7 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
     exact = [curve for curve in curves if curve.weights is None]
     for curve in exact:
         points = ceil((order + 2) * (curve.space.order - 1) / 2)
-        rows, length = _pieces(curve, curve.space.intervals, curve.space.spans, max(points, 1), flux, order, about)
+        rows, length, _ = _pieces(curve, curve.space.intervals, curve.space.spans, max(points, 1), flux, order, about)
         values, size = values + rows.sum(axis=0), size + length.sum()
     rational = [curve for curve in curves if curve.weights is not None]
     if rational:
@@ -94,9 +95,10 @@ def _integrated(curves: Sequence[Curve], density: Callable, largest: float, orde
         bounds, spans, coarse, rule, depth = curve.space.intervals, curve.space.spans, None, 0, 0
         while len(bounds):
             if coarse is None:
-                coarse, _ = _pieces(curve, bounds, spans, RULES[rule], density, order, about)
-            fine, size = _pieces(curve, bounds, spans, RULES[rule + 1], density, order, about)
+                coarse, *_ = _pieces(curve, bounds, spans, RULES[rule], density, order, about)
+            fine, size, unseen = _pieces(curve, bounds, spans, RULES[rule + 1], density, order, about)
             differ = np.where(unit > 0.0, np.abs(fine - coarse) / np.where(unit > 0.0, unit, 1.0), 0.0).max(axis=1)
+            differ += unseen * largest
             good = (differ <= tolerance * size * largest) | (depth >= DEEPEST)
             values += fine[good].sum(axis=0)
             estimate += float(differ[good].sum())
@@ -111,9 +113,12 @@ def _integrated(curves: Sequence[Curve], density: Callable, largest: float, orde
 
 
 def _pieces(curve: Curve, bounds: NDArray, spans: NDArray, points: int, density: Callable, order: int,
-            about: NDArray) -> tuple[NDArray, NDArray]:
-    """(c, K) the contributions of pieces of a curve, bounds (c, 2) each within its span, and (c,) their lengths."""
+            about: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """(c, K) the contributions of pieces of a curve, bounds (c, 2) each within its span, (c,) their lengths, and (c,)
+    those of their ends that turn back before the first or after the last point, where no rule would see it."""
     nodes, weights = gauss(points)
+    beyond = nodes[0]
+    nodes, weights = np.concatenate([[0.0], nodes, [1.0]]), np.concatenate([[0.0], weights, [0.0]])
     size = (bounds[:, 1] - bounds[:, 0])[:, None]
     values, slopes = curve.space.derivatives(spans[:, None], bounds[:, :1] + size * nodes, 1)
     controls = curve.space.controls(spans)
@@ -130,4 +135,7 @@ def _pieces(curve: Curve, bounds: NDArray, spans: NDArray, points: int, density:
     element = density(place, velocity) * (size * weights)
     columns = [(element * place[0] ** p * place[1] ** q * place[2] ** r).sum(axis=1)
                for p, q, r in monomials(order).tolist()]
-    return np.stack(columns, axis=1), (np.sqrt((velocity ** 2).sum(axis=0)) * size * weights).sum(axis=1)
+    speed = np.sqrt((velocity ** 2).sum(axis=0))
+    unseen = sum(np.where((velocity[..., a] * velocity[..., b]).sum(axis=0) < 0.0, speed[:, a] + speed[:, b], 0.0)
+                 for a, b in ((0, 1), (-1, -2)))
+    return np.stack(columns, axis=1), (speed * size * weights).sum(axis=1), unseen * beyond * size[:, 0]

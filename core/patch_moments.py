@@ -15,14 +15,14 @@ still differ by is reported, as an estimate: it is that of the coarser rule, whi
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .bspline import gauss
+from .bspline import Space, gauss
 from .moments import Moments, U, monomials
 from .patch import Cells, Patch, at_gauss_points
 
@@ -33,6 +33,7 @@ COARSE_RULES = (8, 12, 18)  # where less is asked for
 DEEPEST = 14  # times that a cell is cut
 MOST_POINTS = 6_000_000  # evaluated at most
 BLOCK = 12288  # points at a time: their arrays stay in the cache
+SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time, for the area's gradient
 ROUNDING = 64.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
 
 Rule = tuple[int, int]
@@ -112,6 +113,59 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
     found = adaptive(patches, area, reach ** degree.astype(np.float64), tolerance)
     orders = max(sum(space.order for space in patch.spaces) for patch in patches)
     return Moments(found.values, about, "area", found.estimate + ROUNDING * U * orders * found.scale), found.settled
+
+
+def area_slope(patches: Sequence[Patch]) -> float:
+    """By how much the area changes at most, to first order, for each unit that every control point moves: the sum of
+    the lengths of its gradients by them. By a fixed rule: an estimate."""
+    total = 0.0
+    for patch in patches:
+        net = np.moveaxis(patch.points - patch.points[0, 0], -1, 0)
+        if patch.weights is not None:
+            net = np.concatenate([net * patch.weights, patch.weights[None]])
+        gradient = np.zeros((3, *patch.points.shape[:2]))
+        for s, s_slope, s_steps, rows in _slope_tiles(patch.spaces[0]):
+            for t, t_slope, t_steps, columns in _slope_tiles(patch.spaces[1]):
+                own = np.ascontiguousarray(net[:, rows[:, None], columns])
+                force = _slope_of_tile((s, s_slope), (t, t_slope), s_steps[:, None] * t_steps, own)
+                gradient[:, rows[:, None], columns] += force
+        if patch.weights is not None:
+            gradient *= patch.weights
+        total += float(_length(gradient).sum())
+    return total
+
+
+def _slope_tiles(space: Space) -> Iterator[tuple[NDArray, NDArray, NDArray, NDArray]]:
+    """Values and slopes (m, k) of the control points (k,) that act in a few spans at a time, and the steps (m,)."""
+    nodes, weights = gauss(SLOPE_POINTS)
+    for start in range(0, len(space.spans), SLOPE_SPANS):
+        low, high = space.intervals[start:start + SLOPE_SPANS].T
+        size = (high - low)[:, None]
+        places = (low[:, None] + size * nodes).ravel()
+        acting = np.unique(space.controls(space.spans[start:start + SLOPE_SPANS]))
+        yield (space.matrix(places)[:, acting], space.matrix(places, 1)[:, acting], (size * weights).ravel(), acting)
+
+
+def _slope_of_tile(along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
+                   ) -> NDArray[np.float64]:
+    """(3, k, k') the area's gradient by control points, of homogeneous ones by the product of weight and place."""
+    (s, s_slope), (t, t_slope) = along, across
+    place, by_s, by_t = (np.matmul(np.matmul(one, net), np.ascontiguousarray(other.T))
+                         for one, other in ((s, t), (s_slope, t), (s, t_slope)))
+    rational = len(net) == 4
+    if rational:
+        bottom = place[3]
+        place, s_bottom, t_bottom = place[:3] / bottom, by_s[3] / bottom, by_t[3] / bottom
+        by_s, by_t = by_s[:3] / bottom - place * s_bottom, by_t[:3] / bottom - place * t_bottom
+        weights = weights / bottom
+    normal = np.stack(_cross(by_s, by_t))
+    length = _length(normal)
+    unit = normal / np.where(length > 0.0, length, 1.0) * weights
+    s_force, t_force = np.stack(_cross(by_t, unit)), np.stack(_cross(unit, by_s))
+    parts = [(s_slope, s_force, t), (s, t_force, t_slope)]
+    if rational:
+        parts.append((s, -(s_force * s_bottom + t_force * t_bottom), t))
+    return sum(np.matmul(np.matmul(np.ascontiguousarray(one.T), force), other) for one, force, other in parts)
 
 
 def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: int = 3,

@@ -19,7 +19,7 @@ from .closure import Closure, close_patches
 from .moments import Moments, sum_moments
 from .nesting import decide, relate, sort_shells
 from .patch import Patch
-from .patch_moments import area_moments, patches_center, sheet_moments, volume_moments
+from .patch_moments import area_moments, area_slope, patches_center, sheet_moments, volume_moments
 from .solid import NO_VOLUME, ROUNDING, Health
 from .weld import TOLERANCE
 
@@ -85,10 +85,12 @@ def measure_patches(patches: Sequence[Patch], *, order: int = 3, area_order: int
     if is_open and volume.total < 0.0:
         volume = replace(volume, raw=-volume.raw)
     reach = size + 4.0 * stored
-    volume = replace(volume, input=_moved(volume, stored, closure.gap, area.total, reach))
-    area = replace(area, input=_moved(area, stored, 0.0, 2.0 * area.total / reach, reach))
+    # caps move with their rims
+    skin = area.total + sum(loop.area for loop in closure.loops)
+    volume = replace(volume, input=_moved(volume, stored, closure.gap, skin, reach))
+    area = replace(area, input=_moved(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
     mixed = _mixed(closure)
-    notes = [*_told(closure, mixed, turn, caps[solid], area.total, solid.any(), size), *compared["notes"], *notes]
+    notes = [*_told(closure, mixed, turn, caps[solid], area.total, solid, size), *compared["notes"], *notes]
     share = float(caps[solid, 2].sum() / area.total) if area.total > 0.0 else 0.0
     method = ("open" if is_open else "capped" if capped[solid].any() else
               "reoriented" if mixed or turn.any() else "exact")
@@ -113,7 +115,7 @@ def measure_sheet(patches: Sequence[Patch], inner: float, outer: float, *, order
     sheet, settled = sheet_moments(patches, inner, outer, order, about)
     size = patches_size(patches)
     reach = size + max(abs(inner), abs(outer)) + 4.0 * stored
-    area = replace(area, input=_moved(area, stored, 0.0, 2.0 * area.total / reach, reach))
+    area = replace(area, input=_moved(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
     sheet = replace(sheet, input=_moved(sheet, stored, 0.0, 2.0 * sheet.total / reach, reach))
     return sheet, area, fine and settled
 
@@ -172,7 +174,7 @@ def _mixed(closure: Closure) -> int:
     return int(np.minimum(turned, np.bincount(closure.component, minlength=closure.number) - turned).sum())
 
 
-def _told(closure: Closure, mixed: int, turn: NDArray, caps: NDArray, area: float, solid: bool, size: float
+def _told(closure: Closure, mixed: int, turn: NDArray, caps: NDArray, area: float, solid: NDArray, size: float
           ) -> list[str]:
     notes = []
     if mixed:
@@ -187,10 +189,15 @@ def _told(closure: Closure, mixed: int, turn: NDArray, caps: NDArray, area: floa
     if closure.broken.any():
         notes.append("The open sides of its patches make no loops that could be capped, or it has one side only: these "
                      "numbers depend on the reference point.")
-    if not solid:
+    if not solid.any():
         if not closure.broken.any():
             notes.append("It is flat and encloses no volume: measure a shell.")
         return notes
+    flattened = int((~solid & ~closure.broken).sum())
+    if flattened:
+        notes.append("{:d} of its {:d} parts {:s} flat, enclose{:s} no volume and {:s} left out; delete what is flat, "
+                     "or measure it as a shell.".format(flattened, closure.number, *(
+                         ("is", "s", "is") if flattened == 1 else ("are", "", "are"))))
     flat, curved, share = caps.sum(axis=0)
     if flat:
         notes.append("{:s} capped exactly ({:.3g} % of the area).".format(

@@ -3,6 +3,7 @@
 """Curves as wires and as rims of flat regions, against closed forms and polygons of straight pieces."""
 
 from fractions import Fraction
+from math import comb
 
 import numpy as np
 import pytest
@@ -117,3 +118,19 @@ def test_lengths_follow_a_similarity_and_no_other_map():
     assert abs(moments.mapped(np.diag([2.0, 2.0, 2.0, 1.0])).total / (4.0 * np.pi) - 1.0) <= 1e-14
     with pytest.raises(ValueError):
         moments.mapped(np.diag([2.0, 1.0, 1.0, 1.0]))
+
+
+def test_the_length_of_lines_that_turn_back_has_an_estimate_that_holds():
+    """Also where they turn closer to an end than any point of a rule: against the sums of what lies between turns."""
+    rng = np.random.default_rng(1)
+    for _ in range(60):
+        order = int(rng.integers(3, 6))
+        x = rng.uniform(-1.0, 1.0, order)
+        line = Curve(clamped(order), np.stack([x, 0.0 * x, 0.0 * x], axis=1))
+        slope = sum(c * (order - 1) * comb(order - 2, i) * np.polynomial.Polynomial([0, 1]) ** i
+                    * np.polynomial.Polynomial([1, -1]) ** (order - 2 - i) for i, c in enumerate(np.diff(x)))
+        turns = slope.roots()
+        turns = np.sort(turns.real[(np.abs(turns.imag) < 1e-12) & (turns.real > 0.0) & (turns.real < 1.0)])
+        places = slope.integ()(np.concatenate([[0.0], turns, [1.0]]))
+        found = length_moments([line], 0)
+        assert abs(found.total - np.abs(np.diff(places)).sum()) <= found.error[0] <= 1e-9

@@ -172,6 +172,33 @@ def test_stored_float32_is_a_bound():
         assert (np.abs(moved.raw - exact.raw) <= exact.input + exact.error + moved.error).all()
 
 
+def test_stored_float32_is_a_bound_where_caps_are_larger_than_what_they_close():
+    disc, stored = tube(1.0, 0.0005), 1e-7
+    exact = measure_patches([disc], stored=stored).volume
+    points = disc.points + stored * np.array([[0, 0, -1], [0, 0, 1]])
+    moved = measure_patches([Patch(disc.spaces, points, disc.weights)]).volume
+    assert 1e-7 <= abs(moved.total - exact.total) <= exact.input[0] + exact.error[0] + moved.error[0]
+
+
+@pytest.mark.parametrize("patch", [flat([(5, 0, 0), (6, 0, 0), (6, 1, 0), (5, 1, 0)], (3, 4), ((0.5,), ())), sphere(),
+                                   torus(), tube()])
+def test_stored_float32_is_a_bound_of_the_area_too(patch):
+    stored = 1e-6
+    exact = measure_patches([patch], stored=stored).area
+    arms = patch.points - patch.points.mean(axis=(0, 1))
+    for move in (arms, np.sign(np.random.default_rng(0).uniform(-1, 1, arms.shape))):
+        points = patch.points + stored * move / np.linalg.norm(move, axis=2, keepdims=True).clip(1e-9)
+        moved = measure_patches([Patch(patch.spaces, points, patch.weights)]).area
+        assert abs(moved.total - exact.total) <= exact.input[0] + exact.error[0] + moved.error[0]
+    assert exact.input[0] <= 20.0 * stored * patch.points.shape[0]  # so it tells something
+
+
+def test_a_flat_part_beside_a_body_is_left_out_and_said():
+    found = measure_patches([sphere(), flat([(5, 0, 0), (6, 0, 0), (6, 1, 0), (5, 1, 0)])])
+    assert abs(found.volume.total / BALL - 1.0) <= 1e-14
+    assert any("1 of its 2 parts is flat" in warning for warning in found.warnings)
+
+
 def test_all_points_in_one_place_are_refused():
     with pytest.raises(ValueError, match="one place"):
         measure_patches([Patch((clamped(2), clamped(2)), np.ones((2, 2, 3)))])
