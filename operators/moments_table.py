@@ -106,7 +106,16 @@ def _shown(computed: Computed, of: str, about: str, frame: str) -> tuple[tuple[D
 
 def placed(computed: Computed, of: str, about: str, frame: str, order: int) -> Moments:
     """The moments along the axes of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or
-    "NORMALIZED", as `Moments.normalised` by size."""
+    "NORMALIZED", as `Moments.normalised` by size. ValueError where that cannot be, or leaves the range of numbers."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        moments = _placed(computed, of, about, frame, order)
+    if not np.isfinite([moments.raw, moments.error, moments.input]).all():
+        raise ValueError("So far from there, moments of order {:d} are beyond the range of numbers; show them about the "
+                         "center.".format(order))
+    return moments
+
+
+def _placed(computed: Computed, of: str, about: str, frame: str, order: int) -> Moments:
     moments = (computed.volume if of == "VOLUME" else computed.area).truncated(order)
     rotation = np.eye(3) if frame == "WORLD" else computed.rotation
     origin = moments.center if about != "ORIGIN" else np.zeros(3) if frame == "WORLD" else computed.location
@@ -175,6 +184,10 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         except Unreadable as error:
             self.report({"WARNING"}, str(error))
             return {"CANCELLED"}
+        if one.length is not None:
+            self.report({"WARNING"}, "{:s}: It is measured as a wire, which has neither volume nor area; measure it as "
+                        "a solid or a shell. The command line adds the moments of its length.".format(obj.name))
+            return {"CANCELLED"}
         area = one.area_moments.truncated(options.order)
         volume = area * one.thickness if one.volume_moments is None else one.volume_moments.truncated(options.order)
         key = (matrix_hash(obj), settings_hash(obj, scene), staleness.geometry_changes(obj))
@@ -182,8 +195,9 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         _kept[obj.session_uid] = Computed(obj.name, volume, area, one.rotation, one.location, key)
         while len(_kept) > KEPT:
             _kept.popitem(last=False)
-        self.report({"WARNING"} if one.warnings else {"INFO"}, ". ".join(
-            ["Computed {:d} moments of {:s}".format(len(volume.raw), obj.name), *one.warnings]))
+        self.report({"WARNING"} if one.warnings else {"INFO"}, " ".join(
+            ["Computed {:d} moments of {:s}{:s}".format(len(volume.raw), obj.name, "." * bool(one.warnings)),
+             *one.warnings]))
         return {"FINISHED"}
 
 
