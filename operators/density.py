@@ -67,14 +67,14 @@ def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
 
 
 def density_key(obj: bpy.types.Object, used: Iterable[str]) -> str:
-    """What of the settings and of materials decides the density, as a text; "" for one value or a given mass.
+    """What of the settings and of materials decides the density, as a text; "" for one value, a given mass or a wire.
 
     used: the full names of the materials that the last measurement met, beside those in the object's slots.
     """
     settings = obj.body_moments
     if obj.type == "VOLUME":
         return grid_key(obj)
-    if settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
+    if settings.kind == "WIRE" or settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
         return ""
     if settings.density_from == "VOLUME":
         source = settings.density_volume

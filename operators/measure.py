@@ -87,10 +87,10 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     options = resolved(options, obj, unit)
     shell = options.kind == "shell"
     try:
-        lines = _lines(obj, depsgraph, unit, options)
+        density = None if given or options.kind == "wire" else density_field(obj.body_moments)
+        lines = _lines(obj, depsgraph, unit, options) if density is None else None
         if lines is not None:
             return to_order(told(obj, *lines, options, unit), lines[1], options), lines[1]
-        density = None if given else density_field(obj.body_moments)
         reading = read_object(obj, depsgraph, materials=density is not None and density.kind == "materials",
                               attribute=density.attribute if density is not None and shell else None)
         if reading.has_patches and density is None:
@@ -100,6 +100,9 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
         if reading.has_patches:
             reading.warnings.append("A density that is not one value needs polygons: the display mesh of its surface "
                                     "was measured, as fine as the viewport's resolution.")
+        elif density is not None and shell and obj.type == "CURVE" and shows_flat_region(obj):
+            reading.warnings.append("A density that is not one value needs polygons: the faces that Blender fills the "
+                                    "curve with were measured, as fine as the viewport's resolution.")
         body = mesh_body(reading, unit, shell=shell, union=options.overlap == "union", threads=options.threads)
         weighed = None
         if density is not None:
@@ -197,7 +200,12 @@ def to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> M
             raise ValueError("Of a wall of real thickness only the moments of its volume to order {:d} are known; ask "
                              "for no more, or set Wall to Thin.".format(KNOWN))
         return measurement
-    volume, area = body.to_order(order, shell or options.surface)
+    with np.errstate(over="ignore", invalid="ignore"):
+        volume, area = body.to_order(order, shell or options.surface)
+    for one in (volume, area):
+        if one is not None and not np.isfinite([one.raw, one.error, one.input]).all():
+            raise ValueError("It is too large for moments of order {:d} to be numbers. Scale it down, or ask for a "
+                             "lower order.".format(order))
     return replace(measurement, volume_moments=None if shell else volume, area_moments=area or measurement.area_moments)
 
 

@@ -162,3 +162,27 @@ def test_a_plain_line_is_still_refused_as_a_solid_and_a_mesh_as_a_wire():
     cube.body_moments.kind = "WIRE"
     with pytest.raises(Unreadable, match="curve"):
         measured(cube)
+
+
+def test_a_flat_region_takes_the_density_that_is_not_one_value_and_says_what_was_measured():
+    obj = circle("bezier")
+    obj.data.dimensions, obj.data.fill_mode = "2D", "BOTH"
+    settings = obj.body_moments
+    settings.kind, settings.thickness = "SHELL", 0.5
+    settings.density_from, settings.density_polynomial = "POLYNOMIAL", "200 + 100*x"
+    found = measured(obj)
+    assert found.density_from.startswith("polynomial")
+    assert found.mass_properties.mass == pytest.approx(100.0 * np.pi, rel=5e-3)  # Blender's polygon is smaller
+    assert found.mass_properties.center[0] == pytest.approx(0.125, rel=5e-3)
+    assert any("needs polygons" in warning for warning in found.warnings)
+
+
+@pytest.mark.parametrize("source", ["POLYNOMIAL", "MATERIALS"])
+def test_a_wire_has_its_linear_density_and_is_up_to_date_whatever_its_density_comes_from(source):
+    from body_moments.operators import staleness
+
+    obj = circle()
+    obj.body_moments.kind, obj.body_moments.density_from = "WIRE", source
+    obj.select_set(True)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    assert staleness.reason(obj, bpy.context.scene) == ""

@@ -214,3 +214,33 @@ def test_a_script_gets_the_moments_of_an_object_as_the_readme_says(box):
     assert own[4, 4, 4] == pytest.approx(box_moment((4, 4, 4), (0, 0, 0), (1, 2, 3)), rel=1e-12)
     plain = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get())
     assert plain.volume_moments.order == 3 and plain.area_moments.order == 0  # nothing that nobody asked for
+
+
+def test_a_wire_has_no_moments_here(capfd):
+    bpy.ops.curve.primitive_nurbs_circle_add()
+    bpy.context.object.body_moments.kind = "WIRE"
+    assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
+    assert "measured as a wire" in capfd.readouterr().out
+
+
+def test_what_was_decided_is_told_in_whole_sentences(box, capfd):
+    box.body_moments.kind, box.body_moments.wall, box.body_moments.thickness = "SHELL", "INWARD", 0.125
+    compute(3)
+    told = capfd.readouterr().out
+    assert "Computed 20 moments of {:s}. Its wall was measured".format(box.name) in told and ".." not in told
+
+
+def test_moments_beyond_the_range_of_numbers_are_refused_not_shown(box, capfd):
+    box.scale = (1e12, 1e12, 1e12)
+    bpy.context.view_layer.update()
+    settings(moments_order=30)
+    assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
+    assert "too large for moments of order 30" in capfd.readouterr().out
+    box.scale, box.location = (1, 1, 1), (1e15, 0, 0)
+    bpy.context.view_layer.update()
+    compute(30)
+    settings(moments_of="VOLUME", moments_about="ORIGIN", frame="WORLD")
+    with pytest.raises(ValueError, match="beyond the range"):
+        rows()
+    settings(moments_about="CENTER")
+    assert np.isfinite(list(rows().values())).all()
