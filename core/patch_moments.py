@@ -22,9 +22,9 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from .bspline import gauss
 from .moments import Moments, U, monomials
 from .patch import Cells, Patch, at_gauss_points
+from .quadrature import gauss
 from .vectors import cross, dot
 
 TOLERANCE = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
