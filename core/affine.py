@@ -21,6 +21,14 @@ def monomial_count(order: int) -> int:
     return (order + 1) * (order + 2) * (order + 3) // 6
 
 
+def order_of(count: int) -> int:
+    """The lowest order whose monomials are at least `count`."""
+    order = 0
+    while monomial_count(order) < count:
+        order += 1
+    return order
+
+
 def index(p: int, q: int, r: int) -> int:
     """Where raw[p,q,r] stands: graded by degree, within a degree by (q+r, r)."""
     s = q + r
@@ -58,6 +66,12 @@ def raised_places(order: int) -> tuple[NDArray[np.int64], ...]:
     return tuple(np.array([index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int))
 
 
+def maps_last(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(3, 3, k) and (3, k): the linear parts and the offsets of (k, 4, 4) maps."""
+    rows = np.ascontiguousarray(np.asarray(matrices, np.float64)[:, :3].transpose(1, 2, 0))
+    return rows[:, :3], rows[:, 3]
+
+
 def horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
     """(K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the functional, (K, 1) or (K, k), l_i the linear forms
     of the k maps, linear (3, 3, k) and offset (3, k)."""
@@ -70,13 +84,13 @@ def horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDA
             by_r = by_q
             for r in range(order - p - q + 1):
                 out[index(p, q, r)] = by_r[0]
-                by_r = _times(forms[2], by_r, order - p - q - r)
-            by_q = _times(forms[1], by_q, order - p - q)
-        by_p = _times(forms[0], by_p, order - p)
+                by_r = times(forms[2], by_r, order - p - q - r)
+            by_q = times(forms[1], by_q, order - p - q)
+        by_p = times(forms[0], by_p, order - p)
     return out
 
 
-def _times(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.float64]:
+def times(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.float64]:
     """The functional multiplied by a linear form, one order shorter; nothing is left below order 0."""
     if not order:
         return values[:0]

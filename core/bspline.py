@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""B-splines of one parameter: function spaces, their values and derivatives, and Gauss rules per knot span.
+"""B-splines of one parameter: function spaces, their values and derivatives.
 
 A `Space` is what Soldea, Elber and Rivlin (Exact and efficient computation of moments of free-form surface and
 trivariate based geometry, section 2) call the function space of a direction: order and knots, without control points.
@@ -11,10 +11,9 @@ triangular scheme of Cox and de Boor, for many parameters at once; derivatives a
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 
@@ -118,15 +117,6 @@ class Space:
         table = np.zeros((len(parameters), self.count))
         np.add.at(table, (np.arange(len(parameters))[:, None], self.controls(spans)), values)
         return table
-
-
-@lru_cache
-def gauss(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Nodes and weights of the Gauss-Legendre rule on [0, 1], exact to degree 2 points - 1; read-only."""
-    nodes, weights = leggauss(points)
-    nodes, weights = (nodes + 1.0) / 2.0, weights / 2.0
-    nodes.flags.writeable = weights.flags.writeable = False
-    return nodes, weights
 
 
 def clamped(order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0) -> Space:

@@ -19,10 +19,10 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from .bspline import gauss
 from .curve import Curve
 from .moments import Moments, U, monomials
 from .patch_moments import ROUNDING, TOLERANCE
+from .quadrature import gauss
 
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # points; each is compared with the one before

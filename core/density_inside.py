@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .moments import Moments, U, monomials
+from .quadrature import triangle_rule
 
 PIECES = 1 << 17  # that are expected of the triangles taken at a time
 LARGEST = 1 << 27  # voxels of the box around the surface
@@ -40,6 +41,7 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
     exponents = monomials(order)
     total, size = np.zeros((2, len(exponents)))
     below = _sums_below(densities, about[2], order)
+    places, weights = triangle_rule((order + 3) // 2)  # exact to order + 1
     volume, terms = 0.0, 0
     for part in _batches(triangles, shape):
         pieces = _cut(triangles[part], shape)
@@ -49,20 +51,20 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
         if not len(pieces):
             continue
         a, b, c = pieces.transpose(1, 2, 0)
-        area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0
+        double = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         i, j, k = np.minimum(centers.astype(np.int64), shape - 1).T
         own = densities[i, j, k]
         corner = k - about[2]
         filled = [sums[i, j, k] for sums in below]
-        for (u, v, w), weight in zip(*_triangle_rule(order + 1)):
+        for (u, v, w), weight in zip(places.T, weights):
             x, y, z = u * a + v * b + w * c
             z = np.clip(z, k, k + 1.0)  # above the grid its whole column is filled
-            volume += float((area * weight) @ z)
+            volume += float((double * weight) @ z)
             x, y, z = x - about[0], y - about[1], z - about[2]
             columns = [sums + own * (z ** (r + 1) - corner ** (r + 1)) / (r + 1) for r, sums in enumerate(filled)]
             xs, ys = _powers(x, order), _powers(y, order)
             for n, (p, q, r) in enumerate(exponents.tolist()):
-                term = area * weight * xs[p] * ys[q] * columns[r]
+                term = double * weight * xs[p] * ys[q] * columns[r]
                 total[n] += term.sum()
                 size[n] += np.abs(term).sum()
         terms = max(terms, len(pieces))
@@ -137,12 +139,3 @@ def _halves(triangles: NDArray, axis: int, plane: NDArray) -> NDArray[np.float64
     pieces = np.concatenate([np.stack(corners, axis=1) for corners in ((a, ab, ac), (ab, b, c), (ab, c, ac))])
     doubled = np.cross(pieces[:, 1] - pieces[:, 0], pieces[:, 2] - pieces[:, 0])
     return pieces[(doubled != 0.0).any(axis=1)]
-
-
-def _triangle_rule(degree: int) -> tuple[NDArray, NDArray]:
-    """(m, 3) barycentric coordinates and (m,) weights that sum to one: Gauss's rule on a collapsed square."""
-    nodes, weights = np.polynomial.legendre.leggauss(-(-(degree + 2) // 2))
-    nodes, weights = (nodes + 1.0) / 2.0, weights / 2.0
-    s, t = np.meshgrid(nodes, nodes, indexing="ij")
-    weight = 2.0 * np.outer(weights * (1.0 - nodes), weights)
-    return np.stack([s, (1.0 - s) * t, (1.0 - s) * (1.0 - t)], axis=-1).reshape(-1, 3), weight.reshape(-1)

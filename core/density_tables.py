@@ -20,6 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .quadrature import gauss
+
 MAX_ORDER = 16  # of the splines: a sane limit, far above any use
 
 
@@ -115,11 +117,11 @@ def cut_supports(knots: ArrayLike, order: int, degree: int, low: float, high: fl
     table = np.zeros((degree + 1, len(knots) - order))
     edges = np.clip(np.stack([knots[:-1], knots[1:]]), low, high)
     spans = np.flatnonzero(edges[1] > edges[0])
-    nodes, weights = np.polynomial.legendre.leggauss(-(-(order + degree) // 2))
-    half = (edges[1, spans] - edges[0, spans]) / 2.0
-    t = (edges[0, spans] + half)[:, None] + half[:, None] * nodes
+    nodes, weights = gauss(-(-(order + degree) // 2))
+    length = (edges[1, spans] - edges[0, spans])[:, None]
+    t = edges[0, spans, None] + length * nodes
     basis = basis_functions(knots, order, spans, t)
-    weight = half[:, None] * weights
+    weight = length * weights
     for power in range(degree + 1):
         for j in range(order):
             where = spans - order + 1 + j

@@ -27,7 +27,8 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from .sheynin_tuzikov import Number, Vector, cross, dot, exponents_to, sigma
+from .sheynin_tuzikov import exponents_to, sigma
+from .vectors import Number, Vector, cross, dot
 
 # (divisor of the sum of c_j (p⊥·n) times these products; the products: a is p_j, b is p_{j+1}, p is p⊥, with an integer
 # multiple each). The paper's fractions are brought to one denominator: 1/5 · 1/12 · {1, 1/2}, 1/6 · 1/20 · {1, 1/3,

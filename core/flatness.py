@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from .surface import Surface
 from .topology import mesh_faces
+from .vectors import cross, dot
 
 BLOCK = 1 << 14
 FLAT = 1e-6  # of the square root of a face's area
@@ -71,14 +72,6 @@ def _spans(columns: NDArray, faces: NDArray, *pairs: tuple[int, int]) -> list[li
     return [[corner[i] - corner[j] for corner in corners] for i, j in pairs]
 
 
-def _cross(u: list[NDArray], v: list[NDArray]) -> list[NDArray]:
-    return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
-
-
-def _dot(u: list[NDArray], v: list[NDArray]) -> NDArray:
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-
-
 def _warped(volume: NDArray, square: NDArray, error: float) -> NDArray[np.intp]:
     """Where |volume| is more than the normal, whose square is given, times the height that a flat face may have."""
     near = np.flatnonzero(volume * volume > square * (64.0 * error * error))
@@ -90,15 +83,15 @@ def _bare(square: NDArray, first: list[NDArray], second: list[NDArray], error: f
     """Where a face, of the body brought to size 1, is narrower than its coordinates' errors."""
     if square.min() > 3.0 * (error * error + 3.0 * NO_AREA * NO_AREA):  # no face is longer than √3
         return np.empty(0, np.intp)
-    longest = np.maximum(_dot(first, first), _dot(second, second))
+    longest = np.maximum(dot(first, first), dot(second, second))
     return np.flatnonzero(square <= longest * (error * error + NO_AREA * NO_AREA * longest))
 
 
 def _quads(columns: NDArray, quads: NDArray, error: float) -> tuple[int, float, NDArray[np.intp]]:
     first, second, third = _spans(columns, quads, (2, 0), (3, 1), (1, 0))
-    normal = _cross(first, second)
-    volume = _dot(third, normal)
-    square = _dot(normal, normal)
+    normal = cross(first, second)
+    volume = dot(third, normal)
+    square = dot(normal, normal)
     warped = _warped(volume, square, error)
     spread = float(np.abs(volume[warped]).sum(dtype=np.float64)) / 6.0
     return len(warped), spread, _bare(square, first, second, error)
@@ -106,8 +99,8 @@ def _quads(columns: NDArray, quads: NDArray, error: float) -> tuple[int, float, 
 
 def _triangles(columns: NDArray, triangles: NDArray, error: float) -> NDArray[np.intp]:
     first, second = _spans(columns, triangles, (1, 0), (2, 0))
-    normal = _cross(first, second)
-    return _bare(_dot(normal, normal), first, second, error)
+    normal = cross(first, second)
+    return _bare(dot(normal, normal), first, second, error)
 
 
 def _polygons(columns: NDArray, surface: Surface, triangle_faces: NDArray, error: float) -> tuple[int, float]:
@@ -128,7 +121,7 @@ def _polygons(columns: NDArray, surface: Surface, triangle_faces: NDArray, error
     ring = surface.corner_vertices.astype(np.intp)
     corners = np.stack([ring[begin[row]], ring[begin[row] + 1], ring[at], ring[at + 1]], axis=1)
     first, second, third = _spans(columns, corners, (2, 0), (3, 1), (1, 0))
-    normal = _cross(first, second)
-    volume = _dot(third, normal).astype(np.float64)
-    warped = _warped(volume, _dot(normal, normal), error)
+    normal = cross(first, second)
+    volume = dot(third, normal).astype(np.float64)
+    warped = _warped(volume, dot(normal, normal), error)
     return len(np.unique(row[warped])), float(np.abs(volume[warped]).sum()) / 6.0

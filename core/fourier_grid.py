@@ -20,7 +20,6 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator
 from dataclasses import replace
-from functools import lru_cache
 from math import factorial
 
 import numpy as np
@@ -29,6 +28,7 @@ from numpy.typing import NDArray
 from .fourier import Transform, finished
 from .nufft import WIDTHS, Spreading, aliasing
 from .precise import normals
+from .quadrature import triangle_rule
 from .spectrum import APPROXIMATE, Spectrum
 from .surface import Surface
 from .triangle_waves import PAIRS, Means
@@ -129,20 +129,20 @@ class GridTransform(Transform):
     def _nodes(self, triangles: NDArray, n: int) -> tuple[NDArray, NDArray, NDArray]:
         """(3, m, k) points in triangles, (3, m) the normals and (k,) weights."""
         corners = [self.faces.points[corner].T for corner in triangles.T]
-        shares, weights = _rule(n)
+        shares, weights = triangle_rule(n)
         return sum(corner[..., None] * share for corner, share in zip(corners, shares)), normals(*corners), weights
 
     def steps(self) -> Iterator[float]:
         """Do the work, and tell after each share of it how much is done, from 0 to 1."""
         yield from self._share()
         direct = len(self.direct.triangles) * len(self.sums) * DIRECT_COST
-        total = direct + self.width**3 * sum(len(rows) * len(_rule(n)[1]) for n, rows in self.fine)
+        total = direct + self.width**3 * sum(len(rows) * len(triangle_rule(n)[1]) for n, rows in self.fine)
         done = 0.0
         for share in super().steps():
             done = share * direct
             yield done / total
         for n, rows in self.fine:
-            count = len(_rule(n)[1])
+            count = len(triangle_rule(n)[1])
             size = max(1, CHUNK // count)
             for start in range(0, len(rows), size):
                 some = rows[start:start + size]
@@ -198,29 +198,6 @@ def _points(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
         bound = 2.0 * (span / 4.0)**(2 * n) / factorial(2 * n) / np.maximum(1.0 - ratio, 0.1)
         limits.append(span[(bound <= tolerance) & (ratio < 0.9)].max())
     return np.searchsorted(np.maximum.accumulate(limits), spans) + 1
-
-
-@lru_cache
-def _rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(3, k) barycentric coordinates and (k,) weights, positive and of sum 1/2, exact to degree 2n-1.
-
-    Gauss's rule across a triangle and, for the weight 1 - u that its narrowing brings, Gauss's and Jacobi's towards its
-    tip (from the eigenvalues of their matrix, Golub and Welsch 1969), n² points; for n = 3 Radon's seven (1948).
-    """
-    if n == 3:
-        root = np.sqrt(15.0)
-        places = [[1.0 / 3.0] * 3, *(np.roll([1.0 - 2.0 * a, a, a], k)
-                                     for a in ((6.0 - root) / 21.0, (6.0 + root) / 21.0) for k in range(3))]
-        return np.array(places).T, np.array([270.0, *[155.0 - root] * 3, *[155.0 + root] * 3]) / 2400.0
-    k = np.arange(n)
-    beside = np.sqrt((k[1:] * (k[1:] + 1.0)) / (2.0 * k[1:] + 1.0)**2)
-    u, vectors = np.linalg.eigh(np.diag(-1.0 / ((2.0 * k + 1.0) * (2.0 * k + 3.0))) + np.diag(beside, 1)
-                                + np.diag(beside, -1))
-    u, towards = (u + 1.0) / 2.0, vectors[0]**2 / 2.0
-    v, across = np.polynomial.legendre.leggauss(n)
-    second = np.outer(1.0 - u, (v + 1.0) / 2.0).reshape(-1)
-    first = np.repeat(u, n)
-    return np.stack([1.0 - first - second, first, second]), np.outer(towards, across / 2.0).reshape(-1)
 
 
 def _trial(grid: Grid) -> NDArray[np.float64]:

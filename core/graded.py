@@ -15,8 +15,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .affine import _times, horner, monomial_count, monomials, raised_places
-from .moments import BLOCK, Moments, U, _weights
+from .affine import horner, maps_last, monomial_count, monomials, order_of, raised_places, times
+from .moments import BLOCK, Moments, U, measure_factors
 from .polynomial import Polynomial
 
 SHEARED = 1e-5  # the cosine of axes that float32 rotations never show
@@ -38,8 +38,8 @@ def graded_sum(moments: Moments, density: Polynomial, matrices: NDArray, fields:
     if order < 0:
         raise ValueError("the moments do not reach the degree of the density")
     fields = matrices if fields is None else fields
-    linear, places = _rows(matrices)
-    turn, shift = _rows(fields)
+    linear, places = maps_last(matrices)
+    turn, shift = maps_last(fields)
     point, extent = moments.about[:, None], np.abs(moments.about)[:, None]
     origins = (linear * point).sum(axis=1) + places
     about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
@@ -54,7 +54,7 @@ def graded_sum(moments: Moments, density: Polynomial, matrices: NDArray, fields:
                             + np.abs(home)[:, None])
         weighed, weighed_error, weighed_input = _weighed(moments, order, terms, forms, astray)
         maps, offset = linear[:, :, part], origins[:, part] - about[:, None]
-        weight, weight_error, deviation = _weights(moments.of, maps)
+        weight, weight_error, deviation = measure_factors(moments.of, maps)
         weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
         raw += (horner(weighed, order, maps, offset) * weight).sum(axis=1)
         slack = 6.0 * U * ((np.abs(maps) * extent).sum(axis=1) + np.abs(places[:, part]) + np.abs(about)[:, None])
@@ -67,12 +67,6 @@ def graded_sum(moments: Moments, density: Polynomial, matrices: NDArray, fields:
         error += rounding.sum(axis=1)
         inputs += (weight * (moved + deviation * (size + moved))).sum(axis=1)
     return Moments(raw, about, "mass", error, inputs)
-
-
-def _rows(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(3, 3, k) and (3, k): linear parts and offsets, maps last."""
-    rows = np.ascontiguousarray(np.asarray(matrices, np.float64)[:, :3].transpose(1, 2, 0))
-    return rows[:, :3], rows[:, 3]
 
 
 def _weighed(moments: Moments, order: int, terms: Terms, forms: tuple[NDArray, NDArray], astray: NDArray
@@ -100,9 +94,7 @@ def _product(values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, ND
     """(K, k) the functional with (K',) values times Σ c l0^p l1^q l2^r, l the linear forms of the k columns."""
     linear, offset = forms
     count = monomial_count(order)
-    top = order
-    while monomial_count(top) < len(values):
-        top += 1
+    top = order_of(len(values))
     l0, l1, l2 = ((offset[i], *linear[i]) for i in range(3))
     out = np.zeros((count, offset.shape[1]))
     by_p = np.broadcast_to(values[:, None], (len(values), offset.shape[1]))
@@ -115,11 +107,11 @@ def _product(values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, ND
                 if (p, q, r) in terms:
                     out += terms[p, q, r] * by_r[:count]
                 if r < last:
-                    by_r = _times(l2, by_r, top - p - q - r)
+                    by_r = times(l2, by_r, top - p - q - r)
             if top > p + q:
-                by_q = _times(l1, by_q, top - p - q)
+                by_q = times(l1, by_q, top - p - q)
         if top > p:
-            by_p = _times(l0, by_p, top - p)
+            by_p = times(l0, by_p, top - p)
     return out
 
 

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from .moments import SECOND, U, index, monomial_count, monomials
 from .surface import Surface
+from .vectors import cross
 
 BLOCK = 65536  # triangles at a time
 PAIRS = [(i, j) for i in range(3) for j in range(i, 3)]
@@ -91,7 +92,7 @@ def _gradient(surface: Surface, about: NDArray, order: int, shares: Callable) ->
         place, count = part - low, int(part.max()) - low + 1
         corners = points[part].transpose(1, 2, 0)  # corner, axis, triangle
         edges = (corners[1] - corners[0], corners[2] - corners[0])
-        normal = _cross(*edges)
+        normal = np.stack(cross(*edges))
         size = np.sqrt(np.maximum.reduce([np.einsum("im,im->m", edge, edge) for edge in edges]))
         rows = shares(corners, corners - about[:, None], normal, kinds)
         bound = size * size
@@ -134,8 +135,8 @@ def _area_shares(corners: NDArray, local: NDArray, normal: NDArray, kinds: int) 
     for i, j in pairs:
         mean[SECOND[i, j]] = (np.einsum("km,km->m", local[:, i], local[:, j]) + total[i] * total[j]) / 24.0
     for k, own in enumerate(local):
-        turn = _cross(corners[(k + 1) % 3] - corners[(k + 2) % 3], unit)
-        values = mean[:, None] * turn
+        turn = cross(corners[(k + 1) % 3] - corners[(k + 2) % 3], unit)
+        values = mean[:, None] * np.stack(turn)
         for i in range(3):
             values[index(*np.eye(3, dtype=int)[i]), i] += double / 6.0
         for i, j in pairs:
@@ -143,8 +144,3 @@ def _area_shares(corners: NDArray, local: NDArray, normal: NDArray, kinds: int) 
             row[i] += double * (total[j] + own[j]) / 24.0
             row[j] += double * (total[i] + own[i]) / 24.0
         yield values
-
-
-def _cross(u: NDArray, v: NDArray) -> NDArray[np.float64]:
-    """The vector products of (3, m) columns."""
-    return np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])

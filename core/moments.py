@@ -19,7 +19,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .affine import horner, index, monomial_count, monomials, raised_places, shift, turn
+from .affine import horner, index, maps_last, monomial_count, monomials, order_of, raised_places, shift, turn
 
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
 BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
@@ -56,11 +56,7 @@ class Moments:
 
     @property
     def order(self) -> int:
-        count, order = 1, 0
-        while count < len(self.raw):
-            order += 1
-            count = monomial_count(order)
-        return order
+        return order_of(len(self.raw))
 
     def __getitem__(self, exponents: tuple[int, int, int]) -> float:
         return float(self.raw[index(*exponents)])
@@ -198,8 +194,7 @@ def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None)
 
     matrices: (k, 4, 4), as for `Moments.mapped`. about: (3,), by default the mean of the images of `moments.about`.
     """
-    rows = np.ascontiguousarray(np.asarray(matrices, np.float64)[:, :3].transpose(1, 2, 0))  # (3, 4, k), maps last
-    linear, places = rows[:, :3], rows[:, 3]
+    linear, places = maps_last(matrices)
     point = moments.about[:, None]
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + places
     about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
@@ -208,7 +203,7 @@ def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None)
     for start in range(0, len(matrices), block):
         part = slice(start, start + block)
         maps = linear[:, :, part]
-        weight, weight_error, deviation = _weights(moments.of, maps)
+        weight, weight_error, deviation = measure_factors(moments.of, maps)
         offset = origins[:, part] - about[:, None]
         # The images of the reference point are rounded, and the body moves with them.
         stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
@@ -268,7 +263,7 @@ def _bounds(moments: Moments, stretch: NDArray, reach: NDArray, slack: NDArray, 
     return rounding[degree], mapped_input[degree]
 
 
-def _weights(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+def measure_factors(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     """(k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and by how much the
     map fails to have one factor."""
     exact = np.zeros(linear.shape[2])

@@ -22,9 +22,11 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from .bspline import Space, gauss
+from .bspline import Space
 from .moments import Moments, U, monomials
 from .patch import Cells, Patch, at_gauss_points
+from .quadrature import gauss
+from .vectors import cross, dot
 
 TOLERANCE = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
 AREA_TOLERANCE = 1e-11
@@ -107,7 +109,7 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
 
     def area(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, NDArray]:
         (s, along, across), weights = at_gauss_points(patch, cells, rule, 1, about)
-        element = weights * _length(np.stack(_cross(along, across)))
+        element = weights * _length(np.stack(cross(along, across)))
         return moments_of(s, element, order), element.sum(axis=(1, 2))
 
     found = adaptive(patches, area, reach ** degree.astype(np.float64), tolerance)
@@ -158,10 +160,10 @@ def _slope_of_tile(along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArra
         place, s_bottom, t_bottom = place[:3] / bottom, by_s[3] / bottom, by_t[3] / bottom
         by_s, by_t = by_s[:3] / bottom - place * s_bottom, by_t[:3] / bottom - place * t_bottom
         weights = weights / bottom
-    normal = np.stack(_cross(by_s, by_t))
+    normal = np.stack(cross(by_s, by_t))
     length = _length(normal)
     unit = normal / np.where(length > 0.0, length, 1.0) * weights
-    s_force, t_force = np.stack(_cross(by_t, unit)), np.stack(_cross(unit, by_s))
+    s_force, t_force = np.stack(cross(by_t, unit)), np.stack(cross(unit, by_s))
     parts = [(s_slope, s_force, t), (s, t_force, t_slope)]
     if rational:
         parts.append((s, -(s_force * s_bottom + t_force * t_bottom), t))
@@ -183,14 +185,14 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
 
     def sheet(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, NDArray]:
         (s, along, across, *second), weights = at_gauss_points(patch, cells, rule, 2, about)
-        normal = np.stack(_cross(along, across))
+        normal = np.stack(cross(along, across))
         length = _length(normal)
         with np.errstate(divide="ignore", invalid="ignore"):
             unit = np.where(length > 0.0, normal / length, 0.0)
-            turning = [_tangent(np.stack(_cross(second[k], across)) + np.stack(_cross(along, second[k + 1])), unit)
+            turning = [_tangent(np.stack(cross(second[k], across)) + np.stack(cross(along, second[k + 1])), unit)
                        / np.where(length > 0.0, length, 1.0) for k in (0, 1)]
         # (1 - k h) and (1 - k' h), k and k' the curvatures, must both be positive: their product, and their sum too.
-        bend = _dot(np.stack(_cross(along, turning[1])) + np.stack(_cross(turning[0], across)), unit)
+        bend = dot(np.stack(cross(along, turning[1])) + np.stack(cross(turning[0], across)), unit)
         for height in (inner, outer):
             product = _stretch(along, across, turning, unit, height)
             if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
@@ -212,7 +214,7 @@ def vector_area(patches: Sequence[Patch], points: int = 16) -> NDArray[np.float6
     total = np.zeros(3)
     for patch in patches:
         (_, along, across), weights = at_gauss_points(patch, Cells.of(patch), (points, points), 1, np.zeros(3))
-        total += (np.stack(_cross(along, across)) * weights).sum(axis=(1, 2, 3))
+        total += (np.stack(cross(along, across)) * weights).sum(axis=(1, 2, 3))
     return total
 
 
@@ -303,26 +305,18 @@ def moments_of(points: NDArray, weights: NDArray, order: int) -> NDArray[np.floa
     return np.stack([columns[tuple(row)] for row in monomials(order).tolist()], axis=1)
 
 
-def _cross(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-def _dot(a: NDArray, b: NDArray) -> NDArray[np.float64]:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
 def _triple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    return _dot(a, _cross(b, c))
+    return dot(a, cross(b, c))
 
 
 def _length(a: NDArray) -> NDArray[np.float64]:
-    return np.sqrt(_dot(a, a))
+    return np.sqrt(dot(a, a))
 
 
 def _tangent(a: NDArray, unit: NDArray) -> NDArray[np.float64]:
-    return a - _dot(a, unit) * unit
+    return a - dot(a, unit) * unit
 
 
 def _stretch(along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float) -> NDArray:
     """The jacobian of the sheet at a height: |S_s x S_t| (1 - 2 H h + K h²), by the offset surface's derivatives."""
-    return _dot(_cross(along + height * turning[0], across + height * turning[1]), unit)
+    return dot(cross(along + height * turning[0], across + height * turning[1]), unit)

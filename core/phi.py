@@ -16,7 +16,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .bspline import Space, gauss
+from .bspline import Space
+from .quadrature import gauss
 
 MOST_ENTRIES = 2_000_000
 

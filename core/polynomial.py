@@ -22,7 +22,8 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .moments import U, index, monomial_count, monomials
+from .affine import index, monomial_count, monomials, order_of
+from .moments import U
 
 HIGHEST = 17  # mass moments to order 3 then need those of the body to order 20
 LONGEST = 4096  # bits of a number, and characters of a text
@@ -141,9 +142,7 @@ def parse(text: str) -> Polynomial:
 
 
 def _from_list(values: list[Fraction]) -> dict[Exponents, Fraction]:
-    degree = 0
-    while monomial_count(degree) < len(values):
-        degree += 1
+    degree = order_of(len(values))
     if degree > HIGHEST:
         raise ValueError("There are too many coefficients: the degree is at most {:d}.".format(HIGHEST))
     return {tuple(row): value for row, value in zip(monomials(degree).tolist(), values) if value}

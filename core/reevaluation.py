@@ -16,10 +16,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from .bspline import Space, gauss
+from .bspline import Space
 from .moments import Moments, monomials
 from .patch import Patch
 from .patch_moments import exact_points
+from .quadrature import gauss
 
 TILE = 8  # spans along each direction that are evaluated together
 RATIONAL = 16  # Gauss points in a span of a rational patch

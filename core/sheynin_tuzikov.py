@@ -15,15 +15,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from math import comb, factorial, sqrt
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .moments import monomials
-
-Number = TypeVar("Number")
-Vector = Sequence[Number]  # x, y, z
+from .vectors import Number, Vector, cross, dot, minus
 
 
 def sigma(exponents: tuple[int, int, int], a: Vector, b: Vector, c: Vector) -> Number:
@@ -113,15 +110,3 @@ def _powers(value: Number, order: int) -> list[Number]:
     for _ in range(order):
         powers.append(powers[-1] * value)
     return powers
-
-
-def minus(u: Vector, v: Vector) -> Vector:
-    return u[0] - v[0], u[1] - v[1], u[2] - v[2]
-
-
-def cross(u: Vector, v: Vector) -> Vector:
-    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
-
-
-def dot(u: Vector, v: Vector) -> Number:
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]

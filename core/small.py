@@ -23,8 +23,6 @@ CUBE = np.array([[6 * i + TENSOR[j, k], 6 * j + TENSOR[i, k], 6 * k + TENSOR[i, 
 FACTORS = np.repeat([1.0, 2.0, 1.0, 4.0 / 3.0], [1, 3, 6, 10])  # of the sums of `blocks`, to whose divisors these bring
 
 
-
-
 def few(points: NDArray, center: NDArray, triangles: NDArray, *, area: bool, shell: bool) -> Rows:
     """The sums of `blocks` over all triangles, (m, 3), as one block; the third order is exact.
 

@@ -15,6 +15,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .vectors import cross, dot
+
 ROW = 512  # points whose coordinates are compared as one row
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
@@ -139,18 +141,6 @@ def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
     it flips where the normals of the two triangles at the first diagonal face away from each other.
     """
     a, b, c, d = (points.astype(np.float32, copy=False)[quads[:, i]] for i in range(4))
-    first, second, diagonal = b - a, d - a, c - a
+    first, second, diagonal = (b - a).T, (d - a).T, (c - a).T
     with np.errstate(over="ignore", invalid="ignore"):
-        return _dot(_cross(first, diagonal), _cross(second, diagonal)) > 0.0
-
-
-def _cross(u: NDArray, v: NDArray) -> NDArray:
-    return np.stack([
-        u[:, 1] * v[:, 2] - u[:, 2] * v[:, 1],
-        u[:, 2] * v[:, 0] - u[:, 0] * v[:, 2],
-        u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0],
-    ], axis=1)
-
-
-def _dot(u: NDArray, v: NDArray) -> NDArray:
-    return u[:, 0] * v[:, 0] + u[:, 1] * v[:, 1] + u[:, 2] * v[:, 2]
+        return dot(cross(first, diagonal), cross(second, diagonal)) > 0.0

@@ -27,6 +27,7 @@ from .offset import UNEVEN, blocks, offset_directions
 from .polyhedron import PAIRWISE
 from .surface import Surface
 from .topology import find_edges
+from .vectors import cross
 from .weld import equal_positions
 
 ORDER = 3
@@ -186,7 +187,9 @@ class _Prisms:
         u, v, w = self.vectors = vectors.transpose(1, 2, 0)
         self.points = points.transpose(1, 2, 0) - about[:, None]
         self.edges, self.turns = (b - a, c - a), (v - u, w - u)
-        self.normals = (_cross(b - a, c - a), _cross(b - a, w - u) + _cross(v - u, c - a), _cross(v - u, w - u))
+        plain, first, second, turned = (np.stack(cross(one, other)) for one in (b - a, v - u)
+                                        for other in (c - a, w - u))
+        self.normals = plain, first + second, turned
         # power of s, corner, prism
         self.own = np.array([[np.einsum("im,im->m", normal, vector) for vector in self.vectors]
                              for normal in self.normals])
@@ -239,7 +242,6 @@ class _Prisms:
             rows.append(np.array(change + place))
         return np.add.reduce(np.array(rows), axis=2) / 2.0
 
-
     def swept(self, slide: NDArray, lift: NDArray, stored: float) -> NDArray[np.float64]:
         """(4,) coefficients in s of what the triangles and what they have become at s sweep together, when points move
         by `stored` and directions by `slide` in all and `lift` along the normals."""
@@ -250,11 +252,6 @@ class _Prisms:
         rows = [2.0 * size[0] * stored, size[1] * stored + size[0] * lift,
                 size[2] * stored + along[1] * lift + across[1] * slide, along[2] * lift + across[2] * slide]
         return np.add.reduce(np.array(rows), axis=1) / 2.0
-
-
-def _cross(u: NDArray, v: NDArray) -> NDArray[np.float64]:
-    """The vector products of (3, m) columns."""
-    return np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
 
 
 def _propagated(bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float

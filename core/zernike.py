@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 
 from .harmonics import Multiplets, both_signs, harmonic_moments
 from .moments import U
+from .quadrature import triangle_rule
 
 BY_MOMENTS = 20  # the highest order that raw moments in float64 give
 ENOUGH = 1e-9  # the error of a descriptor that raw moments may have
@@ -75,7 +76,7 @@ def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multi
     total = {key: np.zeros(key[1] + 1, complex) for key in degrees(order)}
     for needed in np.unique(nodes):
         faces = np.flatnonzero(nodes == needed)
-        u, v, weight = _rule(int(needed))
+        (_, u, v), weight = triangle_rule(int(needed) + 1)
         step = max(1, POINTS // len(u))
         for start in range(0, len(faces), step):
             a, b, c = (corner[faces[start:start + step]] for corner in corners)
@@ -94,17 +95,6 @@ def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
         # Gauss's rule: the error of e^(ix) over [-phase/2, phase/2] is (phase/2)^2g / (2g)! in size.
         needed[(phase / 2.0) ** (2 * g) / factorial(2 * g) < PRECISE] = g
     return needed
-
-
-@lru_cache
-def _rule(needed: int) -> tuple[NDArray, NDArray, NDArray]:
-    """(k,) u, v, weights over the triangle u, v ≥ 0, u + v ≤ 1: Gauss-Legendre in each direction of a square that is
-    pressed together at a corner."""
-    nodes, weights = np.polynomial.legendre.leggauss(needed + 1)
-    nodes, weights = (nodes + 1.0) / 2.0, weights / 2.0
-    u, v = np.meshgrid(nodes, nodes, indexing="ij")
-    weight = np.outer(weights * (1.0 - nodes), weights)
-    return u.ravel(), ((1.0 - u) * v).ravel(), weight.ravel()
 
 
 def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> None:

@@ -24,7 +24,7 @@ from fractions import Fraction
 from itertools import product
 from math import factorial, prod
 
-from .sheynin_tuzikov import Number, Vector, cross, dot
+from .vectors import Number, Vector, cross, dot
 
 
 def signed_area(points: Sequence[Vector], edges: Sequence[tuple[int, int]]) -> Number:

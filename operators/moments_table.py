@@ -114,8 +114,8 @@ def placed(computed: Computed, of: str, about: str, frame: str, order: int) -> M
     with np.errstate(over="ignore", invalid="ignore"):
         moments = _placed(computed, of, about, frame, order)
     if not np.isfinite([moments.raw, moments.error, moments.input]).all():
-        raise ValueError("So far from there, moments of order {:d} are beyond the range of numbers; show them about the "
-                         "center.".format(order))
+        raise ValueError("So far from there, moments of order {:d} are beyond the range of numbers; show them about "
+                         "the center.".format(order))
     return moments
 
 
@@ -189,12 +189,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
             self.report({"WARNING"}, str(error))
             return {"CANCELLED"}
         if one.length is not None:
-<<<<<<< HEAD
             self.report({"WARNING"}, NO_WIRE.format(obj.name))
-=======
-            self.report({"WARNING"}, "{:s}: It is measured as a wire, which has neither volume nor area; measure it as "
-                        "a solid or a shell. The command line adds the moments of its length.".format(obj.name))
->>>>>>> c8e22b25eef00cd29293c64109407f6429921512
             return {"CANCELLED"}
         area = one.area_moments.truncated(options.order)
         volume = area * one.thickness if one.volume_moments is None else one.volume_moments.truncated(options.order)
@@ -203,17 +198,11 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         _kept[obj.session_uid] = Computed(obj.name, volume, area, one.rotation, one.location, key)
         while len(_kept) > KEPT:
             _kept.popitem(last=False)
-<<<<<<< HEAD
         told = "Computed {:d} moments of {:s}".format(len(volume.raw), obj.name)
         if one.warnings:
             self.report({"WARNING"}, " ".join([told + ".", *one.warnings]))
         else:
             self.report({"INFO"}, told)
-=======
-        self.report({"WARNING"} if one.warnings else {"INFO"}, " ".join(
-            ["Computed {:d} moments of {:s}{:s}".format(len(volume.raw), obj.name, "." * bool(one.warnings)),
-             *one.warnings]))
->>>>>>> c8e22b25eef00cd29293c64109407f6429921512
         return {"FINISHED"}
 
 

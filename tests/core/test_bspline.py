@@ -8,7 +8,8 @@ from itertools import product
 import numpy as np
 import pytest
 from body_moments.core.blender_knots import blender_knots, blender_space, is_valid
-from body_moments.core.bspline import Space, clamped, gauss
+from body_moments.core.bspline import Space, clamped
+from body_moments.core.quadrature import gauss
 
 from tests.core.exact_splines import span_polynomials
 

@@ -11,6 +11,7 @@ from body_moments.core.fourier import finished, solid_transform, surface_transfo
 from body_moments.core.fourier_grid import GridTransform
 from body_moments.core.nufft import Spreading, aliasing
 from body_moments.core.polyhedron import solid_and_area
+from body_moments.core.quadrature import triangle_rule
 from body_moments.core.waves import Grid
 
 from tests.core import bodies
@@ -121,7 +122,7 @@ def test_grids_that_are_none_are_refused(count, largest):
 
 @pytest.mark.parametrize("n", range(1, 25))
 def test_the_rules_on_triangles_are_exact_to_their_degree(n):
-    places, weights = fourier_grid._rule(n)
+    places, weights = triangle_rule(n)
     assert (places > 0.0).all() and (weights > 0.0).all()
     assert places.sum(axis=0) == pytest.approx(1.0)
     for p in range(2 * n):
@@ -134,13 +135,13 @@ def test_the_bound_of_the_points_holds():
     rng = np.random.default_rng(8)
     for span in (0.1, 1.0, 3.0, 6.0, 12.0):
         for n in range(1, 9):
-            places, weights = fourier_grid._rule(n)
+            places, weights = triangle_rule(n)
             bounded = [tolerance for tolerance in 10.0 ** np.arange(-14, 3)
                        if fourier_grid._points(np.array([span]), tolerance)[0] <= n]
             if not bounded:
                 continue
             phases = rng.uniform(0.0, span, (200, 3))
             phases -= phases.mean(axis=1)[:, None]
-            fine, more = fourier_grid._rule(24)
+            fine, more = triangle_rule(24)
             error = np.exp(-1j * (phases @ places)) @ weights - np.exp(-1j * (phases @ fine)) @ more
             assert np.abs(error).max() <= bounded[0] + 1e-15
