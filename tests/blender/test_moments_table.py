@@ -220,7 +220,7 @@ def test_a_wire_has_no_moments_here(capfd):
     bpy.ops.curve.primitive_nurbs_circle_add()
     bpy.context.object.body_moments.kind = "WIRE"
     assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
-    assert "measured as a wire" in capfd.readouterr().out
+    assert "It is a wire" in capfd.readouterr().out
 
 
 def test_what_was_decided_is_told_in_whole_sentences(box, capfd):
