@@ -18,8 +18,10 @@ from .grid_options import GridOptions
 from .mesh_body import mesh_body
 from .read import Part, Reading
 from .read.volume import VolumeReading
+from .weigh import LARGEST
 
-EMPTY = "Every voxel of its grid is empty; choose another grid, or see what should fill it."
+EMPTY = ("Every voxel of its grid is empty, or its value stands for no mass; choose another grid, or see what should "
+         "fill it and what its values stand for.")
 
 
 def grid_body(reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1) -> Body:
@@ -53,6 +55,8 @@ def density_body(samples: Blocks | NDArray, shape: Sequence[int], matrix: NDArra
         return weigh(block if slope == 1.0 and intercept == 0.0 else block * slope + intercept)
 
     mass = grid_moments(samples, shape, matrix, options.spline_order, value=densities)
+    if not np.abs(mass.raw).max() < LARGEST:
+        raise ValueError("Its densities make its mass too large a number; take them as smaller ones.")
     if not mass.total > 0.0:
         raise ValueError(EMPTY)
 
@@ -66,10 +70,8 @@ def density_body(samples: Blocks | NDArray, shape: Sequence[int], matrix: NDArra
         return volume, Moments(np.zeros_like(volume.raw), volume.about, "area") if area else None
 
     volume = held(3)
-    if background:
-        warnings += ("Voxels that hold the background, {:.6g}, count as empty.".format(background),)
-    warnings += ("It has no surface, and its area is told as 0; its volume is that of the voxels that are not "
-                 "empty.",)
+    warnings += (*options.left_empty(background),
+                 "It has no surface, and its area is told as 0; its volume is that of the voxels that are not empty.")
     return Body(volume, Moments(np.zeros(1), volume.about, "area"), Health(closed=True), "grid exact", warnings,
                 mass=mass, to_order=to_order)
 

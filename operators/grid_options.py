@@ -46,6 +46,9 @@ class GridOptions:
         pairs = parse_table(self.table) if self.table else None
 
         def weighed(values: NDArray) -> NDArray[np.float64]:
+            if pairs is not None and not np.isfinite(values).all():
+                raise ValueError("It has values that are not finite, for which no transfer table has a density; remove "
+                                 "them.")
             densities = values * self.value_density if pairs is None else np.interp(values, *pairs)
             if background is not None:
                 densities[values == background] = 0.0
@@ -56,6 +59,13 @@ class GridOptions:
             return densities
 
         return weighed
+
+    def left_empty(self, background: float | None) -> tuple[str, ...]:
+        """A sentence where the background would have a density if it did not count as empty."""
+        if background is None or not np.isfinite(background):
+            return ()
+        density = np.interp(background, *parse_table(self.table)) if self.table else background * self.value_density
+        return ("Voxels that hold the background, {:.6g}, count as empty.".format(background),) if density else ()
 
     def told(self) -> str:
         """What a value stands for, as a sentence."""

@@ -9,12 +9,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.density_inside import LARGEST, inside_moments
+from ..core.density_inside import LARGEST as MOST_VOXELS
+from ..core.density_inside import inside_moments
 from ..core.moments import Moments
 from ..core.solid import SolidMeasure
 from .body import Body
 from .grid_options import GridOptions
 from .read.volume import VolumeReading
+from .weigh import LARGEST
 
 OUTSIDE = 1e-9  # of the volume: below this, rounding
 
@@ -44,11 +46,14 @@ def inside_body(body: Body, reading: VolumeReading, options: GridOptions, unit: 
     first[:3, 3] = low
     mass = replace(replace(moments, of="volume").mapped(matrix @ first), of="mass")
     mass = replace(mass, input=_input(body, mass))
+    if not np.abs(mass.raw).max() < LARGEST:
+        raise ValueError("Its densities make its mass too large a number; take them as smaller ones.")
     if not mass.total > mass.error[0]:
         raise ValueError("The grid “{:s}” of “{:s}” has no density inside of it; see where the two stand.".format(
             reading.grid, reading.name))
     notes = ["Its density is the grid “{:s}” of “{:s}”, constant in each voxel. {:s} The bounds of what it weighs are "
-             "estimates.".format(reading.grid, reading.name, replace(options, spline_order=1).told())]
+             "estimates.".format(reading.grid, reading.name, replace(options, spline_order=1).told()),
+             *options.left_empty(reading.background)]
     outside = 1.0 - volume / body.volume.total
     if outside > OUTSIDE:
         notes.append("{:.3g} % of its volume is outside of the grid and counts as empty.".format(100.0 * outside))
@@ -64,7 +69,7 @@ def _corners(solid: SolidMeasure, matrix: NDArray) -> NDArray[np.float64]:
 
 def _filled(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
     """The densities of the voxels from `low` to `high`."""
-    if np.prod((high - low).astype(float)) > LARGEST:
+    if np.prod((high - low).astype(float)) > MOST_VOXELS:
         raise ValueError("The grid “{:s}” of “{:s}” has {:d} x {:d} x {:d} voxels around it, which is too many; use a "
                          "coarser one.".format(reading.grid, reading.name, *(high - low).tolist()))
     weigh = options.weigh(reading.background)

@@ -147,7 +147,8 @@ def _lines(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float, o
 def _measure_grid(obj: bpy.types.Object, volume: VolumeReading, grid: GridOptions, options: MeasureOptions,
                   unit: float) -> tuple[Measurement, Body]:
     """As `measure_body`, of a grid of voxels."""
-    if options.kind in ("shell", "wire"):
+    kind = options.kind or ("solid" if obj.type == "VOLUME" else obj.body_moments.kind.lower())
+    if kind != "solid":
         raise ValueError("A grid of voxels is no sheet; measure it as a solid.")
     key = grid_key(obj, options.density) if obj.type == "VOLUME" else density_key(obj, ())
     options = resolved(replace(options, kind="solid"), obj, unit)

@@ -15,7 +15,7 @@ updates.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
 import bpy
@@ -155,6 +155,18 @@ def _settings_edited(obj: Object, fingerprint: str, scene: Scene) -> bool:
     return now != before
 
 
+def _filled_from(updated: Iterable[Object]) -> Iterator[Object]:
+    """Those with stored numbers whose density comes from one of these objects' voxels."""
+    sources = {obj for obj in updated if obj.type == "VOLUME"}
+    if not sources:
+        return
+    for obj in bpy.data.objects:
+        if "body_fingerprint" in obj:
+            settings = obj.body_moments
+            if settings.density_from == "VOLUME" and settings.density_volume in sources:
+                yield obj
+
+
 @persistent
 def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
     global _generation, _undone
@@ -164,11 +176,11 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
     if _undone:
         _undone = False
         return
-    for update in depsgraph.updates:
-        if not update.is_updated_geometry or not isinstance(update.id, Object):
-            continue
-        obj = update.id.original
+    updated = dict.fromkeys(update.id.original for update in depsgraph.updates
+                            if update.is_updated_geometry and isinstance(update.id, Object))
+    for obj in updated:
         _changes[obj.session_uid] = _changes.get(obj.session_uid, 0) + 1
+    for obj in updated | dict.fromkeys(_filled_from(updated)):
         found = [str(mark) for mark in (obj.get("body_fingerprint"), section.fingerprint(obj), _symmetry_mark(obj))
                  if mark]
         if found and not _settings_edited(obj, found[0], scene):

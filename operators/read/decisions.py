@@ -28,6 +28,8 @@ def why_empty(obj, gathered: Gathered, depsgraph) -> str:
         return "All that it instances is scaled to zero; give the instances a scale."
     if obj.type == "CURVE" and not obj.modifiers:
         return "It is a line without a surface; give the curve a bevel or an extrusion, or fill it."
+    if set(gathered.left_out) == {"volumes"} and (gathered.sources or obj.type != "VOLUME"):
+        return "It shows volumes by instances only, which are not measured; measure the Volume objects themselves."
     if gathered.left_out:
         return "It has no surface, only {:s}; give it one, by a modifier for example.".format(
             _listing(gathered.left_out)

@@ -21,6 +21,7 @@ from ...core.surface import Surface
 NODE = 128  # voxels along a side of the blocks that are read
 ROOT = 4096  # along a side of the largest nodes
 MOST_ROOTS = 100_000
+FARTHEST = 1 << 29  # an index from which on the module fails without a word
 DTYPES = {"float": np.float32, "double": np.float64, "int32": np.int32, "int64": np.int64, "bool": np.bool_}
 
 
@@ -73,6 +74,9 @@ class VdbGrid:
         if np.prod(high // ROOT - low // ROOT + 1.0) > MOST_ROOTS:
             raise ValueError("The voxels of its grid “{:s}” are spread over {:d} x {:d} x {:d}; remove those that "
                              "stand far from the others.".format(name, *self.shape.tolist()))
+        if np.abs([low, high]).max() > FARTHEST:
+            raise ValueError("The voxels of its grid “{:s}” stand too far from its origin; begin to count them near "
+                             "it.".format(name))
 
     def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
         """The voxels that are there, as blocks, each with where it begins in the box."""

@@ -79,8 +79,10 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
     if hidden:
         warnings.append("Measured although it is not shown. {:s}".format(hidden))
     warnings.extend(modifier_decisions(obj, depsgraph.scene))
+    if volume.geometry.instances_pointcloud() is not None:
+        warnings.append("Left out: what it instances beside its volume.")
     try:
-        with _opened(obj, volume, chosen, depsgraph) as source:
+        with _opened(obj, volume, chosen, depsgraph, warnings) as source:
             location, rotation, _ = evaluated.matrix_world.decompose()
             yield VolumeReading(
                 obj.name, obj.type, matrix, rotation_matrix(rotation), np.array(location[:], np.float64), chosen.name,
@@ -128,6 +130,8 @@ class _Kept:
 def _chosen(obj, volume: _Kept, name: str, warnings: list[str]):
     """The grid of that name, or the one that is meant most likely."""
     grids = {grid.name: grid for grid in volume.data.grids}
+    if len(grids) < len(volume.data.grids):
+        warnings.append("Several of its grids have the same name, of which only the first counts.")
     listing = ", ".join("“{:s}”".format(one) for one in grids)
     if name:
         if name not in grids:
@@ -147,11 +151,16 @@ def _chosen(obj, volume: _Kept, name: str, warnings: list[str]):
 
 
 @contextmanager
-def _opened(obj, volume: _Kept, grid, depsgraph) -> Iterator[VdbGrid | SampledGrid]:
+def _opened(obj, volume: _Kept, grid, depsgraph, warnings: list[str]) -> Iterator[VdbGrid | SampledGrid]:
+    path = "" if openvdb() is None else _unchanged_file(obj, volume)
+    render = depsgraph.scene.render
+    if not path and render.use_simplify and render.simplify_volumes < 1.0:
+        warnings.append("The scene's Simplify makes its voxels coarser in the viewport, at {:.3g} % of their "
+                        "resolution, and so they were measured; turn it off for all of them.".format(
+                            100.0 * render.simplify_volumes))
     if openvdb() is None:
         yield SampledGrid(obj, depsgraph, grid, obj.evaluated_get(depsgraph).bound_box)
         return
-    path = _unchanged_file(obj, volume)
     if path:
         yield VdbGrid(path, grid.name)
         return

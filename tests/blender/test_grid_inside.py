@@ -10,7 +10,7 @@ from body_moments.operators.measure import MeasureOptions, measure_object
 from body_moments.operators.read import Unreadable
 from body_moments.operators.write import properties
 
-from tests.blender.grids import linked, vdb_grid, volume_object
+from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -115,6 +115,30 @@ def test_stored_numbers_know_when_the_grid_moves(tmp_path):
     volume.location.x = 1.0
     bpy.context.view_layer.update()
     assert staleness.reason(box, bpy.context.scene) == "Settings Changed"
+
+
+def test_stored_numbers_know_when_the_voxels_change(tmp_path):
+    fog = mesh_to_volume(cube())
+    box = cube()
+    box.body_moments.density_from = "VOLUME"
+    box.body_moments.density_volume = fog
+    plain = cube(location=(9, 0, 0))
+    for obj in (box, plain):
+        properties.store(obj, measure(obj))
+    staleness.settle(bpy.context, [box, plain])
+    assert staleness.reason(box, bpy.context.scene) == ""
+    fog.body_moments.value_density = 5.0  # a setting is no change of voxels
+    bpy.context.view_layer.update()
+    fog.body_moments.value_density = 1.0
+    bpy.context.view_layer.update()
+    assert staleness.reason(box, bpy.context.scene) == ""
+    fog.modifiers[0].density = 3.0
+    bpy.context.view_layer.update()
+    assert staleness.reason(box, bpy.context.scene) == "Geometry Changed"
+    assert staleness.reason(plain, bpy.context.scene) == ""
+    properties.store(box, measure(box))
+    staleness.settle(bpy.context, [box])
+    assert staleness.reason(box, bpy.context.scene) == ""
 
 
 def chosen(tmp_path):

@@ -374,3 +374,106 @@ def test_higher_orders_of_the_voxels_that_are_not_empty(tmp_path):
     assert moments[4, 0, 0] == pytest.approx(2 * 2**5 / 5 * 2 * 6, rel=1e-13)
     assert moments[0, 2, 2] == pytest.approx(4 * (2 / 3) * (2 * 27 / 3), rel=1e-13)
     assert not found.area_moments.raw.any()
+
+
+def with_nodes(obj, *makers):
+    """A modifier that joins with the object's own geometry what the makers give, from a tree an output socket each."""
+    tree = bpy.data.node_groups.new("Nodes", "GeometryNodeTree")
+    for direction in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
+    join, end = tree.nodes.new("GeometryNodeJoinGeometry"), tree.nodes.new("NodeGroupOutput")
+    tree.links.new(join.outputs[0], end.inputs[0])
+    for socket in (tree.nodes.new("NodeGroupInput").outputs[0], *(make(tree) for make in makers)):
+        tree.links.new(socket, join.inputs[0])
+    obj.modifiers.new("Nodes", "NODES").node_group = tree
+    return obj
+
+
+def an_instance(tree):
+    cube, instance = tree.nodes.new("GeometryNodeMeshCube"), tree.nodes.new("GeometryNodeGeometryToInstance")
+    tree.links.new(cube.outputs[0], instance.inputs[0])
+    return instance.outputs[0]
+
+
+ONES = np.ones((8, 8, 8), np.float32)
+
+
+def test_what_is_instanced_beside_the_volume_is_told(tmp_path):
+    found = measure(with_nodes(volume_object(tmp_path / "a.vdb", vdb_grid(ONES)), an_instance))
+    assert found.mass_properties.mass == pytest.approx(512.0)
+    assert any("Left out: what it instances" in warning for warning in found.warnings)
+    plain = measure(with_nodes(volume_object(tmp_path / "b.vdb", vdb_grid(ONES))))
+    assert not any("Left out" in warning for warning in plain.warnings)
+
+
+def test_instances_of_volumes_name_the_remedy(tmp_path):
+    collection = bpy.data.collections.new("Clouds")
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
+    collection.objects.link(obj)
+    empty = linked(bpy.data.objects.new("Instance", None))
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    with pytest.raises(Unreadable, match="measure the Volume objects themselves"):
+        measure(empty)
+
+
+def test_voxels_made_coarser_by_simplify_are_told(tmp_path):
+    values = np.random.default_rng(0).random((32, 32, 32)).astype(np.float32)
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values))
+    render = bpy.context.scene.render
+    render.use_simplify, render.simplify_volumes = True, 0.25
+    try:
+        own = measure(obj)  # from its file, in full
+        assert own.mass_properties.mass == pytest.approx(values.sum(dtype=float), rel=1e-12)
+        assert not any("Simplify" in warning for warning in own.warnings)
+        coarse = measure(with_nodes(obj))
+        assert coarse.mass_properties.center != pytest.approx(own.mass_properties.center, rel=1e-3)
+        assert any("Simplify" in warning and "25 %" in warning for warning in coarse.warnings)
+    finally:
+        render.use_simplify = False
+
+
+@pytest.mark.parametrize("value", [np.inf, -np.inf, np.nan])
+@pytest.mark.parametrize("table", [False, True])
+def test_no_voxel_that_is_not_finite_has_a_density(tmp_path, value, table):
+    grid = vdb_grid(ONES)
+    grid.getAccessor().setValueOn((1, 2, 3), value)
+    obj = volume_object(tmp_path / "a.vdb", grid)
+    obj.body_moments.values_from = "TABLE" if table else "FACTOR"
+    with pytest.raises(Unreadable, match="not finite|-inf"):
+        measure(obj)
+
+
+def test_an_empty_background_with_a_density_by_the_table_is_told(tmp_path):
+    values = ONES.copy()
+    values[0] = 0.0
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values))
+    assert not any("background" in warning for warning in measure(obj).warnings)
+    obj.body_moments.values_from, obj.body_moments.transfer_table = "TABLE", "0 1000, 1 2000"
+    assert "Voxels that hold the background, 0, count as empty." in measure(obj).warnings
+
+
+def test_numbers_too_large_or_too_far_are_refused(tmp_path):
+    with pytest.raises(Unreadable, match="too large a number"):
+        measure(volume_object(tmp_path / "a.vdb", vdb_grid(np.full((4, 4, 4), 1e300))))
+    with pytest.raises(Unreadable, match="too far from its origin"):
+        measure(volume_object(tmp_path / "b.vdb", vdb_grid(ONES, offset=(1 << 30, -(1 << 30), 5))))
+
+
+def test_two_grids_of_one_name_are_told(tmp_path):
+    found = measure(volume_object(tmp_path / "a.vdb", vdb_grid(ONES), vdb_grid(2.0 * ONES)))
+    assert any("only the first counts" in warning for warning in found.warnings)
+
+
+def test_a_volume_that_a_mesh_shows_is_no_sheet(tmp_path):
+    source = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
+
+    def shown(tree):
+        info = tree.nodes.new("GeometryNodeObjectInfo")
+        info.inputs["Object"].default_value = source
+        return info.outputs["Geometry"]
+
+    obj = with_nodes(linked(bpy.data.objects.new("Mesh", bpy.data.meshes.new("Mesh"))), shown)
+    assert measure(obj).mass_properties.mass == pytest.approx(512.0)
+    obj.body_moments.kind = "SHELL"
+    with pytest.raises(Unreadable, match="no sheet"):
+        measure(obj)
