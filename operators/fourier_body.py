@@ -16,9 +16,10 @@ from ..core.fourier_body import TOLERANCE, BodyTransform
 from ..core.spectrum import APPROXIMATE, Spectrum
 from ..core.surface import Surface
 from ..core.waves import Grid
+from .density import density_field
 from .measure import MeasureOptions, resolved
 from .mesh_body import mesh_body
-from .read import Reading, Unreadable, read_object
+from .read import Reading, Unreadable, read_object, shows_flat_region
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,9 @@ def object_transform(
             parts = [(part.surface, _scaled(part.matrices, unit)) for part in reading.parts]
             of, total = "area", body.area.total
         else:
+            if options.kind == "wire":
+                raise ValueError("A wire bounds no body, and its Fourier transform is not known: measure it as a solid "
+                                 "or a shell, or take its area instead.")
             if body.method == "open":
                 raise ValueError("It is open, and only a closed surface bounds a body: close it, measure it as a "
                                  "shell, or take its area instead.")
@@ -84,7 +88,11 @@ def object_transform(
     except ValueError as error:
         raise Unreadable(obj.name, str(error)) from error
     factor = options.thickness if shell and not area else 1.0
-    notes = ("Of a NURBS surface the Fourier transform is that of its display mesh.",) if obj.type == "SURFACE" else ()
+    notes = ("Of a NURBS surface the Fourier transform is that of its display mesh.",) if reading.has_patches else ()
+    if obj.type == "CURVE" and shell and shows_flat_region(obj):
+        notes += ("Of a flat curve the Fourier transform is that of its display mesh.",)
+    if not area and density_field(obj.body_moments) is not None:
+        notes += ("The Fourier transform is that of its shape, as if its density were the same everywhere.",)
     return ObjectTransform(obj.name, transform, factor, (*reading.warnings, *body.warnings, *notes))
 
 

@@ -109,6 +109,33 @@ def test_of_a_nurbs_surface_it_is_said_that_the_display_mesh_is_transformed():
     assert found.values[0].real > 0.0 and any("display mesh" in note for note in notes)
 
 
+def test_it_is_said_of_an_instance_and_of_a_flat_curve_as_well():
+    bpy.ops.surface.primitive_nurbs_surface_torus_add()
+    torus = bpy.context.object
+    group = bpy.data.collections.new("Group")
+    group.objects.link(torus)
+    bpy.context.collection.objects.unlink(torus)
+    bpy.ops.object.collection_instance_add(collection="Group")
+    assert any("display mesh" in note for note in transform(bpy.context.object, np.zeros((1, 3)))[1])
+    bpy.ops.curve.primitive_bezier_circle_add()
+    circle = bpy.context.object
+    circle.data.dimensions, circle.data.fill_mode, circle.body_moments.kind = "2D", "BOTH", "SHELL"
+    assert any("display mesh" in note for note in transform(circle, np.zeros((1, 3)))[1])
+
+
+def test_a_wire_is_refused_with_the_remedy():
+    box = files.add_box()
+    with pytest.raises(Unreadable, match="wire.*solid.*area"):
+        transform(box, options=MeasureOptions(kind="wire"))
+
+
+def test_it_is_said_that_a_varying_density_plays_no_part():
+    box = files.add_box()
+    assert not transform(box)[1]
+    box.body_moments.density_from = "POLYNOMIAL"
+    assert any("density" in note for note in transform(box)[1])
+
+
 def test_flipped_faces_are_turned_and_holes_capped_as_they_are_for_the_mass():
     box = files.add_box()
     box.data.polygons[2].flip()
