@@ -25,6 +25,7 @@ from ..core.measurement import Measurement
 from ..core.moments import Moments
 from .body import Body
 from .density import density_field
+from .fingerprint import settings_hash
 from .measure import MeasureOptions, measure_object, resolved, told
 from .read import Unreadable, read_patches
 
@@ -34,11 +35,12 @@ LONGEST_WAIT = 2.0  # s between two measurements of a body that takes long
 @dataclass(frozen=True, eq=False)
 class Live:
     """What an object's numbers are now. measurement: None where there are none, for the reason given. seconds: what
-    it took."""
+    it took. settings: the digest of those that it was measured with."""
 
     measurement: Measurement | None
     reason: str
     seconds: float
+    settings: str
 
 
 # by session uid; none of it outlives the file
@@ -58,6 +60,12 @@ def shown(obj: Object) -> Live | None:
     return _shown.get(obj.session_uid) if is_live(obj) else None
 
 
+def is_outdated(obj: Object, scene: Scene) -> bool:
+    """Whether settings were changed since the live numbers were measured: Blender does not report every such change."""
+    now = shown(obj)
+    return now is not None and now.settings != settings_hash(obj, scene)
+
+
 def follow(obj: Object, depsgraph: Depsgraph) -> Live:
     """Measure an object as it is now, and keep the outcome to be shown."""
     start = time.perf_counter()
@@ -68,7 +76,8 @@ def follow(obj: Object, depsgraph: Depsgraph) -> Live:
         reason = error.reason
     except ValueError as error:
         reason = str(error)
-    found = _shown[obj.session_uid] = Live(measurement, reason, time.perf_counter() - start)
+    found = _shown[obj.session_uid] = Live(measurement, reason, time.perf_counter() - start,
+                                           settings_hash(obj, depsgraph.scene))
     return found
 
 
@@ -143,10 +152,10 @@ def _note(_scene: Scene, depsgraph: Depsgraph | None = None) -> None:
 def _tick() -> float | None:
     if bpy.app.is_job_running("RENDER"):
         return 0.5
+    layer = bpy.context.view_layer
+    depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
     due = dict(_due)
     _due.clear()
-    layer = bpy.context.view_layer
-    depsgraph = bpy.context.evaluated_depsgraph_get()
     for uid, name in due.items():
         obj = layer.objects.get(name)
         if obj is not None and obj.session_uid == uid and is_live(obj):

@@ -104,6 +104,11 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
         rows.sentence(column, context, explanation, icon="BLANK1")
     now = live.shown(obj)
     if now is not None and now.measurement is not None:
+        if live.is_outdated(obj, context.scene):
+            row = column.row()
+            row.alert = True
+            row.label(text="Out of Date: Settings Changed", icon="FILE_REFRESH")
+            return
         column.label(text="Live, in {:.0f} ms: Measure Stores It".format(1e3 * now.seconds), icon="REC")
         return
     if now is not None:

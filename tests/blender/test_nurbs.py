@@ -381,3 +381,39 @@ def test_live_numbers_follow_hooks_keys_transforms_and_frames():
     found = live.follow(obj, bpy.context.evaluated_depsgraph_get()).measurement
     assert found.volume == pytest.approx(measured(obj).volume, rel=1e-12)
     bpy.ops.object.body_moments_live()
+
+
+def test_live_numbers_of_other_settings_are_out_of_date():
+    obj, scene = primitive("sphere"), bpy.context.scene
+    bpy.ops.object.body_moments_live()
+    for data, name, value in ((obj.body_moments, "kind", "SHELL"), (obj.body_moments, "density", 2500.0),
+                              (scene.unit_settings, "scale_length", 0.5)):
+        setattr(data, name, value)
+        assert live.is_outdated(obj, scene)
+        live.follow(obj, bpy.context.evaluated_depsgraph_get())
+        assert not live.is_outdated(obj, scene)
+    bpy.ops.object.body_moments_live()
+
+
+def test_live_numbers_follow_undo_and_stop_at_a_file_and_when_unregistered(tmp_path):
+    obj = primitive("sphere")
+    bpy.ops.object.body_moments_live()
+    bpy.ops.ed.undo_push(message="Before")
+    obj.data.splines[0].points[10].co.x = 3.0
+    obj.data.update_tag()
+    bpy.context.view_layer.update()
+    bpy.ops.ed.undo_push(message="After")
+    live._due.clear()
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    obj = bpy.context.object
+    assert live.is_live(obj) and obj.session_uid in live._due
+    path = str(tmp_path / "live.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert not live.is_live(bpy.context.object) and not live._shown and not live._due
+    bpy.ops.object.body_moments_live()
+    live.unregister()
+    live.register()
+    assert not live._live and not live._followed
+    assert bpy.app.handlers.depsgraph_update_post.count(live._note) == 1

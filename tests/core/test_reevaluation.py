@@ -140,3 +140,32 @@ def test_another_function_space_is_measured_anew():
     body = FollowedBody([torus()])
     assert not body.follow([sphere()])
     assert abs(body.volume.total - 4.0 * np.pi / 3.0) <= 1e-13
+
+
+def test_weights_that_tables_cannot_follow_are_measured_anew():
+    ring = torus()
+    body = FollowedBody([ring])
+    weights = ring.weights.copy()
+    weights[3, 3], weights[4, 4] = 1e3, 1e-3
+    points = ring.points.copy()
+    for _ in range(2):
+        points[5, 1] += 0.1
+        now = Patch(ring.spaces, points, weights)
+        assert not body.follow([now])
+        anew = measure_patches([now]).volume
+        assert (np.abs(body.volume.raw - anew.shifted(body.volume.about).raw) <= body.volume.error + anew.error).all()
+
+
+@pytest.mark.parametrize("spread", [0.3, 0.7, 1.0])
+def test_the_estimate_of_a_followed_rational_body_holds(spread):
+    rng = np.random.default_rng(9)
+    ring, kept = torus(), 0
+    for _ in range(10):
+        weights = 10.0 ** rng.uniform(-spread, spread, ring.weights.shape)
+        body = FollowedBody([Patch(ring.spaces, ring.points, weights)])
+        points = ring.points + rng.uniform(-0.05, 0.05, ring.points.shape)
+        now = Patch(ring.spaces, points, weights)
+        kept += body.follow([now])
+        anew = measure_patches([now]).volume.shifted(body.volume.about)
+        assert (np.abs(body.volume.raw - anew.raw) <= body.volume.error + anew.error).all()
+    assert kept or spread > 0.5
