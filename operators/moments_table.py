@@ -110,8 +110,8 @@ def placed(computed: Computed, of: str, about: str, frame: str, order: int) -> M
     with np.errstate(over="ignore", invalid="ignore"):
         moments = _placed(computed, of, about, frame, order)
     if not np.isfinite([moments.raw, moments.error, moments.input]).all():
-        raise ValueError("So far from there, moments of order {:d} are beyond the range of numbers; show them about the "
-                         "center.".format(order))
+        raise ValueError("Moments of order {:d} about a point so far away are beyond the range of numbers; show them "
+                         "about the center.".format(order))
     return moments
 
 
