@@ -70,6 +70,12 @@ def canonical_frames(moments: Moments, spread: Spread, starts: NDArray) -> Frame
     return Frames(*_largest(frames, values, noise), round_about)
 
 
+def distinct(arrays: NDArray, within: float) -> NDArray[np.float64]:
+    """Of (n, ...) vectors or matrices the first of those whose entries differ by less."""
+    same = np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
+    return arrays[np.argmax(same, axis=1) == np.arange(len(arrays))]
+
+
 def inverted(moments: Moments) -> Moments:
     """The moments of the body's image in its point `about`: its mirror image, turned."""
     sign = (-1.0) ** monomials(moments.order).sum(axis=1)
@@ -160,8 +166,7 @@ def _extreme_directions(central: Moments, spread: Spread, degree: int, clear: fl
         if height.max() - _contracted(sign * tensor, degree, _sphere()).min() <= least:
             return np.empty((0, 3)), sign
         top = points[height > height.max() - min(noise, SHARE * span)]
-        alike = np.abs(top[:, None] - top[None]).max(axis=-1) < 1e-2
-        found.append((top[np.argmax(alike, axis=1) == np.arange(len(top))], sign))
+        found.append((distinct(top, 1e-2), sign))
     directions, sign = min(found, key=lambda pair: len(pair[0]))
     if len(directions) <= RING:
         return directions, sign
