@@ -28,6 +28,7 @@ GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)  # of it with the degree: as the m
 CLEAR = 1e-2  # a harmonic above this fixes a direction well; weaker ones only where there is no other
 FLAT = 1e-6  # of the largest extent: along an axis of less, a body is a lamina and has no skewness
 SHARE = 0.25  # of what tells directions apart: at most that much is taken for equal
+SPREAD = 240  # directions from which extreme ones are looked for
 RING = 40  # more directions than these are a circle of them, or all
 
 
@@ -211,10 +212,10 @@ def _contracted(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.floa
 
 
 @lru_cache
-def _sphere(count: int = 240) -> NDArray[np.float64]:
-    """(count, 3) directions spread evenly: Fibonacci's lattice."""
-    i = np.arange(count) + 0.5
-    z, turn = 1.0 - 2.0 * i / count, np.pi * (1.0 + 5.0 ** 0.5) * i
+def _sphere() -> NDArray[np.float64]:
+    """(SPREAD, 3) directions spread evenly: Fibonacci's lattice."""
+    i = np.arange(SPREAD) + 0.5
+    z, turn = 1.0 - 2.0 * i / SPREAD, np.pi * (1.0 + 5.0 ** 0.5) * i
     r = np.sqrt(1.0 - z * z)
     return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
 
