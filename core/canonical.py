@@ -28,6 +28,7 @@ GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)  # of it with the degree: as the m
 CLEAR = 1e-2  # a harmonic above this fixes a direction well; weaker ones only where there is no other
 FLAT = 1e-6  # of the largest extent: along an axis of less, a body is a lamina and has no skewness
 SHARE = 0.25  # of what tells directions apart: at most that much is taken for equal
+SPREAD = 240  # directions from which extreme ones are looked for
 RING = 40  # more directions than these are a circle of them, or all
 
 
@@ -68,6 +69,12 @@ def canonical_frames(moments: Moments, spread: Spread, starts: NDArray) -> Frame
     frames, round_about = _candidates(central, spread, starts)
     values, noise = _written(central, spread, frames)
     return Frames(*_largest(frames, values, noise), round_about)
+
+
+def distinct(arrays: NDArray, within: float) -> NDArray[np.float64]:
+    """Of (n, ...) vectors or matrices the first of those whose entries differ by less."""
+    same = np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
+    return arrays[np.argmax(same, axis=1) == np.arange(len(arrays))]
 
 
 def inverted(moments: Moments) -> Moments:
@@ -160,8 +167,7 @@ def _extreme_directions(central: Moments, spread: Spread, degree: int, clear: fl
         if height.max() - _contracted(sign * tensor, degree, _sphere()).min() <= least:
             return np.empty((0, 3)), sign
         top = points[height > height.max() - min(noise, SHARE * span)]
-        alike = np.abs(top[:, None] - top[None]).max(axis=-1) < 1e-2
-        found.append((top[np.argmax(alike, axis=1) == np.arange(len(top))], sign))
+        found.append((distinct(top, 1e-2), sign))
     directions, sign = min(found, key=lambda pair: len(pair[0]))
     if len(directions) <= RING:
         return directions, sign
@@ -206,10 +212,10 @@ def _contracted(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.floa
 
 
 @lru_cache
-def _sphere(count: int = 240) -> NDArray[np.float64]:
-    """(count, 3) directions spread evenly: Fibonacci's lattice."""
-    i = np.arange(count) + 0.5
-    z, turn = 1.0 - 2.0 * i / count, np.pi * (1.0 + 5.0 ** 0.5) * i
+def _sphere() -> NDArray[np.float64]:
+    """(SPREAD, 3) directions spread evenly: Fibonacci's lattice."""
+    i = np.arange(SPREAD) + 0.5
+    z, turn = 1.0 - 2.0 * i / SPREAD, np.pi * (1.0 + 5.0 ** 0.5) * i
     r = np.sqrt(1.0 - z * z)
     return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
 

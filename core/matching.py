@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .canonical import Frames, inverted
+from .canonical import Frames, distinct, inverted
 from .moments import Moments
 from .pose import frames_alike, free_axes, settled
 
@@ -55,9 +55,7 @@ def _ways(first: NDArray, target: Frames) -> NDArray[np.float64]:
     """(k, 3, 3) the rotations from a frame of the source to those of the target and their half turns."""
     frames = (target.frames[:, None] * HALF_TURNS[:, None, :]).reshape(-1, 3, 3)
     frames = np.array([settled(frame, free_axes(target), first) for frame in frames])
-    ways = frames @ first.T
-    same = np.abs(ways[:, None] - ways[None]).max(axis=(2, 3)) < 1e-9
-    return ways[np.argmax(same, axis=1) == np.arange(len(ways))]
+    return distinct(frames @ first.T, 1e-9)
 
 
 def _best(ways: NDArray, residual: Callable[[NDArray], NDArray], size: float) -> tuple[NDArray, NDArray]:

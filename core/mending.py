@@ -20,6 +20,7 @@ from .surface import Surface
 from .topology import Edges, components, find_edges, orientation, shells
 from .weld import equal_positions, face_groups, near_positions, vertex_tolerance
 
+LISTED = 8  # numbers of faces that a sentence names
 NO_COPIES = np.empty(0, np.intp), np.empty(0, np.intp)
 
 
@@ -198,10 +199,10 @@ def counted(numbers: NDArray[np.integer], one: str, many: str) -> str:
     return many.format(len(numbers), listed(numbers))
 
 
-def listed(numbers: NDArray[np.integer], most: int = 8) -> str:
+def listed(numbers: NDArray[np.integer]) -> str:
     """The first few numbers, as text."""
-    text = ", ".join(str(int(number)) for number in numbers[:most])
-    return text + ", …" if len(numbers) > most else text
+    text = ", ".join(str(int(number)) for number in numbers[:LISTED])
+    return text + ", …" if len(numbers) > LISTED else text
 
 
 def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:

@@ -209,11 +209,11 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
     return Moments(found.values, about, "volume", found.estimate + ROUNDING * U * orders * found.scale), found.settled
 
 
-def vector_area(patches: Sequence[Patch], points: int = 16) -> NDArray[np.float64]:
+def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
     """(3,) the integral of the unit normals, by a fixed rule: of a flat patch its area along its normal."""
     total = np.zeros(3)
     for patch in patches:
-        (_, along, across), weights = at_gauss_points(patch, Cells.of(patch), (points, points), 1, np.zeros(3))
+        (_, along, across), weights = at_gauss_points(patch, Cells.of(patch), (RULES[0], RULES[0]), 1, np.zeros(3))
         total += (np.stack(cross(along, across)) * weights).sum(axis=(1, 2, 3))
     return total
 

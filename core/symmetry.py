@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .canonical import NOISE, inverted
+from .canonical import NOISE, distinct, inverted
 from .moments import Moments
 from .pose import frames_alike
 
@@ -88,7 +88,7 @@ def symmetry(moments: Moments, noise: float = NOISE) -> Symmetry:
         operations = _about(operations, axes[0])
     elif len(axes) == 3:
         operations = np.array([np.eye(3)])
-    return Symmetry(_distinct(operations), axes, moments.order)
+    return Symmetry(distinct(operations, ALIKE), axes, moments.order)
 
 
 def confirmed(found: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
@@ -144,7 +144,7 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
         if found:
             seeds += [seed @ one for seed in list(seeds) for one in found]
             break
-    return _distinct(np.array([turn @ seed for seed in seeds for turn in turns]))
+    return distinct(np.array([turn @ seed for seed in seeds for turn in turns]), ALIKE)
 
 
 def _about(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
@@ -163,11 +163,6 @@ def _turn(axis: NDArray, angle: float) -> NDArray[np.float64]:
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
-
-
-def _distinct(operations: NDArray) -> NDArray[np.float64]:
-    same = np.abs(operations[:, None] - operations[None]).max(axis=(2, 3)) < ALIKE
-    return operations[np.argmax(same, axis=1) == np.arange(len(operations))]
 
 
 def _directions(vectors: NDArray) -> list[tuple[NDArray, NDArray]]:

@@ -67,7 +67,7 @@ class BodyPanel:
         if found is not None:
             _numbers(layout, context, units, found)
             _more(layout, obj, units, found)
-            _warnings(layout, context, obj)
+            rows.warnings(layout, context, "body_moments_warnings", _method_and_warnings(obj)[1])
             row = layout.row(align=True)
             row.operator("object.body_moments_copy_report", icon="COPYDOWN")
             row.operator("object.body_moments_clear", icon="TRASH")
@@ -113,11 +113,7 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
         return
     if now is not None:
         rows.sentence(column, context, now.reason, icon="ERROR")
-    outdated = staleness.reason(obj, context.scene)
-    if outdated:
-        row = column.row()
-        row.alert = True
-        row.label(text="Out of Date: {:s}".format(outdated), icon="FILE_REFRESH")
+    rows.outdated(column, staleness.reason(obj, context.scene))
 
 
 def _material(layout: UILayout, context: Context, obj: Object) -> None:
@@ -288,28 +284,11 @@ def _bounds(layout: UILayout, obj: Object, units: Units, found: properties.Store
     }
     for heading, bound in BOUNDS:
         column = layout.column(align=True)
-        column.label(text=ESTIMATED if bound is None and _is_estimated(obj) else heading)
+        column.label(text=ESTIMATED if bound is None and properties.is_estimated(obj) else heading)
         values = found.error_bound if bound is None else found.error_bound[bound]
         for name, (label, quantity) in BOUNDED.items():
             rows.texts(column, label, units.bound(quantity, values[name], sizes[name]), repr(values[name]),
                        SI_UNITS[quantity])
-
-
-def _is_estimated(obj: Object) -> bool:
-    """Whether the bounds are estimates: those of splines are."""
-    method, _ = properties.method_and_warnings(obj)
-    return method.startswith("NURBS") or method == "wire"
-
-
-def _warnings(layout: UILayout, context: Context, obj: Object) -> None:
-    _, warnings = _method_and_warnings(obj)
-    if not warnings:
-        return
-    header, body = layout.panel("body_moments_warnings", default_closed=False)
-    header.label(text="Warnings ({:d})".format(len(warnings)))
-    if body is not None:
-        for warning in warnings:
-            rows.sentence(body, context, warning, icon="DOT")
 
 
 def _actions(layout: UILayout, obj: Object) -> None:

@@ -29,11 +29,7 @@ class MomentsPanel:
         computed = moments_table.found(obj)
         if computed is None:
             return
-        reason = moments_table.outdated(obj, context.scene)
-        if reason:
-            row = layout.row()
-            row.alert = True
-            row.label(text="Out of Date: {:s}".format(reason), icon="FILE_REFRESH")
+        rows.outdated(layout, moments_table.outdated(obj, context.scene))
         degrees, missing = moments_table.shown(obj, context.scene)
         if missing:
             rows.sentence(layout, context, missing, icon="ERROR")

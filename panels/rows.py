@@ -89,6 +89,25 @@ def sentence(layout: UILayout, context: Context, text: str, icon: str = "NONE") 
             column.label(text=line, icon=icon if i == 0 else "BLANK1")
 
 
+def outdated(layout: UILayout, reason: str) -> None:
+    """Why numbers no longer hold, where they do not."""
+    if reason:
+        row = layout.row()
+        row.alert = True
+        row.label(text="Out of Date: {:s}".format(reason), icon="FILE_REFRESH")
+
+
+def warnings(layout: UILayout, context: Context, idname: str, sentences: Sequence[str]) -> None:
+    """A sub-panel of warnings, where there are any."""
+    if not sentences:
+        return
+    header, body = layout.panel(idname, default_closed=False)
+    header.label(text="Warnings ({:d})".format(len(sentences)))
+    if body is not None:
+        for one in sentences:
+            sentence(body, context, one, icon="DOT")
+
+
 def _width(context: Context) -> tuple[int, float]:
     """(pixels, font size in pixels) that a line has."""
     scale = context.preferences.system.ui_scale

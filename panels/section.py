@@ -43,12 +43,7 @@ class SectionPanel:
         _verdict(layout, found, sections.outdated(obj, context.scene, found))
         _numbers(layout, units, found.section)
         _more(layout, units, found.section)
-        if found.warnings:
-            header, body = layout.panel("body_moments_section_warnings", default_closed=False)
-            header.label(text="Warnings ({:d})".format(len(found.warnings)))
-            if body is not None:
-                for warning in found.warnings:
-                    rows.sentence(body, context, warning, icon="DOT")
+        rows.warnings(layout, context, "body_moments_section_warnings", found.warnings)
         layout.operator("object.body_moments_copy_section", icon="COPYDOWN")
 
 
@@ -57,10 +52,7 @@ def _verdict(layout: UILayout, found: record.StoredSection, outdated: str) -> No
     counts = ((found.section.outlines, "1 Outline", "{:d} Outlines"), (found.section.holes, "1 Hole", "{:d} Holes"))
     parts = [one if count == 1 else many.format(count) for count, one, many in counts if count]
     column.label(text="{:s}: {:s}".format(found.what, ", ".join(parts)), icon="CHECKMARK")
-    if outdated:
-        row = column.row()
-        row.alert = True
-        row.label(text="Out of Date: {:s}".format(outdated), icon="FILE_REFRESH")
+    rows.outdated(column, outdated)
 
 
 def _numbers(layout: UILayout, units: Units, section) -> None:

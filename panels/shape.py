@@ -41,11 +41,7 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
     kept = obj.body_moments_symmetry
     column = layout.column(align=True)
     column.label(text="Symmetry {:s}".format(kept.group), icon="CHECKMARK")
-    outdated = staleness.symmetry_reason(obj)
-    if outdated:
-        row = column.row()
-        row.alert = True
-        row.label(text="Out of Date: {:s}".format(outdated), icon="FILE_REFRESH")
+    rows.outdated(column, staleness.symmetry_reason(obj))
     if kept.compatible != kept.group:
         text = "Moments to order 6 alone would allow {:s}".format(kept.compatible)
         rows.sentence(column, context, text, icon="BLANK1")

@@ -13,8 +13,9 @@ from __future__ import annotations
 import os
 import stat
 import sys
-from contextlib import suppress
 from pathlib import Path
+
+from ..write.whole_file import whole_file
 
 
 def claim_stdout() -> int:
@@ -45,20 +46,8 @@ def write(text: str, path: Path | None, channel: int) -> None:
     elif path.exists() and not stat.S_ISREG(path.stat().st_mode):
         path.write_bytes(data)  # a pipe or a device: it must be written to, not replaced
     else:
-        _replace(path.resolve(), data)
-
-
-def _replace(path: Path, data: bytes) -> None:
-    partial = path.with_name("{}.{}.partial".format(path.name, os.getpid()))
-    try:
-        with open(partial, "wb") as file:
+        with whole_file(path) as file:
             file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(partial, path)
-    finally:
-        with suppress(FileNotFoundError):
-            partial.unlink()
 
 
 def _write_all(channel: int, data: bytes) -> None:

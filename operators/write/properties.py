@@ -133,6 +133,12 @@ def method_and_warnings(obj: bpy.types.Object) -> tuple[str, list[str]]:
     return str(obj.get("body_method", "")), str(obj.get("body_warnings", "")).splitlines()
 
 
+def is_estimated(obj: bpy.types.Object) -> bool:
+    """Whether the stored bounds are estimates: those of splines are."""
+    method = str(obj.get("body_method", ""))
+    return method.startswith("NURBS") or method == "wire"
+
+
 def optional(obj: bpy.types.Object, key: str) -> float | None:
     """One of OPTIONAL, None where the object does not carry it."""
     value = obj.get(key)

@@ -219,8 +219,7 @@ def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[s
         "inertia": found.body.inertia,
         "principal_moments": found.body.principal.moments,
         "principal_axes": found.body.principal.axes,
-        "error_bound": {**found.error_bound, **(
-            {"estimated": True} if method.startswith("NURBS") or method == "wire" else {})},
+        "error_bound": {**found.error_bound, **({"estimated": True} if properties.is_estimated(obj) else {})},
         "warnings": warnings,
     }
     length, display = (properties.optional(obj, key) for key in properties.OPTIONAL)

@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-import os
-from contextlib import suppress
 from pathlib import Path
 
 import bpy
@@ -13,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.spectrum import Spectrum
+from .whole_file import whole_file
 
 MARK = "body_fourier"  # on the images that are ours to overwrite: their name
 DECADES = 6.0  # from white to black
@@ -22,18 +21,9 @@ GAP = 2  # pixels between slices
 def save(path: Path, spectrum: Spectrum, frame: str) -> None:
     """Write an .npz file, whole or not at all: q (M, 3) in rad/m, F (M,) complex in m³ or m², error (M,) and input,
     what rounding and storing coordinates as float32 may have changed, method and frame. Raises OSError."""
-    path = path.resolve()
-    partial = path.with_name("{}.{}.partial".format(path.name, os.getpid()))
-    try:
-        with open(partial, "wb") as file:
-            np.savez(file, q=spectrum.q, F=spectrum.values, error=spectrum.error, input=spectrum.input,
-                     method=spectrum.method, frame=frame)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(partial, path)
-    finally:
-        with suppress(FileNotFoundError):
-            partial.unlink()
+    with whole_file(path) as file:
+        np.savez(file, q=spectrum.q, F=spectrum.values, error=spectrum.error, input=spectrum.input,
+                 method=spectrum.method, frame=frame)
 
 
 def picture(name: str, values: NDArray[np.complex128], count: int) -> bpy.types.Image:
