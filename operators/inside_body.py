@@ -57,7 +57,7 @@ def inside_body(body: Body, reading: VolumeReading, options: GridOptions, unit: 
     outside = 1.0 - volume / body.volume.total
     if outside > OUTSIDE:
         notes.append("{:.3g} % of its volume is outside of the grid and counts as empty.".format(100.0 * outside))
-    return replace(body, mass=mass, refined=None, method="grid " + body.method,
+    return replace(body, mass=mass, refined=None, method="grid " + body.method, estimated=True,
                    warnings=(*body.warnings, *notes, *reading.warnings))
 
 

@@ -77,21 +77,22 @@ def _by_material(reading: Reading, body: Body, unit: float, shell: bool, factor:
                          "one density.")
     painted = _Painted(reading, others)
     parts: list[Moments] = []
-    mixed: list[str] = []
+    told: list[str] = []
+    mixed = False
     if shell:
         for i, values in enumerate(painted.values):
             parts.extend(_sheets(reading, i, values, unit, threads))
     else:
         for (solid, matrices), (values, names) in zip(body.solids, painted.for_solids(body)):
-            weighed, told = _solids(solid, matrices, values, names)
+            weighed, own, by_area = _solids(solid, matrices, values, names)
             parts += weighed
-            mixed += [one for one in told if one not in mixed]
-    warnings = [*painted.missing(), *mixed]
+            told += [one for one in own if one not in told]
+            mixed = mixed or by_area
+    warnings = [*painted.missing(), *told]
     health = body.health
     if not shell and health.nested_components + health.overlapping_components and painted.several:
         warnings.append("Where parts lie in or through one another their densities add up; cut a cavity for an insert.")
-    weighted = any("by area" in one for one in mixed)
-    return Weighed(as_mass(sum_moments(parts), factor), painted.source(weighted), warnings, painted.names)
+    return Weighed(as_mass(sum_moments(parts), factor), painted.source(mixed), warnings, painted.names)
 
 
 class _Painted:
@@ -169,17 +170,18 @@ def is_joined(reading: Reading, body: Body) -> bool:
 
 
 def _solids(solid: SolidMeasure, matrices: NDArray, values: NDArray, names: list[str] | None
-            ) -> tuple[list[Moments], list[str]]:
-    """∫ρ dV of a surface's places, and sentences about its parts. values, names: of its mesh faces."""
+            ) -> tuple[list[Moments], list[str], bool]:
+    """∫ρ dV of a surface's places, sentences about its parts, and whether any takes a mean by area. values, names: of
+    its mesh faces."""
     components = solid.components()
     moments, told = [], []
-    mixed = part_densities(components, values).mixed.any()
+    mixed = bool(part_densities(components, values).mixed.any())
     for places in _alike(matrices) if mixed else [matrices]:  # a mean by area is that of the areas as they are seen
         found = part_densities(components, values, places[0, :3, :3])
         density = found.density[components.part]
         moments.append(map_sum(weighted_solid(components.points, components.triangles, density, solid.volume), places))
         told += _mixed(components, found, names)
-    return moments, [*told, *([CAVITY] if found.painted.any() else [])]
+    return moments, [*told, *([CAVITY] if found.painted.any() else [])], mixed
 
 
 def _alike(matrices: NDArray) -> Iterator[NDArray]:

@@ -134,9 +134,9 @@ def method_and_warnings(obj: bpy.types.Object) -> tuple[str, list[str]]:
 
 
 def is_estimated(obj: bpy.types.Object) -> bool:
-    """Whether the stored bounds are estimates: those of splines are."""
+    """Whether the stored bounds are estimates: those of splines are, and those of solids filled with a grid."""
     method = str(obj.get("body_method", ""))
-    return method.startswith("NURBS") or method == "wire"
+    return method.startswith("NURBS") or method == "wire" or (method.startswith("grid") and obj.type != "VOLUME")
 
 
 def optional(obj: bpy.types.Object, key: str) -> float | None:
