@@ -17,6 +17,9 @@ from .measure import MeasureOptions, to_order, told
 from .read import Reading, Unreadable
 from .weigh import Weighed
 
+REMEDY = ("Write densities into the file first, or import the scan in Blender, where a transfer table makes densities "
+          "of CT numbers.")
+
 
 @dataclass(frozen=True)
 class ArrayOptions:
@@ -37,7 +40,7 @@ def measure_array(path: str, name: str, array: ArrayOptions, options: MeasureOpt
     try:
         scan = read_scan(path)
         matrix, notes = placed(scan, array.spacing, array.origin, array.unit_scale)
-        grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order)
+        grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order, remedy=REMEDY)
         notes = (*scan.notes, *notes, "Its density is an array of {:d} x {:d} x {:d} samples. {:s}".format(
             *scan.samples.shape, grid.told()))
         if options.density is not None:

@@ -20,6 +20,7 @@ class GridOptions:
 
     grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. value_density: kg/m³ where a value
     is 1; table: a transfer table instead, "" for none. spline_order: 1 voxels, 2 trilinear, 4 cubic.
+    remedy: what to do about negative densities.
     """
 
     grid: str = ""
@@ -27,6 +28,8 @@ class GridOptions:
     value_density: float = 1.0
     table: str = ""
     spline_order: int = 1
+    remedy: str = ("Give a transfer table for what its values stand for; a level set can be measured as the solid that "
+                   "it bounds.")
 
     @classmethod
     def of(cls, settings, density: float | None = None) -> GridOptions:
@@ -53,9 +56,8 @@ class GridOptions:
             if background is not None:
                 densities[values == background] = 0.0
             if densities.min() < 0.0:
-                raise ValueError("It has negative densities, down to {:.6g} kg/m³. Give a transfer table for what its "
-                                 "values stand for; a level set can be measured as the solid that it bounds.".format(
-                                     densities.min()))
+                raise ValueError("It has negative densities, down to {:.6g} kg/m³. {:s}".format(
+                    densities.min(), self.remedy))
             return densities
 
         return weighed

@@ -93,7 +93,16 @@ class VdbGrid:
                 begin = np.maximum(corner, self.low)
                 array = np.zeros(np.minimum(np.array(corner) + NODE, end) - begin, self._dtype)
                 self._grid.copyToArray(array, ijk=tuple(begin.tolist()))
-                yield tuple((begin - self.low).tolist()), array
+                used = array != self._dtype(self._grid.background)
+                for axis in range(3):  # a node may be empty but for a corner
+                    where = np.flatnonzero(used.any(axis=tuple({0, 1, 2} - {axis})))
+                    if not len(where):
+                        break
+                    part = (slice(None),) * axis + (slice(where[0], where[-1] + 1),)
+                    begin[axis] += where[0]
+                    array, used = array[part], used[part]
+                else:
+                    yield tuple((begin - self.low).tolist()), array
 
     def polygons(self) -> Surface:
         """The surface where a level set is zero, in the object's coordinates, facing outward."""

@@ -79,7 +79,7 @@ def test_given_mass_object_names_and_notes(tmp_path):
 
 @pytest.mark.parametrize("data, options, text", [
     (b"nonsense", (), "does not begin"),
-    (nrrd(-box()), (), "negative densities"),
+    (nrrd(-box()), (), "Write densities into the file first"),
     (nrrd(box("f4", 0.0)), (), "Every voxel"),
     (nrrd(box("f4", np.nan)), (), "not finite"),
     (nrrd(box()), ("--kind", "shell"), "no sheet"),

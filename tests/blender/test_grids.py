@@ -477,3 +477,24 @@ def test_a_volume_that_a_mesh_shows_is_no_sheet(tmp_path):
     obj.body_moments.kind = "SHELL"
     with pytest.raises(Unreadable, match="no sheet"):
         measure(obj)
+
+
+def test_of_a_node_only_what_is_not_empty_is_handed_out(tmp_path):
+    values = np.zeros((100, 90, 80), np.float32)
+    values[40:50, 7, 60:62] = 3.0
+    values[0, 0, 0] = values[-1, -1, -1] = 1e-3
+    grid = vdb_grid(values, offset=(128, 128, 128))
+    grid.fill((300, 300, 300), (300, 300, 300), 2.0)
+    vdb.openvdb().write(str(tmp_path / "a.vdb"), grid)
+    source = vdb.VdbGrid(str(tmp_path / "a.vdb"), "density")
+    found = np.zeros(source.shape)
+    sizes = []
+    for start, block in source.blocks():
+        found[tuple(slice(a, a + n) for a, n in zip(start, block.shape))] = block
+        sizes.append(block.size)
+    assert sorted(sizes) == [1, values.size]
+    assert np.array_equal(found[:100, :90, :80], values) and found[-1, -1, -1] == 2.0
+    values[0, 0, 0] = values[-1, -1, -1] = 0.0
+    vdb.openvdb().write(str(tmp_path / "b.vdb"), vdb_grid(values, offset=(128, 128, 128)))
+    source = vdb.VdbGrid(str(tmp_path / "b.vdb"), "density")
+    assert [block.size for _, block in source.blocks()] == [20]
