@@ -173,13 +173,13 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
     _generation += 1
     if _paused or depsgraph is None or depsgraph.mode != "VIEWPORT":
         return
-    if _undone:
-        _undone = False
-        return
+    undone, _undone = _undone, False
     updated = dict.fromkeys(update.id.original for update in depsgraph.updates
                             if update.is_updated_geometry and isinstance(update.id, Object))
     for obj in updated:
         _changes[obj.session_uid] = _changes.get(obj.session_uid, 0) + 1
+    if undone:  # what is stored on the objects came back with them, what is in memory did not
+        return
     for obj in updated | dict.fromkeys(_filled_from(updated)):
         found = [str(mark) for mark in (obj.get("body_fingerprint"), section.fingerprint(obj), _symmetry_mark(obj))
                  if mark]

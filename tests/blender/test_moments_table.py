@@ -244,3 +244,22 @@ def test_moments_beyond_the_range_of_numbers_are_refused_not_shown(box, capfd):
         rows()
     settings(moments_about="CENTER")
     assert np.isfinite(list(rows().values())).all()
+
+
+def test_moments_of_what_undo_took_back_are_out_of_date(box):
+    from body_moments.operators import moments_table
+
+    bpy.ops.ed.undo_push(message="As it was")
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.transform.resize(value=(2, 2, 2))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.ed.undo_push(message="Twice as large")
+    size, name = bpy.context.object.dimensions.x, bpy.context.object.name
+    compute(2)
+    while bpy.data.objects[name].dimensions.x > 0.75 * size:
+        assert bpy.ops.ed.undo() == {"FINISHED"}
+    obj = bpy.data.objects[name]
+    bpy.context.view_layer.update()
+    assert moments_table.found(obj).volume.total == pytest.approx(48.0)
+    assert moments_table.outdated(obj, bpy.context.scene) == "Geometry Changed"
