@@ -80,8 +80,8 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
     def execute(self, context: Context) -> set[str]:
         module = openvdb()
         if module is None:
-            self.report({"ERROR"}, "This Python has no openvdb module, without which no volume can be made; use Blender "
-                                   "itself")
+            self.report({"ERROR"}, "This Python has no openvdb module, without which no volume can be made; use "
+                                   "Blender itself")
             return {"CANCELLED"}
         path = Path(bpy.path.abspath(self.filepath))
         target = path.with_name(path.name[: -len(suffix(path)) or None] + ".vdb")
