@@ -47,7 +47,10 @@ def read_library(path: Path) -> tuple[list[Entry], list[str]]:
             try:
                 entries.append(Entry(name, file, Signature.from_record(record.get("signature") or {})))
             except ValueError:
-                faults.append("{:s}:{:s}: It has no signature; measure it with --signature.".format(file, name))
+                reason = ("It has no shape that a signature could tell; the warnings of its record say why."
+                          if "signature" in record and record["signature"] is None else
+                          "It has no signature; measure it with --signature.")
+                faults.append("{:s}:{:s}: {:s}".format(file, name, reason))
     return entries, faults
 
 

@@ -7,6 +7,7 @@ Blender takes voxels from .vdb files only, so one is written beside the scan.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 
 from ..core.decimal import decimal
 from ..core.scans import SUFFIXES, TYPES, Scan, placed, read_raw, read_scan, suffix
+from . import selection
 from .read.vdb import openvdb
 
 GRID = "density"
@@ -78,7 +80,8 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
     def execute(self, context: Context) -> set[str]:
         module = openvdb()
         if module is None:
-            self.report({"ERROR"}, "This Blender has no openvdb module, without which no volume can be made")
+            self.report({"ERROR"}, "This Python has no openvdb module, without which no volume can be made; use "
+                                   "Blender itself")
             return {"CANCELLED"}
         path = Path(bpy.path.abspath(self.filepath))
         target = path.with_name(path.name[: -len(suffix(path)) or None] + ".vdb")
@@ -100,7 +103,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
             obj.body_moments.values_from = "TABLE"
             notes += ("Its negative values are taken as CT numbers, by the transfer table.",)
         told = "Imported {:d} x {:d} x {:d} samples by way of “{:s}”".format(*scan.samples.shape, target.name)
-        self.report({"WARNING"} if notes else {"INFO"}, ". ".join([told, *notes]))
+        self.report({"WARNING"} if notes else {"INFO"}, selection.one_line([told, *notes]))
         return {"FINISHED"}
 
     def _scan(self, path: Path) -> Scan:
@@ -110,8 +113,8 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
 
 
 def _write(module, target: Path, scan: Scan, matrix: NDArray) -> float:
-    """Write the scan as a grid and tell its least value. The background is no sample's value, so that none is lost,
-    but zero where no sample is negative."""
+    """Write the scan as a grid, whole or not at all, and tell its least value. The background is no sample's value, so
+    that none is lost, but zero where no sample is negative."""
     least, exact = np.inf, True
     for _, slab in _slabs(scan):
         if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):
@@ -124,7 +127,12 @@ def _write(module, target: Path, scan: Scan, matrix: NDArray) -> float:
     grid.transform = module.createLinearTransform(matrix.T.tolist())
     for start, slab in _slabs(scan):
         grid.copyFromArray(np.ascontiguousarray(slab, np.float32 if exact else np.float64), ijk=(start, 0, 0))
-    module.write(str(target), grid)
+    partial = target.with_name("{:s}.{:d}.partial.vdb".format(target.stem, os.getpid()))
+    try:
+        module.write(str(partial), grid)
+        os.replace(partial, target)
+    finally:
+        partial.unlink(missing_ok=True)
     return least
 
 

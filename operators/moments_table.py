@@ -26,6 +26,7 @@ from .clipboard import to_clipboard
 from .fingerprint import matrix_hash, settings_hash
 from .measure import MeasureOptions, Unreadable, measure_object
 from .read import measurable
+from .selection import one_line
 from .units import number
 
 NO_WIRE = (
@@ -199,10 +200,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         while len(_kept) > KEPT:
             _kept.popitem(last=False)
         told = "Computed {:d} moments of {:s}".format(len(volume.raw), obj.name)
-        if one.warnings:
-            self.report({"WARNING"}, " ".join([told + ".", *one.warnings]))
-        else:
-            self.report({"INFO"}, told)
+        self.report({"WARNING"} if one.warnings else {"INFO"}, one_line([told, *one.warnings]))
         return {"FINISHED"}
 
 

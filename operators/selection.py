@@ -67,6 +67,12 @@ def progress(count: int):
             manager.progress_end()
 
 
+def one_line(sentences: Iterable[str]) -> str:
+    """Sentences of a report, whether or not they bring their period, one after the other."""
+    *before, last = sentences
+    return "".join(sentence.removesuffix(".") + ". " for sentence in before) + last
+
+
 def summarise(
     operator: Operator,
     done: int,
@@ -94,7 +100,7 @@ def summarise(
             )
         )
     sentences += notes[:LISTED]
-    operator.report({"WARNING"} if failures or notes else {"INFO"}, ". ".join(sentences))
+    operator.report({"WARNING"} if failures or notes else {"INFO"}, one_line(sentences))
     return {"FINISHED"} if done else {"CANCELLED"}
 
 

@@ -47,7 +47,8 @@ def answer(options: argparse.Namespace) -> tuple[str, int]:
         try:
             found, missing = read_library(path)
         except (OSError, ValueError) as error:
-            raise Unanswerable("{}: {}".format(path, error)) from error
+            reason = "{}.".format(getattr(error, "strerror", None) or str(error).removesuffix("."))
+            raise Unanswerable("{}: {}".format(path, reason)) from error
         entries += found
         faults += missing
     for fault in faults:

@@ -154,3 +154,15 @@ def test_a_nurbs_surface_has_the_signature_of_its_display_mesh_and_a_wire_has_no
     wire.body_moments.kind = "WIRE"
     entry = document("--pose", "--object", wire.name)["objects"][0]
     assert entry["method"] == "wire" and entry["pose"] is None
+
+
+def test_what_has_no_shape_is_not_asked_to_be_measured_with_what_it_was(tmp_path, capsys):
+    add_box("Box")
+    path, _ = shape_file(tmp_path)
+    library = json.loads(path.read_text(encoding="utf-8"))
+    library["objects"].append({"name": "Cloud", "signature": None})
+    path.write_text(json.dumps(library) + "\n", encoding="utf-8")
+    assert ask(tmp_path, path, "--to", "Box")[0] == 1
+    assert "Cloud: It has no shape" in capsys.readouterr().err
+    assert ask(tmp_path, tmp_path / "none.jsonl", "--to", "Box")[0] == 2
+    assert "none.jsonl: No such file or directory." in capsys.readouterr().err

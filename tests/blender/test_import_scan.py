@@ -106,3 +106,29 @@ def test_reading_back_needs_no_scan(tmp_path):
     bpy.context.view_layer.update()
     with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
         assert np.array_equal(reading.to_object, matrix)
+
+
+def test_a_volume_is_written_whole_or_not_at_all(tmp_path, monkeypatch, capfd):
+    path = written(tmp_path / "a.nii", nifti(samples("i2")))
+    imported(path)
+    assert ".." not in capfd.readouterr().out
+    kept = (tmp_path / "a.vdb").read_bytes()
+    from body_moments.operators import import_scan
+
+    class Failing:
+        """openvdb on a full disk."""
+
+        def __getattr__(self, name):
+            return getattr(real, name)
+
+        def write(self, file, grid):
+            with open(file, "wb") as partial:
+                partial.write(b"half")
+            raise RuntimeError("no space left")
+
+    real = import_scan.openvdb()
+    monkeypatch.setattr(import_scan, "openvdb", Failing)
+    with pytest.raises(RuntimeError, match="no space left"):
+        bpy.ops.object.body_moments_import_scan(filepath=str(path), overwrite=True)
+    assert (tmp_path / "a.vdb").read_bytes() == kept
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["a.nii", "a.vdb"]

@@ -273,3 +273,10 @@ def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():
     assert Units("METRIC", "ADAPTIVE", "ADAPTIVE", 1.0).text("mass", 1e-9) == "0.001 mg"
     texts = Units("METRIC", "METERS", "KILOGRAMS", 1.0).texts("inertia", (5.0, 1e-17))
     assert texts == ["5 kg·m²", "0 kg·m²"]
+
+
+def test_sentences_of_a_report_have_one_period_each():
+    from body_moments.operators.selection import one_line
+
+    assert one_line(["Measured 1 object"]) == "Measured 1 object"
+    assert one_line(["Laid 1 object", "It is open.", "It is mended."]) == "Laid 1 object. It is open. It is mended."
