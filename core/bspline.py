@@ -79,13 +79,15 @@ class Space:
         """
         knots = np.asarray(self.knots)
         t = np.asarray(parameters, np.float64)
-        j = np.broadcast_to(spans, t.shape)
+        # The knots from j - order + 2 to j + order - 1, gathered once for each span, however many parameters it has.
+        near = knots[np.asarray(spans)[..., None] + np.arange(2 - self.order, self.order)]
         lower = [np.ones((*t.shape, 1))]  # by order, from 1
         for order in range(2, self.order + 1):
-            before, after = self._neighbours(knots, j, order)
+            before, after = self._neighbours(near, order)
             ratio = lower[-1] / (after - before)
-            values = np.zeros((*t.shape, order))
-            values[..., 1:] = ratio * (t[..., None] - before)
+            values = np.empty((*t.shape, order))
+            values[..., 0] = 0.0
+            np.multiply(ratio, t[..., None] - before, out=values[..., 1:])
             values[..., :-1] += ratio * (after - t[..., None])
             lower.append(values)
         found = [lower[-1]]
@@ -95,7 +97,7 @@ class Space:
                 continue
             values = lower[self.order - derivative - 1]
             for order in range(self.order - derivative + 1, self.order + 1):
-                before, after = self._neighbours(knots, j, order)
+                before, after = self._neighbours(near, order)
                 ratio = (order - 1) * values / (after - before)
                 values = np.zeros((*t.shape, order))
                 values[..., 1:] = ratio
@@ -103,11 +105,9 @@ class Space:
             found.append(values)
         return found
 
-    @staticmethod
-    def _neighbours(knots: NDArray, j: NDArray, order: int) -> tuple[NDArray, NDArray]:
-        """The first and the last knot of the order - 1 functions, one order lower, that act in span j."""
-        steps = np.arange(order - 1)
-        return knots[j[..., None] - (order - 2) + steps], knots[j[..., None] + 1 + steps]
+    def _neighbours(self, near: NDArray, order: int) -> tuple[NDArray, NDArray]:
+        """The first and the last knot of the order - 1 functions, one order lower, that act in a span."""
+        return near[..., self.order - order:self.order - 1], near[..., self.order - 1:self.order + order - 2]
 
     def matrix(self, parameters: NDArray, derivative: int = 0) -> NDArray[np.float64]:
         """(n, count) what each control point weighs at each of n parameters, or in a derivative there."""

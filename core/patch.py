@@ -9,6 +9,7 @@ run the other way round their two directions: with v as s and u as t both agree.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -79,27 +80,30 @@ class Patch:
 class Cells:
     """Rectangles of the parameters of one patch, each within one span of s and one of t.
 
-    spans: (c, 2). low, size: (c, 2) where they begin and how long their sides are.
+    spans: (c, 2). low, size: (c, 2) where they begin and how long their sides are. rows: (c, 2) which of the spans of
+    each direction they are, None for parts of spans.
     """
 
     spans: NDArray[np.int64]
     low: NDArray[np.float64]
     size: NDArray[np.float64]
+    rows: NDArray[np.int64] | None = None
 
     @classmethod
     def of(cls, patch: Patch) -> Cells:
         """Every span of s by every span of t, one cell each."""
-        pairs = np.stack(np.meshgrid(*(np.arange(len(space.spans)) for space in patch.spaces), indexing="ij"), axis=-1)
-        pairs = pairs.reshape(-1, 2)
-        spans = np.stack([space.spans[pairs[:, k]] for k, space in enumerate(patch.spaces)], axis=1)
-        bounds = np.stack([space.intervals[pairs[:, k]] for k, space in enumerate(patch.spaces)], axis=1)
-        return cls(spans, bounds[..., 0], bounds[..., 1] - bounds[..., 0])
+        one, other = patch.spaces
+        rows = np.stack([np.repeat(np.arange(len(one.spans)), len(other.spans)),
+                         np.tile(np.arange(len(other.spans)), len(one.spans))], axis=1)
+        spans = np.stack([one.spans[rows[:, 0]], other.spans[rows[:, 1]]], axis=1)
+        bounds = np.stack([one.intervals[rows[:, 0]], other.intervals[rows[:, 1]]], axis=1)
+        return cls(spans, bounds[..., 0], bounds[..., 1] - bounds[..., 0], rows)
 
     def __len__(self) -> int:
         return len(self.spans)
 
     def __getitem__(self, rows) -> Cells:
-        return Cells(self.spans[rows], self.low[rows], self.size[rows])
+        return Cells(self.spans[rows], self.low[rows], self.size[rows], None if self.rows is None else self.rows[rows])
 
     def split(self) -> Cells:
         """Each cell as four."""
@@ -107,6 +111,16 @@ class Cells:
         corners = np.array([[0, 0], [0, 1], [1, 0], [1, 1]], np.float64)
         return Cells(np.repeat(self.spans, 4, axis=0), (self.low[:, None] + corners * half[:, None]).reshape(-1, 2),
                      np.repeat(half, 4, axis=0))
+
+
+@lru_cache(maxsize=32)
+def span_tables(space: Space, points: int, most: int) -> tuple[tuple[NDArray, ...], NDArray]:
+    """Basis functions and their derivatives at the Gauss points of all spans, each (s, points, order), and the weights
+    of those points (s, points): patches and their caps share spaces. Not to be written to."""
+    nodes, weights = gauss(points)
+    low, high = space.intervals.T
+    size = (high - low)[:, None]
+    return tuple(space.derivatives(space.spans[:, None], low[:, None] + size * nodes, most)), size * weights
 
 
 def at_gauss_points(patch: Patch, cells: Cells, points: tuple[int, int], most: int, origin: NDArray
@@ -118,10 +132,16 @@ def at_gauss_points(patch: Patch, cells: Cells, points: tuple[int, int], most: i
     """
     tables, steps, controls = [], [], []
     for axis, (space, number) in enumerate(zip(patch.spaces, points)):
-        nodes, weights = gauss(number)
-        size = cells.size[:, axis, None]
-        tables.append(space.derivatives(cells.spans[:, axis, None], cells.low[:, axis, None] + size * nodes, most))
-        steps.append(size * weights)
+        if cells.rows is None:
+            nodes, weights = gauss(number)
+            size = cells.size[:, axis, None]
+            tables.append(space.derivatives(cells.spans[:, axis, None], cells.low[:, axis, None] + size * nodes, most))
+            steps.append(size * weights)
+        else:
+            found, step = span_tables(space, number, most)
+            own = cells.rows[:, axis]
+            tables.append([table[own] for table in found])
+            steps.append(step[own])
         controls.append(space.controls(cells.spans[:, axis]))
     rows = controls[0][:, :, None], controls[1][:, None, :]
     net = patch.points[rows].transpose(3, 0, 1, 2)  # (3, c, k, k')

@@ -459,8 +459,10 @@ def splines(rounds: int) -> None:
 
 
 def _ours(patches) -> tuple[float, float]:
+    from body_moments.core.patch import span_tables
     from body_moments.core.patch_moments import volume_moments
 
+    span_tables.cache_clear()  # from scratch
     moments = volume_moments(patches, 2, np.zeros(3))[0]
     return moments.total, moments[2, 0, 0] + moments[0, 2, 0]
 

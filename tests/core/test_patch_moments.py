@@ -183,6 +183,17 @@ def test_areas_of_spheres_and_tori_come_with_an_estimate_that_holds():
     assert abs(moments.total - 4.0 * np.pi**2 * 0.75 * 0.25) <= moments.error[0] <= 1e-9
 
 
+def test_the_area_of_a_patch_that_folds_back_has_an_estimate_that_holds():
+    """A line that runs forth and back, dragged aside: its length, between its turns, is the area."""
+    for third in (0.4, -0.1, -0.7):
+        x = np.array([0.0, 1.0, third])  # x = 2 t (1 - t) + third t²
+        turn = 1.0 / (2.0 - third)
+        peak = 2.0 * turn * (1.0 - turn) + third * turn * turn
+        points = np.stack([np.stack([x, 0.0 * x + side, 0.0 * x], axis=1) for side in (0.0, 1.0)], axis=1)
+        moments, _ = area_moments([Patch((clamped(3), clamped(2)), points)])
+        assert abs(moments.total - (2.0 * peak - third)) <= moments.error[0] <= 1e-6
+
+
 def test_sheets_have_real_thickness():
     for low, high in ((-0.05, 0.05), (0.0, 0.1), (-0.3, -0.1)):
         moments, settled = sheet_moments([sphere()], low, high)
