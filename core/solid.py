@@ -145,7 +145,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
         area = (own or polyhedron.solid_and_area(surface, threads, shell))[1]
     if compared is None:
         solid = bool(abs(volume.total) > _noise(size, area.total, body.caps.any(), error))
-        turn = turn | (solid and volume.total < 0.0)
+        turn = turn | (solid and volume.total < 0.0 and not body.open.any())  # what is open has no inside
         caps = body.caps.sum(axis=0) * solid
     else:
         solid = bool(compared.solid.any())

@@ -87,7 +87,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         target = path.with_name(path.name[: -len(suffix(path)) or None] + ".vdb")
         try:
             scan = self._scan(path)
-            matrix, notes = placed(scan, tuple(self.spacing) if self.use_spacing else None, None, None)
+            matrix, notes = placed(scan, tuple(map(decimal, self.spacing)) if self.use_spacing else None, None, None)
             if target.exists() and not self.overwrite:
                 raise ValueError("There is a file “{:s}” already; allow overwriting it.".format(target.name))
             matrix[:3] /= decimal(context.scene.unit_settings.scale_length)

@@ -58,15 +58,20 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
         areas.extend(mapped_areas(part.surface, solid.area, matrices, measured))
         stretch = volumes[-1].total / solid.volume.total if solid.volume.total else 0.0  # Σ |det|
         healths.append((replace(solid.health, volume_spread=solid.health.volume_spread * stretch), len(matrices)))
-        methods.append(solid.method)
+        flat = not shell and not solid.volume.raw.any()
+        methods.append(None if flat else solid.method)
         if shell and solid.health.duplicate_faces:
             warnings.append("{:d} faces are copies of others and count with them.".format(solid.health.duplicate_faces))
-        if not shell:  # a shell is measured as it is
+        if not shell and not flat:  # a shell is measured as it is
             warnings.extend(w for w in solid.warnings if w not in warnings)
         parts.append((solid, matrices))
-    ranked = ("open", "capped", "reoriented", "exact")
-    return _body(sum_moments(volumes), sum_moments(areas), together(healths), min(methods, key=ranked.index), warnings,
-                 parts, [part.surface for part in reading.parts], threads)
+    solid_methods = [method for method in methods if method]
+    if solid_methods and len(solid_methods) < len(methods):
+        warnings.append("{:d} of its {:d} surfaces are flat, as a ground is that instances stand on; they add area and "
+                        "no volume.".format(methods.count(None), len(methods)))
+    method = min(solid_methods, key=("open", "capped", "reoriented", "exact").index, default="open")
+    return _body(sum_moments(volumes), sum_moments(areas), together(healths), method, warnings, parts,
+                 [part.surface for part in reading.parts], threads)
 
 
 def _body(volume: Moments, area: Moments, health: Health, method: str, warnings: Iterable[str],

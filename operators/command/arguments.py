@@ -37,7 +37,7 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     Raises SystemExit(2) with a message on the standard error, or SystemExit(0) after --help.
     """
     parser = _parser()
-    options = parser.parse_intermixed_args(argv)
+    options = parser.parse_intermixed_args(_negatives_joined(argv))
     if file_needed and not options.files:
         parser.error("the name of a FILE is needed")
     if options.surface_moments and options.order is None:
@@ -49,6 +49,17 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     fourier.check(options, parser)
     _keep_what_is_read(options, parser)
     return options
+
+
+def _negatives_joined(argv: list[str]) -> list[str]:
+    """With `--origin -1,2,3` as `--origin=-1,2,3`: the parser would take what begins with a minus for an option."""
+    joined: list[str] = []
+    for word in argv:
+        if joined and joined[-1] in {"--origin", "--spacing"} and word[:2].strip("0123456789.") == "-":
+            joined[-1] += "=" + word
+        else:
+            joined.append(word)
+    return joined
 
 
 def _keep_what_is_read(options: argparse.Namespace, parser: argparse.ArgumentParser) -> None:

@@ -27,7 +27,7 @@ def box(dtype="f4", value=1.0):
 
 def test_a_box_of_voxels_has_the_inertia_of_a_box(tmp_path):
     np.save(tmp_path / "box.npy", box())
-    code, document = run(tmp_path, tmp_path / "box.npy", "--spacing", "0.5,0.5,0.5", "--origin=-1,0,10",
+    code, document = run(tmp_path, tmp_path / "box.npy", "--spacing", "0.5,0.5,0.5", "--origin", "-1,0,10",
                          "--density-scale", "2", "--order", "2")
     assert code == 0 and document["errors"] == []
     (entry,) = document["objects"]

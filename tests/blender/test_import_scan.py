@@ -66,9 +66,9 @@ def test_a_raw_file_by_hand_and_a_spacing(tmp_path):
     values = samples("u2")
     path = written(tmp_path / "a.raw", values.astype(">u2").tobytes(order="F"))
     obj = imported(path, raw_shape=(5, 6, 7), raw_type="uint16", raw_big_endian=True, use_spacing=True,
-                   spacing=(0.5, 0.5, 0.5))
+                   spacing=(0.01, 0.01, 0.02))
     bpy.context.view_layer.update()
-    assert measure(obj).mass_properties.mass == pytest.approx(values.sum() / 8)
+    assert measure(obj).mass_properties.mass == pytest.approx(values.sum() * 2e-6, rel=1e-12)
 
 
 def refusal(path, **options):

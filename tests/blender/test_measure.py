@@ -249,6 +249,15 @@ def test_touching_instances_are_not_called_overlapping():
     assert found.volume == pytest.approx(5.0) and not found.warnings
 
 
+def test_the_ground_that_instances_stand_on_adds_no_volume_and_takes_none():
+    ground = {"points": [(x, y, 0) for x in (-9, 9) for y in (-9, 9)], "faces": [(0, 2, 3, 1)]}
+    boxes = [add(box((0, 0, 1), (1, 1, 2)), location=(i, 0, 0)) for i in (0, 3)]
+    found = measure(collection_of(add(ground), *boxes))
+    assert found.method == "exact" and found.volume == pytest.approx(2.0)
+    assert found.area == pytest.approx(18.0**2 + 12.0)
+    assert any("flat" in warning for warning in found.warnings) and not found.health.closed
+
+
 def test_a_body_that_intersects_itself_into_negative_inertia_is_refused():
     outline = [(1, -1), (1, 1), (-0.04, -0.04), (-10, -0.04), (-10, 0.04), (-0.04, 0.04)]
     points = [(x, y, z) for z in (0, 1) for x, y in outline] + [(0.3, 0, 0), (0.3, 0, 1)]

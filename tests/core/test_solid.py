@@ -197,6 +197,7 @@ def test_a_one_sided_surface_is_open(part):
     result = verdict(part)
     assert result.method == "open" and not result.health.closed
     assert "one-sided" in result.warnings[0]
+    assert not any("inside out" in warning for warning in result.warnings)
     beside = verdict(joined(part, box((5, 5, 5), (6, 6, 6))))
     assert beside.method == "open" and "1 of its 2 parts cannot be closed" in beside.warnings[0]
 
