@@ -209,7 +209,8 @@ def report(record: str) -> None:
     bound = measured["error_bound"]
 
     def vector(values, scale: float, digits: int) -> str:
-        return "  ".join(f"{scale * value:>{digits + 6}.{digits}f}" for value in values)
+        rounded = [round(scale * value, digits) + 0.0 for value in values]  # no negative zeros
+        return "  ".join(f"{value:>{digits + 6}.{digits}f}" for value in rounded)
 
     print(f"{measured['name']}, Blender {document['blender']}, {document['frame']} frame")
     print(f"  verdict            {measured['kind']}, {measured['method']}")
