@@ -22,6 +22,7 @@ from ..core.matching import FITS, Match
 from ..core.signature import Likeness, compared
 from . import selection, snapping
 from .measure import MeasureOptions
+from .one_by_one import OneByOne
 from .read import measurable_objects
 from .shape import Shape, Skin, matched, surface_shape_of
 
@@ -98,7 +99,7 @@ class _Find:
         return {"FINISHED"}
 
 
-class OBJECT_OT_body_moments_find_similar(_Find, Operator):
+class OBJECT_OT_body_moments_find_similar(OneByOne, _Find, Operator):
     """Find the objects in the scene whose shape is most like the active one's"""
 
     bl_idname = "object.body_moments_find_similar"
@@ -107,6 +108,8 @@ class OBJECT_OT_body_moments_find_similar(_Find, Operator):
         "Compare the shapes of all visible objects with the active one's, however they lie and whatever their size and "
         "faces: copies, mirror images and what is merely similar"
     )
+    DOING = "Comparing: {:d} of {:d} objects. Esc cancels"
+    CANCELLED = "The search was cancelled; nothing was changed"
 
     select: BoolProperty(
         name="Select Copies", default=True,
@@ -115,39 +118,12 @@ class OBJECT_OT_body_moments_find_similar(_Find, Operator):
     scaled: SCALED
 
     def execute(self, context: Context) -> set[str]:
-        if not self._begin(context):
-            return {"CANCELLED"}
-        with selection.progress(len(self._others)) as step:
-            for _ in self._steps:
-                step()
-        return self._finish(context)
+        return self.all_at_once(context, len(self._others)) if self._begin(context) else {"CANCELLED"}
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         if context.window is None:
             return self.execute(context)
-        if not self._begin(context):
-            return {"CANCELLED"}
-        manager = context.window_manager
-        self._done, self._timer = 0, manager.event_timer_add(0.0, window=context.window)
-        manager.modal_handler_add(self)
-        manager.progress_begin(0, len(self._others))
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: Context, event: Event) -> set[str]:
-        if event.type == "ESC":
-            self._end(context)
-            self.report({"INFO"}, "The search was cancelled; nothing was changed")
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"RUNNING_MODAL"}
-        if next(self._steps, None) is None:
-            self._end(context)
-            return self._finish(context)
-        self._done += 1
-        context.window_manager.progress_update(self._done)
-        context.workspace.status_text_set(
-            "Comparing: {:d} of {:d} objects. Esc cancels".format(self._done, len(self._others)))
-        return {"RUNNING_MODAL"}
+        return self.begin_modal(context, len(self._others)) if self._begin(context) else {"CANCELLED"}
 
     def _begin(self, context: Context) -> bool:
         wanted = self.wanted(context)
@@ -176,11 +152,6 @@ class OBJECT_OT_body_moments_find_similar(_Find, Operator):
             except snapping.REFUSALS as error:
                 self._failures.append("{:s}: {:s}".format(obj.name, getattr(error, "reason", str(error))))
             yield obj
-
-    def _end(self, context: Context) -> None:
-        context.window_manager.event_timer_remove(self._timer)
-        context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing is kept or selected before everything is compared, so that a cancelled search leaves nothing."""

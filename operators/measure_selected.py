@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import bpy
 
 from .measure import Measurement, Unreadable, measure_object
+from .one_by_one import OneByOne
 from .results import refuse
 from .staleness import settle
 from .write import properties
@@ -16,12 +17,14 @@ from .write import properties
 AT_ONCE = 4  # up to so many objects are measured before the window is drawn again
 
 
-class OBJECT_OT_body_moments_measure(bpy.types.Operator):
+class OBJECT_OT_body_moments_measure(OneByOne, bpy.types.Operator):
     """Compute the exact mass properties of the selected objects and store them on each"""
 
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
     bl_options = {"REGISTER", "UNDO"}
+    DOING = "Measuring: {:d} of {:d} objects. Esc cancels"
+    CANCELLED = "Measuring was cancelled; nothing was changed"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -31,43 +34,15 @@ class OBJECT_OT_body_moments_measure(bpy.types.Operator):
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        window_manager = context.window_manager
-        objects = _chosen(context)
-        window_manager.progress_begin(0, len(objects))
-        try:
-            self._begin(context)
-            for done, _ in enumerate(self._steps, 1):
-                window_manager.progress_update(done)
-        finally:
-            window_manager.progress_end()
-        return self._finish(context)
+        self._begin(context)
+        return self.all_at_once(context, len(_chosen(context)))
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        objects = _chosen(context)
-        if len(objects) <= AT_ONCE or context.window is None:
+        count = len(_chosen(context))
+        if count <= AT_ONCE or context.window is None:
             return self.execute(context)
         self._begin(context)
-        self._count, self._done = len(objects), 0
-        self._timer = context.window_manager.event_timer_add(0.0, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        context.window_manager.progress_begin(0, self._count)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if event.type == "ESC":
-            self._end(context)
-            self.report({"INFO"}, "Measuring was cancelled; nothing was changed")
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"RUNNING_MODAL"}
-        if next(self._steps, None) is None:
-            self._end(context)
-            return self._finish(context)
-        self._done += 1
-        context.window_manager.progress_update(self._done)
-        context.workspace.status_text_set(
-            "Measuring: {:d} of {:d} objects. Esc cancels".format(self._done, self._count))
-        return {"RUNNING_MODAL"}
+        return self.begin_modal(context, count)
 
     def _begin(self, context: bpy.types.Context) -> None:
         self._found: list[tuple[bpy.types.Object, Measurement]] = []
@@ -84,11 +59,6 @@ class OBJECT_OT_body_moments_measure(bpy.types.Operator):
             else:
                 refuse(obj, None)
             yield obj
-
-    def _end(self, context: bpy.types.Context) -> None:
-        context.window_manager.event_timer_remove(self._timer)
-        context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Nothing is stored before everything is measured, so that a cancelled run leaves nothing behind."""
