@@ -33,8 +33,8 @@ from .surface import Surface, all_there, flipped_quads
 
 MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 FAST = 3  # orders up to this one have their own kernel
-NUMBERS = 240_000  # that a block's rows of one degree may hold: then calls are long, and not too far from the cache
-FEWEST, MOST = 256, 8192  # faces in a block
+NUMBERS = 480_000  # that a block's rows of one degree may hold; with fewer, two threads wait for each other
+FEWEST, MOST = 256, 16384  # faces in a block
 BATCH = 8  # blocks that are handed to a thread at once
 RANGE = 1000.0  # powers of two beyond which a moment is no number
 
