@@ -33,6 +33,7 @@ from .body import Body
 from .measure import MeasureOptions, measure_body
 from .read import Unreadable
 
+OF_SHAPES = "Pose and signature tell shapes, and a grid of densities has none."
 DISPLAY_MESH = "Its signature is that of its display mesh, as fine as the viewport's resolution."
 POLYGONS = "Its signature is known of polygons only; convert it to a mesh first."
 EXACT, NEAR = 1e-5, 1e-2  # of the size: between them single precision mistakes the distances of thin triangles
@@ -144,7 +145,7 @@ def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     """Measure an object for its shape. Raises `Unreadable`, and `NoShape` where it has none."""
     measurement, body = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
     if body.mass is not None and not body.solids:
-        raise NoShape(measurement, "Pose and signature tell shapes, and a grid of densities has none.")
+        raise NoShape(measurement, OF_SHAPES)
     if body.to_order is None or body.length is not None:
         raise NoShape(measurement, "Pose and signature are not known of wires, nor of walls of real thickness; set "
                                    "Wall to Thin, or make it a mesh.")

@@ -28,7 +28,7 @@ from .. import settings
 from ..array_body import ArrayOptions, measure_array
 from ..measure import MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
-from ..shape import DISPLAY_MESH, POLYGONS, NoShape, shape_of
+from ..shape import DISPLAY_MESH, OF_SHAPES, POLYGONS, NoShape, shape_of
 from ..staleness import settle
 from ..write import record
 from ..write.properties import store
@@ -140,6 +140,8 @@ class Run:
             return [], [], [*errors, _error(None, refusal.reason)]
         asked = [more for more in ("pose", "signature") if getattr(self.options, more)]
         surface = one.area_moments if self.options.surface_moments else None
+        if asked:
+            one = replace(one, warnings=(*one.warnings, OF_SHAPES))
         told = record.record(one, self.options.frame, self.options.order, surface, dict.fromkeys(asked))
         return [told], [(None, one)], errors
 

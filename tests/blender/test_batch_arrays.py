@@ -114,6 +114,7 @@ def test_a_scene_with_a_cloud_goes_through_every_option(tmp_path):
     assert (entry["type"], entry["method"]) == ("VOLUME", "grid exact")
     assert entry["mass"] == pytest.approx(2.0 * values.sum(dtype=float), rel=1e-12)
     assert entry["pose"] is None and entry["signature"] is None
+    assert any("has none" in warning for warning in entry["warnings"])
     assert set(entry["moments"]["surface"].values()) == {0.0}
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
     obj = bpy.data.objects["Cloud"]
@@ -122,3 +123,10 @@ def test_a_scene_with_a_cloud_goes_through_every_option(tmp_path):
     code, document = run(tmp_path, tmp_path / "a.blend", "--fourier", tmp_path / "f.npz", "--grid", "4", "--qmax", "1")
     assert code == 1
     assert "Fourier" in document["errors"][0]["reason"]
+
+
+def test_that_an_array_has_no_pose_is_said(tmp_path):
+    np.save(tmp_path / "b.npy", np.ones((2, 3, 4)))
+    code, document = run(tmp_path, tmp_path / "b.npy", "--pose")
+    assert code == 0 and document["objects"][0]["pose"] is None
+    assert any("has none" in warning for warning in document["objects"][0]["warnings"])
