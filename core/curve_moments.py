@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from .curve import Curve
 from .moments import Moments, U, monomials
 from .patch_moments import ROUNDING, TOLERANCE
-from .quadrature import gauss
+from .quadrature import gauss_and_ends
 
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # points; each is compared with the one before
@@ -116,9 +116,7 @@ def _pieces(curve: Curve, bounds: NDArray, spans: NDArray, points: int, density:
             about: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     """(c, K) the contributions of pieces of a curve, bounds (c, 2) each within its span, (c,) their lengths, and (c,)
     those of their ends that turn back before the first or after the last point, where no rule would see it."""
-    nodes, weights = gauss(points)
-    beyond = nodes[0]
-    nodes, weights = np.concatenate([[0.0], nodes, [1.0]]), np.concatenate([[0.0], weights, [0.0]])
+    nodes, weights = gauss_and_ends(points)
     size = (bounds[:, 1] - bounds[:, 0])[:, None]
     values, slopes = curve.space.derivatives(spans[:, None], bounds[:, :1] + size * nodes, 1)
     controls = curve.space.controls(spans)
@@ -138,4 +136,4 @@ def _pieces(curve: Curve, bounds: NDArray, spans: NDArray, points: int, density:
     speed = np.sqrt((velocity ** 2).sum(axis=0))
     unseen = sum(np.where((velocity[..., a] * velocity[..., b]).sum(axis=0) < 0.0, speed[:, a] + speed[:, b], 0.0)
                  for a, b in ((0, 1), (-1, -2)))
-    return np.stack(columns, axis=1), (speed * size * weights).sum(axis=1), unseen * beyond * size[:, 0]
+    return np.stack(columns, axis=1), (speed * size * weights).sum(axis=1), unseen * nodes[1] * size[:, 0]

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .bspline import Space
 from .curve import Curve, checked_points
-from .quadrature import gauss
+from .quadrature import gauss, gauss_and_ends
 
 DERIVATIVES = (((0, 0),), ((0, 0), (1, 0), (0, 1)), ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)))
 
@@ -114,31 +114,33 @@ class Cells:
 
 
 @lru_cache(maxsize=32)
-def span_tables(space: Space, points: int, most: int) -> tuple[tuple[NDArray, ...], NDArray]:
+def span_tables(space: Space, points: int, most: int, ends: bool) -> tuple[tuple[NDArray, ...], NDArray]:
     """Basis functions and their derivatives at the Gauss points of all spans, each (s, points, order), and the weights
-    of those points (s, points): patches and their caps share spaces. Not to be written to."""
-    nodes, weights = gauss(points)
+    of those points (s, points), with `ends` those of the spans too: patches and their caps share spaces. Not to be
+    written to."""
+    nodes, weights = gauss_and_ends(points) if ends else gauss(points)
     low, high = space.intervals.T
     size = (high - low)[:, None]
     return tuple(space.derivatives(space.spans[:, None], low[:, None] + size * nodes, most)), size * weights
 
 
-def at_gauss_points(patch: Patch, cells: Cells, points: tuple[int, int], most: int, origin: NDArray
-                    ) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
+def at_gauss_points(patch: Patch, cells: Cells, points: tuple[int, int], most: int, origin: NDArray,
+                    ends: bool = False) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
     """The patch and its derivatives at Gauss points of cells, and the weights of those points.
 
-    points: how many along s and t. most: the highest derivative, 1 or 2. origin: (3,) what is subtracted.
+    points: how many along s and t. most: the highest derivative, 1 or 2. origin: (3,) what is subtracted. ends: the
+    cells' sides too, without weight.
     Returns S, S_s, S_t and with most = 2 S_ss, S_st, S_tt, each (3, c, m, n), and the weights (c, m, n).
     """
     tables, steps, controls = [], [], []
     for axis, (space, number) in enumerate(zip(patch.spaces, points)):
         if cells.rows is None:
-            nodes, weights = gauss(number)
+            nodes, weights = gauss_and_ends(number) if ends else gauss(number)
             size = cells.size[:, axis, None]
             tables.append(space.derivatives(cells.spans[:, axis, None], cells.low[:, axis, None] + size * nodes, most))
             steps.append(size * weights)
         else:
-            found, step = span_tables(space, number, most)
+            found, step = span_tables(space, number, most, ends)
             own = cells.rows[:, axis]
             tables.append([table[own] for table in found])
             steps.append(step[own])

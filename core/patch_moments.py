@@ -25,12 +25,13 @@ from numpy.typing import NDArray
 from .bspline import Space
 from .moments import Moments, U, monomials
 from .patch import Cells, Patch, at_gauss_points
-from .quadrature import gauss
+from .quadrature import gauss, gauss_and_ends
 from .vectors import cross, dot
 
 TOLERANCE = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
 AREA_TOLERANCE = 1e-11
 FOLDED = 8.0  # times what two rules differ by: where a patch folds back, its area has kinks, and both may be off alike
+TURNED = 1e-9  # a normal that points against its neighbour by less than this is rounding
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
 COARSE_RULES = (8, 12, 18)  # where less is asked for
 DEEPEST = 14  # times that a cell is cut
@@ -40,7 +41,7 @@ SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time,
 ROUNDING = 64.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
 
 Rule = tuple[int, int]
-Integrand = Callable[[Patch, Cells, Rule], tuple[NDArray, NDArray]]
+Integrand = Callable[[Patch, Cells, Rule], tuple[NDArray, ...]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,20 +104,42 @@ def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | No
 
 def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None,
                  tolerance: float = AREA_TOLERANCE) -> tuple[Moments, bool]:
-    """The area moments of patches by quadrature; `error` is an estimate. Otherwise as `volume_moments`."""
+    """The area moments of patches by quadrature; `error` is an estimate. Otherwise as `volume_moments`.
+
+    Where a patch turns over between two neighbouring points, or a cell's side and its first point, what lies between
+    them counts as error, so that such a cell is cut.
+    """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
     reach = patches_reach(patches, about)
     degree = monomials(order).sum(axis=1)
 
-    def area(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, NDArray]:
-        (s, along, across), weights = at_gauss_points(patch, cells, rule, 1, about)
-        element = weights * _length(np.stack(cross(along, across)))
-        return moments_of(s, element, order), element.sum(axis=(1, 2))
+    def area(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, ...]:
+        (s, along, across), weights = at_gauss_points(patch, cells, rule, 1, about, ends=True)
+        normal = np.stack(cross(along, across))
+        element = weights * _length(normal)
+        return moments_of(s, element, order), element.sum(axis=(1, 2)), _turning(normal, weights, rule)
 
     found = adaptive(patches, area, reach ** degree.astype(np.float64), tolerance)
     orders = max(sum(space.order for space in patch.spaces) for patch in patches)
     error = FOLDED * found.estimate + ROUNDING * U * orders * found.scale
     return Moments(found.values, about, "area", error), found.settled
+
+
+def _turning(normal: NDArray, weights: NDArray, rule: Rule) -> NDArray[np.float64]:
+    """(c,) the areas between neighbouring points of cells where the patch turns over between them: its area has a kink
+    there, which two rules may miss alike. normal: (3, c, m, n), weights: (c, m, n), with the ends of both directions.
+    """
+    total = np.zeros(len(weights))
+    for points in rule:
+        nodes, steps = gauss_and_ends(points)
+        length = _length(normal)
+        one, other = normal[:, :, :-1], normal[:, :, 1:]
+        # At a pole the normal is rounding.
+        over = dot(one, other) < -TURNED * np.maximum(length[:, :-1], length[:, 1:]) ** 2
+        size = np.where(over, length[:, :-1] + length[:, 1:], 0.0) * np.diff(nodes)[:, None] / 2.0
+        total += (size.sum(axis=1) * weights[:, 1] / steps[1]).sum(axis=1)
+        normal, weights = normal.swapaxes(2, 3), weights.swapaxes(1, 2)
+    return total
 
 
 def area_slope(patches: Sequence[Patch]) -> float:
@@ -229,7 +252,8 @@ def adaptive(patches: Sequence[Patch], integrand: Integrand, unit: NDArray, tole
              degree: int | None = None) -> Integral:
     """An integral over patches, cell by cell to the rule that settles it.
 
-    integrand: gives (c, K) contributions and (c,) sizes of cells. unit: (K,) what a cell's size times it bounds.
+    integrand: gives (c, K) contributions, (c,) sizes of cells, and perhaps (c,) shares of those that count as error.
+    unit: (K,) what a cell's size times it bounds.
     degree: of moments whose integrand is a polynomial along a direction in which the weights are the same, so that
     there fewer points are exact; None where there is none.
     A cell is settled when two rules agree to the tolerance of its own scale, or of its share of the whole one.
@@ -242,18 +266,18 @@ def adaptive(patches: Sequence[Patch], integrand: Integrand, unit: NDArray, tole
         waiting, compared = [], []
         for patch, cells, coarse, rule in work:
             if coarse is None:
-                coarse, size = _blocks(patch, cells, _rule(patch, rules[rule], degree), integrand)
+                coarse, *_ = _blocks(patch, cells, _rule(patch, rules[rule], degree), integrand)
                 spent += len(cells) * rules[rule] ** 2
-            fine, size = _blocks(patch, cells, _rule(patch, rules[rule + 1], degree), integrand)
+            fine, size, *doubt = _blocks(patch, cells, _rule(patch, rules[rule + 1], degree), integrand)
             spent += len(cells) * rules[rule + 1] ** 2
-            compared.append((patch, cells, coarse, fine, size, rule))
+            compared.append((patch, cells, coarse, fine, size, sum(doubt), rule))
         if not whole:
-            whole = sum(float(size.sum()) for *_, size, _ in compared)
+            whole = sum(float(size.sum()) for *_, size, _, _ in compared)
         last = spent > MOST_POINTS or depth >= DEEPEST
-        for patch, cells, coarse, fine, size, rule in compared:
+        for patch, cells, coarse, fine, size, doubt, rule in compared:
             with np.errstate(divide="ignore", invalid="ignore"):
                 # The worst of all moments stands for each: one may agree by chance.
-                differ = np.where(unit > 0.0, np.abs(fine - coarse) / unit, 0.0).max(axis=1)
+                differ = np.where(unit > 0.0, np.abs(fine - coarse) / unit, 0.0).max(axis=1) + doubt
             good = differ <= tolerance * np.maximum(size, whole / count)
             settled &= bool(good.all()) or not last
             taken = np.ones_like(good) if last else good
@@ -279,12 +303,12 @@ def _rule(patch: Patch, points: int, degree: int | None) -> Rule:
     return min(points, exact[0]), min(points, exact[1])
 
 
-def _blocks(patch: Patch, cells: Cells, rule: Rule, integrand: Integrand) -> tuple[NDArray, NDArray]:
+def _blocks(patch: Patch, cells: Cells, rule: Rule, integrand: Integrand) -> tuple[NDArray, ...]:
     step = max(1, BLOCK // (rule[0] * rule[1]))
     rows = [integrand(patch, cells[start:start + step], rule) for start in range(0, len(cells), step)]
     if len(rows) == 1:
         return rows[0]
-    return np.concatenate([row[0] for row in rows]), np.concatenate([row[1] for row in rows])
+    return tuple(np.concatenate(parts) for parts in zip(*rows))
 
 
 def moments_of(points: NDArray, weights: NDArray, order: int) -> NDArray[np.float64]:

@@ -21,6 +21,15 @@ def gauss(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 @lru_cache
+def gauss_and_ends(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """As `gauss`, with 0 before and 1 after its nodes, whose weights are 0; read-only."""
+    nodes, weights = gauss(points)
+    nodes, weights = np.concatenate([[0.0], nodes, [1.0]]), np.concatenate([[0.0], weights, [0.0]])
+    nodes.flags.writeable = weights.flags.writeable = False
+    return nodes, weights
+
+
+@lru_cache
 def triangle_rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(3, k) barycentric coordinates and (k,) weights, positive and of sum 1/2, exact to degree 2n-1.
 
