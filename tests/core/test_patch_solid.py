@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What patches bound: whether they close, which way they face, what caps them, and what is said about it."""
 
+from math import prod
+
 import numpy as np
 import pytest
 from body_moments.core.bspline import Space, clamped
+from body_moments.core.moments import monomials
 from body_moments.core.patch import Patch
 from body_moments.core.patch_solid import measure_patches, measure_sheet
 
@@ -36,6 +39,27 @@ def test_closed_patches_are_exact_without_a_word():
         found = measure_patches([patch])
         assert (found.method, found.warnings, found.health.closed) == ("exact", (), True)
         assert abs(found.volume.total / volume - 1.0) <= 1e-14
+
+
+def odd_factorial(n):
+    return prod(range(n, 0, -2))
+
+
+def test_moments_to_sixth_order_of_a_ball_a_capped_cylinder_and_a_box():
+    ball, rod = (measure_patches([patch], order=6).volume.shifted(np.zeros(3)) for patch in (sphere(), tube()))
+    low = np.array([5.0, -3.0, 2.0])
+    block = measure_patches(box(offset=tuple(low)), order=6).volume.shifted(np.zeros(3))
+    for powers in monomials(6).tolist():
+        p, q, r = powers
+        even = p % 2 == q % 2 == 0
+        round_ = odd_factorial(p - 1) * odd_factorial(q - 1) * even
+        truth = 4.0 * np.pi * round_ * odd_factorial(r - 1) * (r % 2 == 0) / (
+            odd_factorial(p + q + r + 1) * (p + q + r + 3))
+        assert abs(ball[p, q, r] - truth) <= 1e-14
+        disk = 2.0 * np.pi * round_ / (2 ** ((p + q) // 2) * prod(range(1, (p + q) // 2 + 1)) * (p + q + 2))
+        assert abs(rod[p, q, r] - disk * (r % 2 == 0) * 2.0 / (r + 1)) <= 1e-13
+        truth = prod((high ** (n + 1) - a ** (n + 1)) / (n + 1) for n, a, high in zip(powers, low, low + [1, 2, 3]))
+        assert block[p, q, r] == pytest.approx(truth, rel=1e-12)
 
 
 def test_a_patch_that_is_inside_out_is_turned_and_said():
