@@ -89,13 +89,20 @@ class Run:
                 chosen, errors = _chosen(self.options.object)
                 errors.extend(_missing_links())
                 for label, obj in chosen:
+                    order = self.options.order
                     try:
-                        one, more = self._measure(obj, wanted)
-                        surface = one.area_moments if self.options.surface_moments else None
+                        try:
+                            one, more = self._measure(obj, wanted)
+                        except Unreadable as refusal:
+                            if order is None:
+                                raise
+                            # What has no moments of that order may have a mass.
+                            one, more = self._measure(obj, replace(wanted, order=None, surface=False))
+                            errors.append(_error(label, "It has no such moments: " + refusal.reason))
+                            order = None
+                        surface = one.area_moments if self.options.surface_moments and order is not None else None
                         told = replace(one, name=label, warnings=one.warnings + note)
-                        objects.append(
-                            record.record(told, self.options.frame, self.options.order, surface, more)
-                        )
+                        objects.append(record.record(told, self.options.frame, order, surface, more))
                         measured.append((obj, one))
                     except Unreadable as refusal:
                         errors.append(_error(label, refusal.reason))

@@ -125,3 +125,20 @@ def test_asking_for_high_orders_changes_nothing_else():
     plain, more = measured(), measured("--order", "10", "--surface-moments")
     more.pop("moments")
     assert more == plain
+
+
+def test_a_thick_wall_keeps_its_mass_where_its_moments_are_refused():
+    box = files.add_box(size=(1, 1, 1))
+    box.body_moments.wall = "INWARD"
+    words = ("--kind", "shell", "--thickness", "0.1", "--density", "1000")
+    found = files.document("--order", "4", *words)
+    (entry,), (error,) = found["objects"], found["errors"]
+    assert entry["mass"] == pytest.approx(488.0, rel=1e-12) and "moments" not in entry
+    assert error["name"] == entry["name"] and "set Wall to Thin" in error["reason"]
+    assert measured("--order", "3", *words)["moments"]["volume"]["0,0,0"] == pytest.approx(0.488, rel=1e-12)
+
+
+def test_what_has_no_mass_is_refused_once():
+    files.add_box(size=(1, 1, 0))
+    found = files.document("--order", "4")
+    assert found["objects"] == [] and len(found["errors"]) == 1
