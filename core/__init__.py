@@ -27,6 +27,7 @@ Whether a surface bounds a solid
     solid                       the verdict, what had to be mended, and the moments
     topology, weld, flatness    edges and parts; vertices and faces that are one; faces that are bent or without area
     mending, caps, nesting      repair on a copy; rims and their caps; shells in shells
+    shell_tree                  shells asked for points inside and for crossings
     distance                    of a point from triangles
 
 In the plane, and along curves

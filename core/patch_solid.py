@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from .closure import Closure, close_patches
 from .moments import Moments, sum_moments
-from .nesting import decide, relate, sort_shells
+from .nesting import decide, relate
 from .patch import Patch
 from .patch_moments import area_moments, area_slope, patches_center, sheet_moments, volume_moments
+from .shell_tree import sort_shells
 from .solid import NO_VOLUME, ROUNDING, Health
 from .weld import TOLERANCE
 

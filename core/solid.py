@@ -24,7 +24,8 @@ from .components import Components
 from .flatness import examine
 from .mending import Mended, counted, listed, mend
 from .moments import SECOND, Moments
-from .nesting import cut_from, decide, relate, sort_shells
+from .nesting import cut_from, decide, relate
+from .shell_tree import sort_shells
 from .surface import Surface, all_there
 from .topology import closed_sides, components, mesh_faces
 from .weld import TOLERANCE

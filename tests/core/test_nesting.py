@@ -4,8 +4,9 @@
 
 import numpy as np
 import pytest
-from body_moments.core import nesting
-from body_moments.core.nesting import Tree, decide, overlapping_boxes, relate, sort_shells
+from body_moments.core import nesting, shell_tree
+from body_moments.core.nesting import decide, overlapping_boxes, relate
+from body_moments.core.shell_tree import Tree, sort_shells
 
 from tests.core.bodies import box, inverted, joined, moved, rotation, sphere, torus
 
@@ -135,9 +136,9 @@ def test_thousands_of_cavities_are_found_in_one_body():
 def test_work_that_would_take_too_long_is_left_and_said(monkeypatch):
     parts = [sphere(4), moved(sphere(4), 0.99 * np.eye(3)), moved(box(), np.eye(3), (5, 5, 5))]
     assert relation(*parts) == ({(1, 0)}, set(), 0)
-    monkeypatch.setattr(nesting, "MOST_WORK", 1000)
+    monkeypatch.setattr(shell_tree, "MOST_WORK", 1000)
     assert relation(*parts) == (set(), set(), 1)
-    monkeypatch.setattr(nesting, "MOST_WORK", 10 ** 9)
+    monkeypatch.setattr(shell_tree, "MOST_WORK", 10 ** 9)
     monkeypatch.setattr(nesting, "MOST_PAIRS", 0)
     inside, crossing, unchecked = relation(*parts)
     assert unchecked > 0 and not inside and not crossing

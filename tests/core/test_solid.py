@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core import nesting
+from body_moments.core import shell_tree
 from body_moments.core.solid import measure_solid
 from body_moments.core.surface import Surface
 
@@ -425,7 +425,7 @@ def test_a_shell_has_moments_of_its_area_to_third_order_without_the_caps():
 
 
 def test_pairs_that_were_not_compared_are_said(monkeypatch):
-    monkeypatch.setattr(nesting, "MOST_WORK", 10)
+    monkeypatch.setattr(shell_tree, "MOST_WORK", 10)
     result = verdict(joined(sphere(3), moved(sphere(3), 0.9 * np.eye(3))))
     assert "was not checked" in result.warnings[-1]
 
