@@ -47,6 +47,7 @@ Densities
     density, density_tables     trivariate B-splines and grids (Soldea, Elber and Rivlin, sections 4 and 5)
     density_inside              a solid filled with a grid's density
     polynomial, graded          polynomials in x, y, z; bodies of such a density
+    density_sign                whether such a density is negative somewhere in a body
     weighted                    one density for each part, face or vertex
     scans, transfer, materials  files of samples; what a sample stands for; a table of materials
     soldea                      reference, as printed: theorem 4.2

@@ -10,8 +10,6 @@ where the body is, so that neither a body far away nor a density given far away 
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -138,16 +136,3 @@ def own_fields(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_
     fields[:, :3, :3] = axes.transpose(0, 2, 1) @ np.asarray(matrices, np.float64)[:, :3, :3]
     fields[:, 3, 3] = 1.0
     return fields, sheared
-
-
-def winding(points: NDArray, triangles: NDArray, place: ArrayLike) -> float:
-    """How often closed triangles surround a place: the sum of their solid angles by 4 π (A. van Oosterom and
-    J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983)."""
-    total = 0.0
-    for start in range(0, len(triangles), 1 << 15):
-        a, b, c = (points[triangles[start:start + (1 << 15), k]] - np.asarray(place, float) for k in range(3))
-        la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
-        volume = (a * np.cross(b, c)).sum(axis=1)
-        below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
-        total += float(np.arctan2(volume, below).sum())
-    return total / (2.0 * math.pi)

@@ -15,7 +15,8 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.graded import graded_sum, own_axes, own_fields, winding
+from ..core.density_sign import negative_place
+from ..core.graded import graded_sum, own_axes, own_fields
 from ..core.moments import Moments
 from ..core.polynomial import Polynomial
 from ..core.recursion import moments_to_order
@@ -25,10 +26,7 @@ from .density import DensityField
 from .mesh_body import even_surfaces, in_metres
 from .read import Reading
 
-NEGLIGIBLE = 1e-6  # of the largest density: float32 coordinates make as much
 LOOKED_AT = 50  # different places whose points are looked at one by one
-GRID = 9  # points along each side of the box that are tried
-TRIED = 24  # points that are located in the body
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,60 +120,30 @@ def _sheets(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
 
 
 def _negative(density: Polynomial, pieces: list[_Piece], shell: bool, in_world: bool) -> list[str]:
-    """A warning where the density may be negative in the body; ValueError where it is.
-
-    It is not where its bound on the box around all pieces says so, nor, if it is linear, where it is not at the
-    vertices. Else points of the body are tried: vertices, middles of faces, and those of a grid that are inside.
-    """
+    """A warning where the density may be negative in the body; ValueError where it is."""
     corners = np.array(list(product((0.0, 1.0), repeat=3)))
     boxes = []
     for piece in pieces:
-        points = piece.surface.points
-        low, high = points.min(axis=0).astype(np.float64), points.max(axis=0).astype(np.float64)
+        low, high = piece.surface.box
         box = low + corners * (high - low)
         boxes.append(np.einsum("kij,nj->kni", piece.fields[:, :3, :3], box) + piece.fields[:, None, :3, 3])
     boxes = np.concatenate(boxes)
-    low, high = boxes.min(axis=(0, 1)), boxes.max(axis=(0, 1))
-    if density.lower_bound(low, high) >= 0.0:
+    if density.lower_bound(boxes.min(axis=(0, 1)), boxes.max(axis=(0, 1))) >= 0.0:
         return []
     doubtful = left = 0
     for piece in pieces:
+        triangles = piece.surface.all_triangles()[0]
+        points = piece.surface.points.astype(np.float64)
         fields = piece.fields[np.unique(np.float32(piece.fields), axis=0, return_index=True)[1]]
         left += max(len(fields) - LOOKED_AT, 0)
-        for one in fields[:LOOKED_AT]:
-            doubtful += _doubtful(density, piece.surface, one, shell, in_world)
+        for field in fields[:LOOKED_AT]:
+            found, doubt = negative_place(density, points @ field[:3, :3].T + field[:3, 3], triangles, not shell)
+            if found is not None:
+                _refuse(*found, in_world)
+            doubtful += doubt
     if doubtful + left:
         return ["Its density may become negative in it; none of the points that were tried shows it."]
     return []
-
-
-def _doubtful(density: Polynomial, surface: Surface, field: NDArray, shell: bool, in_world: bool) -> bool:
-    """Whether it stays open if the density is negative in a surface that stands so; ValueError where it is."""
-    triangles = surface.all_triangles()[0]
-    points = surface.points.astype(np.float64) @ field[:3, :3].T + field[:3, 3]
-    used = np.unique(triangles)
-    tried = points[used]
-    if density.degree > 1:
-        tried = np.concatenate([tried, points[triangles].mean(axis=1)])
-    values = density(tried)
-    largest = float(np.abs(values).max())
-    least = int(np.argmin(values))
-    if values[least] < -NEGLIGIBLE * largest:
-        _refuse(values[least], tried[least], in_world)
-    if density.degree <= 1:
-        return False
-    low, high = points[used].min(axis=0), points[used].max(axis=0)
-    if density.lower_bound(low, high) >= -NEGLIGIBLE * largest:
-        return False
-    if not shell:
-        steps = (np.arange(GRID) + 0.5) / GRID
-        grid = low + np.array(list(product(steps, repeat=3))) * (high - low)
-        values = density(grid)
-        worst = np.argsort(values)[:TRIED]
-        for i in worst[values[worst] < -NEGLIGIBLE * largest].tolist():
-            if abs(winding(points, triangles, grid[i])) > 0.5:
-                _refuse(values[i], grid[i], in_world)
-    return True
 
 
 def _refuse(value: float, place: NDArray, in_world: bool) -> None:

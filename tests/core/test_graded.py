@@ -7,7 +7,8 @@ from math import comb
 
 import numpy as np
 import pytest
-from body_moments.core.graded import graded_sum, own_axes, own_fields, winding
+from body_moments.core.density_sign import winding
+from body_moments.core.graded import graded_sum, own_axes, own_fields
 from body_moments.core.mass import MassProperties
 from body_moments.core.moments import Moments, map_sum
 from body_moments.core.polynomial import Polynomial, parse

@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether a density that is a polynomial is negative somewhere in a body.
+
+It is not where its bound on the box around the body says so, nor, if it is linear, where it is not at the vertices.
+Else points of the body are tried: vertices, middles of faces, and those of a grid that are inside.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import product
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .polynomial import Polynomial
+
+NEGLIGIBLE = 1e-6  # of the largest density: float32 coordinates make as much
+GRID = 9  # points along each side of the box that are tried
+TRIED = 24  # points that are located in the body
+
+
+def negative_place(density: Polynomial, points: NDArray, triangles: NDArray, solid: bool
+                   ) -> tuple[tuple[float, NDArray] | None, bool]:
+    """A value below zero and its place, (3,), in the body or on its surface, None where none was found; and whether it
+    stays open then if there is one.
+
+    points: (n, 3) in the density's coordinates. triangles: (m, 3). solid: the inside counts too.
+    """
+    used = np.unique(triangles)
+    tried = points[used]
+    if density.degree > 1:
+        tried = np.concatenate([tried, points[triangles].mean(axis=1)])
+    values = density(tried)
+    largest = float(np.abs(values).max())
+    least = int(np.argmin(values))
+    if values[least] < -NEGLIGIBLE * largest:
+        return (values[least], tried[least]), False
+    if density.degree <= 1:
+        return None, False
+    low, high = points[used].min(axis=0), points[used].max(axis=0)
+    if density.lower_bound(low, high) >= -NEGLIGIBLE * largest:
+        return None, False
+    if solid:
+        steps = (np.arange(GRID) + 0.5) / GRID
+        grid = low + np.array(list(product(steps, repeat=3))) * (high - low)
+        values = density(grid)
+        worst = np.argsort(values)[:TRIED]
+        for i in worst[values[worst] < -NEGLIGIBLE * largest].tolist():
+            if abs(winding(points, triangles, grid[i])) > 0.5:
+                return (values[i], grid[i]), False
+    return None, True
+
+
+def winding(points: NDArray, triangles: NDArray, place: ArrayLike) -> float:
+    """How often closed triangles surround a place: the sum of their solid angles by 4 π (A. van Oosterom and
+    J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983)."""
+    total = 0.0
+    for start in range(0, len(triangles), 1 << 15):
+        a, b, c = (points[triangles[start:start + (1 << 15), k]] - np.asarray(place, float) for k in range(3))
+        la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
+        volume = (a * np.cross(b, c)).sum(axis=1)
+        below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
+        total += float(np.arctan2(volume, below).sum())
+    return total / (2.0 * math.pi)
