@@ -92,7 +92,8 @@ def _parser() -> argparse.ArgumentParser:
         "--object",
         action="append",
         metavar="NAME",
-        help="only this object; repeatable (every measurable object)",
+        help="only this object; repeatable (every measurable object: not lights, cameras and empties, "
+        "nor curves that show no surface; named they are errors, with the remedy)",
     )
     add("--kind", choices=("solid", "shell"), help="(each object's setting, or solid)")
     add(

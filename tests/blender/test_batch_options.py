@@ -70,6 +70,30 @@ def test_objects_are_sorted_and_what_has_no_geometry_is_left_out():
     assert found["total"]["mass"] == pytest.approx(18000.0)
 
 
+def test_what_shows_no_surface_by_its_settings_is_left_out_unless_it_is_named():
+    bpy.ops.curve.primitive_bezier_circle_add()
+    bpy.context.object.name = "Circle"
+    bpy.ops.object.light_add()
+    bpy.context.object.name = "Light"
+    bpy.ops.object.empty_add()
+    bpy.ops.object.text_add()
+    bpy.context.object.data.extrude = 0.1
+    found = document()
+    assert names(found) == ["Text"] and found["errors"] == []
+    told = errors(document("--object", "Circle", "--object", "Light", "--object", "Empty"))
+    assert "Wire" in told["Circle"] and "“Light”" in told["Light"] and "collection" in told["Empty"]
+    assert names(document("--object", "Circle", "--kind", "shell")) == ["Circle"]
+
+
+def test_a_text_that_shows_nothing_is_an_error_with_the_remedy():
+    bpy.ops.object.text_add()
+    text = bpy.context.object
+    text.data.fill_mode = "NONE"
+    assert "fill it" in errors(document())["Text"]
+    text.data.body = " \n"
+    assert "type one" in errors(document())["Text"]
+
+
 def test_only_the_named_objects_are_measured():
     for name in ("a", "b", "c"):
         files.add_box(name)
@@ -301,7 +325,8 @@ def test_wrong_usage_ends_with_2_and_a_sentence(words, capfd, standard_output):
 
 def test_help_is_no_error(capfd, standard_output):
     assert batch.main(["measure", "--help"]) == 0
-    assert "--unit-scale" in capfd.readouterr().out
+    told = " ".join(capfd.readouterr().out.split())
+    assert "--unit-scale" in told and "nor curves that show no surface" in told
 
 
 def test_main_writes_the_result_and_returns_the_exit_code(capfd, standard_output):
