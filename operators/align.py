@@ -83,7 +83,7 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
                 return True
             return False
 
-        _, failures = selection.each(self, objects, turn, snapping.REFUSALS)
+        _, failures = selection.each(objects, turn, snapping.REFUSALS)
         snapping.refresh(context, moved)
         text = "Aligned the principal axes of {count} with the world's"
         if not moved and not failures:

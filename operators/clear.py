@@ -36,7 +36,7 @@ class OBJECT_OT_body_moments_clear(Operator):
             obj.property_unset(SYMMETRY)
             return properties.clear(obj) | section.clear(obj) | symmetric
 
-        count, failures = selection.each(self, objects, remove, (Refused,))
+        count, failures = selection.each(objects, remove, (Refused,))
         staleness.settle(context, objects)
         text = (
             "Removed the results from {count}"

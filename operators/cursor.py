@@ -46,7 +46,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
             bodies.append((measurement.mass_moments, measurement.mass_properties))
             return True
 
-        count, failures = selection.each(self, objects, add, snapping.REFUSALS)
+        count, failures = selection.each(objects, add, snapping.REFUSALS)
         notes = []
         if bodies:
             # One body keeps the frame that was measured, with what its own exact third moments say

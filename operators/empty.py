@@ -54,7 +54,7 @@ class OBJECT_OT_body_moments_add_empty(Operator):
                 notes.append("{:s}: {:s}".format(obj.name, body.note))
             return changed
 
-        count, failures = selection.each(self, objects, add, snapping.REFUSALS)
+        count, failures = selection.each(objects, add, snapping.REFUSALS)
         text = "Placed an empty at the principal frame of {count}"
         if not count and not failures:
             text = (

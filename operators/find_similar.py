@@ -22,9 +22,9 @@ from ..core.matching import FITS, Match
 from ..core.signature import Likeness, compared
 from . import selection, snapping
 from .measure import MeasureOptions
-from .one_by_one import OneByOne
 from .read import measurable_objects
 from .shape import Shape, Skin, matched, surface_shape_of
+from .stepwise import Stepwise
 
 ORDER = 12  # of the descriptors: more than tell parts apart, a fourth of the time that 20 takes
 LISTED = 20
@@ -99,7 +99,7 @@ class _Find:
         return {"FINISHED"}
 
 
-class OBJECT_OT_body_moments_find_similar(OneByOne, _Find, Operator):
+class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
     """Find the objects in the scene whose shape is most like the active one's"""
 
     bl_idname = "object.body_moments_find_similar"
@@ -131,27 +131,27 @@ class OBJECT_OT_body_moments_find_similar(OneByOne, _Find, Operator):
                         if obj != context.object and obj.visible_get()]
         self._objects: dict[Entry, Object] = {}
         self._hands: dict[Entry, bool | None] = {}  # of those whose signatures do not tell it
-        self._failures: list[str] = []
+        self._failures: list[tuple[str, str]] = []
         if wanted is not None:
             self._wanted = wanted.signature(ORDER)
             self._steps = self._compare(context, wanted)
         return wanted is not None
 
-    def _compare(self, context: Context, wanted: Shape) -> Iterator[Object]:
+    def _compare(self, context: Context, wanted: Shape) -> Iterator[int]:
         skin = None
-        for obj in self._others:
-            try:
-                shape = _shape(context, obj)
-                entry = Entry(obj.name, "", shape.signature(ORDER))
-                likeness = compared(self._wanted, entry.signature)
-                if verdict(likeness) in UNCLEAR:
-                    skin = skin or Skin(wanted)
-                    self._hands[entry] = _mirrored(matched(shape, wanted, Skin(shape), skin, 1.0 / likeness.scale),
-                                                   wanted.size)
-                self._objects[entry] = obj
-            except snapping.REFUSALS as error:
-                self._failures.append("{:s}: {:s}".format(obj.name, getattr(error, "reason", str(error))))
-            yield obj
+
+        def compare(obj: Object) -> None:
+            nonlocal skin
+            shape = _shape(context, obj)
+            entry = Entry(obj.name, "", shape.signature(ORDER))
+            likeness = compared(self._wanted, entry.signature)
+            if verdict(likeness) in UNCLEAR:
+                skin = skin or Skin(wanted)
+                self._hands[entry] = _mirrored(matched(shape, wanted, Skin(shape), skin, 1.0 / likeness.scale),
+                                               wanted.size)
+            self._objects[entry] = obj
+
+        return selection.one_by_one(self._others, compare, snapping.REFUSALS, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing is kept or selected before everything is compared, so that a cancelled search leaves nothing."""
@@ -166,7 +166,7 @@ class OBJECT_OT_body_moments_find_similar(OneByOne, _Find, Operator):
                 obj.select_set(obj in picked or obj == context.object)
         for area in context.screen.areas if context.screen else ():
             area.tag_redraw()
-        return self.tell(rows, self._failures)
+        return self.tell(rows, ["{:s}: {:s}".format(*failure) for failure in self._failures])
 
 
 class OBJECT_OT_body_moments_find_in_library(_Find, Operator):

@@ -17,13 +17,15 @@ from bpy.props import (
     PointerProperty,
     StringProperty,
 )
-from bpy.types import Context, Object, Operator, PropertyGroup
+from bpy.types import Context, Event, Object, Operator, PropertyGroup
 
 from ..core.canonical import NOISE
+from ..core.measurement import Measurement
 from ..core.symmetry import Symmetry, confirmed, symmetry
 from . import selection, snapping, staleness
 from .fingerprint import scale_hash
-from .shape import Shape, Skin, surface_shape_of
+from .shape import Shape, Skin, displayed, surface_shape_of
+from .stepwise import Stepwise
 
 OF_DISPLAY_MESH = ", of its display mesh, as fine as the viewport's resolution"
 KEPT = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
@@ -51,7 +53,7 @@ class BodyMomentsSymmetry(PropertyGroup):
     elements: CollectionProperty(type=BodyMomentsElement)
 
 
-class OBJECT_OT_body_moments_find_symmetry(Operator):
+class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
     """Find the rotation axes and mirror planes of the selected objects"""
 
     bl_idname = "object.body_moments_find_symmetry"
@@ -61,6 +63,8 @@ class OBJECT_OT_body_moments_find_symmetry(Operator):
         "moments to sixth order allow, confirmed on their surfaces"
     )
     bl_options = {"REGISTER", "UNDO"}
+    DOING = "Looking for symmetry: {:d} of {:d} objects. Esc cancels"
+    CANCELLED = "The search was cancelled; nothing was changed"
 
     tolerance: FloatProperty(
         name="Tolerance", default=1e-3, min=1e-6, max=0.1, precision=6,
@@ -71,43 +75,61 @@ class OBJECT_OT_body_moments_find_symmetry(Operator):
         return selection.poll_selected(cls, context, modes=())
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected(context)
-        told = []
+        self._begin(context)
+        return self.all_at_once(context, len(self._objects))
 
-        def find(obj: Object) -> bool:
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        self._begin(context)
+        if len(self._objects) < 2 or context.window is None:
+            return self.all_at_once(context, len(self._objects))
+        return self.begin_modal(context, len(self._objects))
+
+    def _begin(self, context: Context) -> None:
+        self._objects = selection.selected(context)
+        self._found: list[tuple[Object, Measurement, Symmetry, Symmetry]] = []
+        self._failures: list[tuple[str, str]] = []
+
+        def find(obj: Object) -> None:
             if obj.library is not None:
                 raise ValueError("it is linked from another file; make it local first")
-            found = _find(context, obj, self.tolerance)
-            told.append("{:s}: {:s}".format(obj.name, found))
-            return True
+            shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
+            self._found.append((obj, shape.measurement, *_symmetries(shape, self.tolerance)))
 
-        done, failures = selection.each(self, objects, find, snapping.REFUSALS)
-        if failures or not done:
-            return selection.summarise(self, done, len(objects), "Looked at {count}", failures, told)
+        self._steps = selection.one_by_one(self._objects, find, snapping.REFUSALS, self._failures)
+
+    def _finish(self, context: Context) -> set[str]:
+        """Nothing is kept before all are looked at, so that a cancelled search leaves nothing behind."""
+        with staleness.paused():  # Blender reports what is written here as a change of the object
+            for obj, measurement, found, allowed in self._found:
+                _keep(obj, measurement, found, allowed, self.tolerance)
+            context.view_layer.update()
+        told = ["{:s}: {:s}, {:s}{:s}".format(obj.name, found.group, described(found),
+                                              OF_DISPLAY_MESH if displayed(measurement) else "")
+                for obj, measurement, found, _ in self._found]
+        for area in context.screen.areas if context.screen else ():
+            area.tag_redraw()
+        if self._failures or not told:
+            return selection.summarise(self, len(told), len(self._objects), "Looked at {count}", self._failures, told)
         self.report({"INFO"}, "; ".join(told[:selection.LISTED]))
         return {"FINISHED"}
 
 
-def _find(context: Context, obj: Object, tolerance: float) -> str:
-    shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
+def _symmetries(shape: Shape, tolerance: float) -> tuple[Symmetry, Symmetry]:
+    """What the surface confirms, and what the moments allow."""
     skin, moments = Skin(shape), shape.of_pieces()
     # Moments are looked at as loosely as the surface.
     allowed = symmetry(moments, max(NOISE, tolerance))
-    found = confirmed(allowed, moments.about, skin.points, skin.distance, tolerance * shape.size)
-    with staleness.paused():  # Blender reports what is written here as a change of the object
-        _keep(obj, shape, found, allowed, tolerance)
-        context.view_layer.update()
-    return "{:s}, {:s}{:s}".format(found.group, described(found), OF_DISPLAY_MESH if shape.is_displayed else "")
+    return confirmed(allowed, moments.about, skin.points, skin.distance, tolerance * shape.size), allowed
 
 
-def _keep(obj: Object, shape: Shape, found: Symmetry, allowed: Symmetry, tolerance: float) -> None:
+def _keep(obj: Object, measurement: Measurement, found: Symmetry, allowed: Symmetry, tolerance: float) -> None:
     kept = obj.body_moments_symmetry
     kept.group, kept.compatible, kept.tolerance = found.group, allowed.group, tolerance
-    kept.of_display_mesh = shape.is_displayed
-    version, geometry, _, settings = shape.measurement.fingerprint.split(":")
+    kept.of_display_mesh = displayed(measurement)
+    version, geometry, _, settings = measurement.fingerprint.split(":")
     kept.fingerprint = ":".join([version, geometry, scale_hash(obj), settings])
     kept.elements.clear()
-    turn = shape.measurement.rotation.T
+    turn = measurement.rotation.T
     for kind, order, direction in _elements(found)[:KEPT]:
         element = kept.elements.add()
         element.kind, element.order, element.direction = kind, order, turn @ _upward(turn, direction)

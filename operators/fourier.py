@@ -7,7 +7,6 @@ from __future__ import annotations
 import os
 from math import pi
 from pathlib import Path
-from time import perf_counter
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
@@ -18,9 +17,9 @@ from ..core.waves import Grid
 from .fourier_body import ObjectTransform, object_transform
 from .measure import MeasureOptions
 from .read import Unreadable, measurable
+from .stepwise import Stepwise
 from .write import spectrum
 
-SLICE = 0.1  # seconds of work between two looks at the window's events
 SUFFIX = ".npz"
 
 
@@ -95,12 +94,14 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
             return {"CANCELLED"}
 
 
-class OBJECT_OT_body_moments_fourier_run(_Settings, Operator):
+class OBJECT_OT_body_moments_fourier_run(Stepwise, _Settings, Operator):
     """Write the Fourier transform of the active object to a file"""
 
     bl_idname = "object.body_moments_fourier_run"
     bl_label = "Fourier Transform"
     bl_options = {"UNDO", "INTERNAL"}
+    DOING = "Fourier transform: {:.0%}. Esc cancels"
+    CANCELLED = "The Fourier transform was cancelled; nothing was written"
 
     poll = OBJECT_OT_body_moments_fourier.poll
 
@@ -108,9 +109,7 @@ class OBJECT_OT_body_moments_fourier_run(_Settings, Operator):
         """All at once: in background there is nobody to press Esc."""
         try:
             self._begin(context)
-            for _ in self._steps:
-                pass
-            return self._finish(context)
+            return self.all_at_once(context, 1.0)
         except (Unreadable, OSError) as error:
             return self._failed(error)
 
@@ -119,32 +118,12 @@ class OBJECT_OT_body_moments_fourier_run(_Settings, Operator):
             self._begin(context)
         except (Unreadable, OSError) as error:
             return self._failed(error)
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(0.0, window=context.window)
-        manager.modal_handler_add(self)
-        manager.progress_begin(0, 100)
-        return {"RUNNING_MODAL"}
+        return self.begin_modal(context, 1.0)
 
     def modal(self, context: Context, event: Event) -> set[str]:
-        if event.type == "ESC":
-            self._steps.close()
-            self._end(context)
-            self.report({"INFO"}, "The Fourier transform was cancelled; nothing was written")
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"RUNNING_MODAL"}
         try:
-            until = perf_counter() + SLICE
-            for share in self._steps:
-                if perf_counter() >= until:
-                    context.window_manager.progress_update(round(100 * share))
-                    context.workspace.status_text_set(
-                        "Fourier transform: {:.0f} %. Esc cancels".format(100.0 * share))
-                    return {"RUNNING_MODAL"}
-            self._end(context)
-            return self._finish(context)
+            return Stepwise.modal(self, context, event)
         except (Unreadable, OSError) as error:
-            self._end(context)
             return self._failed(error)
 
     def _begin(self, context: Context) -> None:
@@ -160,11 +139,6 @@ class OBJECT_OT_body_moments_fourier_run(_Settings, Operator):
     def _grid(self, size: float) -> Grid:
         """For a body of so many metres. By itself its step is π over the size."""
         return Grid(self.count, decimal(self.largest) or pi / size * (self.count // 2))
-
-    def _end(self, context: Context) -> None:
-        context.window_manager.event_timer_remove(self._timer)
-        context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
 
     def _finish(self, context: Context) -> set[str]:
         found, notes = self._work.result()

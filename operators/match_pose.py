@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import numpy as np
-from bpy.types import Context, Object, Operator
+from bpy.types import Context, Event, Object, Operator
 
 from ..core.decimal import decimal
 from ..core.matching import FITS, Match
@@ -13,10 +13,11 @@ from . import reframe, selection, snapping
 from .channels import Channels, Refused, world
 from .density import fixed_to
 from .shape import Shape, Skin, matched, surface_shape_of
+from .stepwise import Stepwise
 from .units import Units
 
 
-class OBJECT_OT_body_moments_match_pose(Operator):
+class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
     """Lay the other selected objects onto the active one"""
 
     bl_idname = "object.body_moments_match_pose"
@@ -27,6 +28,8 @@ class OBJECT_OT_body_moments_match_pose(Operator):
         "mirror image is left where it is"
     )
     bl_options = {"REGISTER", "UNDO"}
+    DOING = "Comparing: {:d} of {:d} objects. Esc cancels"
+    CANCELLED = "Match Pose was cancelled; nothing was moved"
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -38,34 +41,53 @@ class OBJECT_OT_body_moments_match_pose(Operator):
         return True
 
     def execute(self, context: Context) -> set[str]:
+        return self.all_at_once(context, len(self._others)) if self._begin(context) else {"CANCELLED"}
+
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        if not self._begin(context):
+            return {"CANCELLED"}
+        if len(self._others) < 2 or context.window is None:
+            return self.all_at_once(context, len(self._others))
+        return self.begin_modal(context, len(self._others))
+
+    def _begin(self, context: Context) -> bool:
         active = context.object
-        others = [obj for obj in selection.selected(context) if obj != active]
+        self._others = [obj for obj in selection.selected(context) if obj != active]
+        self._found: list[tuple[reframe.Plan, Match]] = []
+        self._failures: list[tuple[str, str]] = []
         try:
             target = surface_shape_of(active, context.evaluated_depsgraph_get())
         except snapping.REFUSALS as error:
             self.report({"ERROR"}, "{:s}: {:s}".format(active.name, getattr(error, "reason", str(error))))
-            return {"CANCELLED"}
-        skin = Skin(target)
-        moved: list[Object] = []
-        residuals: list[tuple[str, Match]] = []
+            return False
+        self._size, skin = target.size, Skin(target)
 
-        def lay(obj: Object) -> bool:
-            # One after the other, for a child moves with its parent.
-            found, changed = _lay(context, obj, target, skin)
-            residuals.append((obj.name, found))
-            if changed:
-                moved.append(obj)
-            return True
+        def find(obj: Object) -> None:
+            self._found.append(_planned(context, obj, target, skin))
 
-        done, failures = selection.each(self, others, lay, snapping.REFUSALS)
+        self._steps = selection.one_by_one(self._others, find, snapping.REFUSALS, self._failures)
+        return True
+
+    def _finish(self, context: Context) -> set[str]:
+        """Nothing moves before all places are found, so that a cancelled run leaves everything where it was."""
+        active, units = context.object, Units.of(context.scene.unit_settings)
+        moved, notes, fits = [], [], True
+        for plan, found in self._found:  # parents first, for a child moves with its parent
+            try:
+                if _move(context, plan):
+                    moved.append(plan.obj)
+            except snapping.REFUSALS as error:
+                self._failures.append((plan.obj.name, str(error)))
+                continue
+            notes.append(_told(plan.obj.name, found, self._size, units))
+            fits &= found.largest <= FITS * self._size
         snapping.refresh(context, moved)
-        units = Units.of(context.scene.unit_settings)
-        notes = [_told(name, found, target.size, units) for name, found in residuals]
-        if all(found.largest <= FITS * target.size for _, found in residuals) and not failures and notes:
+        if notes and fits and not self._failures:
             self.report({"INFO"}, "Laid {:s} onto {:s}. {:s}".format(
-                selection.counted(done), active.name, ". ".join(notes[:selection.LISTED])))
+                selection.counted(len(notes)), active.name, ". ".join(notes[:selection.LISTED])))
             return {"FINISHED"}
-        return selection.summarise(self, done, len(others), "Laid {count} onto " + active.name, failures, notes)
+        return selection.summarise(self, len(notes), len(self._others), "Laid {count} onto " + active.name,
+                                   self._failures, notes)
 
 
 def _told(name: str, found: Match, size: float, units: Units) -> str:
@@ -76,8 +98,8 @@ def _told(name: str, found: Match, size: float, units: Units) -> str:
     return apart
 
 
-def _lay(context: Context, obj: Object, target: Shape, skin: Skin) -> tuple[Match, bool]:
-    """Lay one object onto the target; how well it lies, and whether it was moved."""
+def _planned(context: Context, obj: Object, target: Shape, skin: Skin) -> tuple[reframe.Plan, Match]:
+    """Where the object lies on the target, and how well."""
     if obj.library is not None:
         raise Refused("it is linked from another file; make it local first")
     if fixed_to(obj) == "world":
@@ -93,18 +115,22 @@ def _lay(context: Context, obj: Object, target: Shape, skin: Skin) -> tuple[Matc
     matrix = world(obj)
     matrix[:3, :3] = found.rotation @ matrix[:3, :3]
     matrix[:3, 3] = (target.center + found.rotation @ (matrix[:3, 3] * unit - shape.center)) / unit
-    size = shape.size / unit
-    if np.abs(matrix[:3, :3] - world(obj)[:3, :3]).max() <= 1e-7 and np.abs(
-            matrix[:3, 3] - world(obj)[:3, 3]).max() <= reframe.location_tolerance(obj, size):
-        return found, False
-    saved = Channels(obj)
+    return reframe.Plan(obj, matrix, shape.size / unit, move_only=False), found
+
+
+def _move(context: Context, plan: reframe.Plan) -> bool:
+    """Bring the object there; whether it was elsewhere."""
+    off = np.abs(plan.target - world(plan.obj))
+    if off[:3, :3].max() <= 1e-7 and off[:3, 3].max() <= reframe.location_tolerance(plan.obj, plan.size):
+        return False
+    saved = Channels(plan.obj)
     try:
-        reframe.reach(context, reframe.Plan(obj, matrix, size, move_only=False))
+        reframe.reach(context, plan)
     except Refused:
         saved.restore()
         context.view_layer.update()
         raise
-    return found, True
+    return True
 
 
 def _parents(obj: Object) -> list[Object]:

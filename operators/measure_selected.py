@@ -9,15 +9,15 @@ from collections.abc import Iterator
 import bpy
 
 from .measure import Measurement, Unreadable, measure_object
-from .one_by_one import OneByOne
 from .results import refuse
 from .staleness import settle
+from .stepwise import Stepwise
 from .write import properties
 
 AT_ONCE = 4  # up to so many objects are measured before the window is drawn again
 
 
-class OBJECT_OT_body_moments_measure(OneByOne, bpy.types.Operator):
+class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
     """Compute the exact mass properties of the selected objects and store them on each"""
 
     bl_idname = "object.body_moments_measure"
@@ -49,8 +49,8 @@ class OBJECT_OT_body_moments_measure(OneByOne, bpy.types.Operator):
         self._failed: list[str] = []
         self._steps = self._measure(_chosen(context), context.evaluated_depsgraph_get())
 
-    def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Iterator[bpy.types.Object]:
-        for obj in objects:
+    def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Iterator[int]:
+        for done, obj in enumerate(objects, 1):
             try:
                 self._found.append((obj, measure_object(obj, depsgraph)))
             except Unreadable as error:
@@ -58,7 +58,7 @@ class OBJECT_OT_body_moments_measure(OneByOne, bpy.types.Operator):
                 refuse(obj, error.reason)
             else:
                 refuse(obj, None)
-            yield obj
+            yield done
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Nothing is stored before everything is measured, so that a cancelled run leaves nothing behind."""

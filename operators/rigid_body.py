@@ -72,7 +72,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
                 elsewhere.append(obj.name)
             return changed
 
-        count, failures = selection.each(self, objects, assign, snapping.REFUSALS)
+        count, failures = selection.each(objects, assign, snapping.REFUSALS)
         notes = []
         if elsewhere and count:
             notes = [

@@ -82,7 +82,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
                 faults[obj] = found
             return True
 
-        count, failures = selection.each(self, objects, measure, snapping.REFUSALS)
+        count, failures = selection.each(objects, measure, snapping.REFUSALS)
         staleness.settle(context, measured)
         if faults:
             _show(context, faults)

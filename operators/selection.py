@@ -6,7 +6,7 @@ one report a run.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 
 import bpy
@@ -46,7 +46,7 @@ def poll_selected(
 
 
 @contextmanager
-def progress(count: int):
+def progress(count: float):
     """A counter to call after each of `count` steps; shown at the cursor where there are many."""
     manager = bpy.context.window_manager
     shown = count > 1
@@ -108,8 +108,24 @@ def counted(count: int) -> str:
     return "1 object" if count == 1 else "{:d} objects".format(count)
 
 
+def one_by_one(
+    objects: Iterable[Object],
+    action: Callable[[Object], object],
+    refusals: tuple[type[Exception], ...],
+    failures: list[tuple[str, str]],
+) -> Iterator[int]:
+    """Run `action` on one object at a step, which tells how many are done. (name, reason) of those
+    that it refused are added to `failures`.
+    """
+    for done, obj in enumerate(objects, 1):
+        try:
+            action(obj)
+        except refusals as error:
+            failures.append((obj.name, str(getattr(error, "reason", error))))
+        yield done
+
+
 def each(
-    operator: Operator,
     objects: Sequence[Object],
     action: Callable[[Object], bool],
     refusals: tuple[type[Exception], ...],
@@ -117,12 +133,14 @@ def each(
     """Run `action` on each object; how many it changed, and (name, reason) of those that it
     refused.
     """
-    changed, failures = 0, []
+    changed: list[Object] = []
+    failures: list[tuple[str, str]] = []
+
+    def run(obj: Object) -> None:
+        if action(obj):
+            changed.append(obj)
+
     with progress(len(objects)) as step:
-        for obj in objects:
-            try:
-                changed += bool(action(obj))
-            except refusals as error:
-                failures.append((obj.name, str(getattr(error, "reason", error))))
+        for _ in one_by_one(objects, run, refusals, failures):
             step()
-    return changed, failures
+    return len(changed), failures

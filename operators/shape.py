@@ -63,14 +63,9 @@ class Shape:
         """About the center, to the order that a pose needs."""
         return self.body.to_order(ORDER, self._sheets)[1 if self._sheets else 0].about_center()
 
-    @property
-    def is_displayed(self) -> bool:
-        """Whether its pieces are the display mesh of something smooth, whose moments differ a little."""
-        return self.measurement.method.startswith("NURBS")
-
     def of_pieces(self) -> Moments:
         """As `moments`, of the polygons alone: what has to be compared with them."""
-        if not self.is_displayed:
+        if not displayed(self.measurement):
             return self.moments
         volume, area = moments_to_order(self.pieces(), ORDER, area=self._sheets, threads=self.threads,
                                         about=self.center)
@@ -121,6 +116,11 @@ class Shape:
             used[triangles] = True
             points.append(piece.points[used] - self.center)
         return np.concatenate(points)
+
+
+def displayed(measurement: Measurement) -> bool:
+    """Whether a body's pieces are the display mesh of something smooth, whose moments differ a little."""
+    return measurement.method.startswith("NURBS")
 
 
 class NoShape(Unreadable):

@@ -152,7 +152,7 @@ def reframe_selected(
             plans.append(reframe.Plan(obj, target, body.size, move_only=move_only))
         return True
 
-    _, failures = selection.each(operator, objects, plan, REFUSALS)
+    _, failures = selection.each(objects, plan, REFUSALS)
     with staleness.paused(), selection.progress(len(plans)) as step:
         done, refused = reframe.reframe(context, plans, step)
     failures += [(obj.name, reason) for obj, reason in refused]

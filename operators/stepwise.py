@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Long work in steps: between two of them the window lives and tells how far it is, and Esc ends it."""
+
+from __future__ import annotations
+
+from time import perf_counter
+
+from bpy.types import Context, Event
+
+from . import selection
+
+SLICE = 0.1  # seconds of work between two looks at the window's events
+
+
+class Stepwise:
+    """Of an operator, whose `_steps` is a generator that does the work and tells how much is done, and whose `_finish`
+    alone changes anything.
+
+    DOING: the status text, with places for how much is done, and of how much. CANCELLED: the report after Esc.
+    """
+
+    def all_at_once(self, context: Context, count: float) -> set[str]:
+        """Every step, in one call of the operator. count: what the last step tells."""
+        with selection.progress(count) as step:
+            for _ in self._steps:
+                step()
+        return self._finish(context)
+
+    def begin_modal(self, context: Context, count: float) -> set[str]:
+        """The steps as the window's timer calls for them."""
+        self._count = count
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(0.0, window=context.window)
+        manager.modal_handler_add(self)
+        manager.progress_begin(0, count)
+        self._tell(context, 0)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: Context, event: Event) -> set[str]:
+        if event.type == "ESC":
+            self._end(context)
+            self.report({"INFO"}, self.CANCELLED)
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        try:
+            until = perf_counter() + SLICE
+            for done in self._steps:
+                if perf_counter() >= until:
+                    self._tell(context, done)
+                    return {"RUNNING_MODAL"}
+        except BaseException:
+            self._end(context)
+            raise
+        self._end(context)
+        return self._finish(context)
+
+    def _tell(self, context: Context, done: float) -> None:
+        context.window_manager.progress_update(done)
+        context.workspace.status_text_set(self.DOING.format(done, self._count))
+
+    def _end(self, context: Context) -> None:
+        self._steps.close()
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
