@@ -12,6 +12,7 @@ import numpy as np
 from bpy.props import BoolProperty
 from bpy.types import Context, Object, Operator
 
+from ..core.decimal import decimal
 from . import reframe, selection, snapping
 from .channels import Refused, world
 
@@ -74,8 +75,14 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
 
         count, failures = selection.each(objects, assign, snapping.REFUSALS)
         notes = []
-        if elsewhere and count:
+        unit = decimal(context.scene.unit_settings.scale_length)
+        if count and unit != 1.0 and context.scene.unit_settings.system != "NONE":
             notes = [
+                "Blender's physics properties show masses times {:.6g}, the scene's unit scale cubed; physics takes "
+                "the kilograms that were set".format(unit**3)
+            ]
+        if elsewhere and count:
+            notes += [
                 "Physics takes the origin as center of mass, which it is not for {:s}: use Axes "
                 "to Principal Axes".format(", ".join(elsewhere[: selection.LISTED]))
             ]

@@ -109,7 +109,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     density: FloatProperty(
         name="Density",
-        description="Density in kg/m³",
+        description="Density in kg/m³, whatever the scene's units are. Type lb/ft³ as 170*16.0185",
         default=1000.0,
         min=0.0,
         soft_min=0.01,
@@ -120,7 +120,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     linear_density: FloatProperty(
         name="Linear Density",
-        description="Mass per length of a wire, in kg/m",
+        description="Mass per length of a wire, in kg/m, whatever the scene's units are",
         default=1.0,
         min=0.0,
         step=10,
@@ -128,7 +128,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     mass: FloatProperty(
         name="Mass",
-        description="Mass in kilograms, whatever the scene's units are",
+        description="Mass in kilograms, whatever the scene's units are. Type pounds as 5*0.45359237",
         default=1.0,
         min=0.0,
         step=10,
@@ -237,7 +237,7 @@ class BodyMomentsMaterialSettings(PropertyGroup):
 
     density: FloatProperty(
         name="Density",
-        description="Density in kg/m³; 0 for none, then the object's is taken",
+        description="Density in kg/m³, whatever the scene's units are; 0 for none, then the object's is taken",
         default=0.0,
         min=0.0,
         soft_max=25000.0,

@@ -77,8 +77,8 @@ DIGITS = 6
 
 @dataclass(frozen=True)
 class Units:
-    """A scene's unit settings. With system "NONE", lengths are the scene's own units and masses
-    kg, without a name.
+    """A scene's unit settings. With system "NONE", lengths, areas and volumes are in the scene's own
+    units, without a name; whatever has mass in it is SI, with its name.
     """
 
     system: str
@@ -122,8 +122,7 @@ class Units:
     def unit(self, quantity: str, value: float) -> tuple[float, str]:
         """(SI value of one unit, its name) to show an SI `value` in."""
         if self.system == "NONE":
-            factors = {name: self.scale**power for name, (_, power) in POWERS.items()}
-            return factors.get(quantity, 1.0 if quantity != "inertia" else self.scale**2), ""
+            return (self.scale ** POWERS[quantity][1], "") if quantity in POWERS else (1.0, SI_UNITS[quantity])
         if quantity in POWERS:
             sign, power = POWERS[quantity]
             factor, name = self._length(value ** (1.0 / power) if value > 0.0 else 0.0)

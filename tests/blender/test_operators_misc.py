@@ -241,7 +241,7 @@ def test_materials_are_many_sourced_and_plausible():
                 "0.683434 lb·in²",
             ),
         ),
-        ("NONE", "ADAPTIVE", "ADAPTIVE", ("1.5", "0.0002", "8", "0.25", "7850", "0.0002")),
+        ("NONE", "ADAPTIVE", "ADAPTIVE", ("1.5", "0.0002", "8", "0.25 kg", "7850 kg/m³", "0.0002 kg·m²")),
     ],
 )
 def test_numbers_are_shown_in_the_scenes_units(system, length, mass, expected):
@@ -257,6 +257,28 @@ def test_numbers_are_shown_in_the_scenes_units(system, length, mass, expected):
         ("inertia", 2e-4),
     )
     assert tuple(units.text(*value) for value in values) == expected
+
+
+def test_without_a_unit_system_lengths_are_the_scenes_and_masses_are_kilograms():
+    """Else a density beside a volume in the scene's units would seem to give another mass than the one shown."""
+    from body_moments.operators.units import Units
+
+    units = Units("NONE", "ADAPTIVE", "ADAPTIVE", 0.001)
+    values = (("length", 0.002), ("volume", 8e-9), ("mass", 8e-6), ("density", 1000.0), ("inertia", 5e-12))
+    assert [units.text(*value) for value in values] == ["2", "8", "8e−6 kg", "1000 kg/m³", "5e−12 kg·m²"]
+
+
+@pytest.mark.parametrize(("system", "scale", "told"), [("METRIC", 0.01, True), ("IMPERIAL", 0.3048, True),
+                                                       ("METRIC", 1.0, False), ("NONE", 0.01, False)])
+def test_what_blender_shows_of_a_rigid_bodys_mass_is_told_where_it_is_scaled(system, scale, told, capfd):
+    settings = bpy.context.scene.unit_settings
+    settings.system, settings.scale_length = system, scale
+    obj = add(mesh_body())
+    obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.0
+    assert bpy.ops.object.body_moments_set_rigid_body_mass(add=True) == {"FINISHED"}
+    assert obj.rigid_body.mass == 3.0
+    report = capfd.readouterr().out
+    assert ("unit scale cubed" in report) == told and ("times {:.6g}".format(scale**3) in report) == told
 
 
 def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():
