@@ -49,7 +49,8 @@ Densities
     polynomial, graded          polynomials in x, y, z; bodies of such a density
     density_sign                whether such a density is negative somewhere in a body
     weighted                    one density for each part, face or vertex
-    scans, transfer, materials  files of samples; what a sample stands for; a table of materials
+    scans, samples              files of samples: `nrrd`, `nifti`, `array_files`; the samples in them
+    transfer, materials         what a sample stands for; a table of materials
     soldea                      reference, as printed: theorem 4.2
 
 Pose, symmetry and signature

@@ -18,8 +18,10 @@ from bpy.types import Context, Operator
 from bpy_extras.io_utils import ImportHelper
 from numpy.typing import NDArray
 
+from ..core.array_files import TYPES, read_raw
 from ..core.decimal import decimal
-from ..core.scans import SUFFIXES, TYPES, Scan, placed, read_raw, read_scan, suffix
+from ..core.samples import Scan
+from ..core.scans import SUFFIXES, placed, read_scan, suffix
 from . import selection
 from .read.vdb import openvdb
 

@@ -10,7 +10,8 @@ import zipfile
 
 import numpy as np
 import pytest
-from body_moments.core.scans import SUFFIXES, placed, read_raw, read_scan, suffix
+from body_moments.core.array_files import read_raw
+from body_moments.core.scans import SUFFIXES, placed, read_scan, suffix
 
 from .scan_files import NIFTI_CODES, NRRD_NAMES, nifti, nrrd, written
 
