@@ -7,6 +7,7 @@ from bpy.props import StringProperty
 from bpy.types import Context, Operator, OperatorProperties
 
 from . import selection, staleness
+from .counted import doubts
 from .write import properties
 from .write.report import report_text
 
@@ -60,7 +61,8 @@ class OBJECT_OT_body_moments_copy_report(Operator):
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected(context)
         outdated = {obj.name for obj in objects if staleness.reason(obj, context.scene)}
-        text = report_text(context, objects, outdated)
+        counted = [obj for obj in objects if properties.is_stored(obj)]
+        text = report_text(context, objects, outdated, doubts(counted, context.view_layer))
         told = "Copied the report of {:s}".format(selection.counted(len(objects)))
         to_clipboard(self, context, text, told)
         return {"FINISHED"}

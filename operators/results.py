@@ -19,13 +19,14 @@ from mathutils import Matrix
 from ..core.decimal import decimal
 from ..core.mass import MassProperties, combined
 from . import live, staleness
+from .counted import doubts
 from .write import properties
 
 
 @dataclass(frozen=True, eq=False)
 class Total:
     """Selected objects as one body, SI, world axes. count: objects with results; body: None where they have no mass;
-    missing, outdated: names of others."""
+    missing, outdated: names of others; doubts: sentences on what may be no part of it."""
 
     count: int
     volume: float
@@ -33,6 +34,7 @@ class Total:
     body: MassProperties | None
     missing: tuple[str, ...]
     outdated: tuple[str, ...]
+    doubts: tuple[str, ...]
 
 
 def refuse(obj: Object, reason: str | None) -> None:
@@ -78,13 +80,14 @@ _total: tuple[tuple, Total] | None = None
 
 def _sum(context: Context) -> Total:
     scene = context.scene
-    found, missing, outdated = [], [], []
+    found, counted, missing, outdated = [], [], [], []
     for obj in context.view_layer.objects.selected:
         rows = properties.numbers(obj)
         if rows is None:
             missing.append(obj.name)
             continue
         found.append(_in_frame(rows, _place(obj), _unit(scene)))
+        counted.append(obj)
         if staleness.reason(obj, scene):
             outdated.append(obj.name)
     body = None
@@ -92,7 +95,7 @@ def _sum(context: Context) -> Total:
         with suppress(ValueError):  # together they have no mass
             body = combined([(one.body.as_moments(), 1.0) for one in found])
     return Total(len(found), sum(one.volume for one in found), sum(one.area for one in found), body, tuple(missing),
-                 tuple(outdated))
+                 tuple(outdated), tuple(doubts(counted, context.view_layer)))
 
 
 @lru_cache(maxsize=512)

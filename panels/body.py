@@ -338,6 +338,8 @@ def _totals(layout: UILayout, context: Context, units: Units) -> None:
             row = column.row()
             row.alert = True
             row.label(text="{:d} {:s}".format(len(names), text), icon="ERROR")
+    for one in total.doubts:
+        rows.sentence(column, context, one, icon="ERROR")
     column = body.column(align=True)
     if total.body is not None:
         rows.value(column, units, "Mass", "mass", total.body.mass)

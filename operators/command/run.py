@@ -26,6 +26,7 @@ from ...core import scans
 from ...core.measurement import Measurement
 from .. import settings
 from ..array_body import ArrayOptions, measure_array
+from ..counted import doubts
 from ..measure import MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
 from ..shape import DISPLAY_MESH, OF_SHAPES, POLYGONS, NoShape, shape_of
@@ -75,7 +76,7 @@ class Run:
     def _document(self, path: str | None) -> dict[str, Any]:
         file = path or bpy.data.filepath or _asked_for()
         measured: list[tuple[bpy.types.Object, Measurement]] = []
-        objects, errors = [], []
+        objects, errors, doubtful = [], [], []
         try:
             if path is not None and scans.suffix(path):
                 objects, measured, errors = self._array(path)
@@ -108,6 +109,8 @@ class Run:
                         errors.append(_error(label, refusal.reason))
                     except Exception as error:
                         errors.append(self._fault(label, error))
+                if self.options.object is None:  # else whoever named them knows what they count
+                    doubtful = doubts([obj for obj, _ in measured], bpy.context.view_layer)
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
             if self.options.write:
@@ -121,7 +124,7 @@ class Run:
             sys.stderr.write("{}: {}\n".format(": ".join(where), one["reason"]))
         return record.document(
             objects,
-            record.total([one for _, one in measured]),
+            record.total([one for _, one in measured], doubtful),
             errors,
             file=file,
             blender=".".join(map(str, bpy.app.version)),

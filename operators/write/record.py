@@ -94,7 +94,7 @@ def record(
     return plain(entry)
 
 
-def total(measurements: Sequence[Measurement]) -> dict[str, Any]:
+def total(measurements: Sequence[Measurement], warnings: Sequence[str] = ()) -> dict[str, Any]:
     """All objects as one body, in the world frame: masses add, and inertia by the parallel-axis
     theorem.
     """
@@ -109,7 +109,7 @@ def total(measurements: Sequence[Measurement]) -> dict[str, Any]:
     if measurements:
         with suppress(ValueError):  # together they have no mass, and so no centre
             entry.update(_inertial(combined([one.mass_moments for one in measurements])))
-    return plain(entry)
+    return plain(entry | {"warnings": warnings})
 
 
 def document(

@@ -52,10 +52,13 @@ INDENT = "  "
 WIDTH = 22
 
 
-def report_text(context: Any, objects: Sequence[Any], outdated: Collection[str] = ()) -> str:
+def report_text(
+    context: Any, objects: Sequence[Any], outdated: Collection[str] = (), doubts: Sequence[str] = ()
+) -> str:
     """The results stored on `objects`, in the frame that the context's scene is set to.
 
     outdated: names of those whose results no longer hold. Objects without results are named too.
+    doubts: warnings of their total.
     """
     scene = context.scene
     unit, frame = decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
@@ -69,7 +72,7 @@ def report_text(context: Any, objects: Sequence[Any], outdated: Collection[str] 
         world = found.in_world(obj.matrix_world, unit)
         bodies.append(world.body)
         entries.append(_stored_record(obj, world if frame == "world" else found, obj.name in outdated))
-    total = _stored_total(entries, bodies)
+    total = _stored_total(entries, bodies) | {"warnings": list(doubts)}
     return text(document(entries, total, errors, file=None, blender=None, frame=frame))
 
 

@@ -81,17 +81,44 @@ def test_what_shows_no_surface_by_its_settings_is_left_out_unless_it_is_named():
     found = document()
     assert names(found) == ["Text"] and found["errors"] == []
     told = errors(document("--object", "Circle", "--object", "Light", "--object", "Empty"))
-    assert "Wire" in told["Circle"] and "“Light”" in told["Light"] and "collection" in told["Empty"]
+    assert "bevel" in told["Circle"] and "“Light”" in told["Light"] and "collection" in told["Empty"]
     assert names(document("--object", "Circle", "--kind", "shell")) == ["Circle"]
 
 
-def test_a_text_that_shows_nothing_is_an_error_with_the_remedy():
-    bpy.ops.object.text_add()
-    text = bpy.context.object
-    text.data.fill_mode = "NONE"
-    assert "fill it" in errors(document())["Text"]
-    text.data.body = " \n"
-    assert "type one" in errors(document())["Text"]
+def test_what_may_be_no_part_of_the_total_is_told_with_it():
+    body, cutter, helper, blank, part = map(files.add_box, ("Body", "Cutter", "Helper", "Blank", "Part"))
+    cut = body.modifiers.new("Cut", "BOOLEAN")
+    cut.object, cut.solver = cutter, "FLOAT" if bpy.app.version >= (5, 0) else "FAST"
+    body.modifiers.new("Empty", "BOOLEAN")
+    cutter.location.x += 0.5
+    cutter.display_type = helper.display_type = "WIRE"
+    blank.hide_render = True
+    found = document()
+    assert len(found["objects"]) == 5 and found["errors"] == []
+    cuts, unseen = found["total"]["warnings"]
+    assert "“Cutter” of “Body”" in cuts and "leave out" in cuts
+    assert "“Blank”, “Helper”;" in unseen and "Cutter" not in unseen and "Part" not in unseen
+    blank.hide_render, helper.display_type = False, "TEXTURED"
+    cut.show_viewport = False
+    (unseen,) = document()["total"]["warnings"]
+    assert "“Cutter”" in unseen and "Blank" not in unseen
+    everything = [word for name in names(found) for word in ("--object", name)]
+    assert document(*everything)["total"]["warnings"] == []  # whoever names them knows
+
+
+def test_cutters_in_a_collection_and_in_one_that_is_not_rendered_are_told():
+    body, one, two, other = map(files.add_box, ("Body", "One", "Two", "Other"))
+    cutters, hidden = bpy.data.collections.new("Cutters"), bpy.data.collections.new("Unrendered")
+    for home, obj in ((cutters, one), (cutters, two), (hidden, other)):
+        bpy.context.scene.collection.children.link(home) if not home.users else None
+        home.objects.link(obj)
+        bpy.context.scene.collection.objects.unlink(obj)
+    hidden.hide_render = True
+    cut = body.modifiers.new("Cut", "BOOLEAN")
+    cut.operand_type, cut.collection, cut.operation = "COLLECTION", cutters, "UNION"
+    cuts, unseen = document()["total"]["warnings"]
+    assert "“One” of “Body”, “Two” of “Body”" in cuts and "“Other”" in unseen
+    assert document("--object", "Body", "--object", "One")["total"]["warnings"] == []
 
 
 def test_only_the_named_objects_are_measured():

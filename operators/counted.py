@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What counts in a total and may be no part of it: cutters and helpers are objects like any other."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator
+
+from bpy.types import LayerCollection, Object, ViewLayer
+
+LISTED = 8  # names in a sentence before it only counts
+
+
+def doubts(objects: Collection[Object], view_layer: ViewLayer) -> list[str]:
+    """A sentence for each reason why some of the objects may be no parts of the body that they are summed to."""
+    if len(objects) < 2:
+        return []
+    objects = sorted(objects, key=lambda obj: obj.name)
+    operands: dict[Object, Object] = {}
+    for user in objects:
+        for operand in _operands(user):
+            operands.setdefault(operand, user)
+    cutters = [obj for obj in objects if obj in operands]
+    rendered = set(_rendered(view_layer.layer_collection))
+    unseen = [obj for obj in objects if obj not in operands and (
+        obj.hide_render or obj not in rendered or obj.display_type in {"WIRE", "BOUNDS"}
+        or not obj.visible_get(view_layer=view_layer))]
+    found = []
+    if cutters:
+        names = _listing("“{:s}” of “{:s}”".format(obj.name, operands[obj].name) for obj in cutters)
+        found.append(
+            "Operands of Boolean modifiers count as bodies of their own: {:s}; leave out what is no part.".format(names)
+        )
+    if unseen:
+        names = _listing("“{:s}”".format(obj.name) for obj in unseen)
+        found.append("What is hidden, not rendered, or displayed as wire or bounds counts: {:s}; leave out what is no "
+                     "part.".format(names))
+    return found
+
+
+def _operands(obj: Object) -> Iterator[Object]:
+    """The objects that the Boolean modifiers of another one work with."""
+    for modifier in obj.modifiers:
+        if modifier.type != "BOOLEAN" or not modifier.show_viewport:
+            continue
+        if modifier.operand_type == "OBJECT" and modifier.object is not None:
+            yield modifier.object
+        elif modifier.operand_type == "COLLECTION" and modifier.collection is not None:
+            yield from modifier.collection.all_objects
+
+
+def _rendered(layer: LayerCollection) -> Iterator[Object]:
+    """The objects of the collections that are rendered."""
+    if not layer.collection.hide_render:
+        yield from layer.collection.objects
+        for child in layer.children:
+            yield from _rendered(child)
+
+
+def _listing(names: Iterable[str]) -> str:
+    names = list(names)
+    more = ["and {:d} more".format(len(names) - LISTED)] if len(names) > LISTED else []
+    return ", ".join(names[:LISTED] + more)
