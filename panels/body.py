@@ -349,7 +349,7 @@ def _totals(layout: UILayout, context: Context, units: Units) -> None:
         return
     column = body.column(align=True)
     rows.heading(column, "Center of Mass (World)", "length", total.body.center)
-    rows.values(column, units, AXES, "length", total.body.center)
+    rows.values(column, units, AXES, "length", total.body.center, total.body.radii_of_gyration.max())
     column = body.column(align=True)
     moments = total.body.principal.moments
     rows.heading(column, "Principal Moments", "inertia", moments)

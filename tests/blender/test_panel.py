@@ -201,6 +201,16 @@ def test_the_total_tells_what_may_be_no_part_of_it(monkeypatch):
     assert results.total(bpy.context).doubts == ()
 
 
+def test_what_is_rounding_in_a_totals_center_is_told_as_0():
+    for turn in ((0.3, 0.2, 0.1), (0.1, 0.5, 0.7)):
+        bpy.ops.mesh.primitive_cylinder_add(vertices=7, rotation=turn)
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.body_moments_measure()
+    told = labels(drawn())
+    assert told[told.index("Center of Mass (World)"):][1:6:2] == ["X", "Y", "Z"]
+    assert told[told.index("Center of Mass (World)"):][2:7:2] == ["0 m", "0 m", "0 m"]
+
+
 def test_totals_have_parallel_axis_terms():
     from body_moments.operators import results
 
