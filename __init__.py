@@ -8,8 +8,6 @@ so that `body_moments.core` can be imported, tested and used where there is no B
 
 from contextlib import ExitStack
 
-ADDON_ID = __package__
-
 
 def register() -> None:
     """Register every class, property and command; if one part fails, undo the others and raise."""

@@ -10,8 +10,7 @@ from bpy.types import Context, Object, Operator
 from numpy.typing import NDArray
 
 from . import reframe, selection, snapping
-from .channels import Channels, Refused, world
-from .density import fixed_to
+from .channels import world
 
 # Where principal axes 1, 2 and 3 go. An odd order would mirror the body, so there axis 3 points the
 # other way.
@@ -86,20 +85,10 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
         _, failures = selection.each(objects, turn, snapping.REFUSALS)
         snapping.refresh(context, moved)
         text = "Aligned the principal axes of {count} with the world's"
-        if not moved and not failures:
-            text = (
-                "Nothing to do: all of it was aligned already"
-                if objects
-                else "Nothing selected can be measured"
-            )
-        return selection.summarise(self, len(moved), len(objects), text, failures)
+        return selection.summarise(self, len(moved), len(objects), text, failures, idle="all of it was aligned already")
 
     def _align(self, context: Context, obj: Object, frame: NDArray) -> bool:
-        if obj.library is not None:
-            raise Refused("it is linked from another file; make it local first")
-        if fixed_to(obj) == "world":
-            raise Refused("its density is a polynomial of world coordinates, and does not move with it; give it in its "
-                          "own coordinates first")
+        reframe.check_movable(obj)
         body = snapping.body_of(context, obj, self.strict)
         goal = body.center if self.pivot == "CENTER" else np.zeros(3)
         aligned = body.is_principal(frame)
@@ -111,13 +100,7 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
         target = world(obj)
         target[:3, :3] = turn @ target[:3, :3]
         target[:3, 3] = goal + turn @ (target[:3, 3] - body.center)
-        saved = Channels(obj)
-        try:
-            reframe.reach(context, reframe.Plan(obj, target, body.size, move_only=aligned))
-        except Refused:
-            saved.restore()
-            context.view_layer.update()
-            raise
+        reframe.move(context, reframe.Plan(obj, target, body.size, move_only=aligned))
         return True
 
 

@@ -55,14 +55,8 @@ class OBJECT_OT_body_moments_add_empty(Operator):
             return changed
 
         count, failures = selection.each(objects, add, snapping.REFUSALS)
-        text = "Placed an empty at the principal frame of {count}"
-        if not count and not failures:
-            text = (
-                "Nothing to do: the empties are there already"
-                if objects
-                else "Nothing selected can be measured"
-            )
-        return selection.summarise(self, count, len(objects), text, failures, notes)
+        return selection.summarise(self, count, len(objects), "Placed an empty at the principal frame of {count}",
+                                   failures, notes, idle="the empties are there already")
 
 
 def _new_empty(context: Context, obj: Object) -> Object:

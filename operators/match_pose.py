@@ -10,8 +10,7 @@ from bpy.types import Context, Event, Object, Operator
 from ..core.decimal import decimal
 from ..core.matching import FITS, Match
 from . import reframe, selection, snapping
-from .channels import Channels, Refused, world
-from .density import fixed_to
+from .channels import Refused, world
 from .shape import Shape, Skin, matched, surface_shape_of
 from .stepwise import Stepwise
 from .units import Units
@@ -100,11 +99,7 @@ def _told(name: str, found: Match, size: float, units: Units) -> str:
 
 def _planned(context: Context, obj: Object, target: Shape, skin: Skin) -> tuple[reframe.Plan, Match]:
     """Where the object lies on the target, and how well."""
-    if obj.library is not None:
-        raise Refused("it is linked from another file; make it local first")
-    if fixed_to(obj) == "world":
-        raise Refused("its density is a polynomial of world coordinates, and does not move with it; give it in its own "
-                      "coordinates first")
+    reframe.check_movable(obj)
     if obj in _parents(context.object):
         raise Refused("the active object is its child and would move with it; clear the parent first")
     shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
@@ -123,13 +118,7 @@ def _move(context: Context, plan: reframe.Plan) -> bool:
     off = np.abs(plan.target - world(plan.obj))
     if off[:3, :3].max() <= 1e-7 and off[:3, 3].max() <= reframe.location_tolerance(plan.obj, plan.size):
         return False
-    saved = Channels(plan.obj)
-    try:
-        reframe.reach(context, plan)
-    except Refused:
-        saved.restore()
-        context.view_layer.update()
-        raise
+    reframe.move(context, plan)
     return True
 
 

@@ -76,10 +76,8 @@ class OBJECT_OT_body_moments_set_material(Operator):
             settings.density = material.density
             settings.material = material.name
             changed += before != _density_of(settings)
-        text = "Set {count} to " + material.name
-        if not changed:
-            text = "Nothing to do: it was {:s} already".format(material.name)
-        return selection.summarise(self, changed, len(objects), text)
+        return selection.summarise(self, changed, len(objects), "Set {count} to " + material.name,
+                                   idle="it was {:s} already".format(material.name))
 
 
 def _density_of(settings) -> tuple:
@@ -144,12 +142,8 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
         active = context.view_layer.objects.active
         objects = [obj for obj in _editable(context) if obj != active]
         count = sum(copy_settings(active.body_moments, obj.body_moments) for obj in objects)
-        text = (
-            "Copied the settings to {count}"
-            if count
-            else "Nothing to do: the settings were the same already"
-        )
-        return selection.summarise(self, count, len(objects), text)
+        return selection.summarise(self, count, len(objects), "Copied the settings to {count}",
+                                   idle="the settings were the same already")
 
 
 class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):

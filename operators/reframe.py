@@ -196,6 +196,26 @@ def _remove(data: ID) -> None:
     bpy.data.batch_remove([data])
 
 
+def check_movable(obj: Object) -> None:
+    """Refused where the object cannot be moved as a whole and stay the body that it is."""
+    if obj.library is not None:
+        raise Refused("it is linked from another file; make it local first")
+    if fixed_to(obj) == "world":
+        raise Refused("its density is a polynomial of world coordinates, and does not move with it; give it in its own "
+                      "coordinates first")
+
+
+def move(context: Context, plan: Plan) -> None:
+    """`reach`, or leave the object where it was."""
+    saved = Channels(plan.obj)
+    try:
+        reach(context, plan)
+    except Refused:
+        saved.restore()
+        context.view_layer.update()
+        raise
+
+
 def reach(context: Context, plan: Plan) -> None:
     """Set the channels so that the evaluated matrix becomes the target; Refused where something
     else holds it.

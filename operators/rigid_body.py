@@ -86,14 +86,8 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
                 "Physics takes the origin as center of mass, which it is not for {:s}: use Axes "
                 "to Principal Axes".format(", ".join(elsewhere[: selection.LISTED]))
             ]
-        text = "Set the rigid body mass of {count}"
-        if not count and not failures:
-            text = (
-                "Nothing to do: the masses were right already"
-                if objects
-                else "Nothing selected can be measured"
-            )
-        return selection.summarise(self, count, len(objects), text, failures, notes)
+        return selection.summarise(self, count, len(objects), "Set the rigid body mass of {count}", failures, notes,
+                                   idle="the masses were right already")
 
 
 CLASSES = (OBJECT_OT_body_moments_set_rigid_body_mass,)

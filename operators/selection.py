@@ -80,13 +80,16 @@ def summarise(
     text: str,
     failures: Iterable[tuple[str, str]] = (),
     notes: Iterable[str] = (),
+    idle: str = "",
 ) -> set[str]:
     """One report for the run, and what `execute` returns.
 
     text: what happened to `done` objects, with {count} for "3 objects". failures: (name, reason)
-        each. notes: sentences.
+        each. notes: sentences. idle: where nothing had to be done, why.
     """
     failures, notes = list(failures), list(notes)
+    if not done and not failures and idle:
+        text = "Nothing to do: " + idle if total else "Nothing selected can be measured"
     sentences = []
     if done or not failures:
         sentences.append(text.format(count=counted(done)))

@@ -158,10 +158,5 @@ def reframe_selected(
     failures += [(obj.name, reason) for obj, reason in refused]
     refresh(context, [plan.obj for plan in done])
     notes = ["{:s} {:s}".format(plan.obj.name, note) for plan in done for note in plan.notes]
-    if not done and not failures:
-        text = (
-            "Nothing to do: all of it was there already"
-            if objects
-            else "Nothing selected can be measured"
-        )
-    return selection.summarise(operator, len(done), len(objects), text, failures, notes)
+    return selection.summarise(operator, len(done), len(objects), text, failures, notes,
+                               idle="all of it was there already")
