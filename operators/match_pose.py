@@ -85,8 +85,8 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
             self.report({"INFO"}, "Laid {:s} onto {:s}. {:s}".format(
                 selection.counted(len(notes)), active.name, ". ".join(notes[:selection.LISTED])))
             return {"FINISHED"}
-        return selection.summarise(self, len(notes), len(self._others), "Laid {count} onto " + active.name,
-                                   self._failures, notes)
+        text = "Laid {count} onto " + active.name
+        return selection.summarise(self, len(notes), len(self._others), text, self._failures, notes)
 
 
 def _told(name: str, found: Match, size: float, units: Units) -> str:

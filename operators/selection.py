@@ -92,7 +92,7 @@ def summarise(
         text = "Nothing to do: " + idle if total else "Nothing selected can be measured"
     sentences = []
     if done or not failures:
-        sentences.append(text.format(count=counted(done)))
+        sentences.append(text.replace("{count}", counted(done), 1))  # names in it may have braces too
     if failures:
         listed = ["{:s}: {:s}".format(*failure) for failure in failures[:LISTED]]
         if len(failures) > LISTED:

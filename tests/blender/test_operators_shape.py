@@ -135,6 +135,15 @@ def test_a_parent_is_not_laid_onto_its_child(capfd):
     assert "clear the parent" in capfd.readouterr().out
 
 
+def test_a_name_with_braces_is_told_as_it_is(capfd):
+    target, other = wedge("{0} {count}"), wedge("Copy", location=(3, 2, 1))
+    image = wedge("Image {}", mirrored=True)
+    only(target, other, image)
+    assert run("match_pose") == {"FINISHED"}
+    out = capfd.readouterr().out
+    assert "Laid 1 object onto {0} {count}." in out and "Image {}: it is a mirror image" in out
+
+
 def test_match_pose_needs_two_objects():
     only(wedge())
     assert "poll" in refused("match_pose")
