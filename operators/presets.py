@@ -11,7 +11,7 @@ from bpy.types import Context, Object, Operator
 
 from ..core.materials import BY_NAME, MATERIALS
 from . import selection
-from .settings import copy_settings
+from .settings import COPIED, copy_settings
 
 PRESETS = "body_moments"  # folder of the user's presets
 
@@ -154,20 +154,7 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     preset_menu = "OBJECT_PT_body_moments_presets"
     preset_subdir = PRESETS
     preset_defines = ["settings = bpy.context.object.body_moments"]
-    preset_values = [
-        "settings.kind",
-        "settings.wall",
-        "settings.thickness",
-        "settings.mass_from",
-        "settings.mass",
-        "settings.density",
-        "settings.material",
-        "settings.overlap",
-        "settings.density_from",
-        "settings.density_polynomial",
-        "settings.density_frame",
-        "settings.density_attribute",
-    ]
+    preset_values = ["settings." + name for name in COPIED if name != "density_volume"]  # it is the file's
 
 
 CLASSES = (

@@ -205,6 +205,28 @@ def test_ones_own_presets_are_kept_loaded_and_removed():
     assert bpy.ops.object.body_moments_preset_add(name="My Foam", remove_name=True) == {"FINISHED"}
 
 
+def test_presets_keep_every_setting_that_is_no_object():
+    from body_moments.core.materials import MATERIALS
+    from body_moments.operators.settings import COPIED
+
+    changed = {"kind": "WIRE", "wall": "INWARD", "thickness": 0.25, "mass_from": "MASS",
+               "density": MATERIALS[0].density, "linear_density": 0.5, "material": MATERIALS[0].name, "mass": 3.0, "overlap": "UNION",
+               "density_from": "POLYNOMIAL", "density_polynomial": "1 + x", "density_frame": "WORLD",
+               "density_attribute": "rho", "grid": "density", "grid_as": "SOLID", "values_from": "TABLE",
+               "value_density": 2.0, "transfer_table": "0, 1, 2, 3", "spline_order": 4}
+    assert {*changed, "density_volume"} == {*COPIED}
+    one = add(mesh_body())
+    for name, value in changed.items():
+        setattr(one.body_moments, name, value)
+    bpy.ops.object.body_moments_preset_add(name="All of It")
+    (path,) = [f"{folder}/All_of_It.py" for folder in bpy.utils.preset_paths("body_moments")]
+    other = add(mesh_body(), "Other")
+    bpy.ops.script.execute_preset(filepath=path, menu_idname="OBJECT_PT_body_moments_presets")
+    for name in changed:
+        assert getattr(other.body_moments, name) == getattr(one.body_moments, name), name
+    bpy.ops.object.body_moments_preset_add(name="All of It", remove_name=True)
+
+
 def test_materials_are_many_sourced_and_plausible():
     from body_moments.core.materials import BY_NAME, MATERIALS
 
