@@ -88,12 +88,21 @@ def _parser() -> argparse.ArgumentParser:
     add = parser.add_argument
     add("command", choices=("measure",), metavar="measure")
     add("files", nargs="*", metavar="FILE")
+    _add_settings(parser)
+    _add_of_files(parser)
+    _add_results(parser)
+    return parser
+
+
+def _add_settings(parser: argparse.ArgumentParser) -> None:
+    """Which objects, and what they are made of."""
+    add = parser.add_argument
     add(
         "--object",
         action="append",
         metavar="NAME",
-        help="only this object; repeatable (every measurable object: not lights, cameras and empties, "
-        "nor curves that show no surface; named they are errors, with the remedy)",
+        help="only this object; repeatable (every measurable object; lights, cameras, empties that instance "
+        "nothing and curves that show no surface are left out unless they are named)",
     )
     add("--kind", choices=("solid", "shell"), help="(each object's setting, or solid)")
     add(
@@ -113,6 +122,11 @@ def _parser() -> argparse.ArgumentParser:
         help="overlapping or nested outward shells: counted as often as they cover a place, or "
         "once (signed, with a warning)",
     )
+
+
+def _add_of_files(parser: argparse.ArgumentParser) -> None:
+    """What files do not say of themselves."""
+    add = parser.add_argument
     add(
         "--unit-scale",
         type=_positive,
@@ -144,6 +158,11 @@ def _parser() -> argparse.ArgumentParser:
         metavar="S",
         help="arrays: kg/m³ where a sample is 1 (1)",
     )
+
+
+def _add_results(parser: argparse.ArgumentParser) -> None:
+    """What is told, and where it goes."""
+    add = parser.add_argument
     add(
         "--frame",
         choices=FRAMES,
@@ -187,7 +206,6 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="store the results on the objects and save the .blend file",
     )
-    return parser
 
 
 def _positive(text: str) -> float:

@@ -353,7 +353,7 @@ def test_wrong_usage_ends_with_2_and_a_sentence(words, capfd, standard_output):
 def test_help_is_no_error(capfd, standard_output):
     assert batch.main(["measure", "--help"]) == 0
     told = " ".join(capfd.readouterr().out.split())
-    assert "--unit-scale" in told and "nor curves that show no surface" in told
+    assert "--unit-scale" in told and "curves that show no surface are left out" in told
 
 
 def test_main_writes_the_result_and_returns_the_exit_code(capfd, standard_output):

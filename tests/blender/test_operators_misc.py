@@ -210,10 +210,10 @@ def test_presets_keep_every_setting_that_is_no_object():
     from body_moments.operators.settings import COPIED
 
     changed = {"kind": "WIRE", "wall": "INWARD", "thickness": 0.25, "mass_from": "MASS",
-               "density": MATERIALS[0].density, "linear_density": 0.5, "material": MATERIALS[0].name, "mass": 3.0, "overlap": "UNION",
-               "density_from": "POLYNOMIAL", "density_polynomial": "1 + x", "density_frame": "WORLD",
-               "density_attribute": "rho", "grid": "density", "grid_as": "SOLID", "values_from": "TABLE",
-               "value_density": 2.0, "transfer_table": "0, 1, 2, 3", "spline_order": 4}
+               "density": MATERIALS[0].density, "linear_density": 0.5, "material": MATERIALS[0].name, "mass": 3.0,
+               "overlap": "UNION", "density_from": "POLYNOMIAL", "density_polynomial": "1 + x",
+               "density_frame": "WORLD", "density_attribute": "rho", "grid": "density", "grid_as": "SOLID",
+               "values_from": "TABLE", "value_density": 2.0, "transfer_table": "0, 1, 2, 3", "spline_order": 4}
     assert {*changed, "density_volume"} == {*COPIED}
     one = add(mesh_body())
     for name, value in changed.items():
