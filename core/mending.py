@@ -22,6 +22,7 @@ from .weld import equal_positions, face_groups, near_positions, vertex_tolerance
 
 LISTED = 8  # numbers of faces that a sentence names
 NO_COPIES = np.empty(0, np.intp), np.empty(0, np.intp)
+NO_EDGES = np.empty((0, 2), np.intp)
 
 
 @dataclass(eq=False)
@@ -55,15 +56,17 @@ def mend(surface: Surface, tolerance: float, size: float) -> Mended:
     given, face = surface.all_triangles()
     given, face = given.astype(np.intp), np.asarray(face, np.intp)
     notes: list[str] = []
-    triangles, welded, moved, edges = _welded(points, given, tolerance)
+    triangles, welded, moved, edges = _welded(points, given, face, tolerance)
     if moved > 0.0:
         notes.append("Vertices along open edges were welded to others, up to {:.1g} of the body's size away."
                      .format(moved / size))
     rows = np.flatnonzero(_proper(triangles))
-    copies = NO_COPIES
+    copies, crowded, named = NO_COPIES, 0, NO_EDGES
     if len(rows):
         edges = edges or find_edges(triangles[rows])
         if edges.count.max() > 2:  # elsewhere copies of faces would have no others beside them
+            crowded = int(np.count_nonzero(edges.count > 2))
+            named = _named(given[rows], np.flatnonzero((edges.count > 2)[edges.of_side]))
             copies, left_out = _copies(points, triangles[rows], face[rows], edges, notes)
             if left_out.any():
                 rows = rows[~left_out]
@@ -71,8 +74,9 @@ def mend(surface: Surface, tolerance: float, size: float) -> Mended:
     triangles, given, face = triangles[rows], given[rows], face[rows]
     body = Mended(points, triangles, face, np.zeros(len(rows), bool), np.zeros(len(rows), np.intp), 0,
                   np.zeros(0, bool), np.zeros((0, 3)), changed=moved > 0.0 or len(copies[1]) > 0, notes=notes)
-    body.counts = {"welded": welded, "duplicate_faces": len(copies[0]), "closed": False, "components": 0}
-    body.faults = {"duplicate_faces": copies[0]}
+    body.counts = {"welded": welded, "duplicate_faces": len(copies[0]), "non_manifold_edges": crowded, "closed": False,
+                   "components": 0}
+    body.faults = {"duplicate_faces": copies[0], "non_manifold_edges": named}
     if len(rows):
         _join(body, given, edges, tolerance)
     return body
@@ -84,7 +88,8 @@ def _proper(triangles: NDArray) -> NDArray[np.bool_]:
     return (a != b) & (b != c) & (c != a)
 
 
-def _welded(points: NDArray, triangles: NDArray, tolerance: float) -> tuple[NDArray, bool, float, Edges | None]:
+def _welded(points: NDArray, triangles: NDArray, face: NDArray, tolerance: float
+            ) -> tuple[NDArray, bool, float, Edges | None]:
     """The triangles over welded vertices, whether any were, how far one had to move, and the edges of the triangles
     that are still proper, where they are known."""
     rows = np.flatnonzero(_proper(triangles))
@@ -100,6 +105,12 @@ def _welded(points: NDArray, triangles: NDArray, tolerance: float) -> tuple[NDAr
         part, number = components(len(rows), *edges.links())
         unfinished = np.zeros(number, bool)
         unfinished[part[edges.first[odd] // 3]] = True
+        whole = ~unfinished[part]
+        if whole.any():  # what is closed by copies of its own faces alone is a piece of another part
+            single = np.zeros(len(rows), bool)
+            own = face[rows[whole]]
+            single[whole] = ~_copied(face_groups(triangles[rows[whole]], own), own)
+            unfinished |= np.bincount(part, single, minlength=number) == 0
         rows = rows[unfinished[part]]
     vertices = _distinct(triangles[rows], len(points))
     if soup:
@@ -154,9 +165,7 @@ def _copies(points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, no
     later = group != face
     if not later.any():
         return NO_COPIES, none
-    copied = np.zeros(int(face.max()) + 1, bool)
-    copied[group[later]] = True
-    copied = copied[group]
+    copied = _copied(group, face)
 
     side = np.flatnonzero(np.repeat(copied, 3))
     edge, owner = edges.of_side[side], side // 3
@@ -184,6 +193,13 @@ def _copies(points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, no
         notes.append(counted(twice, "Face {:s} lies exactly on another one and counts twice: delete one of them.",
                              "{:d} faces lie exactly on others and count twice: {:s}. Delete the copies."))
     return (np.unique(face[later]), gone), left_out
+
+
+def _copied(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """(m,) which triangles are of faces on the vertices of another one. group: as of `face_groups`."""
+    copied = np.zeros(int(face.max()) + 1, bool)
+    copied[group[group != face]] = True
+    return copied[group]
 
 
 def _vectors(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
@@ -225,12 +241,10 @@ def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:
     body.open[shell[twisted]] = True
 
     rim = edges.first[(edges.count == 1) & ~filled]
-    crowded = np.flatnonzero((edges.count > 2)[edges.of_side])
     body.counts |= {
-        "boundary_edges": len(rim), "non_manifold_edges": int(np.count_nonzero(edges.count > 2)),
-        "inconsistent_edges": int(np.count_nonzero(against)), "components": number}
+        "boundary_edges": len(rim), "inconsistent_edges": int(np.count_nonzero(against)), "components": number}
     body.faults |= {
-        "boundary_edges": _named(given, rim), "non_manifold_edges": _named(given, crowded),
+        "boundary_edges": _named(given, rim),
         "inconsistent_edges": _named(given, np.concatenate([one[against], other[against]]))}
     if len(gap.sides):
         body.notes.append("Edges meet in {:d} {:s} whose vertices do not: without area, and counted as closed."

@@ -146,7 +146,7 @@ def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float
     total = moments.raw[0]
     shift = moments.raw[1:4] / total
     second = moments.raw[SECOND] / total - np.outer(shift, shift)
-    scale = np.trace(second) or 1.0  # keeps eigh clear of overflow and denormals
+    scale = abs(np.trace(second)) or 1.0  # keeps eigh clear of overflow and denormals
     spread, vectors = np.linalg.eigh(second / scale)
     spread, axes = spread[::-1], vectors[:, ::-1]
     axes = axes * [1.0, 1.0, np.sign(np.linalg.det(axes))]

@@ -82,11 +82,18 @@ class Surface:
 
     @classmethod
     def from_triangles(cls, points: NDArray, triangles: NDArray) -> Surface:
-        """A surface of (m, 3) triangles over (n, 3) points. ValueError where an index has no point."""
+        """A surface of (m, 3) triangles over (n, 3) points. ValueError where these are something else, or an index has
+        no point."""
         points, triangles = np.asarray(points), np.asarray(triangles)
+        if points.ndim != 2 or points.shape[1] != 3 or triangles.ndim != 2 or triangles.shape[1] != 3:
+            raise ValueError("points are rows of 3 coordinates, and triangles rows of 3 indices")
+        if triangles.dtype.kind not in "iu":
+            raise ValueError("a triangle is named by whole numbers")
+        if points.dtype not in (np.float32, np.float64):
+            points = points.astype(np.float64)
         if not all_there(triangles, len(points)):
             raise ValueError("a triangle names a point that is not there")
-        return cls(points, triangles)
+        return cls(points, triangles if triangles.dtype in (np.int32, np.int64) else triangles.astype(np.int64))
 
     def all_triangles(self) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
         """(m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of each."""

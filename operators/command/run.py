@@ -75,7 +75,7 @@ class Run:
 
     def _document(self, path: str | None) -> dict[str, Any]:
         file = path or bpy.data.filepath or _asked_for()
-        measured: list[tuple[bpy.types.Object, Measurement]] = []
+        measured: list[tuple[str, bpy.types.Object, Measurement]] = []
         objects, errors, doubtful = [], [], []
         try:
             if path is not None and scans.suffix(path):
@@ -104,13 +104,13 @@ class Run:
                         surface = one.area_moments if self.options.surface_moments and order is not None else None
                         told = replace(one, name=label, warnings=one.warnings + note)
                         objects.append(record.record(told, self.options.frame, order, surface, more))
-                        measured.append((obj, one))
+                        measured.append((label, obj, one))
                     except Unreadable as refusal:
                         errors.append(_error(label, refusal.reason))
                     except Exception as error:
                         errors.append(self._fault(label, error))
                 if self.options.object is None:  # else whoever named them knows what they count
-                    doubtful = doubts([obj for obj, _ in measured], bpy.context.view_layer)
+                    doubtful = doubts([obj for _, obj, _ in measured], bpy.context.view_layer)
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
             if self.options.write:
@@ -124,7 +124,7 @@ class Run:
             sys.stderr.write("{}: {}\n".format(": ".join(where), one["reason"]))
         return record.document(
             objects,
-            record.total([one for _, one in measured], doubtful),
+            record.total([one for _, _, one in measured], doubtful),
             errors,
             file=file,
             blender=".".join(map(str, bpy.app.version)),
@@ -153,7 +153,7 @@ class Run:
         if asked:
             one = replace(one, warnings=(*one.warnings, OF_SHAPES))
         told = record.record(one, self.options.frame, self.options.order, surface, dict.fromkeys(asked))
-        return [told], [(None, one)], errors
+        return [told], [(name, None, one)], errors
 
     def _open(self, path: str | None, file: str | None) -> None:
         if path is not None:
@@ -306,7 +306,7 @@ def _array_notes(options: Namespace) -> Iterator[str]:
 
 def _store(
     path: str | None,
-    measured: list[tuple[bpy.types.Object, Measurement]],
+    measured: list[tuple[str, bpy.types.Object, Measurement]],
     wanted: MeasureOptions,
 ) -> Iterator[dict[str, Any]]:
     """Store the results, once all of them are there: drivers may read them and change what is
@@ -316,12 +316,12 @@ def _store(
         raise Unusable("Only a .blend file can keep the results; --write did nothing here.")
     if not bpy.data.filepath:
         raise Unusable("The scene has never been saved, so --write has no file to save.")
-    for obj, one in measured:
+    for label, obj, one in measured:
         try:
             store(obj, one)
         except RuntimeError as refusal:
-            yield _error(obj.name, refusal)
+            yield _error(label, refusal)
             continue
         settings.keep(obj.body_moments, wanted, bpy.context.scene)
-    settle(bpy.context, [obj for obj, _ in measured])
+    settle(bpy.context, [obj for _, obj, _ in measured])
     save_file(bpy.data.filepath)

@@ -167,3 +167,15 @@ def test_a_linked_object_keeps_its_record_and_its_refusal_is_an_error(tmp_path):
     assert sorted(entry["name"] for entry in found["objects"]) == ["Local", files.BOX_NAME]
     assert [entry["name"] for entry in found["errors"]] == [files.BOX_NAME]
     assert "body_mass" in reopened(path)["Local"]
+
+
+def test_a_refusal_to_store_names_the_object_as_its_record_does(tmp_path):
+    library = files.box_file(tmp_path / "library.blend")
+    files.empty_scene()
+    files.add_box(files.BOX_NAME)
+    with bpy.data.libraries.load(library, link=True) as (_, wanted):
+        wanted.objects = [files.BOX_NAME]
+    bpy.context.scene.collection.objects.link(wanted.objects[0])
+    found = document(files.save(tmp_path / "part.blend"), "--write")
+    names = {entry["name"] for entry in found["objects"]}
+    assert len(names) == 2 and [entry["name"] for entry in found["errors"]] == [*(names - {files.BOX_NAME})]

@@ -111,6 +111,18 @@ def test_box_with_one_face_subdivided_has_the_same_moments(path):
     assert_exact(Surface(np.array(points, float), np.array(split)), exact.box_moments((0, 0, 0), (2, 3, 5)))
 
 
+def test_a_surface_takes_whole_numbers_of_every_kind_and_refuses_what_is_none():
+    points, triangles = exact.box((0, 0, 0), (2, 3, 5)), exact.fan(exact.BOX_QUADS)
+    for kind in (np.uint8, np.int16, np.uint32, np.int64, np.uint64):
+        assert_exact(Surface.from_triangles(np.array(points, int), np.array(triangles, kind)),
+                     exact.box_moments((0, 0, 0), (2, 3, 5)))
+    wrong = [(np.array(points)[:, :2], triangles), (points, exact.BOX_QUADS), (points, np.array(triangles, float)),
+             (points, np.array(triangles) - 1), (points[:-1], triangles)]
+    for these, corners in wrong:
+        with pytest.raises(ValueError):
+            Surface.from_triangles(these, corners)
+
+
 def test_cavity_subtracts(path):
     outer, inner = exact.box((-2, -2, -2), (2, 2, 2)), exact.box((-1, -1, -1), (1, 1, 1))
     triangles = np.array(exact.fan(exact.BOX_QUADS))

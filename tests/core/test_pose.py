@@ -55,6 +55,15 @@ def test_the_frame_turns_with_the_body(name):
         assert np.allclose(frame.moments, first.moments, rtol=1e-12)
 
 
+@pytest.mark.parametrize("far", [[1, 0, 0], [0, 0, 1], [1, 2, 3]])
+def test_moments_that_no_body_has_are_refused(far):
+    """What lies far out counts with the opposite sign: along one axis, or along all of them."""
+    far = 20.0 * np.array(far)
+    parts = [box((-1, -1, -1), (1, 1, 1)), *(box(side * far - 0.5, side * far + 0.5) * -1.0 for side in (-1, 1))]
+    with pytest.raises(ValueError, match="no body"):
+        principal_frame(sum_moments(parts))
+
+
 def test_the_frame_is_right_handed_ascending_and_diagonalises_the_tensor():
     rng = np.random.default_rng(4)
     for body in UNIQUE.values():

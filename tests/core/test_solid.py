@@ -109,8 +109,18 @@ def test_a_doubled_triangle_counts_once(turn):
     result = verdict((points, np.concatenate([triangles, triangles[2:3, ::turn]])))
     check_unit_cube(result, [1.5] * 3, "exact")
     assert result.health.duplicate_faces == 1 and result.health.faults.duplicate_faces.tolist() == [12]
+    assert result.health.non_manifold_edges == 3 == len(result.health.faults.non_manifold_edges)
     assert result.warnings == ("Face 12 lies exactly on another one and was left out.",)
     assert result.area.total == pytest.approx(6.5, rel=1e-15)  # of the faces as they are
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+def test_doubled_triangles_of_an_unwelded_cube_are_welded_to_it_and_count_once(turn):
+    points, triangles = soup(FAR_CUBE)
+    result = verdict((points, np.concatenate([triangles, triangles[[2, 7], ::turn]])))
+    check_unit_cube(result, [1.5] * 3, "exact")
+    assert result.health.components == 1 and result.health.welded
+    assert result.health.faults.duplicate_faces.tolist() == [12, 13]
 
 
 def test_a_doubled_region_counts_once_also_where_its_quads_are_cut_differently():
