@@ -99,10 +99,10 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing is kept before all are looked at, so that a cancelled search leaves nothing behind."""
-        with staleness.paused():  # Blender reports what is written here as a change of the object
-            for obj, measurement, found, allowed in self._found:
-                _keep(obj, measurement, found, allowed, self.tolerance)
-            context.view_layer.update()
+        for obj, measurement, found, allowed in self._found:
+            _keep(obj, measurement, found, allowed, self.tolerance)
+        # Blender reports what was written as a change of the object.
+        staleness.settle_marks(context, [(obj, obj.body_moments_symmetry.fingerprint) for obj, *_ in self._found])
         told = ["{:s}: {:s}, {:s}{:s}".format(obj.name, found.group, described(found),
                                               OF_DISPLAY_MESH if displayed(measurement) else "")
                 for obj, measurement, found, _ in self._found]

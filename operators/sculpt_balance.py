@@ -126,8 +126,9 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         )
         try:
             mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, self.group)
-            with staleness.paused():
+            with staleness.paused():  # what is tried and put back is no edit
                 told, notes = _balance(context, obj, mesh, wanted, unit)
+            obj.data.update_tag()  # for others that show the mesh it is one
         except snapping.REFUSALS as error:
             reason = str(getattr(error, "reason", error))
             return selection.summarise(self, 0, 1, "", [(obj.name, reason)])

@@ -103,7 +103,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
                                       section.centroid, [section.area, section.perimeter]])
             mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
             record.store(obj, section, what, warnings, mark, unit)
-        staleness.settle_sections(context, [obj for obj, *_ in found])
+        staleness.settle_marks(context, [(obj, record.fingerprint(obj)) for obj, *_ in found])
         for area in context.screen.areas if context.screen else ():
             area.tag_redraw()
         warned = sum(bool(warnings) for *_, warnings in found)

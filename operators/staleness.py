@@ -9,8 +9,8 @@ fingerprint that it then carried. Nothing is written to any data, until a file i
 digest in the fingerprints of noted objects becomes EDITED, so that the file knows when it is opened.
 
 Undo re-evaluates what it brings back, which is no edit: the one update that follows it is not
-noted. An edit that undo brings back again was noted when it was made. Reading a file reports no
-updates.
+noted. An edit that undo brings back again was noted when it was made, and notes are kept: undo may
+bring back the numbers of before, too. Reading a file reports no updates.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from contextlib import contextmanager
 
 import bpy
 from bpy.app.handlers import persistent
-from bpy.types import Context, Depsgraph, Object, Scene
+from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from .fingerprint import matrix_hash, scale_hash, settings_hash
 from .write import section
@@ -39,30 +39,31 @@ def settle(context: Context, objects: list[Object]) -> None:
     """Call after results were stored: evaluates what storing itself has tagged, then takes the
     objects as up to date.
     """
-    sections = {obj: _section_edited(obj) for obj in objects}
     context.view_layer.update()
     for obj in objects:
         mark_fresh(obj)
-        if sections[obj]:  # measuring the body has not measured its section again
-            _edited[obj.session_uid] = {section.fingerprint(obj)}
 
 
-def settle_sections(context: Context, objects: list[Object]) -> None:
-    """Call after sections were stored, and nothing else was changed: takes those as up to date."""
-    global _generation
+def settle_marks(context: Context, marks: Iterable[tuple[Object, str]]) -> None:
+    """Call after other things were stored with these fingerprints, and nothing else was changed: takes those as up to
+    date.
+    """
     with paused():
         context.view_layer.update()
-    _generation += 1
-    for obj in objects:
-        _edited.get(obj.session_uid, set()).discard(section.fingerprint(obj))
+    for obj, mark in marks:
+        _forget(obj, mark)
 
 
 def mark_fresh(obj: Object) -> None:
     """The object's stored numbers are those of its geometry as it is now."""
+    _forget(obj, str(obj.get("body_fingerprint", "")))
+    _settings.pop(obj.session_uid, None)
+
+
+def _forget(obj: Object, mark: str) -> None:
     global _generation
     _generation += 1
-    _edited.pop(obj.session_uid, None)
-    _settings.pop(obj.session_uid, None)
+    _edited.get(obj.session_uid, set()).discard(mark)
 
 
 def mark_retold(obj: Object) -> None:
@@ -167,6 +168,23 @@ def _filled_from(updated: Iterable[Object]) -> Iterator[Object]:
                 yield obj
 
 
+def _instancing(depsgraph: Depsgraph, updated: Iterable[Object]) -> Iterator[Object]:
+    """Those with stored numbers that show what was updated as instances, which Blender reports of collections only."""
+    for obj in updated:
+        while obj.parent is not None:
+            obj = obj.parent
+            if obj.instance_type in {"VERTS", "FACES"}:
+                yield obj
+    collections = {update.id.original for update in depsgraph.updates
+                   if update.is_updated_geometry and isinstance(update.id, Collection)}
+    emitted = {settings for settings in bpy.data.particles
+               if settings.instance_object in updated or settings.instance_collection in collections}
+    for obj in bpy.data.objects if collections or emitted else ():
+        if "body_fingerprint" in obj and (obj.instance_type == "COLLECTION" and obj.instance_collection in collections
+                                          or any(one.settings in emitted for one in obj.particle_systems)):
+            yield obj
+
+
 @persistent
 def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
     global _generation, _undone
@@ -174,8 +192,10 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
     if _paused or depsgraph is None or depsgraph.mode != "VIEWPORT":
         return
     undone, _undone = _undone, False
-    updated = dict.fromkeys(update.id.original for update in depsgraph.updates
-                            if update.is_updated_geometry and isinstance(update.id, Object))
+    objects = {update.id.original: update for update in depsgraph.updates if isinstance(update.id, Object)}
+    updated = dict.fromkeys(obj for obj, update in objects.items() if update.is_updated_geometry)
+    moved = {obj: None for obj, update in objects.items() if update.is_updated_transform}
+    updated |= dict.fromkeys(_instancing(depsgraph, updated | moved))
     for obj in updated:
         _changes[obj.session_uid] = _changes.get(obj.session_uid, 0) + 1
     if undone:  # what is stored on the objects came back with them, what is in memory did not

@@ -101,7 +101,7 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
         obj[key] = value
         if not isinstance(value, str):
             obj.id_properties_ui(key).update(description=DESCRIPTIONS[key], precision=6)
-    obj.update_tag()  # drivers that read them follow
+    follow(obj)
 
 
 def require_storable(obj: bpy.types.Object) -> None:
@@ -119,8 +119,13 @@ def clear(obj: bpy.types.Object) -> bool:
     for key in found:
         del obj[key]
     if found:
-        obj.update_tag()
+        follow(obj)
     return bool(found)
+
+
+def follow(obj: bpy.types.Object) -> None:
+    """Has the drivers evaluated that read what was stored, and nothing else: no modifier of the object again."""
+    obj.update_tag(refresh={"TIME"})
 
 
 def is_stored(obj: bpy.types.Object) -> bool:

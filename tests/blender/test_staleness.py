@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers that no longer hold are told as out of date, whatever made them so, and others are not."""
+
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.operators import staleness
+
+from tests.blender.bodies import add, mesh_body, only
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def update():
+    bpy.context.view_layer.update()
+
+
+def reason(obj):
+    return staleness.reason(obj, bpy.context.scene)
+
+
+def measure(*objects):
+    update()
+    only(*objects)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    update()
+    assert [reason(obj) for obj in objects] == [""] * len(objects)
+
+
+def edit(obj):
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    update()
+
+
+def link(obj, *collections):
+    for collection in collections or (bpy.context.scene.collection,):
+        collection.objects.link(obj)
+    return obj
+
+
+def instancer(name, member):
+    """An empty that shows a collection with the member in it."""
+    collection = bpy.data.collections.new(name)
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(member)
+    empty = link(bpy.data.objects.new(name, None))
+    empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", collection, (0, 20, 0)
+    return empty
+
+
+def test_numbers_that_undo_brings_back_are_not_those_of_a_later_edit():
+    obj = add(mesh_body())
+    bpy.ops.ed.undo_push(message="Start")
+    measure(obj)
+    bpy.ops.ed.undo_push(message="Measured")
+    edit(obj)
+    bpy.ops.ed.undo_push(message="Edited")
+    first = obj["body_volume"]
+    measure(obj)
+    bpy.ops.ed.undo_push(message="Measured Again")
+    assert obj["body_volume"] != first
+    bpy.ops.ed.undo()
+    update()
+    obj = bpy.data.objects["Body"]
+    assert obj["body_volume"] == first and reason(obj) == "Geometry Changed"
+    bpy.ops.ed.redo()
+    update()
+    obj = bpy.data.objects["Body"]
+    assert obj["body_volume"] != first and reason(obj) == ""
+    measure(obj)
+
+
+def test_measuring_does_not_make_the_symmetry_of_another_shape_hold_again():
+    obj = add(mesh_body())
+    measure(obj)
+    bpy.ops.object.body_moments_find_symmetry()
+    assert staleness.symmetry_reason(obj) == ""
+    edit(obj)
+    measure(obj)
+    assert staleness.symmetry_reason(obj) == "Geometry Changed"
+    bpy.ops.object.body_moments_find_symmetry()
+    assert staleness.symmetry_reason(obj) == "" and reason(obj) == ""
+
+
+def test_a_symmetry_found_again_after_an_edit_and_back_holds():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_find_symmetry()
+    kept = obj.data.vertices[0].co.x
+    edit(obj)
+    obj.data.vertices[0].co.x = kept
+    obj.data.update()
+    update()
+    bpy.ops.object.body_moments_find_symmetry()
+    assert staleness.symmetry_reason(obj) == ""
+
+
+@pytest.mark.parametrize("nested", [False, True])
+def test_an_instancer_is_out_of_date_when_what_it_shows_changes(nested):
+    member, other = add(mesh_body(), "Member"), add(mesh_body(), "Other")
+    shown = instancer("Instancer", member)
+    outer = instancer("Outer", shown) if nested else shown
+    measure(outer, other)
+    other.location.x += 1.0
+    update()
+    assert reason(outer) == "" and reason(other) == "Transform Changed"
+    for change in (lambda: edit(member), lambda: setattr(member, "location", (5, 0, 0)),
+                   lambda: shown.instance_collection.objects.link(other),
+                   lambda: shown.instance_collection.objects.unlink(other)):
+        measure(outer)
+        change()
+        update()
+        assert reason(outer) == "Geometry Changed"
+
+
+def test_measuring_a_member_leaves_its_instancer_and_what_it_cuts_up_to_date():
+    member, cut = add(mesh_body(), "Member"), add(mesh_body(), "Cut", location=(0.5, 0.5, 0.1))
+    cut.modifiers.new("Boolean", "BOOLEAN").object = member
+    shown = instancer("Instancer", member)
+    measure(shown, cut)
+    measure(member)
+    assert reason(shown) == "" and reason(cut) == ""
+    bpy.ops.object.body_moments_clear()
+    update()
+    assert reason(shown) == "" and reason(cut) == ""
+
+
+@pytest.mark.parametrize("kind", ["VERTS", "FACES"])
+def test_an_object_that_shows_its_children_is_out_of_date_when_one_changes(kind):
+    parent, child = add(mesh_body(), "Parent"), add(mesh_body(), "Child", scale=(0.1, 0.1, 0.1))
+    child.parent, parent.instance_type = parent, kind
+    for change in (lambda: edit(child), lambda: setattr(child, "scale", (0.2, 0.1, 0.1))):
+        measure(parent)
+        change()
+        update()
+        assert reason(parent) == "Geometry Changed"
+
+
+def test_an_emitter_is_out_of_date_when_its_particles_object_changes():
+    emitter, seed = add(mesh_body(), "Emitter"), add(mesh_body(), "Seed")
+    emitter.modifiers.new("Particles", "PARTICLE_SYSTEM")
+    settings = emitter.particle_systems[0].settings
+    settings.type, settings.render_type, settings.count, settings.instance_object = "HAIR", "OBJECT", 3, seed
+    measure(emitter)
+    edit(seed)
+    assert reason(emitter) == "Geometry Changed"
+
+
+def test_balancing_a_mesh_makes_the_numbers_of_all_that_show_it_out_of_date():
+    obj = add(mesh_body())
+    group = obj.vertex_groups.new(name="Top")
+    group.add(list(range(6, 12)), 1.0, "ADD")
+    twin, shown = link(bpy.data.objects.new("Twin", obj.data)), instancer("Instancer", obj)
+    twin.location.x = 9.0
+    measure(obj, twin, shown)
+    bpy.context.scene.cursor.location = (1.2, 0.9, 0.0)
+    only(obj)
+    assert bpy.ops.object.body_moments_sculpt_balance() == {"FINISHED"}
+    update()
+    assert [reason(one) for one in (obj, twin, shown)] == ["", "Geometry Changed", "Geometry Changed"]
+    measure(obj, twin, shown)
+    bpy.context.scene.cursor.location = (100.0, 0.0, 0.0)
+    only(obj)
+    assert bpy.ops.object.body_moments_sculpt_balance(limit=1e-6) == {"CANCELLED"}
+    update()
+    assert [reason(one) for one in (obj, twin, shown)] == [""] * 3
+
+
+def test_drivers_follow_what_is_stored():
+    obj, other = add(mesh_body()), link(bpy.data.objects.new("Pointer", None))
+    for owner, path in ((other, "location"), (obj, "delta_location")):
+        driver = owner.driver_add(path, 2).driver
+        variable = driver.variables.new()
+        variable.targets[0].id, variable.targets[0].data_path = obj, '["body_volume"]'
+        driver.expression = variable.name
+    obj["body_volume"] = 0.0
+    update()
+    only(obj)
+    bpy.ops.object.body_moments_measure()
+    update()
+    volume = obj["body_volume"]
+    assert volume > 0.0 and other.location.z == pytest.approx(volume) == obj.delta_location.z
+
+
+def test_storing_evaluates_no_modifier_again():
+    obj = add(mesh_body())
+    obj.modifiers.new("Subdivision", "SUBSURF")
+    update()
+    seen = []
+
+    def note(_scene, depsgraph):
+        seen.extend(one.id.name for one in depsgraph.updates if one.is_updated_geometry)
+
+    bpy.app.handlers.depsgraph_update_post.append(note)
+    try:
+        measure(obj)
+        bpy.ops.object.body_moments_clear()
+        update()
+    finally:
+        bpy.app.handlers.depsgraph_update_post.remove(note)
+    assert seen == []
