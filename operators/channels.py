@@ -31,6 +31,14 @@ class Refused(Exception):
     """Why an object was left as it is: a sentence with a remedy, without the object's name."""
 
 
+def require_own(obj: Object, what: str) -> None:
+    """Refused for an object on which the file cannot keep `what`."""
+    if not obj.is_editable:
+        raise Refused("it is linked from another file; make it local first")
+    if obj.override_library is not None:  # of which a file keeps only what Blender lets be overridden
+        raise Refused("it is a library override, which would lose {:s} with the file; make it local first".format(what))
+
+
 def world(obj: Object) -> Matrix4:
     """(4, 4) the evaluated matrix_world as float64."""
     return np.array(obj.matrix_world, np.float64)

@@ -143,7 +143,7 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
         def compare(obj: Object) -> None:
             nonlocal skin
             shape = _shape(context, obj)
-            entry = Entry(obj.name, "", shape.signature(ORDER))
+            entry = Entry(obj.name_full, "", shape.signature(ORDER))
             likeness = compared(self._wanted, entry.signature)
             if verdict(likeness) in UNCLEAR:
                 skin = skin or Skin(wanted)
@@ -213,7 +213,7 @@ class OBJECT_OT_body_moments_select_found(Operator):
     name: StringProperty(name="Name", description="The object to select")
 
     def execute(self, context: Context) -> set[str]:
-        obj = context.view_layer.objects.get(self.name)
+        obj = next((one for one in context.view_layer.objects if one.name_full == self.name), None)
         if obj is None:
             self.report({"ERROR"}, "There is no object {:s} in this view layer any more".format(self.name))
             return {"CANCELLED"}

@@ -23,6 +23,7 @@ from ..core.canonical import NOISE
 from ..core.measurement import Measurement
 from ..core.symmetry import Symmetry, confirmed, symmetry
 from . import selection, snapping, staleness
+from .channels import require_own
 from .fingerprint import scale_hash
 from .shape import Shape, Skin, displayed, surface_shape_of
 from .stepwise import Stepwise
@@ -90,8 +91,7 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
         self._failures: list[tuple[str, str]] = []
 
         def find(obj: Object) -> None:
-            if obj.library is not None:
-                raise ValueError("it is linked from another file; make it local first")
+            require_own(obj, "its symmetry")
             shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
             self._found.append((obj, shape.measurement, *_symmetries(shape, self.tolerance)))
 

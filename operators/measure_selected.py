@@ -54,7 +54,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
             try:
                 self._found.append((obj, measure_object(obj, depsgraph)))
             except Unreadable as error:
-                self._failed.append(str(error))
+                self._failed.append("{:s}: {:s}".format(obj.name_full, error.reason))
                 refuse(obj, error.reason)
             else:
                 refuse(obj, None)
@@ -67,7 +67,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
             try:
                 properties.store(obj, measurement)
             except RuntimeError as error:
-                self._failed.append("{:s}: {:s}".format(obj.name, str(error)))
+                self._failed.append("{:s}: {:s}".format(obj.name_full, str(error)))
                 continue
             stored.append(obj)
         settle(context, stored)

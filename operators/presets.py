@@ -11,19 +11,17 @@ from bpy.types import Context, Object, Operator
 
 from ..core.materials import BY_NAME, MATERIALS
 from . import selection
+from .channels import Refused, require_own
 from .settings import COPIED, copy_settings
 
 PRESETS = "body_moments"  # folder of the user's presets
 
 
-def _editable(context: Context) -> list[Object]:
+def _targets(context: Context) -> list[Object]:
+    """The selected objects, and the active one, whose settings the panel shows."""
     active = context.view_layer.objects.active
-    objects = [obj for obj in context.view_layer.objects.selected if obj.is_editable]
-    return (
-        objects
-        if active is None or active in objects or not active.is_editable
-        else [active, *objects]
-    )
+    objects = list(context.view_layer.objects.selected)
+    return objects if active is None or active in objects else [active, *objects]
 
 
 TABLE = [
@@ -54,7 +52,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if not _editable(context):
+        if not _targets(context):
             cls.poll_message_set("Select the objects first")
             return False
         return True
@@ -65,9 +63,10 @@ class OBJECT_OT_body_moments_set_material(Operator):
 
     def execute(self, context: Context) -> set[str]:
         material = BY_NAME[self.material]
-        objects = _editable(context)
-        changed = 0
-        for obj in objects:
+        objects = _targets(context)
+
+        def set_density(obj: Object) -> bool:
+            require_own(obj, "its settings")
             settings = obj.body_moments
             before = _density_of(settings)
             settings.mass_from = "DENSITY"
@@ -75,8 +74,10 @@ class OBJECT_OT_body_moments_set_material(Operator):
                 settings.density_from = "VALUE"
             settings.density = material.density
             settings.material = material.name
-            changed += before != _density_of(settings)
-        return selection.summarise(self, changed, len(objects), "Set {count} to " + material.name,
+            return before != _density_of(settings)
+
+        changed, failures = selection.each(objects, set_density, (Refused,))
+        return selection.summarise(self, changed, len(objects), "Set {count} to " + material.name, failures,
                                    idle="it was {:s} already".format(material.name))
 
 
@@ -140,9 +141,14 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
 
     def execute(self, context: Context) -> set[str]:
         active = context.view_layer.objects.active
-        objects = [obj for obj in _editable(context) if obj != active]
-        count = sum(copy_settings(active.body_moments, obj.body_moments) for obj in objects)
-        return selection.summarise(self, count, len(objects), "Copied the settings to {count}",
+        objects = [obj for obj in context.view_layer.objects.selected if obj != active]
+
+        def copy(obj: Object) -> bool:
+            require_own(obj, "its settings")
+            return copy_settings(active.body_moments, obj.body_moments)
+
+        count, failures = selection.each(objects, copy, (Refused,))
+        return selection.summarise(self, count, len(objects), "Copied the settings to {count}", failures,
                                    idle="the settings were the same already")
 
 

@@ -14,7 +14,7 @@ from bpy.types import Context, Object, Operator
 
 from ..core.decimal import decimal
 from . import reframe, selection, snapping
-from .channels import Refused, world
+from .channels import Refused, require_own, world
 
 
 class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
@@ -44,8 +44,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
         elsewhere: list[str] = []
 
         def assign(obj: Object) -> bool:
-            if obj.library is not None:
-                raise Refused("it is linked from another file; make it local first")
+            require_own(obj, "its rigid body's mass")
             if obj.rigid_body is None and not self.add:
                 raise Refused(
                     "it is no rigid body; turn on Add Rigid Bodies, or add one in its physics "

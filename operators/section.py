@@ -96,7 +96,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
                 properties.require_storable(obj)
                 found.append((obj, *section_of(obj, depsgraph)))
             except (Unreadable, RuntimeError) as error:
-                failed.append("{:s}: {:s}".format(obj.name, getattr(error, "reason", str(error))))
+                failed.append("{:s}: {:s}".format(obj.name_full, getattr(error, "reason", str(error))))
         unit = decimal(context.scene.unit_settings.scale_length)
         for obj, section, what, warnings in found:
             numbers = np.concatenate([section.plane.origin, section.plane.axes.ravel(), section.second,

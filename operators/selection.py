@@ -124,7 +124,8 @@ def one_by_one(
         try:
             action(obj)
         except refusals as error:
-            failures.append((obj.name, str(getattr(error, "reason", error))))
+            # Objects of two libraries may have one name.
+            failures.append((obj.name_full, str(getattr(error, "reason", error))))
         yield done
 
 
