@@ -4,9 +4,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator
 
 from bpy.types import LayerCollection, Object, ViewLayer
+
+from .selection import listed
 
 LISTED = 8  # names in a sentence before it only counts
 
@@ -27,14 +29,15 @@ def doubts(objects: Collection[Object], view_layer: ViewLayer) -> list[str]:
         or not obj.visible_get(view_layer=view_layer))]
     found = []
     if cutters:
-        names = _listing("“{:s}” of “{:s}”".format(obj.name, operands[obj].name) for obj in cutters)
+        names = listed(("“{:s}” of “{:s}”".format(obj.name, operands[obj].name) for obj in cutters), LISTED)
         found.append(
-            "Operands of Boolean modifiers count as bodies of their own: {:s}; leave out what is no part.".format(names)
+            "Operands of Boolean modifiers count as bodies of their own: {:s}; leave out what is no part.".format(
+                ", ".join(names))
         )
     if unseen:
-        names = _listing("“{:s}”".format(obj.name) for obj in unseen)
+        names = listed(("“{:s}”".format(obj.name) for obj in unseen), LISTED)
         found.append("What is hidden, not rendered, or displayed as wire or bounds counts: {:s}; leave out what is no "
-                     "part.".format(names))
+                     "part.".format(", ".join(names)))
     return found
 
 
@@ -55,9 +58,3 @@ def _rendered(layer: LayerCollection) -> Iterator[Object]:
         yield from layer.collection.objects
         for child in layer.children:
             yield from _rendered(child)
-
-
-def _listing(names: Iterable[str]) -> str:
-    names = list(names)
-    more = ["and {:d} more".format(len(names) - LISTED)] if len(names) > LISTED else []
-    return ", ".join(names[:LISTED] + more)

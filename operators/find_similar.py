@@ -19,7 +19,7 @@ from bpy.types import Context, Event, Object, Operator, PropertyGroup, Scene
 
 from ..core.library import UNCLEAR, Entry, nearest, read_library, verdict
 from ..core.matching import FITS, Match
-from ..core.signature import Likeness, compared
+from ..core.signature import Likeness, Signature, compared
 from . import selection, snapping
 from .measure import MeasureOptions
 from .read import measurable_objects
@@ -66,9 +66,10 @@ class _Find:
             return False
         return True
 
-    def wanted(self, context: Context) -> Shape | None:
+    def wanted(self, context: Context) -> tuple[Shape, Signature] | None:
         try:
-            return _shape(context, context.object)
+            shape = _shape(context, context.object)
+            return shape, shape.signature(ORDER)
         except snapping.REFUSALS as error:
             self.report({"ERROR"}, "{:s}: {:s}".format(context.object.name, getattr(error, "reason", str(error))))
             return None
@@ -95,7 +96,7 @@ class _Find:
             entry, likeness = rows[0]
             parts.append("nearest is {:s}, at {:.2e}".format(
                 entry.name, likeness.distance(self.scaled, self.mirrored)))
-        self.report({"WARNING"} if failures else {"INFO"}, "; ".join(parts + failures[:selection.LISTED]))
+        self.report({"WARNING"} if failures else {"INFO"}, "; ".join(parts + selection.listed(failures)))
         return {"FINISHED"}
 
 
@@ -133,8 +134,8 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
         self._hands: dict[Entry, bool | None] = {}  # of those whose signatures do not tell it
         self._failures: list[tuple[str, str]] = []
         if wanted is not None:
-            self._wanted = wanted.signature(ORDER)
-            self._steps = self._compare(context, wanted)
+            shape, self._wanted = wanted
+            self._steps = self._compare(context, shape)
         return wanted is not None
 
     def _compare(self, context: Context, wanted: Shape) -> Iterator[int]:
@@ -198,7 +199,7 @@ class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
         wanted = self.wanted(context)
         if wanted is None:
             return {"CANCELLED"}
-        rows = nearest(wanted.signature(ORDER), entries, self.scaled, self.mirrored)
+        rows = nearest(wanted[1], entries, self.scaled, self.mirrored)
         self.keep(context, rows, path.name)
         return self.tell(rows, faults)
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 import bpy
 
+from . import selection
 from .measure import Measurement, Unreadable, measure_object
 from .results import refuse
 from .staleness import settle
@@ -84,7 +85,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
             parts.append("Measured {:s}".format(self._found[0][0].name))
         if warned:
             parts.append("{:d} with warnings".format(warned))
-        parts += self._failed
+        parts += selection.listed(self._failed)
         self.report({"WARNING"} if self._failed or warned else {"INFO"}, "; ".join(parts))
 
 

@@ -11,7 +11,7 @@ from bpy.types import Context, Depsgraph, Object, Operator
 from ..core.decimal import decimal
 from ..core.polygon import flaws, nested
 from ..core.section import Section, fit_plane, measure_section, region
-from . import staleness
+from . import selection, staleness
 from .clipboard import to_clipboard
 from .fingerprint import fingerprint, matrix_hash, settings_hash
 from .read import Unreadable
@@ -111,7 +111,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
             ["Measured {:d} sections".format(len(found))] if found else [])
         if warned:
             told.append("{:d} with warnings".format(warned))
-        self.report({"WARNING"} if failed or warned else {"INFO"}, "; ".join(told + failed))
+        self.report({"WARNING"} if failed or warned else {"INFO"}, "; ".join(told + selection.listed(failed)))
         return {"FINISHED"} if found else {"CANCELLED"}
 
 

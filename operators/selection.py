@@ -73,6 +73,13 @@ def one_line(sentences: Iterable[str]) -> str:
     return "".join(sentence.removesuffix(".") + ". " for sentence in before) + last
 
 
+def listed(texts: Iterable[str], most: int = LISTED) -> list[str]:
+    """The first ones, and how many more there are."""
+    texts = list(texts)
+    more = ["and {:d} more".format(len(texts) - most)] if len(texts) > most else []
+    return texts[:most] + more
+
+
 def summarise(
     operator: Operator,
     done: int,
@@ -94,13 +101,9 @@ def summarise(
     if done or not failures:
         sentences.append(text.replace("{count}", counted(done), 1))  # names in it may have braces too
     if failures:
-        listed = ["{:s}: {:s}".format(*failure) for failure in failures[:LISTED]]
-        if len(failures) > LISTED:
-            listed.append("and {:d} more".format(len(failures) - LISTED))
+        told = "; ".join(listed("{:s}: {:s}".format(*failure) for failure in failures))
         sentences.append(
-            "{:d} of {:s} left unchanged. {:s}".format(
-                len(failures), counted(total), "; ".join(listed)
-            )
+            "{:d} of {:s} left unchanged. {:s}".format(len(failures), counted(total), told)
         )
     sentences += notes[:LISTED]
     operator.report({"WARNING"} if failures or notes else {"INFO"}, one_line(sentences))

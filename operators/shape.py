@@ -152,7 +152,11 @@ def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     if measurement.method.endswith("open"):
         raise NoShape(measurement, "It is open, so that its pose and signature would depend on a reference point; "
                                    "close it, or measure it as a shell.")
-    return Shape(measurement, body, options.threads if options else 1)
+    shape = Shape(measurement, body, options.threads if options else 1)
+    if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT * shape.size:
+        raise NoShape(measurement, "It stands so far from the world's origin that rounding blurs its shape; move it "
+                                   "nearer.")
+    return shape
 
 
 class Skin:

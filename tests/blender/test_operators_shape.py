@@ -144,6 +144,29 @@ def test_a_name_with_braces_is_told_as_it_is(capfd):
     assert "Laid 1 object onto {0} {count}." in out and "Image {}: it is a mirror image" in out
 
 
+@pytest.mark.parametrize("operator", ["find_symmetry", "find_similar"])
+def test_what_is_too_far_away_for_its_shape_to_be_seen_is_refused(operator, capfd):
+    far, near = wedge("Far", location=(1e20, 0, 0)), wedge("Near", location=(1e7, 0, 0))
+    only(far, near)
+    if operator == "find_similar":
+        assert "nearer" in refused(operator)
+        only(near)
+        assert run(operator) == {"FINISHED"}
+    else:
+        assert run(operator) == {"FINISHED"} and not far.is_property_set("body_moments_symmetry")
+    assert "Far: It stands so far from the world's origin" in capfd.readouterr().out
+
+
+def test_an_object_too_large_to_have_a_signature_is_refused(tmp_path):
+    only(wedge(location=(0, 0, 0), scale=1e12))
+    bpy.context.object.scale = (1e15, 1e15, 1e15)
+    bpy.context.view_layer.update()
+    assert "too large" in refused("find_similar") and "Traceback" not in refused("find_similar")
+    library = tmp_path / "library.jsonl"
+    library.write_text('{"schema": "body-moments/1", "objects": []}\n', encoding="utf-8")
+    assert "too large" in refused("find_in_library", filepath=str(library))
+
+
 def test_match_pose_needs_two_objects():
     only(wedge())
     assert "poll" in refused("match_pose")
