@@ -22,7 +22,7 @@ import bpy
 from bpy.app.handlers import persistent
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
-from .fingerprint import matrix_hash, scale_hash, settings_hash
+from .fingerprint import VERSION, matrix_hash, scale_hash, settings_hash
 from .write import section
 
 EDITED = "edited"
@@ -107,8 +107,8 @@ def reason(obj: Object, scene: Scene) -> str:
     """Why the stored numbers are out of date, "" where they are not or there are none."""
     stored = str(obj.get("body_fingerprint", ""))
     parts = stored.split(":")
-    if len(parts) != 4:
-        return ""
+    if len(parts) != 4 or parts[0] != VERSION:
+        return "Fingerprint Damaged" if "body_mass" in obj else ""
     if parts[3] != settings_hash(obj, scene):
         return "Settings Changed"
     if parts[1] == EDITED or stored in _edited.get(obj.session_uid, ()):

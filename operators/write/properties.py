@@ -9,6 +9,7 @@ of mass, xx, yy, zz, xy, xz, yz, with xy = -∫xy dm.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import isfinite
 
 import bpy
 import numpy as np
@@ -156,7 +157,7 @@ def density_from(obj: bpy.types.Object) -> str:
 
 
 def numbers(obj: bpy.types.Object) -> tuple[tuple[float, ...], ...] | None:
-    """The stored numbers as they are, in the order of LENGTHS; None where one is missing or something else."""
+    """The stored numbers as they are, in the order of LENGTHS; None where one is missing or is no finite number."""
     rows = []
     for key, length in LENGTHS.items():
         value = obj.get(key)
@@ -164,7 +165,7 @@ def numbers(obj: bpy.types.Object) -> tuple[tuple[float, ...], ...] | None:
             row = tuple(float(number) for number in value) if length else (float(value),)
         except (TypeError, ValueError):  # absent, or overwritten by something else
             return None
-        if len(row) != max(length, 1):
+        if len(row) != max(length, 1) or not (key == "body_error_bound" or all(map(isfinite, row))):
             return None
         rows.append(row)
     return tuple(rows)

@@ -102,7 +102,7 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
             "Verdict",
             "{}: {}".format(
                 entry["method"],
-                METHODS.get(entry["method"]) or METHODS.get(entry["method"].split()[-1], ""),
+                METHODS.get(entry["method"]) or METHODS.get(entry["method"].rpartition(" ")[2], ""),
             ),
         )
         found = [
@@ -211,7 +211,7 @@ def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[s
     entry = {
         "name": obj.name,
         "type": obj.type,
-        "kind": {"shell": "shell", "wire": "wire"}.get(method.split()[-1] if method else "", "solid"),
+        "kind": {"shell": "shell", "wire": "wire"}.get(method.rpartition(" ")[2], "solid"),
         "method": method,
         "density": found.density,
         **({"density_from": source} if source else {}),

@@ -201,3 +201,31 @@ def test_storing_evaluates_no_modifier_again():
     finally:
         bpy.app.handlers.depsgraph_update_post.remove(note)
     assert seen == []
+
+
+@pytest.mark.parametrize("mark", ["", "v1:a:b", "v0:a:b:c", 5])
+def test_numbers_of_which_nothing_is_known_are_not_told_as_up_to_date(mark):
+    obj = add(mesh_body())
+    assert reason(obj) == ""
+    measure(obj)
+    obj["body_fingerprint"] = mark
+    assert reason(obj) == "Fingerprint Damaged"
+    del obj["body_fingerprint"]
+    assert reason(obj) == "Fingerprint Damaged"
+
+
+@pytest.mark.parametrize(("key", "value"), [
+    ("body_mass", float("nan")), ("body_volume", float("inf")), ("body_inertia", [float("nan")] * 6),
+    ("body_method", " "), ("body_method", ""), ("body_error_bound", [float("inf")] * 8)])
+def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
+    from body_moments.operators.write import report
+
+    from tests.blender.test_panel import drawn
+
+    good, obj = add(mesh_body(), "Good"), add(mesh_body())
+    measure(obj, good)
+    obj[key] = value
+    update()
+    drawn()
+    text = report.report_text(bpy.context, [obj, good])
+    assert ("It has no stored results" in text) == (key in ("body_mass", "body_volume", "body_inertia"))
