@@ -53,6 +53,7 @@ def density_row(layout: UILayout, material: Material, label: str = "") -> None:
     """A material's density with the menu of the table."""
     settings = material.body_moments
     row = layout.row(align=True)
+    row.enabled = material.is_editable  # the menu goes by names, which a local one may share with a linked one
     if label:
         split = row.split(factor=0.4, align=True)
         split.label(text=label, icon="MATERIAL")

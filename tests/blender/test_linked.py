@@ -90,3 +90,28 @@ def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, opera
     assert not overridden.is_property_set("body_moments_symmetry") and "body_mass" not in overridden
     assert overridden.rigid_body is None and overridden.body_moments.density == 1000.0
     assert not overridden.body_moments.material
+
+
+def test_the_density_of_a_linked_material_cannot_be_set_by_its_local_namesake(tmp_path):
+    from body_moments.panels.materials import density_row
+
+    from tests.blender.test_panel import Layout
+
+    class Row(Layout):
+        rows = []
+
+        def row(self, **_options):
+            made = Row(self.record, self.closed)
+            Row.rows.append(made)
+            return made
+
+    bpy.data.materials.new("Stahl").use_fake_user = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    local = bpy.data.materials.new("Stahl")
+    with bpy.data.libraries.load(str(tmp_path / "a.blend"), link=True) as (_, names):
+        names.materials = ["Stahl"]
+    for material, enabled in ((local, True), (names.materials[0], False)):
+        Row.rows.clear()
+        density_row(Row(), material)
+        assert Row.rows[0].enabled is enabled
