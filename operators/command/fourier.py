@@ -75,6 +75,7 @@ def _listed(path: Path) -> NDArray[np.float64]:
     except (OSError, ValueError, EOFError) as error:
         raise ValueError("{} cannot be read as an .npy file: {}".format(path, error)) from error
     if not isinstance(array, np.ndarray):
+        array.close()
         raise ValueError("{} holds several arrays; an .npy file of one is needed".format(path))
     return wave_vectors(array, 3)
 

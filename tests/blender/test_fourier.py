@@ -305,3 +305,12 @@ def test_the_operator_refuses_with_a_reason(tmp_path):
     bpy.context.view_layer.objects.active = None
     with pytest.raises(RuntimeError, match="Make an object"):
         bpy.ops.object.body_moments_fourier(filepath=str(path))
+
+
+def test_an_archive_in_place_of_an_array_is_closed_again(tmp_path, monkeypatch):
+    np.savez(tmp_path / "q.npz", a=Q, b=Q)
+    archive = np.load(tmp_path / "q.npz")
+    monkeypatch.setattr(np, "load", lambda *_args, **_options: archive)
+    with pytest.raises(ValueError, match="several arrays"):
+        command._listed(tmp_path / "q.npz")
+    assert archive.zip is None
