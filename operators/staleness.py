@@ -168,20 +168,19 @@ def _filled_from(updated: Iterable[Object]) -> Iterator[Object]:
                 yield obj
 
 
-def _instancing(depsgraph: Depsgraph, updated: Iterable[Object]) -> Iterator[Object]:
-    """Those with stored numbers that show what was updated as instances, which Blender reports of collections only."""
+def _instancing(updated: list[Object], collections: set[Collection]) -> Iterator[Object]:
+    """Those that show what was updated as instances, which Blender reports of collections only."""
+    above: set[Object] = set()
     for obj in updated:
-        while obj.parent is not None:
-            obj = obj.parent
+        while (obj := obj.parent) is not None and obj not in above:
+            above.add(obj)
             if obj.instance_type in {"VERTS", "FACES"}:
                 yield obj
-    collections = {update.id.original for update in depsgraph.updates
-                   if update.is_updated_geometry and isinstance(update.id, Collection)}
     emitted = {settings for settings in bpy.data.particles
                if settings.instance_object in updated or settings.instance_collection in collections}
     for obj in bpy.data.objects if collections or emitted else ():
-        if "body_fingerprint" in obj and (obj.instance_type == "COLLECTION" and obj.instance_collection in collections
-                                          or any(one.settings in emitted for one in obj.particle_systems)):
+        if (obj.instance_type == "COLLECTION" and obj.instance_collection in collections
+                or emitted and any(one.settings in emitted for one in obj.particle_systems)):
             yield obj
 
 
@@ -192,10 +191,19 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
     if _paused or depsgraph is None or depsgraph.mode != "VIEWPORT":
         return
     undone, _undone = _undone, False
-    objects = {update.id.original: update for update in depsgraph.updates if isinstance(update.id, Object)}
-    updated = dict.fromkeys(obj for obj, update in objects.items() if update.is_updated_geometry)
-    moved = {obj: None for obj, update in objects.items() if update.is_updated_transform}
-    updated |= dict.fromkeys(_instancing(depsgraph, updated | moved))
+    updated: dict[Object, None] = {}
+    moved: list[Object] = []
+    collections: set[Collection] = set()
+    for update in depsgraph.updates:
+        data, reshaped = update.id, update.is_updated_geometry
+        if isinstance(data, Object):
+            if reshaped:
+                updated[data.original] = None
+            elif update.is_updated_transform:
+                moved.append(data.original)
+        elif reshaped and isinstance(data, Collection):
+            collections.add(data.original)
+    updated |= dict.fromkeys(_instancing([*updated, *moved], collections))
     for obj in updated:
         _changes[obj.session_uid] = _changes.get(obj.session_uid, 0) + 1
     if undone:  # what is stored on the objects came back with them, what is in memory did not

@@ -229,3 +229,18 @@ def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
     drawn()
     text = report.report_text(bpy.context, [obj, good])
     assert ("It has no stored results" in text) == (key in ("body_mass", "body_volume", "body_inertia"))
+
+
+def test_the_symmetry_and_the_moments_of_an_instancer_are_out_of_date_too():
+    from body_moments.operators import moments_table
+
+    member = add(mesh_body(), "Member")
+    shown = instancer("Instancer", member)
+    update()
+    only(shown)
+    bpy.ops.object.body_moments_find_symmetry()
+    assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
+    assert (staleness.symmetry_reason(shown), moments_table.outdated(shown, bpy.context.scene)) == ("", "")
+    edit(member)
+    assert staleness.symmetry_reason(shown) == "Geometry Changed"
+    assert moments_table.outdated(shown, bpy.context.scene) == "Geometry Changed"
