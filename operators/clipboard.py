@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Getting numbers out: one value to the last digit, or the whole report as text."""
 
+import sys
+
 import bpy
 from bpy.props import StringProperty
 from bpy.types import Context, Operator, OperatorProperties
@@ -13,9 +15,12 @@ from .write.report import report_text
 
 
 def to_clipboard(operator: Operator, context: Context, text: str, told: str) -> None:
-    """Blender has no clipboard in background; there the text itself is reported."""
-    context.window_manager.clipboard = text
-    operator.report({"INFO"}, text if bpy.app.background else told)
+    """In background there is no clipboard, and long reports are cut short: the text goes to the standard output."""
+    if bpy.app.background:
+        sys.stdout.write(text.removesuffix("\n") + "\n")
+    else:
+        context.window_manager.clipboard = text
+        operator.report({"INFO"}, told)
 
 
 class OBJECT_OT_body_moments_copy_value(Operator):
