@@ -13,7 +13,7 @@ from bpy.props import BoolProperty
 from bpy.types import Context, Object, Operator
 
 from ..core.decimal import decimal
-from . import reframe, selection, snapping
+from . import reframe, selection, snapping, staleness
 from .channels import Refused, require_own, world
 
 
@@ -72,7 +72,10 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
                 elsewhere.append(obj.name)
             return changed
 
-        count, failures = selection.each(objects, assign, snapping.REFUSALS)
+        context.view_layer.update()  # edits of before are noted as such
+        with staleness.paused():  # Blender reports a rigid body as a change of the shape
+            count, failures = selection.each(objects, assign, snapping.REFUSALS)
+            context.view_layer.update()
         notes = []
         unit = decimal(context.scene.unit_settings.scale_length)
         if count and unit != 1.0 and context.scene.unit_settings.system != "NONE":

@@ -244,3 +244,20 @@ def test_the_symmetry_and_the_moments_of_an_instancer_are_out_of_date_too():
     edit(member)
     assert staleness.symmetry_reason(shown) == "Geometry Changed"
     assert moments_table.outdated(shown, bpy.context.scene) == "Geometry Changed"
+
+
+def test_becoming_a_rigid_body_is_no_change_of_the_shape():
+    obj, other = add(mesh_body()), add(mesh_body(), "Other")
+    measure(obj, other)
+    for density in (1000.0, 500.0):
+        other.body_moments.density = density
+        measure(other)
+        only(obj, other)
+        assert bpy.ops.object.body_moments_set_rigid_body_mass(add=True) == {"FINISHED"}
+        update()
+        assert (reason(obj), reason(other)) == ("", "")
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    assert bpy.ops.object.body_moments_set_rigid_body_mass() == {"FINISHED"}
+    update()
+    assert (reason(obj), reason(other)) == ("Geometry Changed", "")
