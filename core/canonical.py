@@ -62,9 +62,12 @@ class Frames:
 
 def canonical_frames(moments: Moments, spread: Spread, starts: NDArray) -> Frames:
     """moments: to some order from 3 to ORDER, about any point. starts: (k, 3, 3) the frames along the spread's axes
-    that third moments allow."""
+    that third moments allow. ValueError where their size is beyond the range of numbers."""
     central = moments.about_center()
     total = central.raw[0]
+    if not np.finfo(float).tiny < total * spread.size.max() ** central.order < np.inf:
+        raise ValueError("It is too small or too large for moments of order {:d} to be numbers. Scale it."
+                         .format(central.order))
     central = replace(central, raw=central.raw / total, error=central.error / total, of="mass")
     frames, round_about = _candidates(central, spread, starts)
     values, noise = _written(central, spread, frames)

@@ -49,9 +49,11 @@ class MassProperties:
         shift = moments.raw[1:4] / total
         second = density * (moments.raw[SECOND] - total * np.outer(shift, shift))
         inertia = np.trace(second) * np.eye(3) - second
+        principal = density * frame.moments
+        principal[2] = min(principal[2], principal[0] + principal[1])  # of a flat body rounding may set them apart
         return cls(
             mass=float(density * total), center=moments.about + shift, inertia=inertia,
-            principal=replace(frame, moments=density * frame.moments),
+            principal=replace(frame, moments=principal),
             error=_bounds(moments, density, moments.error, rounded=True),
             input=_bounds(moments, density, moments.input, rounded=False))
 

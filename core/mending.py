@@ -65,8 +65,8 @@ def mend(surface: Surface, tolerance: float, size: float) -> Mended:
     if len(rows):
         edges = edges or find_edges(triangles[rows])
         if edges.count.max() > 2:  # elsewhere copies of faces would have no others beside them
-            crowded = int(np.count_nonzero(edges.count > 2))
-            named = _named(given[rows], np.flatnonzero((edges.count > 2)[edges.of_side]))
+            sides = _crowded(edges, face[rows])
+            crowded, named = len(np.unique(edges.of_side[sides])), _named(given[rows], sides)
             copies, left_out = _copies(points, triangles[rows], face[rows], edges, notes)
             if left_out.any():
                 rows = rows[~left_out]
@@ -256,6 +256,15 @@ def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:
                 int(np.count_nonzero(body.open)), number))
             + " (one-sided, or with inner walls): volume, center and inertia depend on the reference point. "
             "Delete inner faces, or measure a shell.")
+
+
+def _crowded(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.intp]:
+    """The sides on edges with more than two triangles. A polygon's own diagonal, which it has on both sides, is none
+    of its edges. face: (m,) the mesh face of each triangle."""
+    sides = np.flatnonzero((edges.count > 2)[edges.of_side])
+    key = edges.of_side[sides] * (int(face.max()) + 1) + face[sides // 3]
+    _, place, times = np.unique(key, return_inverse=True, return_counts=True)
+    return sides[times[place] == 1]
 
 
 def _named(given: NDArray, sides: NDArray) -> NDArray[np.intp]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import frexp
 from typing import Any
 
 import bpy
@@ -96,16 +97,22 @@ class Shape:
         Needs a surface."""
         points = self.points_about_center()
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
+        # About the center at about unit size, for high powers of a length are soon beyond the range of numbers.
+        scale = 2.0 ** frexp(radius)[1]  # a power of two rounds nothing
+        radius /= scale
         sheets = self._sheets
-        volume, area = moments_to_order(self.pieces(), min(order, BY_MOMENTS), area=sheets, threads=self.threads,
-                                        about=self.center, reach=radius)
+
+        def pieces() -> Iterator[Surface]:
+            return (piece.mapped(np.eye(3) / scale, -self.center / scale) for piece in self.pieces())
+
+        volume, area = moments_to_order(pieces(), min(order, BY_MOMENTS), area=sheets, threads=self.threads,
+                                        about=np.zeros(3), reach=radius)
         found = signature(area if sheets else volume, radius)
         if (order > BY_MOMENTS or found.error > ENOUGH) and not sheets:
-            whole = joined(list(self.pieces()))
+            whole = joined(list(pieces()))
             triangles = whole.all_triangles()[0]
-            points = (whole.points - self.center) / radius
-            found = signature(volume, radius, zernike_quadrature(points, triangles, order))
-        return found
+            found = signature(volume, radius, zernike_quadrature(whole.points / radius, triangles, order))
+        return replace(found, size=scale * found.size)
 
     def points_about_center(self) -> NDArray[np.float64]:
         """(n, 3) the corners of all faces."""

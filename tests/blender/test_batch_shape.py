@@ -119,6 +119,16 @@ def test_the_library_is_what_was_written(tmp_path):
     assert set(record) >= {"invariants", "zernike", "chirality"} and len(record["zernike"]) == 121
 
 
+def test_bodies_of_any_size_have_the_same_signature():
+    for k, size in enumerate((1.0, 1e-16, 1e16)):
+        add(mesh_body(), str(k)).scale = (size, size, size)
+    first, *others = (entry["signature"] for entry in document("--signature")["objects"])
+    for found, size in zip(others, (1e-16, 1e16)):
+        assert found["size"] == pytest.approx(first["size"] * size, rel=1e-6)  # a float32 scale
+        for name in ("invariants", "zernike", "fourier", "chirality"):
+            assert np.allclose(found[name], first[name], rtol=1e-9, atol=1e-12)
+
+
 def test_a_wrong_question_is_wrong_usage(tmp_path, capsys):
     add_box("Box")
     path, _ = shape_file(tmp_path)

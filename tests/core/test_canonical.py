@@ -121,6 +121,12 @@ def test_tiny_and_huge_bodies_are_the_same_problem(scale):
         assert np.allclose(alike.values, scaled.values, atol=1e-9)
 
 
+def test_a_body_whose_moments_are_no_numbers_any_more_is_refused():
+    points, triangles = bodies.box()
+    with pytest.raises(ValueError, match="too small"):
+        pose((points * 1e-60, triangles))
+
+
 def test_a_lamina_has_no_skewness_across():
     plate = bodies.joined(bodies.box((0, 0, 0), (3, 1, 1e-9)), bodies.box((0, 1, 0), (1, 4, 1e-9)))
     frame, _ = pose(bodies.moved(plate, bodies.rotation(1)))

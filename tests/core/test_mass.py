@@ -75,6 +75,14 @@ def test_a_body_without_volume_is_refused_and_a_thin_or_tiny_one_is_not(shape):
         MassProperties.from_moments(Moments(np.zeros(20), np.zeros(3)))
 
 
+def test_a_lamina_keeps_the_triangle_inequality_to_the_last_digit_whatever_its_density():
+    rng, flat = np.random.default_rng(1), monomials(3)[:, 2] == 0
+    for _ in range(200):
+        lamina = Moments(box((0, 0, 0), (*rng.uniform(0.1, 10.0, 2), 1.0)).raw * flat, np.zeros(3))
+        a, b, c = MassProperties.from_moments(lamina, density=rng.uniform(1.0, 1e4)).principal.moments
+        assert a + b >= c > b
+
+
 def test_the_bounds_hold_against_rationals_for_perturbed_moments():
     rng = np.random.default_rng(0)
     low, high = (0.5, -1.0, 2.0), (1.5, 1.0, 4.0)

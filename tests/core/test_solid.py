@@ -128,6 +128,7 @@ def test_a_doubled_region_counts_once_also_where_its_quads_are_cut_differently()
     result = measure_solid(mesh(FAR_CUBE[0], faces))
     check_unit_cube(result, [1.5] * 3, "exact")
     assert result.health.faults.duplicate_faces.tolist() == [6, 7]
+    assert result.health.non_manifold_edges == 7 == len(result.health.faults.non_manifold_edges)
 
 
 @pytest.mark.parametrize("parts, volume, moment, method, expected", [
