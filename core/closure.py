@@ -228,10 +228,9 @@ def _capped(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_], 
     caps = []
     for side, ahead in zip(sides, forward):
         curve = side.curve
-        weights = None if curve.weights is None else np.stack([curve.weights] * 2)
-        cone = Patch((clamped(2), curve.space), np.stack([np.broadcast_to(center, curve.points.shape), curve.points]),
-                     weights)
-        caps.append(cone.turned() if ahead else cone)
+        ends = (np.broadcast_to(center, curve.points.shape), curve.points)[::1 if ahead else -1]
+        weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
+        caps.append(Patch((curve.space, clamped(2)), np.stack(ends, axis=1), weights))
     flat = off <= tolerance
     # A way there and back has no net area; of a loop in space only its cone's area tells.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width

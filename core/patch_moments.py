@@ -22,9 +22,11 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
+from .affine import monomial_count
+from .bezier import Cells, Rule, Weights, cells_of
 from .bspline import Space
 from .moments import Moments, U, monomials
-from .patch import Cells, Patch, at_gauss_points
+from .patch import Patch
 from .quadrature import gauss, gauss_and_ends
 from .vectors import cross, dot
 
@@ -40,8 +42,7 @@ BLOCK = 12288  # points at a time: their arrays stay in the cache
 SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time, for the area's gradient
 ROUNDING = 64.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
 
-Rule = tuple[int, int]
-Integrand = Callable[[Patch, Cells, Rule], tuple[NDArray, ...]]
+Integrand = Callable[[Cells, Sequence[Rule]], NDArray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,19 +80,22 @@ def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | No
     reach = patches_reach(patches, about)
     degree = monomials(order).sum(axis=1)
 
-    def flux(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, NDArray]:
-        (s, along, across), weights = at_gauss_points(patch, cells, rule, 1, about)
-        size = weights * _length(along) * _length(across)
-        return moments_of(s, weights * _triple(s, along, across), order), size.sum(axis=(1, 2))
+    def flux(cells: Cells, rules: Sequence[Rule]) -> NDArray:
+        (s, along, across), weights = cells.at(rules)
+        rows = weighted_monomials(s, _triple(s, along, across), order, 1)
+        np.multiply(_length(along), _length(across), out=rows[-1])
+        return summed(rows, weights)
 
-    exact = [patch for patch in patches if patch.weights is None]
-    rational = [patch for patch in patches if patch.weights is not None]
     values, estimate, sizes, settled = np.zeros(len(degree)), np.zeros(len(degree)), 0.0, True
-    for patch in exact:
-        rule = tuple(exact_points(space.order, order) for space in patch.spaces)
-        rows, size = _blocks(patch, Cells.of(patch), rule, flux)
-        values += rows.sum(axis=0)
-        sizes += size.sum()
+    rational = []
+    for cells in cells_of(patches, about):
+        if len(cells.net) == 4:
+            rational.append(cells)
+            continue
+        rule = exact_points(cells.net.shape[1], order), exact_points(cells.net.shape[3], order)
+        found = _blocks(cells, [rule], flux)[0].sum(axis=1)
+        values += found[:-1]
+        sizes += found[-1]
     if rational:
         found = adaptive(rational, flux, reach ** (degree + 1.0), tolerance, order)
         values, settled = values + found.values, found.settled
@@ -113,32 +117,32 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
     reach = patches_reach(patches, about)
     degree = monomials(order).sum(axis=1)
 
-    def area(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, ...]:
-        (s, along, across), weights = at_gauss_points(patch, cells, rule, 1, about, ends=True)
+    def area(cells: Cells, rules: Sequence[Rule]) -> NDArray:
+        (s, along, across), weights = cells.at(rules, ends=True)
         normal = np.stack(cross(along, across))
-        element = weights * _length(normal)
-        return moments_of(s, element, order), element.sum(axis=(1, 2)), _turning(normal, weights, rule)
+        rows = weighted_monomials(s, _length(normal), order, 1)
+        rows[-1] = rows[0]
+        return np.concatenate([summed(rows, weights), _turning(normal, weights, rules[0])[None, None]], axis=1)
 
-    found = adaptive(patches, area, reach ** degree.astype(np.float64), tolerance)
+    found = adaptive(cells_of(patches, about), area, reach ** degree.astype(np.float64), tolerance)
     orders = max(sum(space.order for space in patch.spaces) for patch in patches)
     error = FOLDED * found.estimate + ROUNDING * U * orders * found.scale
     return Moments(found.values, about, "area", error), found.settled
 
 
-def _turning(normal: NDArray, weights: NDArray, rule: Rule) -> NDArray[np.float64]:
+def _turning(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
     """(c,) the areas between neighbouring points of cells where the patch turns over between them: its area has a kink
-    there, which two rules may miss alike. normal: (3, c, m, n), weights: (c, m, n), with the ends of both directions.
-    """
-    total = np.zeros(len(weights))
-    for points in rule:
-        nodes, steps = gauss_and_ends(points)
+    there, which two rules may miss alike. normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both
+    directions."""
+    total = np.zeros(normal.shape[2])
+    for points, other in zip(rule, weights[::-1]):
+        nodes, _ = gauss_and_ends(points)
         length = _length(normal)
-        one, other = normal[:, :, :-1], normal[:, :, 1:]
         # At a pole the normal is rounding.
-        over = dot(one, other) < -TURNED * np.maximum(length[:, :-1], length[:, 1:]) ** 2
-        size = np.where(over, length[:, :-1] + length[:, 1:], 0.0) * np.diff(nodes)[:, None] / 2.0
-        total += (size.sum(axis=1) * weights[:, 1] / steps[1]).sum(axis=1)
-        normal, weights = normal.swapaxes(2, 3), weights.swapaxes(1, 2)
+        over = dot(normal[:, :-1], normal[:, 1:]) < -TURNED * np.maximum(length[:-1], length[1:]) ** 2
+        size = np.where(over, length[:-1] + length[1:], 0.0) * np.diff(nodes)[:, None, None] / 2.0
+        total += size.sum(axis=0) @ other[:, 0]
+        normal = normal.swapaxes(1, 3)
     return total
 
 
@@ -208,8 +212,8 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
     nodes, steps = gauss(ceil((order + 3) / 2))
     heights, steps = inner + (outer - inner) * nodes, (outer - inner) * steps
 
-    def sheet(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, NDArray]:
-        (s, along, across, *second), weights = at_gauss_points(patch, cells, rule, 2, about)
+    def sheet(cells: Cells, rules: Sequence[Rule]) -> NDArray:
+        (s, along, across, *second), weights = cells.at(rules, 2)
         normal = np.stack(cross(along, across))
         length = _length(normal)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -223,13 +227,14 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
             if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
                 raise ValueError("The sheet is thicker than its surface's radius of curvature, so that it runs through "
                                  "itself. Make it thinner.")
-        total = 0.0
+        rows = 0.0
         for height, step in zip(heights, steps):
-            element = weights * step * _stretch(along, across, turning, unit, height)
-            total = total + moments_of(s + height * unit, element, order)
-        return total, (weights * length).sum(axis=(1, 2)) * (outer - inner)
+            element = step * _stretch(along, across, turning, unit, height)
+            rows = rows + weighted_monomials(s + height * unit, element, order, 1)
+        rows[-1] = length * (outer - inner)
+        return summed(rows, weights)
 
-    found = adaptive(patches, sheet, reach ** degree.astype(np.float64), tolerance)
+    found = adaptive(cells_of(patches, about), sheet, reach ** degree.astype(np.float64), tolerance)
     orders = max(sum(space.order for space in patch.spaces) for patch in patches)
     return Moments(found.values, about, "volume", found.estimate + ROUNDING * U * orders * found.scale), found.settled
 
@@ -237,9 +242,9 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
     """(3,) the integral of the unit normals, by a fixed rule: of a flat patch its area along its normal."""
     total = np.zeros(3)
-    for patch in patches:
-        (_, along, across), weights = at_gauss_points(patch, Cells.of(patch), (RULES[0], RULES[0]), 1, np.zeros(3))
-        total += (np.stack(cross(along, across)) * weights).sum(axis=(1, 2, 3))
+    for cells in cells_of(patches, np.zeros(3)):
+        (_, along, across), weights = cells.at([(RULES[0], RULES[0])])
+        total += summed(np.stack(cross(along, across)), weights)[0].sum(axis=1)
     return total
 
 
@@ -248,87 +253,95 @@ def exact_points(order: int, degree: int) -> int:
     return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
 
 
-def adaptive(patches: Sequence[Patch], integrand: Integrand, unit: NDArray, tolerance: float,
+def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolerance: float,
              degree: int | None = None) -> Integral:
     """An integral over patches, cell by cell to the rule that settles it.
 
-    integrand: gives (c, K) contributions, (c,) sizes of cells, and perhaps (c,) shares of those that count as error.
-    unit: (K,) what a cell's size times it bounds.
+    integrand: gives for each of some rules (K + 1, c) contributions and sizes of cells, and perhaps a row more of shares
+    that count as error. unit: (K,) what a cell's size times it bounds.
     degree: of moments whose integrand is a polynomial along a direction in which the weights are the same, so that
     there fewer points are exact; None where there is none.
     A cell is settled when two rules agree to the tolerance of its own scale, or of its share of the whole one.
     """
     values, estimate = np.zeros(len(unit)), np.zeros(len(unit))
+    inverse = np.divide(1.0, unit, out=np.zeros(len(unit)), where=unit > 0.0)[:, None]
     rules = RULES if tolerance < AREA_TOLERANCE else COARSE_RULES
-    work = [(patch, Cells.of(patch), None, 0) for patch in patches]
-    whole, count, spent, settled, depth = 0.0, sum(len(cells) for _, cells, _, _ in work), 0, True, 0
+    work = [(part, None, 0) for part in cells]
+    whole, count, spent, settled, depth = 0.0, sum(map(len, cells)), 0, True, 0
     while work:
         waiting, compared = [], []
-        for patch, cells, coarse, rule in work:
-            if coarse is None:
-                coarse, *_ = _blocks(patch, cells, _rule(patch, rules[rule], degree), integrand)
-                spent += len(cells) * rules[rule] ** 2
-            fine, size, *doubt = _blocks(patch, cells, _rule(patch, rules[rule + 1], degree), integrand)
-            spent += len(cells) * rules[rule + 1] ** 2
-            compared.append((patch, cells, coarse, fine, size, sum(doubt), rule))
+        for part, coarse, rule in work:
+            pair = [_rule(part, points, degree) for points in rules[rule:rule + 2]]
+            if coarse is not None:
+                found = _blocks(part, pair[1:], integrand)
+            elif pair[0][0] == pair[1][0] or pair[0][1] == pair[1][1]:  # side by side they have no more points
+                found = _blocks(part, pair, integrand)
+            else:
+                found = np.concatenate([_blocks(part, [own], integrand) for own in pair])
+            spent += len(part) * sum(m * n for m, n in pair[2 - len(found):])
+            compared.append((part, found[0] if coarse is None else coarse, found[-1], rule))
         if not whole:
-            whole = sum(float(size.sum()) for *_, size, _, _ in compared)
+            whole = sum(float(fine[len(unit)].sum()) for _, _, fine, _ in compared)
         last = spent > MOST_POINTS or depth >= DEEPEST
-        for patch, cells, coarse, fine, size, doubt, rule in compared:
-            with np.errstate(divide="ignore", invalid="ignore"):
-                # The worst of all moments stands for each: one may agree by chance.
-                differ = np.where(unit > 0.0, np.abs(fine - coarse) / unit, 0.0).max(axis=1) + doubt
-            good = differ <= tolerance * np.maximum(size, whole / count)
+        for part, coarse, fine, rule in compared:
+            # The worst of all moments stands for each: one may agree by chance.
+            differ = (np.abs(fine[:len(unit)] - coarse[:len(unit)]) * inverse).max(axis=0)
+            differ += fine[len(unit) + 1:].sum(axis=0)
+            good = differ <= tolerance * np.maximum(fine[len(unit)], whole / count)
             settled &= bool(good.all()) or not last
             taken = np.ones_like(good) if last else good
-            values += fine[taken].sum(axis=0)
+            values += fine[:len(unit), taken].sum(axis=1)
             estimate += differ[taken].sum() * unit
             if taken.all():
                 continue
             if rule + 2 < len(rules):
-                waiting.append((patch, cells[~taken], fine[~taken], rule + 1))
+                waiting.append((part[~taken], fine[:, ~taken], rule + 1))
             else:
-                waiting.append((patch, cells[~taken].split(), None, 0))
-        depth += any(coarse is None for _, _, coarse, _ in waiting)
+                waiting.append((part[~taken].split(), None, 0))
+        depth += any(coarse is None for _, coarse, _ in waiting)
         work = waiting
     return Integral(values, estimate, whole * unit, settled)
 
 
-def _rule(patch: Patch, points: int, degree: int | None) -> Rule:
+def _rule(cells: Cells, points: int, degree: int | None) -> Rule:
     """So many points along each direction, or fewer where they are exact."""
-    if degree is None or patch.weights is None:
+    if degree is None:
         return points, points
-    steady = (patch.weights == patch.weights[:1]).all(), (patch.weights == patch.weights[:, :1]).all()
-    exact = tuple(exact_points(space.order, degree) if same else points for space, same in zip(patch.spaces, steady))
-    return min(points, exact[0]), min(points, exact[1])
+    s, t = (min(points, exact_points(order, degree)) if same else points
+            for order, same in zip(cells.net.shape[1::2], cells.steady))
+    return s, t
 
 
-def _blocks(patch: Patch, cells: Cells, rule: Rule, integrand: Integrand) -> tuple[NDArray, ...]:
-    step = max(1, BLOCK // (rule[0] * rule[1]))
-    rows = [integrand(patch, cells[start:start + step], rule) for start in range(0, len(cells), step)]
-    if len(rows) == 1:
-        return rows[0]
-    return tuple(np.concatenate(parts) for parts in zip(*rows))
+def _blocks(cells: Cells, rules: Sequence[Rule], integrand: Integrand) -> NDArray[np.float64]:
+    step = max(1, BLOCK // sum(m * n for m, n in rules))
+    if len(cells) <= step:
+        return integrand(cells, rules)
+    return np.concatenate([integrand(cells[start:start + step], rules) for start in range(0, len(cells), step)], axis=2)
 
 
-def moments_of(points: NDArray, weights: NDArray, order: int) -> NDArray[np.float64]:
-    """(c, K) the sums of weights (c, m, n) times the monomials of points (3, c, m, n), in the order of `monomials`."""
-    x, y, z = points
-    columns: dict[tuple[int, int, int], NDArray] = {}
-    by_p = weights
-    for p in range(order + 1):
-        by_q = by_p
-        for q in range(order - p + 1):
-            by_r = by_q
-            for r in range(order - p - q + 1):
-                columns[p, q, r] = by_r.sum(axis=(1, 2))
-                if r < order - p - q:
-                    by_r = by_r * z
-            if q < order - p:
-                by_q = by_q * y
-        if p < order:
-            by_p = by_p * x
-    return np.stack([columns[tuple(row)] for row in monomials(order).tolist()], axis=1)
+def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
+    """(K + more, ...) the density times the monomials of points (3, ...), in the order of `monomials`, and rows to be
+    filled."""
+    rows = np.empty((monomial_count(order) + more, *density.shape))
+    rows[0] = density
+    if order:
+        np.multiply(place, density, out=rows[1:4])
+    start = 1
+    for degree in range(1, order):
+        end = monomial_count(degree)
+        onward = 2 * end - start
+        np.multiply(place[0], rows[start:end], out=rows[end:onward])
+        np.multiply(place[1], rows[end - degree - 1:end], out=rows[onward:onward + degree + 1])
+        np.multiply(place[2], rows[end - 1], out=rows[onward + degree + 1])
+        start = end
+    return rows
+
+
+def summed(rows: NDArray, weights: Weights) -> NDArray[np.float64]:
+    """(r, K, c) the sums of (K, m, c, n) over the points of each cell, by the weights of r rules (m, r) and (n, r)."""
+    count, m, c, n = rows.shape
+    half = (rows.reshape(-1, n) @ weights[1]).reshape(count, m, c, -1)
+    return np.array([np.matmul(own, half[..., k]) for k, own in enumerate(weights[0].T)])
 
 
 def _triple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
