@@ -9,6 +9,7 @@ array, the tables at Gauss points are those of Bernstein's polynomials, and halv
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -20,7 +21,7 @@ from .bspline import Space, clamped
 from .patch import Patch
 from .quadrature import gauss, gauss_and_ends
 
-Rule = tuple[int, int]  # Gauss points along s and t
+Rule = tuple[tuple[int, ...], tuple[int, ...]]  # along s and t the points of a Gauss rule, or of two side by side
 Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
 FEW = 32  # cells: of so many none is so small that rounding by the size of them all would matter to it
 DERIVATIVES = (((0, 0),), ((0, 0), (1, 0), (0, 1)), ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)))
@@ -32,18 +33,24 @@ class Cells:
 
     net: (3, k, c, k') their control points, or (4, k, c, k') those times their weights, and the weights. home: (3, c)
     what the control points are about, itself about the point that everything is taken about; None if it is that one.
-    steady: whether the weights are the same along s, and along t.
+    steady: whether the weights are the same along s, and along t. reach: how far any point can be from that point.
     """
 
     net: NDArray[np.float64]
     home: NDArray[np.float64] | None
     steady: tuple[bool, bool]
+    reach: float
+
+    @property
+    def orders(self) -> tuple[int, int]:
+        return self.net.shape[1], self.net.shape[3]
 
     def __len__(self) -> int:
         return self.net.shape[2]
 
     def __getitem__(self, rows) -> Cells:
-        return Cells(self.net[:, :, rows], None if self.home is None else self.home[:, rows], self.steady)
+        home = None if self.home is None else self.home[:, rows]
+        return Cells(self.net[:, :, rows], home, self.steady, self.reach)
 
     def split(self) -> Cells:
         """Each as four."""
@@ -51,7 +58,7 @@ class Cells:
         quarters = [np.matmul(np.matmul(one, rows), other.T)
                     for one in _halves(rows.shape[2]) for other in _halves(rows.shape[3])]
         home = None if self.home is None else np.tile(self.home, 4)
-        return Cells(np.concatenate(quarters, axis=1).swapaxes(1, 2), home, self.steady).at_home()
+        return Cells(np.concatenate(quarters, axis=1).swapaxes(1, 2), home, self.steady, self.reach).at_home()
 
     def at_home(self) -> Cells:
         """The same about their first control points: what is added up is as small as the cell then, and so is its
@@ -63,20 +70,18 @@ class Cells:
             move = home[:, None, :, None] * self.net[3]
         net = self.net.copy()
         net[:3] -= move
-        return Cells(net, home.copy() if self.home is None else self.home + home, self.steady)
+        return Cells(net, home.copy() if self.home is None else self.home + home, self.steady, self.reach)
 
-    def at(self, rules: Sequence[Rule], most: int = 1, ends: bool = False
-           ) -> tuple[list[NDArray[np.float64]], Weights]:
+    def at(self, rule: Rule, most: int = 1, ends: bool = False) -> tuple[list[NDArray[np.float64]], Weights]:
         """The patches and their derivatives at the points of Gauss rules, and the weights of those points.
 
         most: the highest derivative, 1 or 2. ends: the sides too, without weight.
-        Returns S, S_s, S_t and with most = 2 S_ss, S_st, S_tt, each (3, m, c, n), and the weights of each of r rules
-        (m, r) and (n, r), those of points of the others being zero.
+        Returns S, S_s, S_t and with most = 2 S_ss, S_st, S_tt, each (3, m, c, n), and the weights (m, 1 or 2) and
+        (n, 1 or 2), for each rule a column.
         """
         d, k, c, kk = self.net.shape
-        s_rule, t_rule = zip(*rules)
-        one, s_weights = bernstein(k, s_rule, most, ends)
-        other, t_weights = bernstein(kk, t_rule, most, ends)
+        one, s_weights = bernstein(k, rule[0], most, ends)
+        other, t_weights = bernstein(kk, rule[1], most, ends)
         m, n = one.shape[1], other.shape[1]
         half = np.matmul(self.net.reshape(-1, kk), other.swapaxes(1, 2)).reshape(-1, d, k, c * n)
         one = one.reshape(-1, k)
@@ -93,17 +98,16 @@ def cells_of(patches: Sequence[Patch], about: NDArray) -> list[Cells]:
     """The Bézier patches of some patches, those of the same orders together, about a point (3,)."""
     groups: dict[tuple, list[Patch]] = {}
     for patch in patches:
-        groups.setdefault((patch.spaces, patch.weights is None), []).append(patch)
+        groups.setdefault((patch.spaces, patch.weights is None, patch.steady), []).append(patch)
     found: dict[tuple, list[Cells]] = {}
-    for (spaces, exact), group in groups.items():
-        net = np.array([patch.points for patch in group]) - about
-        steady = (True, True)
+    for (spaces, exact, steady), group in groups.items():
+        nets = np.array([patch.points for patch in group])
+        nets -= about
+        reach = math.sqrt(np.maximum.reduce(np.einsum("gijd,gijd->gij", nets, nets), axis=None))
         if not exact:
-            weights = np.array([patch.weights for patch in group])
-            steady = bool((weights == weights[:, :1]).all()), bool((weights == weights[:, :, :1]).all())
-            net = homogeneous(net, weights)
-        orders = spaces[0].order, spaces[1].order
-        found.setdefault((orders, exact, steady), []).append(cells_of_nets(net, spaces, steady))
+            nets = homogeneous(nets, np.array([patch.weights for patch in group]))
+        cells = Cells(bezier_nets(nets, spaces), None, steady, reach)
+        found.setdefault((cells.orders, exact, steady), []).append(cells)
     return [_joined(group) for group in found.values()]
 
 
@@ -115,37 +119,35 @@ def homogeneous(points: NDArray, weights: NDArray) -> NDArray[np.float64]:
     return net
 
 
-def cells_of_nets(nets: NDArray, spaces: tuple[Space, Space], steady: tuple[bool, bool],
-                  spans: tuple[slice, slice] = (slice(None), slice(None))) -> Cells:
-    """The Bézier patches of g control nets (g, count_s, count_t, d), those of some spans of s and t only, in the order
-    of nets, spans of s, spans of t."""
-    (s, rows), (t, columns) = ((space.blossoms[own], space.acting[own]) for space, own in zip(spaces, spans))
-    u, k = rows.shape
-    v, kk = columns.shape
-    g, _, count, d = nets.shape
+def bezier_nets(nets: NDArray, spaces: tuple[Space, Space], spans: tuple[slice, slice] = (slice(None), slice(None))
+                ) -> NDArray[np.float64]:
+    """(d, k, c, k') the control points of the Bézier patches of g control nets (g, count_s, count_t, d), those of some
+    spans of s and t only, in the order of nets, spans of s, spans of t."""
+    s, rows = spaces[0].blossoms[spans[0]], spaces[0].acting[spans[0]]
+    t, columns = spaces[1].blossoms[spans[1]], spaces[1].acting[spans[1]]
+    (u, k), (v, kk), (g, _, count, d) = rows.shape, columns.shape, nets.shape
     half = np.matmul(s, nets.swapaxes(0, 1).take(rows, axis=0).reshape(u, k, -1)).reshape(u, k, g, count, d)
     whole = np.matmul(t, half.transpose(3, 4, 1, 2, 0).take(columns, axis=0).reshape(v, kk, -1))
-    net = whole.reshape(v, kk, d, k, g, u).transpose(2, 3, 4, 5, 0, 1).reshape(d, k, g * u * v, kk)
-    return Cells(net, None, steady)
+    return whole.reshape(v, kk, d, k, g, u).transpose(2, 3, 4, 5, 0, 1).reshape(d, k, g * u * v, kk)
 
 
 def _joined(parts: Sequence[Cells]) -> Cells:
     found = parts[0] if len(parts) == 1 else Cells(
-        np.concatenate([part.net for part in parts], axis=2), None, parts[0].steady)
+        np.concatenate([part.net for part in parts], axis=2), None, parts[0].steady, max(part.reach for part in parts))
     return found.at_home() if len(found) > FEW else found
 
 
 @lru_cache(maxsize=128)
 def bernstein(order: int, rule: tuple[int, ...], most: int = 1, ends: bool = False
               ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Bernstein's polynomials and their derivatives (most + 1, n, order) at the points of one Gauss rule or several, and
-    the weights of each rule (n, r); not to be written to. Rules that are the same share their points."""
-    own = {points: gauss_and_ends(points) if ends else gauss(points) for points in rule}
-    nodes = np.concatenate([nodes for nodes, _ in own.values()])
-    starts = dict(zip(own, np.cumsum([0] + [len(nodes) for nodes, _ in own.values()]).tolist()))
-    weights = np.zeros((len(nodes), len(rule)))
-    for k, points in enumerate(rule):
-        weights[starts[points]:starts[points] + len(own[points][1]), k] = own[points][1]
+    """Bernstein's polynomials and their derivatives (most + 1, n, order) at the points of one Gauss rule or several side
+    by side, and the weights (n, rules); not to be written to."""
+    parts = [gauss_and_ends(points) if ends else gauss(points) for points in rule]
+    nodes = np.concatenate([nodes for nodes, _ in parts])
+    weights, start = np.zeros((len(nodes), len(parts))), 0
+    for k, (_, own) in enumerate(parts):
+        weights[start:start + len(own), k] = own
+        start += len(own)
     space = clamped(order)
     return np.array(space.derivatives(space.spans, nodes, most)), weights
 

@@ -9,6 +9,7 @@ run the other way round their two directions: with v as s and u as t both agree.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,6 +30,13 @@ class Patch:
         points, weights = checked_points(self.points, self.weights, (self.spaces[0].count, self.spaces[1].count))
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "weights", weights)
+
+    @cached_property
+    def steady(self) -> tuple[bool, bool]:
+        """Whether the weights are the same along s, and along t."""
+        if self.weights is None:
+            return True, True
+        return bool((self.weights == self.weights[:1]).all()), bool((self.weights == self.weights[:, :1]).all())
 
     def mapped(self, matrix: NDArray) -> Patch:
         """Its image under an affine map (4, 4): that of its control points."""

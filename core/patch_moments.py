@@ -15,8 +15,10 @@ still differ by is reported, as an estimate: it is that of the coarser rule, whi
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache, partial
 from math import ceil
 
 import numpy as np
@@ -36,23 +38,24 @@ FOLDED = 8.0  # times what two rules differ by: where a patch folds back, its ar
 TURNED = 1e-9  # a normal that points against its neighbour by less than this is rounding
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
 COARSE_RULES = (8, 12, 18)  # where less is asked for
+TINY = 1e-300  # what is divided by at least
 DEEPEST = 14  # times that a cell is cut
 MOST_POINTS = 6_000_000  # evaluated at most
 BLOCK = 12288  # points at a time: their arrays stay in the cache
 SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time, for the area's gradient
 ROUNDING = 64.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
 
-Integrand = Callable[[Cells, Sequence[Rule]], NDArray]
+Integrand = Callable[[Cells, Rule], NDArray]
 
 
 @dataclass(frozen=True, eq=False)
 class Integral:
-    """values: (K,). estimate: (K,) of their truncation. scale: (K,) the largest they could be. settled: whether the
-    estimate is below the tolerance."""
+    """values: (K,). estimate: of their truncation, and size: of all cells, both by the unit of each moment.
+    settled: whether the estimate is below the tolerance."""
 
     values: NDArray[np.float64]
-    estimate: NDArray[np.float64]
-    scale: NDArray[np.float64]
+    estimate: float
+    size: float
     settled: bool
 
 
@@ -61,11 +64,6 @@ def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
     low = np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
     high = np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
     return low + (high - low) / 2.0
-
-
-def patches_reach(patches: Sequence[Patch], about: NDArray) -> float:
-    """How far any point can be from `about`: within their control points."""
-    return max(float(np.sqrt(((patch.points - about) ** 2).sum(axis=-1).max())) for patch in patches)
 
 
 def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | None = None,
@@ -77,33 +75,36 @@ def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | No
     whether the truncation is below `tolerance`.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
-    reach = patches_reach(patches, about)
-    degree = monomials(order).sum(axis=1)
-
-    def flux(cells: Cells, rules: Sequence[Rule]) -> NDArray:
-        (s, along, across), weights = cells.at(rules)
-        rows = weighted_monomials(s, _triple(s, along, across), order, 1)
-        np.multiply(_length(along), _length(across), out=rows[-1])
-        return summed(rows, weights)
-
-    values, estimate, sizes, settled = np.zeros(len(degree)), np.zeros(len(degree)), 0.0, True
+    parts, degree = cells_of(patches, about), _degrees(order)
+    unit = max(part.reach for part in parts) ** (degree + 1.0)
+    flux = partial(flux_sums, order=order)
+    values, estimate, size, settled = np.zeros(len(degree)), 0.0, 0.0, True
     rational = []
-    for cells in cells_of(patches, about):
-        if len(cells.net) == 4:
-            rational.append(cells)
+    for part in parts:
+        if len(part.net) == 4:
+            rational.append(part)
             continue
-        rule = exact_points(cells.net.shape[1], order), exact_points(cells.net.shape[3], order)
-        found = _blocks(cells, [rule], flux)[0].sum(axis=1)
-        values += found[:-1]
-        sizes += found[-1]
+        points = exact_points(part.orders[0], order), exact_points(part.orders[1], order)
+        sums = np.add.reduce(_blocks(part, (points[:1], points[1:]), flux)[0], axis=1)
+        values += sums[:-1]
+        size += float(sums[-1])
     if rational:
-        found = adaptive(rational, flux, reach ** (degree + 1.0), tolerance, order)
-        values, settled = values + found.values, found.settled
-        estimate, sizes = found.estimate, sizes + found.scale[0] / max(reach, 1e-300)
-    divisor = degree + 3.0
-    orders = max(sum(space.order for space in patch.spaces) for patch in patches)
-    error = (estimate + ROUNDING * U * (orders + degree) * sizes * reach ** (degree + 1.0)) / divisor
-    return Moments(values / divisor, about, "volume", error), settled
+        found = adaptive(rational, flux, unit, tolerance, order)
+        values, estimate, settled = values + found.values, found.estimate, found.settled
+        size += found.size
+    orders = max(sum(part.orders) for part in parts)
+    error = (estimate + (ROUNDING * U * size) * (orders + degree)) * unit / (degree + 3.0)
+    return Moments(values / (degree + 3.0), about, "volume", error), settled
+
+
+def flux_sums(cells: Cells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
+    """(rules, K + 1, c) the flux of monomials times the place, and a size: the area, or what it is at most, ∫ |S_s| |S_t|.
+    """
+    (s, along, across), weights = cells.at(rule)
+    normal = cross(along, across)
+    rows = weighted_monomials(s, dot(s, normal), order, 1)
+    np.sqrt(dot(normal, normal) if area else _square(along) * _square(across), out=rows[-1])
+    return summed(rows, weights)
 
 
 def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None,
@@ -114,19 +115,19 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
     them counts as error, so that such a cell is cut.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
-    reach = patches_reach(patches, about)
-    degree = monomials(order).sum(axis=1)
+    parts = cells_of(patches, about)
+    unit = max(part.reach for part in parts) ** _degrees(order)
 
-    def area(cells: Cells, rules: Sequence[Rule]) -> NDArray:
-        (s, along, across), weights = cells.at(rules, ends=True)
+    def area(cells: Cells, rule: Rule) -> NDArray:
+        (s, along, across), weights = cells.at(rule, ends=True)
         normal = np.stack(cross(along, across))
         rows = weighted_monomials(s, _length(normal), order, 1)
         rows[-1] = rows[0]
-        return np.concatenate([summed(rows, weights), _turning(normal, weights, rules[0])[None, None]], axis=1)
+        return np.concatenate([summed(rows, weights), _turning(normal, weights, rule)[None, None]], axis=1)
 
-    found = adaptive(cells_of(patches, about), area, reach ** degree.astype(np.float64), tolerance)
-    orders = max(sum(space.order for space in patch.spaces) for patch in patches)
-    error = FOLDED * found.estimate + ROUNDING * U * orders * found.scale
+    found = adaptive(parts, area, unit, tolerance)
+    orders = max(sum(part.orders) for part in parts)
+    error = (FOLDED * found.estimate + ROUNDING * U * orders * found.size) * unit
     return Moments(found.values, about, "area", error), found.settled
 
 
@@ -135,7 +136,7 @@ def _turning(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float6
     there, which two rules may miss alike. normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both
     directions."""
     total = np.zeros(normal.shape[2])
-    for points, other in zip(rule, weights[::-1]):
+    for (points,), other in zip(rule, weights[::-1]):
         nodes, _ = gauss_and_ends(points)
         length = _length(normal)
         # At a pole the normal is rounding.
@@ -207,13 +208,13 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
     ValueError where the sheet is thicker than its surface's radius of curvature, so that it runs through itself there.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
-    reach = patches_reach(patches, about) + max(abs(inner), abs(outer))
-    degree = monomials(order).sum(axis=1)
+    parts = cells_of(patches, about)
+    unit = (max(part.reach for part in parts) + max(abs(inner), abs(outer))) ** _degrees(order)
     nodes, steps = gauss(ceil((order + 3) / 2))
     heights, steps = inner + (outer - inner) * nodes, (outer - inner) * steps
 
-    def sheet(cells: Cells, rules: Sequence[Rule]) -> NDArray:
-        (s, along, across, *second), weights = cells.at(rules, 2)
+    def sheet(cells: Cells, rule: Rule) -> NDArray:
+        (s, along, across, *second), weights = cells.at(rule, 2)
         normal = np.stack(cross(along, across))
         length = _length(normal)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -234,16 +235,17 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
         rows[-1] = length * (outer - inner)
         return summed(rows, weights)
 
-    found = adaptive(cells_of(patches, about), sheet, reach ** degree.astype(np.float64), tolerance)
-    orders = max(sum(space.order for space in patch.spaces) for patch in patches)
-    return Moments(found.values, about, "volume", found.estimate + ROUNDING * U * orders * found.scale), found.settled
+    found = adaptive(parts, sheet, unit, tolerance)
+    orders = max(sum(part.orders) for part in parts)
+    error = (found.estimate + ROUNDING * U * orders * found.size) * unit
+    return Moments(found.values, about, "volume", error), found.settled
 
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
     """(3,) the integral of the unit normals, by a fixed rule: of a flat patch its area along its normal."""
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
-        (_, along, across), weights = cells.at([(RULES[0], RULES[0])])
+        (_, along, across), weights = cells.at(((RULES[0],), (RULES[0],)))
         total += summed(np.stack(cross(along, across)), weights)[0].sum(axis=1)
     return total
 
@@ -257,66 +259,68 @@ def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolera
              degree: int | None = None) -> Integral:
     """An integral over patches, cell by cell to the rule that settles it.
 
-    integrand: gives for each of some rules (K + 1, c) contributions and sizes of cells, and perhaps a row more of shares
-    that count as error. unit: (K,) what a cell's size times it bounds.
+    integrand: gives for each rule (K + 1, c) contributions and sizes of cells, and perhaps a row more of shares that
+    count as error. unit: (K,) what a cell's size times it bounds.
     degree: of moments whose integrand is a polynomial along a direction in which the weights are the same, so that
     there fewer points are exact; None where there is none.
     A cell is settled when two rules agree to the tolerance of its own scale, or of its share of the whole one.
     """
-    values, estimate = np.zeros(len(unit)), np.zeros(len(unit))
-    inverse = np.divide(1.0, unit, out=np.zeros(len(unit)), where=unit > 0.0)[:, None]
-    rules = RULES if tolerance < AREA_TOLERANCE else COARSE_RULES
+    k = len(unit)
+    values, estimate, most = np.zeros(k), 0.0, np.maximum(unit, TINY)[:, None]
+    points = RULES if tolerance < AREA_TOLERANCE else COARSE_RULES
     work = [(part, None, 0) for part in cells]
     whole, count, spent, settled, depth = 0.0, sum(map(len, cells)), 0, True, 0
     while work:
         waiting, compared = [], []
-        for part, coarse, rule in work:
-            pair = [_rule(part, points, degree) for points in rules[rule:rule + 2]]
-            if coarse is not None:
-                found = _blocks(part, pair[1:], integrand)
-            elif pair[0][0] == pair[1][0] or pair[0][1] == pair[1][1]:  # side by side they have no more points
-                found = _blocks(part, pair, integrand)
-            else:
-                found = np.concatenate([_blocks(part, [own], integrand) for own in pair])
-            spent += len(part) * sum(m * n for m, n in pair[2 - len(found):])
-            compared.append((part, found[0] if coarse is None else coarse, found[-1], rule))
-        if not whole:
-            whole = sum(float(fine[len(unit)].sum()) for _, _, fine, _ in compared)
+        for part, coarse, level in work:
+            rules = _rules(part.orders, part.steady, points[level:level + 2], degree)
+            found = [row for rule in (rules if coarse is None else rules[-1:])
+                     for row in _blocks(part, rule, integrand)]
+            spent += len(part) * points[level + 1] ** 2
+            compared.append((part, found[0] if coarse is None else coarse, found[-1], level))
+        whole = whole or sum(float(np.add.reduce(fine[k])) for _, _, fine, _ in compared)
         last = spent > MOST_POINTS or depth >= DEEPEST
-        for part, coarse, fine, rule in compared:
+        for part, coarse, fine, level in compared:
             # The worst of all moments stands for each: one may agree by chance.
-            differ = (np.abs(fine[:len(unit)] - coarse[:len(unit)]) * inverse).max(axis=0)
-            differ += fine[len(unit) + 1:].sum(axis=0)
-            good = differ <= tolerance * np.maximum(fine[len(unit)], whole / count)
-            settled &= bool(good.all()) or not last
-            taken = np.ones_like(good) if last else good
-            values += fine[:len(unit), taken].sum(axis=1)
-            estimate += differ[taken].sum() * unit
-            if taken.all():
+            differ = np.maximum.reduce(np.abs(fine[:k] - coarse[:k]) / most)
+            if len(fine) > k + 1:
+                differ += fine[k + 1]
+            good = differ <= tolerance * np.maximum(fine[k], whole / count)
+            if last or good.all():
+                settled &= not last or bool(good.all())
+                values += np.add.reduce(fine[:k], axis=1)
+                estimate += float(np.add.reduce(differ))
                 continue
-            if rule + 2 < len(rules):
-                waiting.append((part[~taken], fine[:, ~taken], rule + 1))
+            values += np.add.reduce(fine[:k, good], axis=1)
+            estimate += float(np.add.reduce(differ[good]))
+            if level + 2 < len(points):
+                waiting.append((part[~good], fine[:, ~good], level + 1))
             else:
-                waiting.append((part[~taken].split(), None, 0))
+                waiting.append((part[~good].split(), None, 0))
         depth += any(coarse is None for _, coarse, _ in waiting)
         work = waiting
-    return Integral(values, estimate, whole * unit, settled)
+    return Integral(values, estimate, whole, settled)
 
 
-def _rule(cells: Cells, points: int, degree: int | None) -> Rule:
-    """So many points along each direction, or fewer where they are exact."""
-    if degree is None:
-        return points, points
-    s, t = (min(points, exact_points(order, degree)) if same else points
-            for order, same in zip(cells.net.shape[1::2], cells.steady))
-    return s, t
+@lru_cache(maxsize=256)
+def _rules(orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int, int], degree: int | None
+           ) -> tuple[Rule, ...]:
+    """Two rules to compare, of so many points along each direction, or fewer where they are exact; as one, side by side,
+    where they differ along one direction only: that takes no more points."""
+    coarse, fine = (tuple(min(number, exact_points(order, degree)) if same and degree is not None else number
+                          for order, same in zip(orders, steady)) for number in points)
+    if coarse[0] == fine[0]:
+        return ((fine[:1], (coarse[1], fine[1])),)
+    if coarse[1] == fine[1]:
+        return (((coarse[0], fine[0]), fine[1:]),)
+    return (coarse[:1], coarse[1:]), (fine[:1], fine[1:])
 
 
-def _blocks(cells: Cells, rules: Sequence[Rule], integrand: Integrand) -> NDArray[np.float64]:
-    step = max(1, BLOCK // sum(m * n for m, n in rules))
+def _blocks(cells: Cells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
+    step = max(1, BLOCK // (sum(rule[0]) * sum(rule[1])))
     if len(cells) <= step:
-        return integrand(cells, rules)
-    return np.concatenate([integrand(cells[start:start + step], rules) for start in range(0, len(cells), step)], axis=2)
+        return integrand(cells, rule)
+    return np.concatenate([integrand(cells[start:start + step], rule) for start in range(0, len(cells), step)], axis=2)
 
 
 def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
@@ -338,14 +342,23 @@ def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int =
 
 
 def summed(rows: NDArray, weights: Weights) -> NDArray[np.float64]:
-    """(r, K, c) the sums of (K, m, c, n) over the points of each cell, by the weights of r rules (m, r) and (n, r)."""
+    """(rules, K, c) the sums of (K, m, c, n) over the points of each cell, by weights (m, rules) and (n, rules), of which
+    one has one column."""
     count, m, c, n = rows.shape
-    half = (rows.reshape(-1, n) @ weights[1]).reshape(count, m, c, -1)
-    return np.array([np.matmul(own, half[..., k]) for k, own in enumerate(weights[0].T)])
+    one, other = weights
+    half = (rows.reshape(-1, n) @ other).reshape(count, m, -1)
+    found = np.matmul(one.T, half).reshape(count, one.shape[1], c, -1)
+    return found.transpose(1, 3, 0, 2).reshape(-1, count, c)
 
 
-def _triple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    return dot(a, cross(b, c))
+@lru_cache
+def _degrees(order: int) -> NDArray[np.float64]:
+    """(K,) the degree of each monomial."""
+    return monomials(order).sum(axis=1).astype(np.float64)
+
+
+def _square(a: NDArray) -> NDArray[np.float64]:
+    return np.add.reduce(a * a, axis=0)
 
 
 def _length(a: NDArray) -> NDArray[np.float64]:
