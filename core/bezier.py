@@ -23,7 +23,7 @@ from .quadrature import gauss, gauss_and_ends
 
 Rule = tuple[tuple[int, ...], tuple[int, ...]]  # along s and t the points of a Gauss rule, or of two side by side
 Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
-FEW = 32  # cells: of so many none is so small that rounding by the size of them all would matter to it
+FEW = 32  # cells
 DERIVATIVES = (((0, 0),), ((0, 0), (1, 0), (0, 1)), ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)))
 
 
@@ -62,7 +62,9 @@ class Cells:
 
     def at_home(self) -> Cells:
         """The same about their first control points: what is added up is as small as the cell then, and so is its
-        rounding."""
+        rounding. Of few cells none is so small that rounding by the size of them all would matter."""
+        if self.home is None and len(self) <= FEW:
+            return self
         home = self.net[:3, 0, :, 0]
         move = home[:, None, :, None]
         if len(self.net) == 4:
@@ -134,7 +136,7 @@ def bezier_nets(nets: NDArray, spaces: tuple[Space, Space], spans: tuple[slice, 
 def _joined(parts: Sequence[Cells]) -> Cells:
     found = parts[0] if len(parts) == 1 else Cells(
         np.concatenate([part.net for part in parts], axis=2), None, parts[0].steady, max(part.reach for part in parts))
-    return found.at_home() if len(found) > FEW else found
+    return found.at_home()
 
 
 @lru_cache(maxsize=128)

@@ -85,7 +85,7 @@ def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | No
             rational.append(part)
             continue
         points = exact_points(part.orders[0], order), exact_points(part.orders[1], order)
-        sums = np.add.reduce(_blocks(part, (points[:1], points[1:]), flux)[0], axis=1)
+        sums = np.add.reduce(blocks(part, (points[:1], points[1:]), flux)[0], axis=1)
         values += sums[:-1]
         size += float(sums[-1])
     if rational:
@@ -275,7 +275,7 @@ def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolera
         for part, coarse, level in work:
             rules = _rules(part.orders, part.steady, points[level:level + 2], degree)
             found = [row for rule in (rules if coarse is None else rules[-1:])
-                     for row in _blocks(part, rule, integrand)]
+                     for row in blocks(part, rule, integrand)]
             spent += len(part) * points[level + 1] ** 2
             compared.append((part, found[0] if coarse is None else coarse, found[-1], level))
         whole = whole or sum(float(np.add.reduce(fine[k])) for _, _, fine, _ in compared)
@@ -316,7 +316,8 @@ def _rules(orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int
     return (coarse[:1], coarse[1:]), (fine[:1], fine[1:])
 
 
-def _blocks(cells: Cells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
+def blocks(cells: Cells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
+    """(rules, K, c) an integrand of many cells, some at a time."""
     step = max(1, BLOCK // (sum(rule[0]) * sum(rule[1])))
     if len(cells) <= step:
         return integrand(cells, rule)
