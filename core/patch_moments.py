@@ -267,7 +267,7 @@ def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolera
     """
     k = len(unit)
     values, estimate, most = np.zeros(k), 0.0, np.maximum(unit, TINY)[:, None]
-    points = RULES if tolerance < AREA_TOLERANCE else COARSE_RULES
+    points, enough = (RULES, MOST_POINTS) if tolerance < AREA_TOLERANCE else (COARSE_RULES, MOST_POINTS // 2)
     work = [(part, None, 0) for part in cells]
     whole, count, spent, settled, depth = 0.0, sum(map(len, cells)), 0, True, 0
     while work:
@@ -276,10 +276,10 @@ def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolera
             rules = _rules(part.orders, part.steady, points[level:level + 2], degree)
             found = [row for rule in (rules if coarse is None else rules[-1:])
                      for row in blocks(part, rule, integrand)]
-            spent += len(part) * points[level + 1] ** 2
+            spent += len(part) * sum(number ** 2 for number in points[level + (coarse is not None):level + 2])
             compared.append((part, found[0] if coarse is None else coarse, found[-1], level))
         whole = whole or sum(float(np.add.reduce(fine[k])) for _, _, fine, _ in compared)
-        last = spent > MOST_POINTS or depth >= DEEPEST
+        last = spent > enough or depth >= DEEPEST
         for part, coarse, fine, level in compared:
             # The worst of all moments stands for each: one may agree by chance.
             differ = np.maximum.reduce(np.abs(fine[:k] - coarse[:k]) / most)
@@ -293,10 +293,14 @@ def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolera
                 continue
             values += np.add.reduce(fine[:k, good], axis=1)
             estimate += float(np.add.reduce(differ[good]))
-            if level + 2 < len(points):
-                waiting.append((part[~good], fine[:, ~good], level + 1))
-            else:
-                waiting.append((part[~good].split(), None, 0))
+            onward = ~good if level + 2 < len(points) else np.zeros_like(good)
+            if len(fine) > k + 1:
+                onward &= fine[k + 1] == 0.0  # no rule sees through a kink
+            cut = ~(good | onward)
+            if onward.any():
+                waiting.append((part[onward], fine[:, onward], level + 1))
+            if cut.any():
+                waiting.append((part[cut].split(), None, 0))
         depth += any(coarse is None for _, coarse, _ in waiting)
         work = waiting
     return Integral(values, estimate, whole, settled)
