@@ -142,8 +142,8 @@ def _joined(parts: Sequence[Cells]) -> Cells:
 @lru_cache(maxsize=128)
 def bernstein(order: int, rule: tuple[int, ...], most: int = 1, ends: bool = False
               ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Bernstein's polynomials and their derivatives (most + 1, n, order) at the points of one Gauss rule or several side
-    by side, and the weights (n, rules); not to be written to."""
+    """Bernstein's polynomials and their derivatives (most + 1, n, order) at the points of one Gauss rule or of several
+    side by side, and the weights (n, rules); not to be written to."""
     parts = [gauss_and_ends(points) if ends else gauss(points) for points in rule]
     nodes = np.concatenate([nodes for nodes, _ in parts])
     weights, start = np.zeros((len(nodes), len(parts))), 0

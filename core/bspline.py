@@ -72,8 +72,8 @@ class Space:
     def blossoms(self) -> NDArray[np.float64]:
         """(s, order, order) what each acting control point weighs in each Bézier control point of a span.
 
-        That is the recursion of Cox and de Boor with a parameter for each of its steps, the span's beginning or its end:
-        Bézier's b-th point takes b ends.
+        That is the recursion of Cox and de Boor with a parameter for each of its steps, the span's beginning or its
+        end: Bézier's b-th point takes b ends.
         """
         knots = np.asarray(self.knots)
         near = knots[self.spans[:, None] + np.arange(2 - self.order, self.order)]

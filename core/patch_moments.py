@@ -15,7 +15,6 @@ still differ by is reported, as an estimate: it is that of the coarser rule, whi
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
@@ -98,8 +97,8 @@ def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | No
 
 
 def flux_sums(cells: Cells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
-    """(rules, K + 1, c) the flux of monomials times the place, and a size: the area, or what it is at most, ∫ |S_s| |S_t|.
-    """
+    """(rules, K + 1, c) the flux of monomials times the place, and a size: the area, or, what that is at most,
+    ∫ |S_s| |S_t|."""
     (s, along, across), weights = cells.at(rule)
     normal = cross(along, across)
     rows = weighted_monomials(s, dot(s, normal), order, 1)
@@ -107,8 +106,7 @@ def flux_sums(cells: Cells, rule: Rule, order: int, area: bool = False) -> NDArr
     return summed(rows, weights)
 
 
-def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None,
-                 tolerance: float = AREA_TOLERANCE) -> tuple[Moments, bool]:
+def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
     """The area moments of patches by quadrature; `error` is an estimate. Otherwise as `volume_moments`.
 
     Where a patch turns over between two neighbouring points, or a cell's side and its first point, what lies between
@@ -125,7 +123,7 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
         rows[-1] = rows[0]
         return np.concatenate([summed(rows, weights), _turning(normal, weights, rule)[None, None]], axis=1)
 
-    found = adaptive(parts, area, unit, tolerance)
+    found = adaptive(parts, area, unit, AREA_TOLERANCE)
     orders = max(sum(part.orders) for part in parts)
     error = (FOLDED * found.estimate + ROUNDING * U * orders * found.size) * unit
     return Moments(found.values, about, "area", error), found.settled
@@ -201,7 +199,7 @@ def _slope_of_tile(along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArra
 
 
 def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: int = 3,
-                  about: NDArray | None = None, tolerance: float = AREA_TOLERANCE) -> tuple[Moments, bool]:
+                  about: NDArray | None = None) -> tuple[Moments, bool]:
     """The volume moments of {S + h n : inner ≤ h ≤ outer}, n the patches' unit normal: a sheet with real thickness.
 
     Across the sheet the integrand is a polynomial of degree n + 2, so a rule of ceil((n + 3) / 2) points is exact.
@@ -235,7 +233,7 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
         rows[-1] = length * (outer - inner)
         return summed(rows, weights)
 
-    found = adaptive(parts, sheet, unit, tolerance)
+    found = adaptive(parts, sheet, unit, AREA_TOLERANCE)
     orders = max(sum(part.orders) for part in parts)
     error = (found.estimate + ROUNDING * U * orders * found.size) * unit
     return Moments(found.values, about, "volume", error), found.settled
@@ -309,8 +307,8 @@ def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolera
 @lru_cache(maxsize=256)
 def _rules(orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int, int], degree: int | None
            ) -> tuple[Rule, ...]:
-    """Two rules to compare, of so many points along each direction, or fewer where they are exact; as one, side by side,
-    where they differ along one direction only: that takes no more points."""
+    """Two rules to compare, of so many points along each direction, or fewer where they are exact; as one, side by
+    side, where they differ along one direction only: that takes no more points."""
     coarse, fine = (tuple(min(number, exact_points(order, degree)) if same and degree is not None else number
                           for order, same in zip(orders, steady)) for number in points)
     if coarse[0] == fine[0]:
@@ -347,8 +345,8 @@ def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int =
 
 
 def summed(rows: NDArray, weights: Weights) -> NDArray[np.float64]:
-    """(rules, K, c) the sums of (K, m, c, n) over the points of each cell, by weights (m, rules) and (n, rules), of which
-    one has one column."""
+    """(rules, K, c) the sums of (K, m, c, n) over the points of each cell, by weights (m, rules) and (n, rules), of
+    which one has one column."""
     count, m, c, n = rows.shape
     one, other = weights
     half = (rows.reshape(-1, n) @ other).reshape(count, m, -1)

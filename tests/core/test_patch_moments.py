@@ -5,9 +5,9 @@
 import numpy as np
 import pytest
 from body_moments.core import patch_moments
+from body_moments.core.bezier import cells_of
 from body_moments.core.bspline import Space, clamped
 from body_moments.core.moments import monomials
-from body_moments.core.bezier import cells_of
 from body_moments.core.patch import Patch
 from body_moments.core.patch_moments import (
     area_moments,
