@@ -10,7 +10,7 @@ array, the tables at Gauss points are those of Bernstein's polynomials, and halv
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -23,7 +23,7 @@ from .quadrature import gauss, gauss_and_ends
 
 Rule = tuple[tuple[int, ...], tuple[int, ...]]  # along s and t the points of a Gauss rule, or of two side by side
 Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
-FEW = 32  # cells
+FEW, MOST_CELLS = 32, 8192  # cells; made at a time
 DERIVATIVES = (((0, 0),), ((0, 0), (1, 0), (0, 1)), ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)))
 
 
@@ -96,21 +96,36 @@ class Cells:
         return found, (s_weights, t_weights)
 
 
-def cells_of(patches: Sequence[Patch], about: NDArray) -> list[Cells]:
-    """The Bézier patches of some patches, those of the same orders together, about a point (3,)."""
+def cells_of(patches: Sequence[Patch], about: NDArray) -> Iterator[Cells]:
+    """The Bézier patches of some patches, those of the same orders together, some at a time, about a point (3,)."""
     groups: dict[tuple, list[Patch]] = {}
     for patch in patches:
         groups.setdefault((patch.spaces, patch.weights is None, patch.steady), []).append(patch)
-    found: dict[tuple, list[Cells]] = {}
+    waiting: dict[tuple, list[Cells]] = {}
     for (spaces, exact, steady), group in groups.items():
-        nets = np.array([patch.points for patch in group])
+        own = waiting.setdefault((spaces[0].order, spaces[1].order, exact, steady), [])
+        for cells in _cells_of_group(spaces, group, about):
+            own.append(cells)
+            if sum(map(len, own)) >= MOST_CELLS:
+                yield _joined(own)
+                own.clear()
+    yield from map(_joined, filter(None, waiting.values()))
+
+
+def _cells_of_group(spaces: tuple[Space, Space], group: Sequence[Patch], about: NDArray) -> Iterator[Cells]:
+    """Those of patches in the same function spaces."""
+    u, v = len(spaces[0].spans), len(spaces[1].spans)
+    step, rows = max(1, MOST_CELLS // (u * v)), max(1, MOST_CELLS // v)
+    for first in range(0, len(group), step):
+        some = group[first:first + step]
+        nets = np.array([patch.points for patch in some])
         nets -= about
         reach = math.sqrt(np.maximum.reduce(np.einsum("gijd,gijd->gij", nets, nets), axis=None))
-        if not exact:
-            nets = homogeneous(nets, np.array([patch.weights for patch in group]))
-        cells = Cells(bezier_nets(nets, spaces), None, steady, reach)
-        found.setdefault((cells.orders, exact, steady), []).append(cells)
-    return [_joined(group) for group in found.values()]
+        if some[0].weights is not None:
+            nets = homogeneous(nets, np.array([patch.weights for patch in some]))
+        for start in range(0, u, rows):
+            spans = slice(start, start + rows), slice(None)
+            yield Cells(bezier_nets(nets, spaces, spans), None, some[0].steady, reach)
 
 
 def homogeneous(points: NDArray, weights: NDArray) -> NDArray[np.float64]:
@@ -121,8 +136,7 @@ def homogeneous(points: NDArray, weights: NDArray) -> NDArray[np.float64]:
     return net
 
 
-def bezier_nets(nets: NDArray, spaces: tuple[Space, Space], spans: tuple[slice, slice] = (slice(None), slice(None))
-                ) -> NDArray[np.float64]:
+def bezier_nets(nets: NDArray, spaces: tuple[Space, Space], spans: tuple[slice, slice]) -> NDArray[np.float64]:
     """(d, k, c, k') the control points of the Bézier patches of g control nets (g, count_s, count_t, d), those of some
     spans of s and t only, in the order of nets, spans of s, spans of t."""
     s, rows = spaces[0].blossoms[spans[0]], spaces[0].acting[spans[0]]

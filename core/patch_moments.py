@@ -74,12 +74,11 @@ def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | No
     whether the truncation is below `tolerance`.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
-    parts, degree = cells_of(patches, about), _degrees(order)
-    unit = max(part.reach for part in parts) ** (degree + 1.0)
-    flux = partial(flux_sums, order=order)
+    degree, flux = _degrees(order), partial(flux_sums, order=order)
     values, estimate, size, settled = np.zeros(len(degree)), 0.0, 0.0, True
-    rational = []
-    for part in parts:
+    reach, orders, rational = 0.0, 0, []
+    for part in cells_of(patches, about):
+        reach, orders = max(reach, part.reach), max(orders, sum(part.orders))
         if len(part.net) == 4:
             rational.append(part)
             continue
@@ -87,11 +86,11 @@ def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | No
         sums = np.add.reduce(blocks(part, (points[:1], points[1:]), flux)[0], axis=1)
         values += sums[:-1]
         size += float(sums[-1])
+    unit = reach ** (degree + 1.0)
     if rational:
         found = adaptive(rational, flux, unit, tolerance, order)
         values, estimate, settled = values + found.values, found.estimate, found.settled
         size += found.size
-    orders = max(sum(part.orders) for part in parts)
     error = (estimate + (ROUNDING * U * size) * (orders + degree)) * unit / (degree + 3.0)
     return Moments(values / (degree + 3.0), about, "volume", error), settled
 
@@ -113,7 +112,7 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
     them counts as error, so that such a cell is cut.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
-    parts = cells_of(patches, about)
+    parts = list(cells_of(patches, about))
     unit = max(part.reach for part in parts) ** _degrees(order)
 
     def area(cells: Cells, rule: Rule) -> NDArray:
@@ -206,7 +205,7 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
     ValueError where the sheet is thicker than its surface's radius of curvature, so that it runs through itself there.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
-    parts = cells_of(patches, about)
+    parts = list(cells_of(patches, about))
     unit = (max(part.reach for part in parts) + max(abs(inner), abs(outer))) ** _degrees(order)
     nodes, steps = gauss(ceil((order + 3) / 2))
     heights, steps = inner + (outer - inner) * nodes, (outer - inner) * steps

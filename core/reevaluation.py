@@ -16,13 +16,12 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from .bezier import Cells, bezier_nets, homogeneous
+from .bezier import MOST_CELLS, Cells, bezier_nets, homogeneous
 from .bspline import Space
 from .moments import Moments, monomials
 from .patch import Patch
 from .patch_moments import blocks, exact_points, flux_sums
 
-MOST_CELLS = 8192  # Bézier patches that are made at a time
 RATIONAL = 16  # Gauss points in a span of a rational patch
 
 

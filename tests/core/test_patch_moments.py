@@ -76,7 +76,7 @@ def test_one_gauss_point_fewer_would_not_do():
     exact = float(z_flux_difference(patch, (1, 0, 0)))
 
     def flux(number):
-        return fixed_flux(cells_of([patch], ORIGIN)[0], number, 1)[1] / 4.0
+        return fixed_flux(next(cells_of([patch], ORIGIN)), number, 1)[1] / 4.0
 
     needed = exact_points(4, 1)
     assert abs(flux(needed) - exact) <= 1e-14
@@ -138,7 +138,7 @@ def fixed_flux(cells, points, order):
 
 def truth(patch, order, pieces=4, points=40):
     """The flux by a fixed rule in pieces of every cell, with no estimate to trust."""
-    cells = cells_of([patch], ORIGIN)[0]
+    cells = next(cells_of([patch], ORIGIN))
     for _ in range(pieces):
         cells = cells.split()
     return sum(fixed_flux(cells[k:k + 64], points, order) for k in range(0, len(cells), 64)) / (
