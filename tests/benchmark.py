@@ -452,7 +452,7 @@ def splines(rounds: int) -> None:
             start = time.perf_counter()
             errors = np.abs(function() / truth - 1.0)
             last = time.perf_counter() - start
-            times = interleaved({"": function}, 20 * rounds if last < 0.01 else 3)[""] if last < 0.1 else [last]
+            times = interleaved({"": function}, min(20 * rounds, int(0.1 / last)))[""] or [last]
             print("    {:<24s}{:<34s}{:>10.1e}{:>10.1e}{:>11.3f} ms".format(
                 name, way, *errors, statistics.median(times) * 1e3))
             return float(errors.max()), statistics.median(times)
