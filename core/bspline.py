@@ -11,7 +11,7 @@ triangular scheme of Cox and de Boor, for many parameters at once; derivatives a
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +62,11 @@ class Space:
         """(s, 2) the bounds of the spans."""
         knots = np.asarray(self.knots)
         return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
+
+    @cached_property
+    def ends(self) -> NDArray[np.float64]:
+        """(2, count) what each control point weighs at the domain's ends."""
+        return self.matrix(np.array(self.domain))
 
     @cached_property
     def acting(self) -> NDArray[np.int64]:
@@ -146,6 +151,7 @@ class Space:
         return table
 
 
+@lru_cache(maxsize=64)
 def clamped(order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0) -> Space:
     """The space whose curves begin and end at their first and last control points. inner: knots in between."""
     knots = (low,) * order + tuple(inner) + (high,) * order

@@ -239,10 +239,12 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
 
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """(3,) the integral of the unit normals, by a fixed rule: of a flat patch its area along its normal."""
+    """(3,) the integral of the unit normals: of a flat patch its area along its normal. Exact along directions in which
+    the weights are the same, by a fixed rule along others."""
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
-        (_, along, across), weights = cells.at(((RULES[0],), (RULES[0],)))
+        s, t = ((max(1, order - 1) if same else RULES[0],) for order, same in zip(cells.orders, cells.steady))
+        (_, along, across), weights = cells.at((s, t))
         total += summed(np.stack(cross(along, across)), weights)[0].sum(axis=1)
     return total
 
