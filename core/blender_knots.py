@@ -9,6 +9,8 @@ flags (blender/source/blender/blenkernel/intern/curve.cc: calcknots, makeknots, 
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -43,6 +45,7 @@ def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
     return knots
 
 
+@lru_cache(maxsize=256)  # so that what is known of a space stays known from frame to frame
 def blender_space(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> Space | None:
     """The function space of one direction of a Blender spline, None where Blender shows nothing for it."""
     if not is_valid(count, order, cyclic, bezier, endpoint):

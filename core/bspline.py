@@ -11,7 +11,7 @@ triangular scheme of Cox and de Boor, for many parameters at once; derivatives a
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +62,38 @@ class Space:
         """(s, 2) the bounds of the spans."""
         knots = np.asarray(self.knots)
         return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
+
+    @cached_property
+    def ends(self) -> NDArray[np.float64]:
+        """(2, count) what each control point weighs at the domain's ends."""
+        return self.matrix(np.array(self.domain))
+
+    @cached_property
+    def acting(self) -> NDArray[np.int64]:
+        """(s, order) the control points that act in each span."""
+        return self.controls(self.spans)
+
+    @cached_property
+    def blossoms(self) -> NDArray[np.float64]:
+        """(s, order, order) what each acting control point weighs in each Bézier control point of a span.
+
+        That is the recursion of Cox and de Boor with a parameter for each of its steps, the span's beginning or its
+        end: Bézier's b-th point takes b ends.
+        """
+        knots = np.asarray(self.knots)
+        near = knots[self.spans[:, None] + np.arange(2 - self.order, self.order)]
+        low, high = self.intervals[:, :1], self.intervals[:, 1:]
+        b = np.arange(self.order)
+        values = np.ones((len(near), self.order, 1))
+        for order in range(2, self.order + 1):
+            before, after = self._neighbours(near, order)
+            t = np.where(b >= order - 1, high, low)[..., None]
+            share = values * ((t - before[:, None]) / (after - before)[:, None])
+            rest = values - share
+            values = np.zeros((len(near), self.order, order))
+            values[..., 1:] = share
+            values[..., :-1] += rest
+        return values
 
     def controls(self, spans: NDArray[np.integer]) -> NDArray[np.int64]:
         """(..., order) the control points that act in each span."""
@@ -119,6 +151,7 @@ class Space:
         return table
 
 
+@lru_cache(maxsize=64)
 def clamped(order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0) -> Space:
     """The space whose curves begin and end at their first and last control points. inner: knots in between."""
     knots = (low,) * order + tuple(inner) + (high,) * order

@@ -16,11 +16,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .bspline import clamped
+from .bspline import Space, clamped
 from .curve import Curve
 from .patch import Patch
 from .patch_moments import vector_area
@@ -78,7 +79,7 @@ def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
     """Find out how patches close. tolerance: the distance within which points are the same."""
     sides = [Side(i, patch.side(axis, end), forward) for i, patch in enumerate(patches) for axis, end, forward in SIDES]
     count = max([SAMPLES] + [2 * len(side.curve.space.spans) + 1 for side in sides])
-    points = np.array([_evenly(side.curve, count) for side in sides])
+    points = np.array([side.curve.combined(_evenly(side.curve.space, count)) for side in sides])
     length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
     wide = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
     left, right, same, gap, crowded = _matched(sides, points, np.flatnonzero(wide), tolerance)
@@ -104,9 +105,11 @@ def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
                    float((gap * length[left]).sum()), broken)
 
 
-def _evenly(curve: Curve, count: int) -> NDArray[np.float64]:
-    low, high = curve.space.domain
-    return curve.at(low + (high - low) * np.linspace(0.0, 1.0, count))
+@lru_cache(maxsize=64)
+def _evenly(space: Space, count: int) -> NDArray[np.float64]:
+    """What control points weigh at equal steps of the domain; not to be written to."""
+    low, high = space.domain
+    return space.matrix(low + (high - low) * np.linspace(0.0, 1.0, count))
 
 
 def _matched(sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tolerance: float
@@ -228,10 +231,9 @@ def _capped(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_], 
     caps = []
     for side, ahead in zip(sides, forward):
         curve = side.curve
-        weights = None if curve.weights is None else np.stack([curve.weights] * 2)
-        cone = Patch((clamped(2), curve.space), np.stack([np.broadcast_to(center, curve.points.shape), curve.points]),
-                     weights)
-        caps.append(cone.turned() if ahead else cone)
+        ends = (np.broadcast_to(center, curve.points.shape), curve.points)[::1 if ahead else -1]
+        weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
+        caps.append(Patch((curve.space, clamped(2)), np.stack(ends, axis=1), weights))
     flat = off <= tolerance
     # A way there and back has no net area; of a loop in space only its cone's area tells.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width

@@ -49,7 +49,10 @@ class Curve:
 
     def at(self, parameters: ArrayLike) -> NDArray[np.float64]:
         """(n, 3) its points."""
-        table = self.space.matrix(np.asarray(parameters, np.float64))
+        return self.combined(self.space.matrix(np.asarray(parameters, np.float64)))
+
+    def combined(self, table: NDArray) -> NDArray[np.float64]:
+        """(n, 3) its points where its control points weigh what a table (n, count) says."""
         if self.weights is not None:
             table = table * self.weights
             table /= table.sum(axis=1, keepdims=True)

@@ -36,8 +36,7 @@ def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
     return low + (high - low) / 2.0
 
 
-def length_moments(curves: Sequence[Curve], order: int = 3, about: NDArray | None = None,
-                   tolerance: float = LENGTH_TOLERANCE) -> Moments:
+def length_moments(curves: Sequence[Curve], order: int = 3, about: NDArray | None = None) -> Moments:
     """∫ x^p y^q z^r ds along the curves; `error` is an estimate. about: (3,), by default the middle of their box."""
     about = curves_center(curves) if about is None else np.asarray(about, np.float64)
     reach, degree = _reach(curves, about), monomials(order).sum(axis=1)
@@ -45,13 +44,12 @@ def length_moments(curves: Sequence[Curve], order: int = 3, about: NDArray | Non
     def length(place: NDArray, velocity: NDArray) -> NDArray:
         return np.sqrt((velocity ** 2).sum(axis=0))
 
-    values, estimate, size = _integrated(curves, length, 1.0, order, about, reach, tolerance)
+    values, estimate, size = _integrated(curves, length, 1.0, order, about, reach, LENGTH_TOLERANCE)
     scale = size * reach ** degree.astype(np.float64)
     return Moments(values, about, "length", estimate * reach ** degree.astype(np.float64) + ROUNDING * U * 8 * scale)
 
 
-def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, about: NDArray | None = None,
-                  tolerance: float = TOLERANCE) -> Moments:
+def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, about: NDArray | None = None) -> Moments:
     """The area moments of the region in a plane that closed curves bound, counter-clockwise seen from the normal's tip.
 
     normal: (3,) unit. about: (3,) a point of the plane, by default the mean of the control points. A curve that runs
@@ -73,7 +71,7 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
         values, size = values + rows.sum(axis=0), size + length.sum()
     rational = [curve for curve in curves if curve.weights is not None]
     if rational:
-        more, estimate, length = _integrated(rational, flux, reach, order, about, reach, tolerance)
+        more, estimate, length = _integrated(rational, flux, reach, order, about, reach, TOLERANCE)
         values, size = values + more, size + length
     powers = reach ** (degree + 1.0)
     error = (estimate / max(reach, 1e-300) * powers + ROUNDING * U * 8 * size * powers) / (degree + 2.0)

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .bspline import Space
 from .quadrature import gauss
 
 MAX_ORDER = 16  # of the splines: a sane limit, far above any use
@@ -115,43 +116,20 @@ def cut_supports(knots: ArrayLike, order: int, degree: int, low: float, high: fl
     """(degree + 1, n) ∫ t^l B_i over [low, high], span by span."""
     knots = np.asarray(knots, np.float64)
     table = np.zeros((degree + 1, len(knots) - order))
-    edges = np.clip(np.stack([knots[:-1], knots[1:]]), low, high)
-    spans = np.flatnonzero(edges[1] > edges[0])
+    # With more knots on both sides as many functions act in each interval; those that they add are left out again.
+    far = np.arange(1, order)
+    longer = np.concatenate([knots[0] - far[::-1], knots, knots[-1] + far])
+    space = Space(tuple(longer.tolist()), order, len(longer) - order)
+    edges = np.clip(space.intervals, low, high)
+    spans, edges = space.spans[edges[:, 0] < edges[:, 1]], edges[edges[:, 0] < edges[:, 1]]
     nodes, weights = gauss(-(-(order + degree) // 2))
-    length = (edges[1, spans] - edges[0, spans])[:, None]
-    t = edges[0, spans, None] + length * nodes
-    basis = basis_functions(knots, order, spans, t)
+    length = edges[:, 1:] - edges[:, :1]
+    t = edges[:, :1] + length * nodes
+    basis = space.derivatives(spans[:, None], t, 0)[0]
+    functions = space.controls(spans) - (order - 1)
+    own = (functions >= 0) & (functions < table.shape[1])
     weight = length * weights
-    for power in range(degree + 1):
-        for j in range(order):
-            where = spans - order + 1 + j
-            inside = (where >= 0) & (where < table.shape[1])
-            integrals = (basis[j] * weight).sum(axis=1)
-            np.add.at(table[power], where[inside], integrals[inside])
+    for row in table:
+        np.add.at(row, functions[own], (basis * weight[..., None]).sum(axis=1)[own])
         weight = weight * t
     return table
-
-
-def basis_functions(knots: NDArray, order: int, spans: NDArray, t: NDArray) -> NDArray[np.float64]:
-    """(order, s, m) the functions span - order + 1, ..., span at t (s, m), each row of t within its span [t_span,
-    t_span+1). Knots that are missing at the ends count as infinitely far: their functions do not exist."""
-    padded = np.concatenate([np.full(order, -np.inf), knots, np.full(order, np.inf)])
-    values = np.zeros((order, *t.shape))
-    values[order - 1] = 1.0
-    for k in range(2, order + 1):  # Cox and de Boor, from order k - 1 to k
-        for j in range(order - k, order):
-            first = order + spans - order + 1 + j
-            left, right = padded[first], padded[first + 1]
-            left_end, right_end = padded[first + k - 1], padded[first + k]
-            value = _ramp(t, left, left_end) * values[j]
-            if j + 1 < order:
-                value = value + (1.0 - _ramp(t, right, right_end)) * values[j + 1]
-            values[j] = value
-    return values
-
-
-def _ramp(t: NDArray, low: NDArray, high: NDArray) -> NDArray[np.float64]:
-    """(t - low) / (high - low); 0 where the interval is empty or a knot is missing."""
-    good = np.isfinite(low) & np.isfinite(high) & (high > low)
-    width = np.where(good, high - low, 1.0)
-    return np.where(good[:, None], (t - np.where(good, low, 0.0)[:, None]) / width[:, None], 0.0)

@@ -39,7 +39,7 @@ class FollowedBody:
         self.measure: PatchMeasure = measure_patches(patches, stored=stored)
         self.volume, self.area = self.measure.volume, self.measure.area.total
         self._patches = list(patches)
-        self._evaluators = [Evaluator(patch, 3, self.volume.about, with_area=True) for patch in patches]
+        self._evaluators = [Evaluator(patch, 3, self.volume.about) for patch in patches]
         self._fluxes = [evaluator.moments(patch.points, patch.weights)
                         for evaluator, patch in zip(self._evaluators, patches)]
         self._off = np.zeros_like(self.volume.raw)

@@ -17,14 +17,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache, partial
 from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .affine import monomial_count
+from .bezier import Cells, Rule, Weights, cells_of
 from .bspline import Space
 from .moments import Moments, U, monomials
-from .patch import Cells, Patch, at_gauss_points
+from .patch import Patch
 from .quadrature import gauss, gauss_and_ends
 from .vectors import cross, dot
 
@@ -34,24 +37,24 @@ FOLDED = 8.0  # times what two rules differ by: where a patch folds back, its ar
 TURNED = 1e-9  # a normal that points against its neighbour by less than this is rounding
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
 COARSE_RULES = (8, 12, 18)  # where less is asked for
+TINY = 1e-300  # what is divided by at least
 DEEPEST = 14  # times that a cell is cut
 MOST_POINTS = 6_000_000  # evaluated at most
 BLOCK = 12288  # points at a time: their arrays stay in the cache
 SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time, for the area's gradient
 ROUNDING = 64.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
 
-Rule = tuple[int, int]
-Integrand = Callable[[Patch, Cells, Rule], tuple[NDArray, ...]]
+Integrand = Callable[[Cells, Rule], NDArray]
 
 
 @dataclass(frozen=True, eq=False)
 class Integral:
-    """values: (K,). estimate: (K,) of their truncation. scale: (K,) the largest they could be. settled: whether the
-    estimate is below the tolerance."""
+    """values: (K,). estimate: of their truncation, and size: of all cells, both by the unit of each moment.
+    settled: whether the estimate is below the tolerance."""
 
     values: NDArray[np.float64]
-    estimate: NDArray[np.float64]
-    scale: NDArray[np.float64]
+    estimate: float
+    size: float
     settled: bool
 
 
@@ -60,11 +63,6 @@ def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
     low = np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
     high = np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
     return low + (high - low) / 2.0
-
-
-def patches_reach(patches: Sequence[Patch], about: NDArray) -> float:
-    """How far any point can be from `about`: within their control points."""
-    return max(float(np.sqrt(((patch.points - about) ** 2).sum(axis=-1).max())) for patch in patches)
 
 
 def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | None = None,
@@ -76,69 +74,73 @@ def volume_moments(patches: Sequence[Patch], order: int = 3, about: NDArray | No
     whether the truncation is below `tolerance`.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
-    reach = patches_reach(patches, about)
-    degree = monomials(order).sum(axis=1)
-
-    def flux(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, NDArray]:
-        (s, along, across), weights = at_gauss_points(patch, cells, rule, 1, about)
-        size = weights * _length(along) * _length(across)
-        return moments_of(s, weights * _triple(s, along, across), order), size.sum(axis=(1, 2))
-
-    exact = [patch for patch in patches if patch.weights is None]
-    rational = [patch for patch in patches if patch.weights is not None]
-    values, estimate, sizes, settled = np.zeros(len(degree)), np.zeros(len(degree)), 0.0, True
-    for patch in exact:
-        rule = tuple(exact_points(space.order, order) for space in patch.spaces)
-        rows, size = _blocks(patch, Cells.of(patch), rule, flux)
-        values += rows.sum(axis=0)
-        sizes += size.sum()
+    degree, flux = _degrees(order), partial(flux_sums, order=order)
+    values, estimate, size, settled = np.zeros(len(degree)), 0.0, 0.0, True
+    reach, orders, rational = 0.0, 0, []
+    for part in cells_of(patches, about):
+        reach, orders = max(reach, part.reach), max(orders, sum(part.orders))
+        if len(part.net) == 4:
+            rational.append(part)
+            continue
+        points = exact_points(part.orders[0], order), exact_points(part.orders[1], order)
+        sums = np.add.reduce(blocks(part, (points[:1], points[1:]), flux)[0], axis=1)
+        values += sums[:-1]
+        size += float(sums[-1])
+    unit = reach ** (degree + 1.0)
     if rational:
-        found = adaptive(rational, flux, reach ** (degree + 1.0), tolerance, order)
-        values, settled = values + found.values, found.settled
-        estimate, sizes = found.estimate, sizes + found.scale[0] / max(reach, 1e-300)
-    divisor = degree + 3.0
-    orders = max(sum(space.order for space in patch.spaces) for patch in patches)
-    error = (estimate + ROUNDING * U * (orders + degree) * sizes * reach ** (degree + 1.0)) / divisor
-    return Moments(values / divisor, about, "volume", error), settled
+        found = adaptive(rational, flux, unit, tolerance, order)
+        values, estimate, settled = values + found.values, found.estimate, found.settled
+        size += found.size
+    error = (estimate + (ROUNDING * U * size) * (orders + degree)) * unit / (degree + 3.0)
+    return Moments(values / (degree + 3.0), about, "volume", error), settled
 
 
-def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None,
-                 tolerance: float = AREA_TOLERANCE) -> tuple[Moments, bool]:
+def flux_sums(cells: Cells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
+    """(rules, K + 1, c) the flux of monomials times the place, and a size: the area, or, what that is at most,
+    ∫ |S_s| |S_t|."""
+    (s, along, across), weights = cells.at(rule)
+    normal = cross(along, across)
+    rows = weighted_monomials(s, dot(s, normal), order, 1)
+    np.sqrt(dot(normal, normal) if area else _square(along) * _square(across), out=rows[-1])
+    return summed(rows, weights)
+
+
+def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
     """The area moments of patches by quadrature; `error` is an estimate. Otherwise as `volume_moments`.
 
     Where a patch turns over between two neighbouring points, or a cell's side and its first point, what lies between
     them counts as error, so that such a cell is cut.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
-    reach = patches_reach(patches, about)
-    degree = monomials(order).sum(axis=1)
+    parts = list(cells_of(patches, about))
+    unit = max(part.reach for part in parts) ** _degrees(order)
 
-    def area(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, ...]:
-        (s, along, across), weights = at_gauss_points(patch, cells, rule, 1, about, ends=True)
+    def area(cells: Cells, rule: Rule) -> NDArray:
+        (s, along, across), weights = cells.at(rule, ends=True)
         normal = np.stack(cross(along, across))
-        element = weights * _length(normal)
-        return moments_of(s, element, order), element.sum(axis=(1, 2)), _turning(normal, weights, rule)
+        rows = weighted_monomials(s, _length(normal), order, 1)
+        rows[-1] = rows[0]
+        return np.concatenate([summed(rows, weights), _turning(normal, weights, rule)[None, None]], axis=1)
 
-    found = adaptive(patches, area, reach ** degree.astype(np.float64), tolerance)
-    orders = max(sum(space.order for space in patch.spaces) for patch in patches)
-    error = FOLDED * found.estimate + ROUNDING * U * orders * found.scale
+    found = adaptive(parts, area, unit, AREA_TOLERANCE)
+    orders = max(sum(part.orders) for part in parts)
+    error = (FOLDED * found.estimate + ROUNDING * U * orders * found.size) * unit
     return Moments(found.values, about, "area", error), found.settled
 
 
-def _turning(normal: NDArray, weights: NDArray, rule: Rule) -> NDArray[np.float64]:
+def _turning(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
     """(c,) the areas between neighbouring points of cells where the patch turns over between them: its area has a kink
-    there, which two rules may miss alike. normal: (3, c, m, n), weights: (c, m, n), with the ends of both directions.
-    """
-    total = np.zeros(len(weights))
-    for points in rule:
-        nodes, steps = gauss_and_ends(points)
+    there, which two rules may miss alike. normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both
+    directions."""
+    total = np.zeros(normal.shape[2])
+    for (points,), other in zip(rule, weights[::-1]):
+        nodes, _ = gauss_and_ends(points)
         length = _length(normal)
-        one, other = normal[:, :, :-1], normal[:, :, 1:]
         # At a pole the normal is rounding.
-        over = dot(one, other) < -TURNED * np.maximum(length[:, :-1], length[:, 1:]) ** 2
-        size = np.where(over, length[:, :-1] + length[:, 1:], 0.0) * np.diff(nodes)[:, None] / 2.0
-        total += (size.sum(axis=1) * weights[:, 1] / steps[1]).sum(axis=1)
-        normal, weights = normal.swapaxes(2, 3), weights.swapaxes(1, 2)
+        over = dot(normal[:, :-1], normal[:, 1:]) < -TURNED * np.maximum(length[:-1], length[1:]) ** 2
+        size = np.where(over, length[:-1] + length[1:], 0.0) * np.diff(nodes)[:, None, None] / 2.0
+        total += size.sum(axis=0) @ other[:, 0]
+        normal = normal.swapaxes(1, 3)
     return total
 
 
@@ -196,20 +198,20 @@ def _slope_of_tile(along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArra
 
 
 def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: int = 3,
-                  about: NDArray | None = None, tolerance: float = AREA_TOLERANCE) -> tuple[Moments, bool]:
+                  about: NDArray | None = None) -> tuple[Moments, bool]:
     """The volume moments of {S + h n : inner ≤ h ≤ outer}, n the patches' unit normal: a sheet with real thickness.
 
     Across the sheet the integrand is a polynomial of degree n + 2, so a rule of ceil((n + 3) / 2) points is exact.
     ValueError where the sheet is thicker than its surface's radius of curvature, so that it runs through itself there.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
-    reach = patches_reach(patches, about) + max(abs(inner), abs(outer))
-    degree = monomials(order).sum(axis=1)
+    parts = list(cells_of(patches, about))
+    unit = (max(part.reach for part in parts) + max(abs(inner), abs(outer))) ** _degrees(order)
     nodes, steps = gauss(ceil((order + 3) / 2))
     heights, steps = inner + (outer - inner) * nodes, (outer - inner) * steps
 
-    def sheet(patch: Patch, cells: Cells, rule: Rule) -> tuple[NDArray, NDArray]:
-        (s, along, across, *second), weights = at_gauss_points(patch, cells, rule, 2, about)
+    def sheet(cells: Cells, rule: Rule) -> NDArray:
+        (s, along, across, *second), weights = cells.at(rule, 2)
         normal = np.stack(cross(along, across))
         length = _length(normal)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -223,23 +225,27 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
             if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
                 raise ValueError("The sheet is thicker than its surface's radius of curvature, so that it runs through "
                                  "itself. Make it thinner.")
-        total = 0.0
+        rows = 0.0
         for height, step in zip(heights, steps):
-            element = weights * step * _stretch(along, across, turning, unit, height)
-            total = total + moments_of(s + height * unit, element, order)
-        return total, (weights * length).sum(axis=(1, 2)) * (outer - inner)
+            element = step * _stretch(along, across, turning, unit, height)
+            rows = rows + weighted_monomials(s + height * unit, element, order, 1)
+        rows[-1] = length * (outer - inner)
+        return summed(rows, weights)
 
-    found = adaptive(patches, sheet, reach ** degree.astype(np.float64), tolerance)
-    orders = max(sum(space.order for space in patch.spaces) for patch in patches)
-    return Moments(found.values, about, "volume", found.estimate + ROUNDING * U * orders * found.scale), found.settled
+    found = adaptive(parts, sheet, unit, AREA_TOLERANCE)
+    orders = max(sum(part.orders) for part in parts)
+    error = (found.estimate + ROUNDING * U * orders * found.size) * unit
+    return Moments(found.values, about, "volume", error), found.settled
 
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """(3,) the integral of the unit normals, by a fixed rule: of a flat patch its area along its normal."""
+    """(3,) the integral of the unit normals: of a flat patch its area along its normal. Exact along directions in which
+    the weights are the same, by a fixed rule along others."""
     total = np.zeros(3)
-    for patch in patches:
-        (_, along, across), weights = at_gauss_points(patch, Cells.of(patch), (RULES[0], RULES[0]), 1, np.zeros(3))
-        total += (np.stack(cross(along, across)) * weights).sum(axis=(1, 2, 3))
+    for cells in cells_of(patches, np.zeros(3)):
+        s, t = ((max(1, order - 1) if same else RULES[0],) for order, same in zip(cells.orders, cells.steady))
+        (_, along, across), weights = cells.at((s, t))
+        total += summed(np.stack(cross(along, across)), weights)[0].sum(axis=1)
     return total
 
 
@@ -248,91 +254,115 @@ def exact_points(order: int, degree: int) -> int:
     return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
 
 
-def adaptive(patches: Sequence[Patch], integrand: Integrand, unit: NDArray, tolerance: float,
+def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolerance: float,
              degree: int | None = None) -> Integral:
     """An integral over patches, cell by cell to the rule that settles it.
 
-    integrand: gives (c, K) contributions, (c,) sizes of cells, and perhaps (c,) shares of those that count as error.
-    unit: (K,) what a cell's size times it bounds.
+    integrand: gives for each rule (K + 1, c) contributions and sizes of cells, and perhaps a row more of shares that
+    count as error. unit: (K,) what a cell's size times it bounds.
     degree: of moments whose integrand is a polynomial along a direction in which the weights are the same, so that
     there fewer points are exact; None where there is none.
     A cell is settled when two rules agree to the tolerance of its own scale, or of its share of the whole one.
     """
-    values, estimate = np.zeros(len(unit)), np.zeros(len(unit))
-    rules = RULES if tolerance < AREA_TOLERANCE else COARSE_RULES
-    work = [(patch, Cells.of(patch), None, 0) for patch in patches]
-    whole, count, spent, settled, depth = 0.0, sum(len(cells) for _, cells, _, _ in work), 0, True, 0
+    k = len(unit)
+    values, estimate, most = np.zeros(k), 0.0, np.maximum(unit, TINY)[:, None]
+    points, enough = (RULES, MOST_POINTS) if tolerance < AREA_TOLERANCE else (COARSE_RULES, MOST_POINTS // 2)
+    work = [(part, None, 0) for part in cells]
+    whole, count, spent, settled, depth = 0.0, sum(map(len, cells)), 0, True, 0
     while work:
         waiting, compared = [], []
-        for patch, cells, coarse, rule in work:
-            if coarse is None:
-                coarse, *_ = _blocks(patch, cells, _rule(patch, rules[rule], degree), integrand)
-                spent += len(cells) * rules[rule] ** 2
-            fine, size, *doubt = _blocks(patch, cells, _rule(patch, rules[rule + 1], degree), integrand)
-            spent += len(cells) * rules[rule + 1] ** 2
-            compared.append((patch, cells, coarse, fine, size, sum(doubt), rule))
-        if not whole:
-            whole = sum(float(size.sum()) for *_, size, _, _ in compared)
-        last = spent > MOST_POINTS or depth >= DEEPEST
-        for patch, cells, coarse, fine, size, doubt, rule in compared:
-            with np.errstate(divide="ignore", invalid="ignore"):
-                # The worst of all moments stands for each: one may agree by chance.
-                differ = np.where(unit > 0.0, np.abs(fine - coarse) / unit, 0.0).max(axis=1) + doubt
-            good = differ <= tolerance * np.maximum(size, whole / count)
-            settled &= bool(good.all()) or not last
-            taken = np.ones_like(good) if last else good
-            values += fine[taken].sum(axis=0)
-            estimate += differ[taken].sum() * unit
-            if taken.all():
+        for part, coarse, level in work:
+            rules = _rules(part.orders, part.steady, points[level:level + 2], degree)
+            found = [row for rule in (rules if coarse is None else rules[-1:])
+                     for row in blocks(part, rule, integrand)]
+            spent += len(part) * sum(number ** 2 for number in points[level + (coarse is not None):level + 2])
+            compared.append((part, found[0] if coarse is None else coarse, found[-1], level))
+        whole = whole or sum(float(np.add.reduce(fine[k])) for _, _, fine, _ in compared)
+        last = spent > enough or depth >= DEEPEST
+        for part, coarse, fine, level in compared:
+            # The worst of all moments stands for each: one may agree by chance.
+            differ = np.maximum.reduce(np.abs(fine[:k] - coarse[:k]) / most)
+            if len(fine) > k + 1:
+                differ += fine[k + 1]
+            good = differ <= tolerance * np.maximum(fine[k], whole / count)
+            if last or good.all():
+                settled &= not last or bool(good.all())
+                values += np.add.reduce(fine[:k], axis=1)
+                estimate += float(np.add.reduce(differ))
                 continue
-            if rule + 2 < len(rules):
-                waiting.append((patch, cells[~taken], fine[~taken], rule + 1))
-            else:
-                waiting.append((patch, cells[~taken].split(), None, 0))
-        depth += any(coarse is None for _, _, coarse, _ in waiting)
+            values += np.add.reduce(fine[:k, good], axis=1)
+            estimate += float(np.add.reduce(differ[good]))
+            onward = ~good if level + 2 < len(points) else np.zeros_like(good)
+            if len(fine) > k + 1:
+                onward &= fine[k + 1] == 0.0  # no rule sees through a kink
+            cut = ~(good | onward)
+            if onward.any():
+                waiting.append((part[onward], fine[:, onward], level + 1))
+            if cut.any():
+                waiting.append((part[cut].split(), None, 0))
+        depth += any(coarse is None for _, coarse, _ in waiting)
         work = waiting
-    return Integral(values, estimate, whole * unit, settled)
+    return Integral(values, estimate, whole, settled)
 
 
-def _rule(patch: Patch, points: int, degree: int | None) -> Rule:
-    """So many points along each direction, or fewer where they are exact."""
-    if degree is None or patch.weights is None:
-        return points, points
-    steady = (patch.weights == patch.weights[:1]).all(), (patch.weights == patch.weights[:, :1]).all()
-    exact = tuple(exact_points(space.order, degree) if same else points for space, same in zip(patch.spaces, steady))
-    return min(points, exact[0]), min(points, exact[1])
+@lru_cache(maxsize=256)
+def _rules(orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int, int], degree: int | None
+           ) -> tuple[Rule, ...]:
+    """Two rules to compare, of so many points along each direction, or fewer where they are exact; as one, side by
+    side, where they differ along one direction only: that takes no more points."""
+    coarse, fine = (tuple(min(number, exact_points(order, degree)) if same and degree is not None else number
+                          for order, same in zip(orders, steady)) for number in points)
+    if coarse[0] == fine[0]:
+        return ((fine[:1], (coarse[1], fine[1])),)
+    if coarse[1] == fine[1]:
+        return (((coarse[0], fine[0]), fine[1:]),)
+    return (coarse[:1], coarse[1:]), (fine[:1], fine[1:])
 
 
-def _blocks(patch: Patch, cells: Cells, rule: Rule, integrand: Integrand) -> tuple[NDArray, ...]:
-    step = max(1, BLOCK // (rule[0] * rule[1]))
-    rows = [integrand(patch, cells[start:start + step], rule) for start in range(0, len(cells), step)]
-    if len(rows) == 1:
-        return rows[0]
-    return tuple(np.concatenate(parts) for parts in zip(*rows))
+def blocks(cells: Cells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
+    """(rules, K, c) an integrand of many cells, some at a time."""
+    step = max(1, BLOCK // (sum(rule[0]) * sum(rule[1])))
+    if len(cells) <= step:
+        return integrand(cells, rule)
+    return np.concatenate([integrand(cells[start:start + step], rule) for start in range(0, len(cells), step)], axis=2)
 
 
-def moments_of(points: NDArray, weights: NDArray, order: int) -> NDArray[np.float64]:
-    """(c, K) the sums of weights (c, m, n) times the monomials of points (3, c, m, n), in the order of `monomials`."""
-    x, y, z = points
-    columns: dict[tuple[int, int, int], NDArray] = {}
-    by_p = weights
-    for p in range(order + 1):
-        by_q = by_p
-        for q in range(order - p + 1):
-            by_r = by_q
-            for r in range(order - p - q + 1):
-                columns[p, q, r] = by_r.sum(axis=(1, 2))
-                if r < order - p - q:
-                    by_r = by_r * z
-            if q < order - p:
-                by_q = by_q * y
-        if p < order:
-            by_p = by_p * x
-    return np.stack([columns[tuple(row)] for row in monomials(order).tolist()], axis=1)
+def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
+    """(K + more, ...) the density times the monomials of points (3, ...), in the order of `monomials`, and rows to be
+    filled."""
+    rows = np.empty((monomial_count(order) + more, *density.shape))
+    rows[0] = density
+    if order:
+        np.multiply(place, density, out=rows[1:4])
+    start = 1
+    for degree in range(1, order):
+        end = monomial_count(degree)
+        onward = 2 * end - start
+        np.multiply(place[0], rows[start:end], out=rows[end:onward])
+        np.multiply(place[1], rows[end - degree - 1:end], out=rows[onward:onward + degree + 1])
+        np.multiply(place[2], rows[end - 1], out=rows[onward + degree + 1])
+        start = end
+    return rows
 
 
-def _triple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    return dot(a, cross(b, c))
+def summed(rows: NDArray, weights: Weights) -> NDArray[np.float64]:
+    """(rules, K, c) the sums of (K, m, c, n) over the points of each cell, by weights (m, rules) and (n, rules), of
+    which one has one column."""
+    count, m, c, n = rows.shape
+    one, other = weights
+    half = (rows.reshape(-1, n) @ other).reshape(count, m, -1)
+    found = np.matmul(one.T, half).reshape(count, one.shape[1], c, -1)
+    return found.transpose(1, 3, 0, 2).reshape(-1, count, c)
+
+
+@lru_cache
+def _degrees(order: int) -> NDArray[np.float64]:
+    """(K,) the degree of each monomial."""
+    return monomials(order).sum(axis=1).astype(np.float64)
+
+
+def _square(a: NDArray) -> NDArray[np.float64]:
+    return np.add.reduce(a * a, axis=0)
 
 
 def _length(a: NDArray) -> NDArray[np.float64]:

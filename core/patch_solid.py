@@ -106,14 +106,14 @@ def measure_patches(patches: Sequence[Patch], *, order: int = 3, area_order: int
     return PatchMeasure(volume, area, health, method, tuple(notes), tuple(outward), signs, closure)
 
 
-def measure_sheet(patches: Sequence[Patch], inner: float, outer: float, *, order: int = 3, stored: float = 0.0
+def measure_sheet(patches: Sequence[Patch], inner: float, outer: float, *, stored: float = 0.0
                   ) -> tuple[Moments, Moments, bool]:
-    """The volume moments of a sheet of real thickness, from the height `inner` to `outer` along the patches' normals,
-    their area's moments, and whether both estimates are below the tolerance. ValueError where the sheet would run
-    through itself."""
+    """The volume moments to order 3 of a sheet of real thickness, from the height `inner` to `outer` along the patches'
+    normals, their area's moments, and whether both estimates are below the tolerance. ValueError where the sheet would
+    run through itself."""
     about = patches_center(patches)
-    area, fine = area_moments(patches, order, about)
-    sheet, settled = sheet_moments(patches, inner, outer, order, about)
+    area, fine = area_moments(patches, 3, about)
+    sheet, settled = sheet_moments(patches, inner, outer, 3, about)
     size = patches_size(patches)
     reach = size + max(abs(inner), abs(outer)) + 4.0 * stored
     area = replace(area, input=_moved(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))

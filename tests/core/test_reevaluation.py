@@ -43,9 +43,9 @@ def test_one_moved_point_gives_what_all_points_anew_give(spaces, rational):
     shape = (spaces[0].count, spaces[1].count)
     points = rng.uniform(-1, 1, (*shape, 3))
     weights = rng.uniform(0.5, 2.0, shape) if rational else None
-    evaluator = Evaluator(Patch(spaces, points, weights), 2, ABOUT, with_area=True)
+    evaluator = Evaluator(Patch(spaces, points, weights), 2, ABOUT)
     evaluator.moments(points, weights)
-    fresh = Evaluator(Patch(spaces, points, weights), 2, ABOUT, with_area=True)
+    fresh = Evaluator(Patch(spaces, points, weights), 2, ABOUT)
     for _ in range(30):
         i, j = (int(rng.integers(count)) for count in shape)
         points[i, j] += rng.uniform(-0.5, 0.5, 3)
@@ -63,9 +63,8 @@ def test_one_point_touches_only_its_spans(monkeypatch):
     evaluator = Evaluator(Patch((space, space), rng.uniform(-1, 1, (40, 40, 3))), 2)
     evaluator.moments(rng.uniform(-1, 1, (40, 40, 3)))
     touched = []
-    flux = evaluator._flux
-    monkeypatch.setattr(evaluator, "_flux", lambda rows, columns, each: touched.append((rows, columns))
-                        or flux(rows, columns, each))
+    evaluate = evaluator._evaluate
+    monkeypatch.setattr(evaluator, "_evaluate", lambda *spans: touched.append(spans) or evaluate(*spans))
     evaluator.move(20, 17, np.zeros(3))
     evaluator.move(0, 39, np.zeros(3))
     sizes = [(rows.stop - rows.start, columns.stop - columns.start) for rows, columns in touched]
