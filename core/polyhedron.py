@@ -29,16 +29,15 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import CHUNK, TRIPLES, Faces, Rows
+from .blocks import NO_VERTEX, TRIPLES, Faces, Rows, together
 from .moments import Moments, U, monomials
 from .small import few
 from .surface import Surface, all_there
 
-BLOCK = 32768  # triangles at most: by then calls cost little, and more would leave the cache
+BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
 MEMORY = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
 EXACT = 100_000  # triangles up to which the exact third order, half as much again, costs no time to speak of
 FEW = 1024  # triangles up to which `small` is faster
-NO_VERTEX = "a face names a vertex that does not exist"
 PAIRED = 1000  # triangles below which looking for pairs costs more than it saves
 LEAST = 16384  # triangles that are worth a thread
 RANGE = 2.0 ** 100  # reaches beyond this, or below its inverse, are scaled, lest a product of six overflow or vanish
@@ -97,16 +96,12 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
         triangles, _ = surface.all_triangles()
         return job.moments([few(points, center, triangles, area=area, shell=shell)])
     threads = max(1, min(threads, count // LEAST))
-    size = job.block(threads)
-    blocks = [(surface.triangles[i:i + size], False) for i in range(0, len(surface.triangles), size)]
-    size = max(size // 2, 1)
-    blocks += [(surface.quads[i:i + size], True) for i in range(0, len(surface.quads), size)]
+    blocks = job.blocks(surface, threads)
     if threads == 1:
-        return job.moments(job.run(blocks, 1))
+        return job.moments([job.run(blocks)])
     ends = [len(blocks) * i // threads for i in range(threads + 1)]
     with ThreadPoolExecutor(threads) as pool:
-        parts = pool.map(lambda a, b: job.run(blocks[a:b], threads), ends, ends[1:])
-        return job.moments([row for part in parts for row in part])
+        return job.moments(list(pool.map(lambda a, b: job.run(blocks[a:b]), ends, ends[1:])))
 
 
 def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -153,38 +148,46 @@ class _Job:
     shell: bool
     exact: bool
 
-    def block(self, threads: int) -> int:
-        """The number of triangles in a block: as many as the memory allows, and a share for every thread."""
+    def blocks(self, surface: Surface, threads: int) -> list[tuple[NDArray, ...]]:
+        """The faces in as few blocks as the memory allows, a multiple of the threads: (k, 4) quads, or (k, 3)
+        triangles, or two arrays of triangles of which each may be half a quad."""
         memory = (MEMORY[0] * self.count + MEMORY[1]) // threads
-        size = min(BLOCK, memory // (8 * Faces.size(1)))
-        return max(1, min(size // CHUNK * CHUNK or size, -(-self.count // threads)))
+        size = max(1, min(BLOCK, memory // (8 * Faces.numbers(3, self.area, self.exact))))
+        size = -(-self.count // (threads * -(-self.count // (threads * size))))
+        size += size % 2
+        triangles, half = surface.triangles, len(surface.triangles) // 2
+        if _paired(triangles[:1], triangles[half:half + 1]) is None:
+            half = 0
+        whole = (((triangles[:half], triangles[half:2 * half]), size // 2), ((triangles[2 * half:],), size),
+                 ((surface.quads,), size // 2))
+        return [tuple(array[i:i + step] for array in arrays)
+                for arrays, step in whole for i in range(0, len(arrays[0]), step)]
 
-    def run(self, blocks: list[tuple[NDArray, bool]], threads: int) -> list[Rows]:
-        """The sums over blocks of faces, each with whether they are quads. Safe in threads."""
-        size = self.block(threads)
-        faces = Faces(self.points, self.center, size, area=self.area, shell=self.shell, exact=self.exact)
-        rows = []
-        for block, quads in blocks:
-            if not all_there(block, len(self.points)):
-                raise ValueError(NO_VERTEX)
-            halves = None if quads or len(block) < PAIRED else pairs(block)
-            rows.append(faces.block(halves or list(block.T), quads))
+    def run(self, blocks: list[tuple[NDArray, ...]]) -> Rows:
+        """The sums over some of the blocks. Safe in threads."""
+        faces = Faces(self.points, self.center, area=self.area, shell=self.shell, exact=self.exact)
+        for block in blocks:
+            first, corners = block[0], None
+            if first.shape[1] == 3 and len(first) >= PAIRED:
+                corners = pairs(first) if len(block) == 1 else _paired(*block)
+            for part in [corners] if corners else [part.T for part in block]:
+                faces.block(part, quads=first.shape[1] == 4)
         if faces.flipped:
             flipped = np.concatenate(faces.flipped, axis=1)
-            half = max(size // 2, 1)
-            rows += [faces.block(list(flipped[:, i:i + half])) for i in range(0, flipped.shape[1], half)]
-        return rows
+            step = max(len(block[0]) for block in blocks if block[0].shape[1] == 4)
+            for i in range(0, flipped.shape[1], step):
+                faces.block(flipped[:, i:i + step])
+        return faces.rows()
 
-    def moments(self, rows: list[Rows]) -> tuple[Moments, Moments]:
+    def moments(self, parts: list[Rows]) -> tuple[Moments, Moments]:
         """Volume and area, with their bounds."""
+        rows = parts[0] if len(parts) == 1 else together(parts)
         bounds = _Bounds(self, rows)
-        raw = np.add.reduce(np.array([row.sums for row in rows])) / DIVISORS
+        raw = rows.sums / DIVISORS
         volume = Moments(raw, self.center, "volume", *bounds.volume(raw))
         if not self.area:
             return volume, Moments(np.zeros(1), self.center, "area")
-        raw = np.array([bounds.double / 2.0])
-        if self.shell:
-            raw = np.add.reduce(np.array([row.areas for row in rows])) / (DIVISORS / TO_AREA)
+        raw = rows.areas / (DIVISORS / TO_AREA) if self.shell else np.array([bounds.double / 2.0])
         return volume, Moments(raw, self.center, "area", *bounds.area(raw))
 
 
@@ -194,12 +197,9 @@ class _Bounds:
     double: the sum of the doubled areas.
     """
 
-    def __init__(self, job: _Job, rows: list[Rows]):
-        fans = [(row.edges[:, 2 * i], row.edges[:, 1], row.sizes[:, i], row.counts[None])
-                for row in rows for i in range(row.sizes.shape[1])]
-        self.side, self.base, self.sizes, counts = fans[0] if len(fans) == 1 else (
-            np.concatenate(column, axis=1) for column in zip(*fans))
-        self.job, self.counts, self.blocks = job, counts[0], len(rows)
+    def __init__(self, job: _Job, rows: Rows):
+        self.job, self.side, self.base, self.sizes, self.counts = job, rows.side, rows.base, rows.sizes, rows.counts
+        self.blocks = rows.blocks
         self.double = float(np.add.reduce(self.sizes[1]))
         (a, b, c), (x, y, z) = self.side, self.base
         self.tau = np.array([b * z + c * y, c * x + a * z, a * y + b * x]) @ self.counts
@@ -260,7 +260,11 @@ def pairs(triangles: NDArray) -> list[NDArray] | None:
     Meshes that were triangulated from quads are like that, and two triangles that share an edge cost less than two
     loose ones. The first pair shows which of their corners meet.
     """
-    first, second = triangles[0::2], triangles[1::2]
+    return _paired(triangles[0::2], triangles[1::2])
+
+
+def _paired(first: NDArray, second: NDArray) -> list[NDArray] | None:
+    """The same where triangle i of the one array and that of the other are halves of one quad."""
     if not len(second) or len(first) != len(second):
         return None
     for i in range(3):

@@ -47,5 +47,5 @@ def few(points: NDArray, center: NDArray, triangles: NDArray, *, area: bool, she
             [np.add.reduce(weights)], np.add.reduce(weighted, axis=1), (square + single) @ weights,
             np.add.reduce(third.take(CUBE))])
 
-    return Rows(sums(det), sums(double) if shell else None, np.maximum.reduce(np.abs(edges), axis=2, keepdims=True),
-                np.array([[[np.add.reduce(np.abs(det))]], [[np.add.reduce(double)]]]), np.array([det.size]))
+    return Rows(sums(det), sums(double) if shell else None, *np.maximum.reduce(np.abs(edges), axis=2).T[:, :, None],
+                np.array([[np.add.reduce(np.abs(det))], [np.add.reduce(double)]]), np.array([det.size]))

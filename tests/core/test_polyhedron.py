@@ -27,7 +27,6 @@ def path(request, monkeypatch):
     monkeypatch.setattr(polyhedron, "BLOCK", 32)
     monkeypatch.setattr(polyhedron, "PAIRED", 0)
     monkeypatch.setattr(blocks, "CHUNK", 16)
-    monkeypatch.setattr(polyhedron, "CHUNK", 16)
     monkeypatch.setattr(polyhedron, "LEAST", 8)
     if request.param == "fast":
         monkeypatch.setattr(polyhedron, "EXACT", 0)
