@@ -25,6 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,49 +73,88 @@ def together(parts: Sequence[Rows]) -> Rows:
                 *(np.concatenate(column, axis=-1) for column in columns), sum(part.blocks for part in parts))
 
 
-class _Scratch:
-    """Contiguous rows for blocks of one shape, carved out of one buffer; some share memory when their times differ.
+def numbers(count: int, each: bool, exact: bool) -> int:
+    """How many numbers the scratch holds for a face of `count` corners; each: as of `_Calls`."""
+    fans = count - 2
+    return 6 * count + 2 * fans + max(3 * count - 3 + 6 * (fans if each else 1), 16) + (9 * fans if exact else 0)
 
-    First index: (c, k), then single: (3, c, k) in float32, later weighted: (3, c, k), later heavy: (6, c-2, k).
+
+class _Calls:
+    """What numpy does with blocks of one shape: arrays, and the calls bound to them, as to make views in the loop would
+    cost time.
+
+    The arrays are contiguous rows carved out of one buffer; some share memory when their times differ. Of faces with
+    c corners there are chunks times width, k columns:
     corners: (3, c, k). weights: (2, c-2, k), the determinants and the doubled areas.
-    First edges: (3, c-1, k), normals and spare: (3, f, k) where f is c-2 or, unless there is to be a normal of each
-    triangle, 1; later table: (13, k), the tensors' six rows and those of two vectors and a number, and middle: (3, k).
-    On request tips: (3, c-2, k), local: (6, c-2, k).
+    First index: (c, k), and single: (3, c, k) in float32; then weighted: (3, c, k); at last heavy: (6, c-2, k).
+    First edges: (3, c-1, k), b-a, c-a and a-d, with normals and spare: (3, f, k), where f is c-2, or 1 where not each
+    triangle's normal is wanted; then table: (13, k), the tensors' six rows and those of two vectors and a number, and
+    middle: (3, k). On request tips: (3, c-2, k), the vectors f, and local: (6, c-2, k), f f' + e e'.
+
+    start: the calls from the corners to the normals, weigh: those to the weights. largest, least: (3, c-1, chunks) of
+    the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. prepare: the calls that the moments with
+    all weights share, moments: those with each, and the calls that return sums.
     """
 
-    def __init__(self, buffer: NDArray, count: int, k: int, each: bool, exact: bool):
-        fans = count - 2
+    def __init__(self, buffer: NDArray, center: NDArray, count: int, chunks: int, width: int, *,
+                 each: bool, area: bool, shell: bool, exact: bool):
+        fans, k = count - 2, chunks * width
         position = -(buffer.ctypes.data // 8) % 8  # aligned to 64 bytes
 
-        def rows(number: float, width: int = k) -> NDArray[np.float64]:
+        def rows(number: float) -> NDArray[np.float64]:
             nonlocal position
-            start, position = position, position + int(number * width) + GAP
+            start, position = position, position + int(number * k) + GAP
             return buffer[start:position - GAP]
 
         self.corners, self.weights = rows(3 * count).reshape(3, count, k), rows(2 * fans).reshape(2, fans, k)
         start = position
         self.index = rows(count).view(np.intp).reshape(count, k)
+        self.unsigned = self.index.view(np.uintp)
         self.single = rows(1.5 * count).view(np.float32).reshape(3, count, k)
         position = start
         room = rows(3 * count)
-        self.weighted, self.heavy = room.reshape(3, count, k), room[:6 * fans * k].reshape(6, fans, k)
+        weighted, heavy = room.reshape(3, count, k), room[:6 * fans * k].reshape(6, fans, k)
         start = position
-        self.edges = rows(3 * count - 3).reshape(3, count - 1, k)
-        crosses = fans if each else 1
-        self.normals, self.spare = (rows(3 * crosses).reshape(3, crosses, k) for _ in range(2))
+        self.edges, crosses = rows(3 * count - 3).reshape(3, count - 1, k), fans if each else 1
+        self.normals, spare = (rows(3 * crosses).reshape(3, crosses, k) for _ in range(2))
         end, position = position, start
-        self.table, self.middle = rows(13).reshape(13, k), rows(3).reshape(3, k)
+        table, middle = rows(13).reshape(13, k), rows(3).reshape(3, k)
         position = max(position, end)
-        if exact:
-            self.tips, self.local = rows(3 * fans).reshape(3, fans, k), rows(6 * fans).reshape(6, fans, k)
-        self.apex, self.base, self.sides = self.corners[:, :1], self.edges[:, 1:2], self.edges[:, ::2]
+        tips, local = (rows(size * fans).reshape(size, fans, k) for size in (3, 6)) if exact else (None, None)
 
-    @staticmethod
-    def numbers(count: int, each: bool, exact: bool) -> int:
-        """How many numbers it holds for a face of `count` corners."""
-        fans = count - 2
-        phases = max(3 * count - 3 + 6 * (fans if each else 1), 16)
-        return 6 * count + 2 * fans + phases + (9 * fans if exact else 0)
+        def chunked(array: NDArray) -> NDArray[np.float64]:
+            return array.reshape(*array.shape[:-1], chunks, width)
+
+        corners, edges, normals = self.corners, self.edges, self.normals
+        apex, base, sides = corners[:, :1], edges[:, 1:2], edges[:, ::2]
+        self.start = [partial(np.subtract, corners[:, 1:3], apex, edges[:, :2])]
+        if fans == 2:
+            self.start.append(partial(np.subtract, corners[:, 0], corners[:, 3], edges[:, 2]))
+        self.start.append(partial(np.subtract, corners, center[:, None, None], corners))
+        self.start += _cross(*((sides, base) if each else (base, apex)), normals, spare)
+        self.largest, self.least = (partial(function.reduce, chunked(edges), axis=3)
+                                    for function in (np.maximum, np.minimum))
+
+        factors = (normals, apex[:, 0]) if each else (sides, normals[:, 0])
+        self.weigh = [partial(np.einsum, "dfk,dk->fk", *factors, out=self.weights[0])]
+        if area:
+            self.weigh += [partial(np.einsum, "dfk,dfk->fk", normals, normals, out=self.weights[1]),
+                           partial(np.sqrt, self.weights[1], self.weights[1])]
+        self.cosine = self.weights[1, 0]
+        spare = spare.reshape(-1)[:fans * k].reshape(fans, k)
+        self.weigh.append(partial(np.abs, self.weights[0], spare))
+        self.sizes = [partial(np.add.reduce, chunked(row), axis=2) for row in (spare, self.weights[1])[:1 + area]]
+
+        self.prepare = _local(sides, base, tips, local, heavy[:, :1]) if exact else []
+        self.prepare.append(partial(np.add, corners[:, 0], corners[:, 2], middle))
+        self.moments = []
+        for weights in self.weights[:1 + shell]:
+            calls = _weighted(corners, weights, weighted, table)
+            sums = [partial(np.add.reduce, table, axis=1), partial(_products, _sliced(middle), _sliced(table[:9]))]
+            if exact:
+                calls.append(partial(np.multiply, local, weights, heavy))
+                sums.append(partial(_products, _sliced(tips), _sliced(heavy)))
+            self.moments.append((calls, sums))
 
 
 class Faces:
@@ -125,17 +165,12 @@ class Faces:
     """
 
     def __init__(self, points: NDArray, center: NDArray, *, area: bool, shell: bool, exact: bool):
-        self.points, self.flat, self.center = points, points.reshape(-1), center[:, None, None]
-        self.area, self.shell, self.exact = area, shell, exact
+        self.points, self.flat, self.center = points, points.reshape(-1), center
+        self.wanted = {"area": area, "shell": shell, "exact": exact}
         self.buffer = np.empty(0)
-        self.scratch: dict[tuple[int, int, bool], _Scratch] = {}
+        self.calls: dict[tuple[int, int, int, bool], _Calls] = {}
         self.flipped: list[NDArray] = []
-        self.sums: list[list[NDArray]] = []
-        self.edges: list[NDArray] = []
-        self.sizes: list[NDArray] = []
-        self.counts: list[NDArray] = []
-
-    numbers = _Scratch.numbers
+        self.found: list[tuple[int, NDArray, NDArray, NDArray, list]] = []
 
     def block(self, faces: Sequence[NDArray], quads: bool = False) -> None:
         """Add some faces.
@@ -144,88 +179,77 @@ class Faces:
         diagonal, and append them to `flipped`, turned by one corner; otherwise the first diagonal is taken.
         ValueError where an index names no point.
         """
-        count, k = len(faces), len(faces[0])
-        chunks = -(-k // CHUNK)
-        width = -(-k // (chunks * SLICES)) * SLICES
-        each = self.area or quads
-        own = self._shaped(count, chunks * width, each)
-        for row, corner in zip(own.index, faces):
-            row[:k] = corner
-        own.index[:, k:] = faces[0][0]  # filled up with faces that are a point
-        if own.index.view(np.uintp).max() >= len(self.points):  # where a negative index is a large one
+        k = len(faces[0])
+        own = self._shaped(len(faces), k, self.wanted["area"] or quads)
+        if isinstance(faces, np.ndarray):
+            own.index[:, :k] = faces
+        else:
+            for row, corner in zip(own.index, faces):
+                row[:k] = corner
+        if k < own.index.shape[1]:
+            own.index[:, k:] = faces[0][0]  # filled up with faces that are a point
+        if own.unsigned.max() >= len(self.points):  # where a negative index is a large one
             raise ValueError(NO_VERTEX)
         self._gather(own)
-        np.subtract(own.corners[:, 1:3], own.apex, out=own.edges[:, :2])
-        if count == 4:
-            np.subtract(own.corners[:, 0], own.corners[:, 3], out=own.edges[:, 2])
-        np.subtract(own.corners, self.center, out=own.corners)
-        edges = own.edges.reshape(3, count - 1, chunks, width)
-        largest = np.maximum.reduce(edges, axis=3)
-        np.maximum(largest, -np.minimum.reduce(edges, axis=3), out=largest)
-
-        weights = own.weights[:1 + self.area]
-        if each:
-            _cross(own.sides, own.base, own.normals, own.spare)
-            flipped = self._flipped(own, largest, k) if quads else ()
-            np.einsum("dfk,dk->fk", own.normals, own.apex[:, 0], out=weights[0])
-            if self.area:
-                np.einsum("dfk,dfk->fk", own.normals, own.normals, out=weights[1])
-                np.sqrt(weights[1], out=weights[1])
-            if len(flipped):
-                weights[:, :, flipped] = 0.0
-        else:
-            _cross(own.base, own.apex, own.normals, own.spare)
-            np.einsum("dfk,dk->fk", own.sides, own.normals[:, 0], out=weights[0])
-        sizes = np.abs(weights, out=own.spare.reshape(-1)[:weights.size].reshape(weights.shape))
-        self.edges.append(largest)
-        self.sizes.append(np.add.reduce(sizes.reshape(*weights.shape[:2], chunks, width), axis=3))
-        self.counts.append(np.minimum(k - width * np.arange(chunks), width))
-        if self.exact:
-            self._prepare(own)
-        np.add(own.corners[:, 0], own.corners[:, 2], out=own.middle)
-        self.sums.append([self._summed(own, row) for row in weights[:1 + self.shell]])
+        for call in own.start:
+            call()
+        largest, least = own.largest(), own.least()
+        if quads:
+            own.normals[:, :, self._flipped(own, np.maximum(largest, -least), k)] = 0.0
+        for call in own.weigh:
+            call()
+        sizes, sums = [size() for size in own.sizes], []
+        for call in own.prepare:
+            call()
+        for calls, totals in own.moments:
+            for call in calls:
+                call()
+            sums.append([total() for total in totals])
+        self.found.append((k, largest, least, sizes, sums))
 
     def rows(self) -> Rows:
         """What all blocks together add."""
-        raw = np.add.reduce(np.array(self.sums))
-        fans = [(edges[:, 2 * i], edges[:, 1], sizes[:, i], counts) for edges, sizes, counts in
-                zip(self.edges, self.sizes, self.counts) for i in range(sizes.shape[1])]
-        side, base, sizes, counts = (np.concatenate(column, axis=-1) for column in zip(*fans))
-        if not self.area:
-            sizes = np.concatenate([sizes, np.zeros_like(sizes)])
-        return Rows(self._assembled(raw[0]), self._assembled(raw[1]) if self.shell else None, side, base, sizes,
-                    counts, len(self.counts))
+        columns = []
+        for k, largest, least, sizes, _ in self.found:
+            edges, width = np.maximum(largest, -least), _shape(k)[1]
+            counts = np.minimum(k - width * np.arange(edges.shape[2]), width)
+            columns += [(edges[:, 2 * i], edges[:, 1], counts, *fan) for i, fan in enumerate(zip(*sizes))]
+        side, base, counts, *sizes = (np.concatenate(column, axis=-1) for column in zip(*columns))
+        totals = [self._assembled(*map(sum, zip(*parts))) for parts in zip(*(sums for *_, sums in self.found))]
+        return Rows(totals[0], totals[1] if self.wanted["shell"] else None, side, base,
+                    np.array((*sizes, np.zeros_like(sizes[0]))[:2]), counts, len(self.found))
 
-    def _shaped(self, *shape: int) -> _Scratch:
-        if shape not in self.scratch:
-            count, k, each = shape
-            needed = _Scratch.numbers(count, each, self.exact) * k + 12 * GAP
-            self.scratch.clear()
+    def _shaped(self, count: int, k: int, each: bool) -> _Calls:
+        shape = (count, *_shape(k), each)
+        if shape not in self.calls:
+            chunks, width = shape[1:3]
+            needed = numbers(count, each, self.wanted["exact"]) * chunks * width + 12 * GAP
+            self.calls.clear()
             if len(self.buffer) < needed:
                 self.buffer = np.empty(0)  # never two of them
                 self.buffer = np.empty(needed)
-            self.scratch[shape] = _Scratch(self.buffer, *shape, self.exact)
-        return self.scratch[shape]
+            self.calls[shape] = _Calls(self.buffer, self.center, count, chunks, width, each=each, **self.wanted)
+        return self.calls[shape]
 
-    def _gather(self, own: _Scratch) -> None:
+    def _gather(self, own: _Calls) -> None:
         """The corners' coordinates, in float64. `index` is multiplied by 3."""
         single = self.points.dtype == np.float32
         target = own.single if single else own.corners
-        np.multiply(own.index, 3, out=own.index)
+        np.multiply(own.index, 3, own.index)
         for axis in range(3):  # the indices have been checked: "wrap" is the mode that costs least
-            self.flat[axis:].take(own.index, out=target[axis], mode="wrap")
+            self.flat[axis:].take(own.index, None, target[axis], "wrap")
         if single:
             own.corners[...] = target
 
-    def _flipped(self, own: _Scratch, largest: NDArray, k: int) -> NDArray[np.intp]:
+    def _flipped(self, own: _Calls, largest: NDArray, k: int) -> NDArray[np.intp]:
         """Those of the first k columns whose quads Blender cuts along their other diagonal, once they are appended to
         `flipped`.
 
         They are those whose two normals face away from each other in float32. That can differ from float64 only where
         the product is within float32's rounding of zero.
         """
-        cosine = np.einsum("dk,dk->k", own.normals[:, 0], own.normals[:, 1], out=own.weights[1, 0])
-        cosine[k:] = np.inf
+        cosine = np.einsum("dk,dk->k", own.normals[:, 0], own.normals[:, 1], out=own.cosine)
+        cosine[k:] = np.inf  # where the block is filled up
         if self.points.dtype == np.float32:
             length = np.sqrt((largest ** 2).sum(axis=0))
             margin = FLIP_MARGIN * length[0] * length[1] ** 2 * length[2]
@@ -244,59 +268,67 @@ class Faces:
         self.flipped.append(np.roll(quads[:, turn], -1, axis=0))
         return suspects[turn]
 
-    def _prepare(self, own: _Scratch) -> None:
-        """`tips`, the vectors f, and `local`, f f' + e e', of every triangle."""
-        base, squares = own.base[:, 0], own.heavy[:, 0]
-        np.multiply(own.sides, [[2.0], [-2.0]][:own.sides.shape[1]], out=own.tips)
-        np.subtract(own.tips, own.base, out=own.tips)
-        for vectors, tensors in ((own.tips, own.local), (base, squares)):
-            np.multiply(vectors, vectors[0], out=tensors[:3])
-            np.multiply(vectors[1:], vectors[1], out=tensors[3:5])
-            np.multiply(vectors[2], vectors[2], out=tensors[5])
-        np.add(own.local, squares[:, None], out=own.local)
-
-    def _summed(self, own: _Scratch, weights: NDArray) -> NDArray[np.float64]:
-        """The block's sums with these weights of its triangles, as `_assembled` takes them."""
-        corners, weighted, table = own.corners, own.weighted, own.table
-        both, half = table[9:12], table[12]
-        if len(weights) == 2:
-            np.add(weights[0], weights[1], out=half)
-        np.multiply(half if len(weights) == 2 else weights[0], 0.5, out=half)
-        np.multiply(corners[:, ::2], half, out=weighted[:, ::2])
-        np.multiply(corners[:, 1::2], weights, out=weighted[:, 1::2])
-        np.einsum("nk,dnk->dk", weighted[0], corners, out=table[:3])
-        np.einsum("nk,dnk->dk", weighted[1], corners[1:], out=table[3:5])
-        np.einsum("nk,nk->k", weighted[2], corners[2], out=table[5])
-        np.add(weighted[:, 0], weighted[:, 2], out=both)
-        np.add(both, weighted[:, 1], out=table[6:9])
-        if len(weights) == 2:
-            np.add(table[6:9], weighted[:, 3], out=table[6:9])
-        parts = [np.add.reduce(table, axis=1), _products(own.middle, table[:9])]
-        if self.exact:
-            np.multiply(own.local, weights, out=own.heavy)
-            parts.append(_products(own.tips.reshape(3, -1), own.heavy.reshape(6, -1)))
-        return np.concatenate(parts, axis=None)
-
-    def _assembled(self, raw: NDArray) -> NDArray[np.float64]:
-        """(20,) `Rows.sums` from the sums of the table's rows and their products with the middles."""
-        mixed = 0.5 * np.add.reduce(raw[13:40].take(SQUARE))
-        third = 10.0 * np.add.reduce(raw[13:40].take(CUBE))
-        total = 2.0 * np.concatenate([raw[12:13], raw[6:9] + raw[9:12], raw[:6] + mixed, third])
-        if self.exact:
-            total[10:] += np.add.reduce(raw[40:].take(CUBE - CUBE // 9 * 3))  # in a table without x, y, z
+    @staticmethod
+    def _assembled(rows: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
+        """(20,) `Rows.sums` from the sums of the table's rows, (13,), and the products that have been summed."""
+        mixed = 0.5 * np.add.reduce(products.take(SQUARE))
+        third = 10.0 * np.add.reduce(products.take(CUBE))
+        total = 2.0 * np.concatenate([rows[12:], rows[6:9] + rows[9:12], rows[:6] + mixed, third])
+        if local is not None:
+            total[10:] += np.add.reduce(local.take(CUBE - CUBE // 9 * 3))  # in a table without x, y, z
         return total
 
 
-def _cross(first: NDArray, second: NDArray, out: NDArray, spare: NDArray) -> None:
-    """(3, f, k) the cross products of (3, f, k) with (3, 1, k) rows of x, y and z."""
-    np.multiply(first[1:], second[::-2], out=out[:2])  # y z', z x'
-    np.multiply(first[0], second[1], out=out[2])
-    np.multiply(first[::-2], second[1:], out=spare[:2])  # z y', x z'
-    np.multiply(first[1], second[0], out=spare[2])
-    np.subtract(out, spare, out=out)
+def _shape(k: int) -> tuple[int, int]:
+    """How many chunks hold k columns, and of what width."""
+    chunks = -(-k // CHUNK)
+    return chunks, -(-k // (chunks * SLICES)) * SLICES
+
+
+def _cross(first: NDArray, second: NDArray, out: NDArray, spare: NDArray) -> list[partial]:
+    """The calls for (3, f, k) cross products of (3, f, k) with (3, 1, k) rows of x, y and z."""
+    return [partial(np.multiply, first[1:], second[::-2], out[:2]),  # y z', z x'
+            partial(np.multiply, first[0], second[1], out[2]),
+            partial(np.multiply, first[::-2], second[1:], spare[:2]),  # z y', x z'
+            partial(np.multiply, first[1], second[0], spare[2]),
+            partial(np.subtract, out, spare, out)]
+
+
+def _local(sides: NDArray, base: NDArray, tips: NDArray, local: NDArray, squares: NDArray) -> list[partial]:
+    """The calls for the vectors f and for f f' + e e' of every triangle."""
+    calls = [partial(np.multiply, sides, np.array([[2.0], [-2.0]])[:sides.shape[1]], tips),
+             partial(np.subtract, tips, base, tips)]
+    for vectors, tensors in ((tips, local), (base, squares)):
+        calls += [partial(np.multiply, vectors, vectors[0], tensors[:3]),
+                  partial(np.multiply, vectors[1:], vectors[1], tensors[3:5]),
+                  partial(np.multiply, vectors[2], vectors[2], tensors[5])]
+    return [*calls, partial(np.add, local, squares, local)]
+
+
+def _weighted(corners: NDArray, weights: NDArray, weighted: NDArray, table: NDArray) -> list[partial]:
+    """The calls for the weighted corners, and for the table: half of H, of Z, of u q and of u."""
+    both, every, half = table[9:12], table[6:9], table[12]
+    if len(weights) == 2:
+        calls = [partial(np.add, weights[0], weights[1], half), partial(np.multiply, half, 0.5, half)]
+    else:
+        calls = [partial(np.multiply, weights[0], 0.5, half)]
+    calls += [partial(np.multiply, corners[:, ::2], half, weighted[:, ::2]),
+              partial(np.multiply, corners[:, 1::2], weights, weighted[:, 1::2]),
+              partial(np.einsum, "ck,dck->dk", weighted[0], corners, out=table[:3]),
+              partial(np.einsum, "ck,dck->dk", weighted[1], corners[1:], out=table[3:5]),
+              partial(np.einsum, "ck,ck->k", weighted[2], corners[2], out=table[5]),
+              partial(np.add, weighted[:, 0], weighted[:, 2], both),
+              partial(np.add, both, weighted[:, 1], every)]
+    if len(weights) == 2:
+        calls.append(partial(np.add, every, weighted[:, 3], every))
+    return calls
+
+
+def _sliced(rows: NDArray) -> NDArray[np.float64]:
+    """(m, SLICES, ·) rows whose products can be summed."""
+    return rows.reshape(len(rows), SLICES, -1)
 
 
 def _products(vectors: NDArray, others: NDArray) -> NDArray[np.float64]:
-    """(m, n) the scalar products of (m, k) rows with (n, k) rows."""
-    return np.add.reduce(np.einsum("cjk,pjk->cpk", vectors.reshape(len(vectors), SLICES, -1),
-                                   others.reshape(len(others), SLICES, -1)), axis=2)
+    """(m, n) the scalar products of m rows with n."""
+    return np.add.reduce(np.einsum("cjk,pjk->cpk", vectors, others), axis=2)

@@ -29,7 +29,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import NO_VERTEX, TRIPLES, Faces, Rows, together
+from .blocks import NO_VERTEX, TRIPLES, Faces, Rows, numbers, together
 from .moments import Moments, U, monomials
 from .small import few
 from .surface import Surface, all_there
@@ -152,7 +152,7 @@ class _Job:
         """The faces in as few blocks as the memory allows, a multiple of the threads: (k, 4) quads, or (k, 3)
         triangles, or two arrays of triangles of which each may be half a quad."""
         memory = (MEMORY[0] * self.count + MEMORY[1]) // threads
-        size = max(1, min(BLOCK, memory // (8 * Faces.numbers(3, self.area, self.exact))))
+        size = max(1, min(BLOCK, memory // (8 * numbers(3, self.area, self.exact))))
         size = -(-self.count // (threads * -(-self.count // (threads * size))))
         size += size % 2
         triangles, half = surface.triangles, len(surface.triangles) // 2
