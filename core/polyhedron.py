@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from math import isfinite
+from math import hypot, isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +46,8 @@ EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
 FACTORS = np.sort([[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS])  # of 1, x, y, z
 DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # of the sums of `blocks`
+PRODUCTS = 8.0 * DEGREE  # u: what products of weights and nodes are off by
+THIRDS = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come to as much again at most
 CONE = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 TO_AREA = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
 
@@ -85,7 +87,7 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
     low, high = finite_box(surface)
     center = middle(low, high, points.dtype) if about is None else np.asarray(about, np.float64)
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
-    largest = reach.max()
+    largest = max(reach.tolist())
     if largest and not 1.0 / RANGE < largest < RANGE:
         return _rescaled(surface, int(np.log2(largest)), threads, about, area=area, shell=shell,
                          exact=exact)
@@ -107,7 +109,7 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
 def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The least and the largest coordinates. ValueError where they are not finite."""
     low, high = surface.box
-    if not all(map(isfinite, [*low, *high])):
+    if not all(map(isfinite, low.tolist() + high.tolist())):
         raise ValueError("the coordinates are not all finite")
     return low, high
 
@@ -187,66 +189,64 @@ class _Job:
         volume = Moments(raw, self.center, "volume", *bounds.volume(raw))
         if not self.area:
             return volume, Moments(np.zeros(1), self.center, "area")
-        raw = rows.areas / (DIVISORS / TO_AREA) if self.shell else np.array([bounds.double / 2.0])
+        raw = rows.areas / (DIVISORS / TO_AREA) if self.shell else np.array([bounds.sizes[1] / 2.0])
         return volume, Moments(raw, self.center, "area", *bounds.area(raw))
 
 
 class _Bounds:
     """What the numbers may be off by, from the largest edges of each chunk of triangles and the sums of their sizes.
 
-    double: the sum of the doubled areas.
+    sizes: the sum of the |determinants| and that of the doubled areas. tau: the sum of each τ. powers: (20,) the
+    largest value of each monomial within reach. moved: (20,) the same for points that float32 has moved, by `step` at
+    most; swept: the volume that a closed surface sweeps then. edges: what bounds the sum of the lengths of the edges
+    at the triangles' first corners.
     """
 
     def __init__(self, job: _Job, rows: Rows):
-        self.job, self.side, self.base, self.sizes, self.counts = job, rows.side, rows.base, rows.sizes, rows.counts
-        self.blocks = rows.blocks
-        self.double = float(np.add.reduce(self.sizes[1]))
-        (a, b, c), (x, y, z) = self.side, self.base
-        self.tau = np.array([b * z + c * y, c * x + a * z, a * y + b * x]) @ self.counts
+        self.job, self.rows = job, rows
+        self.sizes, self.count = np.add.reduce(rows.sizes, axis=1).tolist(), int(np.add.reduce(rows.counts))
+        products = ((rows.side * rows.counts) @ rows.base.T).tolist()
+        self.tau = [products[i][j] + products[j][i] for i, j in ((1, 2), (2, 0), (0, 1))]
+        self.powers = _powers(job.reach)
+        self.step = hypot(*job.half_ulp.tolist())
+        if self.step:
+            step, double = self.step, self.sizes[1] * (1.0 + 1e-9) if job.area else hypot(*self.tau)
+            lengths = np.sqrt(np.add.reduce(rows.side ** 2)) + np.sqrt(np.add.reduce(rows.base ** 2))
+            self.edges = float(lengths @ rows.counts)
+            self.swept = step * (double / 2.0 + step * self.edges + 2.0 * step ** 2 * self.count)
+            self.moved = _powers(job.reach + job.half_ulp)
 
     def volume(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(20,) and (20,) `error` and `input` of volume moments."""
-        error = self._error(raw, 9.0 * U * (self.job.reach @ self.tau), self.sizes[0]) / CONE
-        if not self.job.half_ulp.any():
-            return error + 8.0 * U * np.abs(raw), np.zeros(20)
-        return error + 8.0 * U * np.abs(raw), self._swept() * _powers(self.job.reach + self.job.half_ulp)
+        x, y, z = self.job.reach.tolist()
+        weight = 9.0 * U * (x * self.tau[0] + y * self.tau[1] + z * self.tau[2])
+        error = self._error(weight, 0) / CONE + 8.0 * U * np.abs(raw)
+        return error, self.swept * self.moved if self.step else np.zeros(20)
 
     def area(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(k,) and (k,) `error` and `input` of area moments."""
-        error = self._error(raw, 9.0 * U * self.tau.sum(), self.sizes[1]) / 2.0 + 8.0 * U * np.abs(raw)
-        if not self.job.half_ulp.any():
+        error = self._error(9.0 * U * sum(self.tau), 1)[:len(raw)] / 2.0 + 8.0 * U * np.abs(raw)
+        if not self.step:
             return error, np.zeros(len(raw))
-        half_ulp, reach = self.job.half_ulp, self.job.reach + self.job.half_ulp
-        step = np.linalg.norm(half_ulp)
-        turned = step * (self._edges() + 2.0 * step * self.counts.sum())
-        share = half_ulp / np.where(reach > 0.0, reach, 1.0)  # of an axis along which it has no extent
-        moved = _powers(reach) * (turned + EXPONENTS @ share * (self._swept() / step))
-        return error, moved[:len(raw)]
+        turned = self.step * (self.edges + 2.0 * self.step * self.count)
+        reach = self.job.reach + self.job.half_ulp
+        share = self.job.half_ulp / np.where(reach > 0.0, reach, 1.0)  # of an axis along which it has no extent
+        return error, (self.moved * (turned + EXPONENTS @ share * (self.swept / self.step)))[:len(raw)]
 
-    def _error(self, raw: NDArray, weight: float, sizes: NDArray) -> NDArray[np.float64]:
-        """The error of Σ w E[f]: the weights are off by `weight` in all; then their products with the nodes, the sums,
-        what underflow may lose and the rest of the third order."""
-        job, size = self.job, sizes.sum() * (1.0 + 1e-9)
+    def _error(self, weight: float, which: int) -> NDArray[np.float64]:
+        """(20,) The error of Σ w E[f], w the determinants or the doubled areas: the weights are off by `weight` in all;
+        then their products with the nodes, the sums, what underflow may lose and the rest of the third order."""
+        job, rows, size = self.job, self.rows, self.sizes[which] * (1.0 + 1e-9)
         # A product of matrices may add up one by one.
-        rounding = U * (8.0 * DEGREE + (3.0 * job.count if job.count <= FEW else PAIRWISE + self.blocks))
-        error = (weight + rounding * (size + weight) + 1e-290 * self.counts.sum()) * _powers(job.reach)
-        error[10:] *= 2.0  # the third moments about the middles come to as much again at most
+        steps = 3.0 * job.count if job.count <= FEW else PAIRWISE + rows.blocks
+        error = (weight + 1e-290 * self.count + (U * (size + weight)) * (PRODUCTS + steps)) * self.powers
+        error *= THIRDS
         if not job.exact:
-            e, f = self.base, self.side + self.base / 2.0
+            e, f = rows.base, rows.side + rows.base / 2.0
             rest = [f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
                     for i, j, k in TRIPLES]
-            error[10:] += (1.0 + 1e-9) * (np.array(rest) @ sizes)
-        return error[:len(raw)]
-
-    def _edges(self) -> float:
-        """What bounds the sum of the lengths of the edges at the triangles' first corners."""
-        return (np.sqrt((self.side ** 2).sum(axis=0)) + np.sqrt((self.base ** 2).sum(axis=0))) @ self.counts
-
-    def _swept(self) -> float:
-        """The volume that the surface sweeps when its points move by their half ulps, for a closed surface."""
-        step = np.linalg.norm(self.job.half_ulp)
-        double = self.double * (1.0 + 1e-9) if self.job.area else np.linalg.norm(self.tau)
-        return step * (double / 2.0 + step * self._edges() + 2.0 * step ** 2 * self.counts.sum())
+            error[10:] += (1.0 + 1e-9) * (np.array(rest) @ rows.sizes[which])
+        return error
 
 
 def _powers(reach: NDArray) -> NDArray[np.float64]:

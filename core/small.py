@@ -20,7 +20,7 @@ ROWS, COLUMNS = np.triu_indices(3)
 ABOVE, BELOW = [1, 2, 0], [2, 0, 1]
 # Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, the three terms of each symmetric product stand.
 CUBE = np.array([[6 * i + TENSOR[j, k], 6 * j + TENSOR[i, k], 6 * k + TENSOR[i, j]] for i, j, k in TRIPLES]).T
-FACTORS = np.repeat([1.0, 2.0, 1.0, 4.0 / 3.0], [1, 3, 6, 10])  # of the sums of `blocks`, to whose divisors these bring
+FACTORS = np.repeat([1.0, 2.0, 1.0, 8.0 / 3.0], [1, 3, 6, 10])  # of the sums of `blocks`, to whose divisors these bring
 
 
 def few(points: NDArray, center: NDArray, triangles: NDArray, *, area: bool, shell: bool) -> Rows:
@@ -30,22 +30,26 @@ def few(points: NDArray, center: NDArray, triangles: NDArray, *, area: bool, she
     """
     corners = points.T.astype(np.float64).take(triangles.T, axis=1)  # (3, 3, m): x, y, z of a, b, c
     edges = corners[:, 1:] - corners[:, :1]
-    first, second = edges[:, 0], edges[:, 1]
-    normals = first.take(ABOVE, 0) * second.take(BELOW, 0) - first.take(BELOW, 0) * second.take(ABOVE, 0)
-    corners -= center[:, None, None]
-    det = np.add.reduce(normals * corners[:, 0])
-    double = np.sqrt(np.add.reduce(normals * normals)) if area else np.zeros_like(det)
-    summed, pairs = np.add.reduce(corners, axis=1), corners.take(ROWS, 0) * corners.take(COLUMNS, 0)
-    both = summed.take(ROWS, 0) * summed.take(COLUMNS, 0), np.add.reduce(pairs, axis=1)
+    above, below = edges.take(ABOVE, 0), edges.take(BELOW, 0)
+    normals = above[:, 0] * below[:, 1] - below[:, 0] * above[:, 1]
+    nodes = np.empty((3, 4, len(triangles)))  # a, b, c and s
+    np.subtract(corners, center[:, None, None], nodes[:, :3])
+    np.add.reduce(nodes[:, :3], axis=1, out=nodes[:, 3])
+    det = np.add.reduce(normals * nodes[:, 0])
+    double = np.sqrt(np.add.reduce(normals * normals)) if area else np.zeros(1)
+    products = nodes.take(ROWS, 0) * nodes.take(COLUMNS, 0)  # (6, 4, m)
+    single = np.add.reduce(products[:, :3], axis=1)
+    second = products[:, 3] + single
+    np.add(0.5 * second, single, products[:, 3])
 
     def sums(weights: NDArray) -> NDArray[np.float64]:
-        square, single = both
-        weighted = summed * weights
-        third = weighted @ (square + 3.0 * single).T
-        third += 2.0 * ((corners * weights).reshape(3, -1) @ pairs.reshape(6, -1).T)
+        weighted = nodes * weights
+        first = np.add.reduce(weighted[:, 3], axis=1)
+        third = weighted.reshape(3, -1) @ products.reshape(6, -1).T
         return FACTORS * np.concatenate([
-            [np.add.reduce(weights)], np.add.reduce(weighted, axis=1), (square + single) @ weights,
-            np.add.reduce(third.take(CUBE))])
+            [np.add.reduce(weights)], first, second @ weights, np.add.reduce(third.take(CUBE))])
 
-    return Rows(sums(det), sums(double) if shell else None, *np.maximum.reduce(np.abs(edges), axis=2).T[:, :, None],
-                np.array([[np.add.reduce(np.abs(det))], [np.add.reduce(double)]]), np.array([det.size]))
+    edges = np.maximum.reduce(np.abs(edges), axis=2)
+    sizes = np.array([np.add.reduce(np.abs(det)), np.add.reduce(double)])
+    return Rows(sums(det), sums(double) if shell else None, edges[:, :1], edges[:, 1:], sizes[:, None],
+                np.array([len(det)]))
