@@ -17,6 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 from .moments import SECOND, Moments, U, monomial_count, sum_moments
 from .pose import PrincipalFrame, principal_frame
 
+IDENTITY = np.eye(3)
+
 
 @dataclass(frozen=True, eq=False)
 class MassProperties:
@@ -47,8 +49,8 @@ class MassProperties:
             raise ValueError("The body has no volume.")
         frame = principal_frame(moments, prefer, refine, higher)
         shift = moments.raw[1:4] / total
-        second = density * (moments.raw[SECOND] - total * np.outer(shift, shift))
-        inertia = np.trace(second) * np.eye(3) - second
+        second = density * (moments.raw[SECOND] - total * (shift[:, None] * shift))
+        inertia = second.trace() * IDENTITY - second
         return cls(
             mass=float(density * total), center=moments.about + shift, inertia=inertia,
             principal=replace(frame, moments=density * frame.moments),
@@ -93,12 +95,12 @@ def _bounds(moments: Moments, density: float, delta: NDArray, rounded: bool) -> 
     least = total - delta[0]
     first, shift = np.abs(moments.raw[1:4]), np.abs(moments.raw[1:4]) / total
     center = np.linalg.norm((delta[1:4] + shift * delta[0]) / least)
-    cross = np.outer(delta[1:4], shift)
-    second = delta[SECOND] + (cross + cross.T) * (total / least) + np.outer(shift, shift) * delta[0]
-    second = second + np.outer(delta[1:4], delta[1:4]) / least
+    cross = delta[1:4, None] * shift
+    second = delta[SECOND] + (cross + cross.T) * (total / least) + shift[:, None] * shift * delta[0]
+    second = second + delta[1:4, None] * delta[1:4] / least
     if rounded:
         center += 2.0 * U * np.linalg.norm(np.abs(moments.about) + 2.0 * shift)
-        second = second + 6.0 * U * (np.abs(moments.raw[SECOND]) + np.outer(first, shift))
-    inertia = np.linalg.norm(np.trace(second) * np.eye(3) + second)
+        second = second + 6.0 * U * (np.abs(moments.raw[SECOND]) + first[:, None] * shift)
+    inertia = np.linalg.norm(second.trace() * IDENTITY + second)
     return {"mass": float(abs(density) * (delta[0] + (U * total if rounded else 0.0))), "center": float(center),
             "inertia": float(abs(density) * inertia)}

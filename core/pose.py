@@ -28,6 +28,10 @@ from .moments import SECOND, THIRD, Moments
 
 EQUAL = 1e-6  # moments closer than this, relatively, are equal
 RANKED = 1e-4  # scores closer than this, relatively, are equally clear
+# For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.
+PARTNERS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
+ITSELF = np.arange(3)[:, None]
+TURNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])  # keep the frame's hand
 
 NOTES = {
     "isotropic": "Every axis through the center is a principal axis; the object's own axes are used",
@@ -166,36 +170,24 @@ def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float
     symmetry = ("isotropic" if equal.all() else "oblate" if equal[0] else "prolate" if equal[1] else "asymmetric")
 
     free = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}[symmetry]
-    scores = np.zeros(3)
-    noise = looser * NOISE + 4.0 * step / np.minimum(size[:, None], _partners(size))
+    noise = looser * NOISE + 4.0 * step / np.minimum(size[:, None], size[PARTNERS])
     real = size * np.sqrt(scale)
-    if len(free) < 3:
-        scores = _scores(moments, shift, real, axes, free, noise, refine)
     skew, doubt = _third_scores(moments, shift, real, axes)
+    scores, fixed = np.zeros(3), [i for i in range(3) if i not in free]
+    if fixed:
+        third = skew, doubt
+        if refine is not None and not _decided(np.abs(skew[fixed]), doubt[fixed], noise[fixed]):
+            third = _third_scores(refine(), shift, real, axes)
+        scores[fixed] = [_score(*rows) for rows in zip(*(rows[fixed].tolist() for rows in (*third, noise)))]
     inertia = (spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total)
     extents = Spread(axes, real, free, step * np.sqrt(scale), tilt, looser * NOISE)
     return _Fixed(inertia, extents, symmetry, _allowed(axes, scores), skew[:, 0], noise[:, 0] + doubt[:, 0])
 
 
-def _partners(size: NDArray) -> NDArray[np.float64]:
-    """(3, 3) for each axis i the extents along i, j and k, the axes that its third moments M_iii, M_ijj, M_ikk pair."""
-    return np.array([np.roll(size, -i) for i in range(3)])
-
-
-def _scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray, free: tuple[int, ...],
-            noise: NDArray, refine: Callable[[], Moments] | None) -> NDArray[np.float64]:
-    """(3,) how clearly third moments point along each axis, signed; zero where they do not, and for free axes.
-
-    size: (3,) the extents (standard deviations) along the axes. noise: (3, 3) below which a score is none."""
-    scores, doubt = _third_scores(moments, shift, size, axes)
-    fixed = [i for i in range(3) if i not in free]
-    if refine is not None and not _decided(np.abs(scores[fixed]), doubt[fixed], noise[fixed]):
-        scores, doubt = _third_scores(refine(), shift, size, axes)
-    result = np.zeros(3)
-    for i in fixed:
-        usable = [value for value, least in zip(scores[i], noise[i] + doubt[i]) if abs(value) > least]
-        result[i] = usable[0] if usable else 0.0
-    return result
+def _score(scores: list[float], doubts: list[float], noises: list[float]) -> float:
+    """How clearly third moments point along an axis, signed; zero where they do not. noises: below which a score is
+    none."""
+    return next((value for value, doubt, noise in zip(scores, doubts, noises) if abs(value) > noise + doubt), 0.0)
 
 
 def _decided(size: NDArray, doubt: NDArray, noise: NDArray) -> bool:
@@ -221,14 +213,10 @@ def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray
     cross = shift[:, None, None] * second
     third = third - cross - cross.transpose(1, 0, 2) - cross.transpose(1, 2, 0) + 2.0 * shift[:, None, None] * outer
     error = (moments.error[THIRD] + 3.0 * np.abs(shift).max() * moments.error[SECOND].max()) / total
-    turned, turned_error = np.einsum("abc,ai->ibc", third, axes), np.einsum("abc,ai->ibc", error, np.abs(axes))
-    scores, doubt = np.zeros((2, 3, 3))
-    for i in range(3):
-        for column, j in enumerate((i, (i + 1) % 3, (i + 2) % 3)):
-            unit = size[i] * size[j] ** 2
-            scores[i, column] = axes[:, j] @ turned[i] @ axes[:, j] / unit
-            doubt[i, column] = np.abs(axes[:, j]) @ turned_error[i] @ np.abs(axes[:, j]) / unit
-    return scores, doubt
+    squares = (axes[:, None] * axes).reshape(9, 3)
+    unit = size[:, None] * size[PARTNERS] ** 2
+    scores, doubt = axes.T @ third.reshape(3, 9) @ squares, np.abs(axes.T) @ error.reshape(3, 9) @ np.abs(squares)
+    return scores[ITSELF, PARTNERS] / unit, doubt[ITSELF, PARTNERS] / unit
 
 
 def _allowed(axes: NDArray, scores: NDArray) -> NDArray[np.float64]:
@@ -237,8 +225,7 @@ def _allowed(axes: NDArray, scores: NDArray) -> NDArray[np.float64]:
     fixed = [i for i in range(3) if scores[i]]
     if len(fixed) == 3:  # the weakest gives way; of equal ones the last
         fixed.remove(max(i for i in fixed if size[i] <= size.min() * (1.0 + RANKED)))
-    return np.array([axes * signs for signs in product((1.0, -1.0), repeat=3)
-                     if np.prod(signs) > 0.0 and all(scores[i] * signs[i] > 0.0 for i in fixed)])
+    return axes * TURNS[(TURNS[:, fixed] * scores[fixed] > 0.0).all(axis=1), None]
 
 
 def settled(frame: NDArray, free: tuple[int, ...], prefer: NDArray) -> NDArray[np.float64]:
