@@ -205,14 +205,15 @@ class _Bounds:
     def __init__(self, job: _Job, rows: Rows):
         self.job, self.rows = job, rows
         self.sizes, self.count = np.add.reduce(rows.sizes, axis=1).tolist(), int(np.add.reduce(rows.counts))
-        products = ((rows.side * rows.counts) @ rows.base.T).tolist()
+        # No product of matrices, after which the threads of some BLAS keep a core busy for a while.
+        products = np.einsum("in,jn,n->ij", rows.side, rows.base, rows.counts).tolist()
         self.tau = [products[i][j] + products[j][i] for i, j in ((1, 2), (2, 0), (0, 1))]
         self.powers = _powers(job.reach)
         self.step = hypot(*job.half_ulp.tolist())
         if self.step:
             step, double = self.step, self.sizes[1] * (1.0 + 1e-9) if job.area else hypot(*self.tau)
             lengths = np.sqrt(np.add.reduce(rows.side ** 2)) + np.sqrt(np.add.reduce(rows.base ** 2))
-            self.edges = float(lengths @ rows.counts)
+            self.edges = float(np.add.reduce(lengths * rows.counts))
             self.swept = step * (double / 2.0 + step * self.edges + 2.0 * step ** 2 * self.count)
             self.moved = _powers(job.reach + job.half_ulp)
 
@@ -245,7 +246,7 @@ class _Bounds:
             e, f = rows.base, rows.side + rows.base / 2.0
             rest = [f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
                     for i, j, k in TRIPLES]
-            error[10:] += (1.0 + 1e-9) * (np.array(rest) @ rows.sizes[which])
+            error[10:] += (1.0 + 1e-9) * np.add.reduce(rest * rows.sizes[which], axis=1)
         return error
 
 
