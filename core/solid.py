@@ -231,8 +231,7 @@ def _used(surface: Surface) -> tuple[Surface, NDArray[np.intp] | None, float]:
         number = np.cumsum(used) - 1
         surface = replace(
             surface, points=points[used], triangles=number[surface.triangles], quads=number[surface.quads],
-            corner_vertices=None if surface.corner_vertices is None else number[surface.corner_vertices],
-            edges=None if surface.edges is None else number[surface.edges])
+            corner_vertices=None if surface.corner_vertices is None else number[surface.corner_vertices])
     low, high = surface.box
     with np.errstate(invalid="ignore", over="ignore"):
         size = float(np.linalg.norm(high - low))
@@ -257,19 +256,13 @@ def _proven(surface: Surface) -> Mended | None:
     sides = closed_sides(surface)
     if sides is None:
         return None
-    quad_faces, triangle_faces = mesh_faces(surface)
-    present = np.zeros(max(quad_faces.max(initial=-1), triangle_faces.max(initial=-1)) + 1, bool)
-    present[quad_faces] = present[triangle_faces] = True
-    number = np.arange(len(present))
-    if not present.all():
-        number = np.cumsum(present) - 1
-        sides = number[sides]
-    shell, shells = components(int(number[-1]) + 1, sides[:, 0], sides[:, 1])
-    triangles, face = surface.triangles[:0], triangle_faces[:0]
+    shell, shells = components(int(sides.max()) + 1, sides[:, 0], sides[:, 1])
+    triangles, face = surface.triangles[:0], shell[:0]
     if shells > 1:
+        quad_faces, triangle_faces = mesh_faces(surface)
         triangles = np.concatenate([surface.quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3), surface.triangles])
         face = np.concatenate([np.repeat(quad_faces, 2), triangle_faces])
-    return Mended(surface.points, triangles, face, np.zeros(len(face), bool), shell[number[face]], shells,
+    return Mended(surface.points, triangles, face, np.zeros(len(face), bool), shell[face], shells,
                   np.zeros(shells, bool), np.zeros((shells, 3)), counts={"closed": True, "components": shells})
 
 

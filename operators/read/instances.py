@@ -229,6 +229,9 @@ class Gathered:
         return (key, _of_object(owner)) if self.materials and owner is not None else key
 
     def _read(self, mesh, owner) -> tuple[Surface, Painted]:
+        if not len(mesh.polygons):
+            vertices, edges = self.faceless
+            self.faceless = (vertices + len(mesh.vertices), edges + len(mesh.edges))
         return mesh_surface(mesh), self._paint(mesh, owner)
 
     def _paint(self, mesh, owner) -> Painted:
@@ -258,11 +261,7 @@ class Gathered:
         self, key: Hashable, read: Callable[[], tuple[Surface, Painted]], places: NDArray
     ) -> None:
         if key not in self._surfaces:
-            surface, self._painted[key] = read()
-            self._surfaces[key] = surface
-            if not len(surface.triangles) and not len(surface.quads):
-                vertices, edges = self.faceless
-                self.faceless = (vertices + len(surface.points), edges + len(surface.edges))
+            self._surfaces[key], self._painted[key] = read()
         self._places.setdefault(key, []).append(places)
 
     def _count_surfaceless(self, geometry, count: int) -> None:

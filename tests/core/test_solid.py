@@ -392,7 +392,7 @@ def test_loose_vertices_and_edges_change_nothing():
     result = measure_solid(plain)
     loose = replace(plain, points=np.concatenate([[[1e6, np.nan, np.inf]], points, [[-1e5, 0, 0]]]),
                     quads=plain.quads + 1, corner_vertices=plain.corner_vertices + 1,
-                    edges=np.concatenate([plain.edges + 1, [[0, 5], [0, len(points) + 1]]]))
+                    corner_edges=plain.corner_edges + 1)
     other = measure_solid(loose)
     np.testing.assert_array_equal(other.volume.raw, result.volume.raw)
     assert other.health.as_record() == result.health.as_record() and other.warnings == ()
