@@ -294,7 +294,7 @@ def blender(side: int, rounds: int) -> None:
     depsgraph = bpy.context.evaluated_depsgraph_get()
 
     def moments_only(threads: int) -> None:
-        (part,) = read_object(body, depsgraph).parts
+        (part,) = read_object(body, depsgraph, edges=False).parts
         volume = solid_and_area(part.surface, threads)[0].mapped(part.matrices[0])
         MassProperties.from_moments(volume, refine=lambda: third_moments_exact(part.surface, threads))
 

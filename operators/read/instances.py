@@ -44,13 +44,16 @@ class Gathered:
     sources: the original objects that were read, without the first.
     vanished: how many instances are scaled to nothing.
     splines: of each evaluated surface object that was read, its patches, None where its mesh has to do.
-    materials, attribute: whether the faces' materials are wanted, and the name of the vertices' attribute.
+    materials, attribute, edges: whether the faces' materials are wanted, the name of the vertices' attribute, and
+        whether the edges at the corners are.
     """
 
-    def __init__(self, root, depsgraph, materials: bool = False, attribute: str | None = None):
+    def __init__(
+        self, root, depsgraph, materials: bool = False, attribute: str | None = None, edges: bool = True
+    ):
         self.root = root
         self.depsgraph = depsgraph
-        self.materials, self.attribute = materials, attribute
+        self.materials, self.attribute, self.edges = materials, attribute, edges
         # A geometry set owns the meshes that it hands out, and the keys are their addresses.
         self._owners: list[object] = []
         self._forget()
@@ -232,7 +235,7 @@ class Gathered:
         if not len(mesh.polygons):
             vertices, edges = self.faceless
             self.faceless = (vertices + len(mesh.vertices), edges + len(mesh.edges))
-        return mesh_surface(mesh), self._paint(mesh, owner)
+        return mesh_surface(mesh, edges=self.edges), self._paint(mesh, owner)
 
     def _paint(self, mesh, owner) -> Painted:
         vertices = None

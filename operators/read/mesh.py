@@ -32,15 +32,17 @@ BLOCK = 1 << 15
 Read = TypeVar("Read")
 
 
-def mesh_surface(mesh) -> Surface:
+def mesh_surface(mesh, *, edges: bool = True) -> Surface:
     """The polygons of a `bpy.types.Mesh` as copied arrays, float32 points in the mesh's own
-    coordinates."""
+    coordinates.
+
+    edges: with the edge at each corner, which takes a fifth of the time.
+    """
     points = _attribute(mesh, "position", "vector", (len(mesh.vertices), 3), np.float32)
     corners = _attribute(mesh, ".corner_vert", "value", (len(mesh.loops),), np.int32)
-    topology = {
-        "corner_vertices": corners,
-        "corner_edges": _attribute(mesh, ".corner_edge", "value", corners.shape, np.int32),
-    }
+    topology = {"corner_vertices": corners}
+    if edges:
+        topology["corner_edges"] = _attribute(mesh, ".corner_edge", "value", corners.shape, np.int32)
     faces = len(mesh.polygons)
     if not faces:
         return Surface(points, **topology)
