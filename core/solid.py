@@ -256,7 +256,7 @@ def _proven(surface: Surface) -> Mended | None:
     sides = closed_sides(surface)
     if sides is None:
         return None
-    shell, shells = components(int(sides.max()) + 1, sides[:, 0], sides[:, 1])
+    shell, shells = components(int(sides.max()) + 1, *sides)
     triangles, face = surface.triangles[:0], shell[:0]
     if shells > 1:
         quad_faces, triangle_faces = mesh_faces(surface)

@@ -27,7 +27,7 @@ BLOCK = 3 << 14  # corners at a time: their scratch stays in the cache. A multip
 
 
 def closed_sides(surface: Surface) -> NDArray[np.int32] | None:
-    """(e, 2) the mesh face on each side of each used edge, where the mesh's own corners prove that every edge that
+    """(2, e) the mesh faces on the two sides of each used edge, where the mesh's own corners prove that every edge that
     has faces has two, which run along it in opposite directions; None where they do not, or where there are none.
 
     Edges without faces do not count.
@@ -38,19 +38,18 @@ def closed_sides(surface: Surface) -> NDArray[np.int32] | None:
     sides_at = _sides_at(surface)
     if sides_at is None:
         return None
-    sides = np.full(2 * (int(edges.max()) + 1), -1, np.int32)
-    slots = np.empty(min(BLOCK, len(corners)), np.intp)
+    count = int(edges.max()) + 1
+    sides = np.full(2 * count, -1, np.int32)
     for start in range(0, len(corners), BLOCK):
         faces, upward = sides_at(start)
-        slot, edge = slots[:len(faces)], edges[start:start + BLOCK]
-        double = edge + edge
-        double += upward.astype(double.dtype)
-        slot[...] = double
-        sides[slot] = faces
-    sides = sides.reshape(-1, 2)
-    if len(corners) != 2 * len(sides):  # edges without faces
-        sides = sides[sides.max(axis=1) >= 0]
-    return sides if len(corners) == 2 * len(sides) and sides.min() >= 0 else None
+        slot = upward.astype(edges.dtype)
+        slot *= count
+        slot += edges[start:start + BLOCK]
+        sides[slot.astype(np.intp)] = faces
+    sides = sides.reshape(2, count)
+    if len(corners) != 2 * count:  # edges without faces
+        sides = sides[:, sides.max(axis=0) >= 0]
+    return sides if len(corners) == sides.size and sides.min() >= 0 else None
 
 
 def _sides_at(surface: Surface) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
@@ -107,7 +106,7 @@ def components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tu
     first = parent == node
     number = int(np.count_nonzero(first))
     if number == 1:  # all paths downward end there
-        return np.zeros(count, np.intp), 1
+        return np.broadcast_to(np.intp(0), count), 1
     while True:
         grand = parent.take(parent, mode="clip")
         if np.array_equal(grand, parent):

@@ -88,8 +88,8 @@ def test_a_closed_mesh_is_proven_closed_by_its_own_corners(points, faces):
     surface = mesh(points, faces)
     sides = closed_sides(surface)
     edges = dict.fromkeys(tuple(sorted((face[i - 1], face[i]))) for face in faces for i in (*range(1, len(face)), 0))
-    assert len(sides) == len(edges)  # in the order in which the faces come to them, as in the mesh
-    for edge, pair in zip(edges, sides):
+    assert sides.shape == (2, len(edges))  # in the order in which the faces come to them, as in the mesh
+    for edge, pair in zip(edges, sides.T):
         expected = {k for k, face in enumerate(faces) for i in range(len(face)) if {face[i], face[i - 1]} == set(edge)}
         assert set(pair) == expected
 
