@@ -23,7 +23,7 @@ cache.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -92,7 +92,8 @@ class _Calls:
     middle: (3, k). On request tips: (3, c-2, k), the vectors f, and local: (6, c-2, k), f f' + e e'.
 
     start: the calls from the corners to the normals, weigh: those to the weights. largest, least: (3, c-1, chunks) of
-    the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. prepare: the calls that the moments with
+    the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. volume: 6 times that of the tetrahedron of
+    each quad's corners. prepare: the calls that the moments with
     all weights share, moments: those with each, and the calls that return sums.
     """
 
@@ -141,6 +142,8 @@ class _Calls:
             self.weigh += [partial(np.einsum, "dfk,dfk->fk", normals, normals, out=self.weights[1]),
                            partial(np.sqrt, self.weights[1], self.weights[1])]
         self.cosine = self.weights[1, 0]
+        if fans == 2 and each:
+            self.volume = partial(np.einsum, "dk,dk->k", sides[:, 0], normals[:, 1], out=spare[2, 1])
         spare = spare.reshape(-1)[:fans * k].reshape(fans, k)
         self.weigh.append(partial(np.abs, self.weights[0], spare))
         self.sizes = [partial(np.add.reduce, chunked(row), axis=2) for row in (spare, self.weights[1])[:1 + area]]
@@ -172,11 +175,13 @@ class Faces:
         self.flipped: list[NDArray] = []
         self.found: list[tuple[int, NDArray, NDArray, NDArray, list]] = []
 
-    def block(self, faces: Sequence[NDArray], quads: bool = False) -> None:
+    def block(self, faces: Sequence[NDArray], quads: bool = False, see: Callable | None = None) -> None:
         """Add some faces.
 
         faces: the vertices a, b, c and perhaps d, (k,) each. quads: leave those out that Blender cuts along the other
         diagonal, and append them to `flipped`, turned by one corner; otherwise the first diagonal is taken.
+        see: is shown the doubled areas, (c - 2, k); of quads also 6 times the volumes of the tetrahedra of their
+        corners, (k,), and the columns of those whose triangles may face away from each other.
         ValueError where an index names no point.
         """
         k = len(faces[0])
@@ -195,9 +200,12 @@ class Faces:
             call()
         largest, least = own.largest(), own.least()
         if quads:
-            own.normals[:, :, self._flipped(own, np.maximum(largest, -least), k)] = 0.0
+            suspects, flipped = self._flipped(own, np.maximum(largest, -least), k)
+            own.normals[:, :, flipped] = 0.0
         for call in own.weigh:
             call()
+        if see is not None:
+            see(own.weights[1, :, :k], *((own.volume()[:k], suspects) if quads else ()))
         sizes, sums = [size() for size in own.sizes], []
         for call in own.prepare:
             call()
@@ -241,9 +249,9 @@ class Faces:
         if single:
             own.corners[...] = target
 
-    def _flipped(self, own: _Calls, largest: NDArray, k: int) -> NDArray[np.intp]:
-        """Those of the first k columns whose quads Blender cuts along their other diagonal, once they are appended to
-        `flipped`.
+    def _flipped(self, own: _Calls, largest: NDArray, k: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Those of the first k columns whose quads Blender may cut along their other diagonal, and those that it does,
+        once they are appended to `flipped`.
 
         They are those whose two normals face away from each other in float32. That can differ from float64 only where
         the product is within float32's rounding of zero.
@@ -255,7 +263,7 @@ class Faces:
             margin = FLIP_MARGIN * length[0] * length[1] ** 2 * length[2]
             least = np.minimum.reduce(cosine.reshape(len(margin), -1), axis=1)
             if length.max() < FLOAT32_OVERFLOW and (least > margin).all():
-                return own.index[0, :0]
+                return own.index[0, :0], own.index[0, :0]
             square = np.einsum("cik,cik->ik", own.edges, own.edges)
             limit = FLIP_MARGIN * square[1] * np.sqrt(square[0] * square[2])
             limit[square.max(axis=0) > FLOAT32_OVERFLOW ** 2] = np.inf
@@ -266,7 +274,7 @@ class Faces:
         loose = self.points[quads.T].reshape(-1, 3)
         turn = flipped_quads(loose, np.arange(len(loose)).reshape(-1, 4))
         self.flipped.append(np.roll(quads[:, turn], -1, axis=0))
-        return suspects[turn]
+        return suspects, suspects[turn]
 
     @staticmethod
     def _assembled(rows: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:

@@ -24,12 +24,14 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
 from math import hypot, isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .blocks import NO_VERTEX, TRIPLES, Faces, Rows, numbers, together
+from .flatness import Witness
 from .moments import Moments, U, monomials
 from .small import few
 from .surface import Surface, all_there
@@ -62,12 +64,13 @@ def solid_moments(surface: Surface, threads: int = 1) -> Moments:
 
 
 def solid_and_area(surface: Surface, threads: int = 1, shell: bool = False, *, exact: bool = False,
-                   about: NDArray | None = None) -> tuple[Moments, Moments]:
+                   about: NDArray | None = None, witness: Witness | None = None) -> tuple[Moments, Moments]:
     """The volume moments as `solid_moments`, and the area: its moments to third order where `shell`, else order 0.
 
     exact: the third order to rounding whatever the size of the mesh. about: (3,) the reference point, if another.
+    witness: is shown the faces, where that costs little.
     """
-    return _measure(surface, threads, area=True, shell=shell, exact=exact, about=about)
+    return _measure(surface, threads, area=True, shell=shell, exact=exact, about=about, witness=witness)
 
 
 def third_moments_exact(surface: Surface, threads: int = 1) -> Moments:
@@ -76,7 +79,7 @@ def third_moments_exact(surface: Surface, threads: int = 1) -> Moments:
 
 
 def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: bool,
-             about: NDArray | None = None) -> tuple[Moments, Moments]:
+             about: NDArray | None = None, witness: Witness | None = None) -> tuple[Moments, Moments]:
     count = len(surface.triangles) + 2 * len(surface.quads)
     if not count:
         about = np.zeros(3) if about is None else about
@@ -91,7 +94,8 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
     if largest and not 1.0 / RANGE < largest < RANGE:
         return _rescaled(surface, int(np.log2(largest)), threads, about, area=area, shell=shell,
                          exact=exact)
-    job = _Job(points, center, reach, surface.coordinate_error, count, area, shell, exact or count <= EXACT)
+    job = _Job(points, center, reach, surface.coordinate_error, count, area, shell, exact or count <= EXACT,
+               witness)
     if count <= FEW:
         if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
             raise ValueError(NO_VERTEX)
@@ -149,10 +153,11 @@ class _Job:
     area: bool
     shell: bool
     exact: bool
+    witness: Witness | None
 
-    def blocks(self, surface: Surface, threads: int) -> list[tuple[NDArray, ...]]:
+    def blocks(self, surface: Surface, threads: int) -> list[tuple[list[int], list[NDArray]]]:
         """The faces in as few blocks as the memory allows, a multiple of the threads: (k, 4) quads, or (k, 3)
-        triangles, or two arrays of triangles of which each may be half a quad."""
+        triangles, or two arrays of triangles of which each may be half a quad, with the row that each begins with."""
         memory = (MEMORY[0] * self.count + MEMORY[1]) // threads
         size = max(1, min(BLOCK, memory // (8 * numbers(3, self.area, self.exact))))
         size = -(-self.count // (threads * -(-self.count // (threads * size))))
@@ -160,23 +165,31 @@ class _Job:
         triangles, half = surface.triangles, len(surface.triangles) // 2
         if _paired(triangles[:1], triangles[half:half + 1]) is None:
             half = 0
-        whole = (((triangles[:half], triangles[half:2 * half]), size // 2), ((triangles[2 * half:],), size),
-                 ((surface.quads,), size // 2))
-        return [tuple(array[i:i + step] for array in arrays)
-                for arrays, step in whole for i in range(0, len(arrays[0]), step)]
+        whole = (((0, half), (triangles[:half], triangles[half:2 * half]), size // 2),
+                 ((2 * half,), (triangles[2 * half:],), size), ((0,), (surface.quads,), size // 2))
+        return [([start + i for start in starts], [array[i:i + step] for array in arrays])
+                for starts, arrays, step in whole for i in range(0, len(arrays[0]), step)]
 
-    def run(self, blocks: list[tuple[NDArray, ...]]) -> Rows:
+    def run(self, blocks: list[tuple[list[int], list[NDArray]]]) -> Rows:
         """The sums over some of the blocks. Safe in threads."""
         faces = Faces(self.points, self.center, area=self.area, shell=self.shell, exact=self.exact)
-        for block in blocks:
-            first, corners = block[0], None
-            if first.shape[1] == 3 and len(first) >= PAIRED:
-                corners = pairs(first) if len(block) == 1 else _paired(*block)
-            for part in [corners] if corners else [part.T for part in block]:
-                faces.block(part, quads=first.shape[1] == 4)
+        witness = self.witness
+        for starts, block in blocks:
+            first, halves = block[0], None
+            if first.shape[1] == 4:
+                faces.block(first.T, quads=True, see=witness and partial(witness.see_quads, *starts))
+                continue
+            if len(first) >= PAIRED:
+                halves = pairs(first) if len(block) == 1 else _paired(*block)
+            if halves:
+                rows = (starts, 1) if len(block) == 2 else ([starts[0], starts[0] + 1], 2)
+                faces.block(halves, see=witness and partial(witness.see_triangles, *rows))
+                continue
+            for start, part in zip(starts, block):
+                faces.block(part.T, see=witness and partial(witness.see_triangles, [start], 1))
         if faces.flipped:
             flipped = np.concatenate(faces.flipped, axis=1)
-            step = max(len(block[0]) for block in blocks if block[0].shape[1] == 4)
+            step = max(len(block[0]) for _, block in blocks if block[0].shape[1] == 4)
             for i in range(0, flipped.shape[1], step):
                 faces.block(flipped[:, i:i + step])
         return faces.rows()

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from . import polyhedron
 from .components import Components
-from .flatness import examine
+from .flatness import Witness
 from .mending import Mended, counted, listed, mend
 from .moments import SECOND, Moments
 from .nesting import cut_from, decide, relate
@@ -126,14 +126,16 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     surface, vertices, size = _used(surface)
     error = float(np.linalg.norm(surface.coordinate_error))
     tolerance = max(TOLERANCE * size, 4.0 * error)
-    own = None
-    if threads > 1:  # most surfaces turn out to be measured as they are, and the area always is
+    witness = Witness(surface, error)
+    if threads > 1:
         with ThreadPoolExecutor(1) as pool:
-            waiting = pool.submit(polyhedron.solid_and_area, surface, 1, shell)
-            flatness, body = examine(surface, error), _proven(surface)
+            waiting = pool.submit(polyhedron.solid_and_area, surface, 1, shell, witness=witness)
+            body = _proven(surface)
         own = waiting.result()
     else:
-        flatness, body = examine(surface, error), _proven(surface)
+        own = polyhedron.solid_and_area(surface, 1, shell, witness=witness)
+        body = _proven(surface)
+    flatness = witness.flatness()
     proven = body is not None
     if not proven:
         body = mend(surface, tolerance, size)
@@ -141,9 +143,9 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     turn = np.zeros(body.number, bool) if compared is None else compared.turned
     turn_each = turn
     measured = _to_measure(surface, body, turn, np.ones(1, bool) if compared is None else compared.solid, proven)
-    volume, area = own if own and measured is surface else polyhedron.solid_and_area(measured, threads, shell)
+    volume, area = own if measured is surface else polyhedron.solid_and_area(measured, threads, shell)
     if body.changed:  # caps are no part of the area, and left out faces are
-        area = (own or polyhedron.solid_and_area(surface, threads, shell))[1]
+        area = own[1]
     if compared is None:
         solid = bool(abs(volume.total) > _noise(size, area.total, body.caps.any(), error))
         turn = turn | (solid and volume.total < 0.0 and not body.open.any())  # what is open has no inside
