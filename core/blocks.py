@@ -93,7 +93,7 @@ class _Calls:
 
     start: the calls from the corners to the normals, weigh: those to the weights. largest, least: (3, c-1, chunks) of
     the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. volume: 6 times that of the tetrahedron of
-    each quad's corners. prepare: the calls that the moments with
+    each quad's corners, room: two rows that are free then. prepare: the calls that the moments with
     all weights share, moments: those with each, and the calls that return sums.
     """
 
@@ -143,7 +143,8 @@ class _Calls:
                            partial(np.sqrt, self.weights[1], self.weights[1])]
         self.cosine = self.weights[1, 0]
         if fans == 2 and each:
-            self.volume = partial(np.einsum, "dk,dk->k", sides[:, 0], normals[:, 1], out=spare[2, 1])
+            self.room = spare[:, 0]
+            self.volume = partial(np.einsum, "dk,dk->k", sides[:, 0], normals[:, 1], out=self.room[2])
         spare = spare.reshape(-1)[:fans * k].reshape(fans, k)
         self.weigh.append(partial(np.abs, self.weights[0], spare))
         self.sizes = [partial(np.add.reduce, chunked(row), axis=2) for row in (spare, self.weights[1])[:1 + area]]
@@ -181,7 +182,7 @@ class Faces:
         faces: the vertices a, b, c and perhaps d, (k,) each. quads: leave those out that Blender cuts along the other
         diagonal, and append them to `flipped`, turned by one corner; otherwise the first diagonal is taken.
         see: is shown the doubled areas, (c - 2, k); of quads also 6 times the volumes of the tetrahedra of their
-        corners, (k,), and the columns of those whose triangles may face away from each other.
+        corners, (k,), the columns of those whose triangles may face away from each other, and gets room, (2, k).
         ValueError where an index names no point.
         """
         k = len(faces[0])
@@ -204,9 +205,9 @@ class Faces:
             own.normals[:, :, flipped] = 0.0
         for call in own.weigh:
             call()
-        if see is not None:
-            see(own.weights[1, :, :k], *((own.volume()[:k], suspects) if quads else ()))
         sizes, sums = [size() for size in own.sizes], []
+        if see is not None:
+            see(own.weights[1, :, :k], *((own.volume()[:k], suspects, own.room[:2, :k]) if quads else ()))
         for call in own.prepare:
             call()
         for calls, totals in own.moments:

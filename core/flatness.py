@@ -70,15 +70,17 @@ class Witness:
         # What is looked at one by one is brought to about size 1, lest sixth powers of small lengths underflow.
         self.exponent = int(np.frexp(max(size, np.finfo(np.float32).tiny))[1])
 
-    def see_quads(self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp]) -> None:
+    def see_quads(self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray
+                  ) -> None:
         """Those from row `start` on.
 
         lengths: (2, k) of the normals of both triangles, or 0. volume: (k,) 6 times that of the tetrahedron of the
         corners, to be written over. folded: those of the k where the triangles may face away from each other.
+        room: (2, k).
         """
-        volume, normal = np.abs(volume, out=volume), lengths[0] + lengths[1]
+        volume, normal = np.abs(volume, out=volume), np.add(lengths[0], lengths[1], out=room[0])
         least, most = normal.min(), normal.max()
-        bent = volume > normal * (8.0 * self.error + FLAT * np.sqrt(most))
+        bent = volume > np.multiply(normal, 8.0 * self.error + FLAT * np.sqrt(most), out=room[1])
         narrow = NONE
         if least <= self.narrow or len(folded):
             normal[folded] = 0.0
@@ -86,7 +88,8 @@ class Witness:
             bent[narrow] = False
         count, unsure = np.count_nonzero(bent), NONE
         if count < len(bent):
-            maybe = volume > normal * (0.7 * (8.0 * self.error + FLAT * np.sqrt(0.7 * least)))
+            limit = 0.7 * (8.0 * self.error + FLAT * np.sqrt(0.7 * least))
+            maybe = volume > np.multiply(normal, limit, out=room[1])
             maybe[narrow] = True
             unsure = start + np.flatnonzero(maybe > bent)
             volume[np.flatnonzero(~bent)] = 0.0
