@@ -65,14 +65,6 @@ class Rows:
     blocks: int = 1
 
 
-def together(parts: Sequence[Rows]) -> Rows:
-    """Several as one."""
-    sums, areas, *columns = zip(*((part.sums, part.areas, part.side, part.base, part.sizes, part.counts)
-                                  for part in parts))
-    return Rows(sum(sums), None if areas[0] is None else sum(areas),
-                *(np.concatenate(column, axis=-1) for column in columns), sum(part.blocks for part in parts))
-
-
 def numbers(count: int, each: bool, exact: bool) -> int:
     """How many numbers the scratch holds for a face of `count` corners; each: as of `_Calls`."""
     fans = count - 2
@@ -161,8 +153,11 @@ class _Calls:
             self.moments.append((calls, sums))
 
 
+Found = tuple[int, NDArray, NDArray, list, list]  # of one block: its faces, the edges' extremes, the sizes, the sums
+
+
 class Faces:
-    """The loop body for blocks of faces.
+    """The loop body for blocks of faces. found: what each block so far has added.
 
     points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. area: whether doubled areas are
     wanted, shell: also their moments. exact: whether the third order is.
@@ -174,7 +169,7 @@ class Faces:
         self.buffer = np.empty(0)
         self.calls: dict[tuple[int, int, int, bool], _Calls] = {}
         self.flipped: list[NDArray] = []
-        self.found: list[tuple[int, NDArray, NDArray, NDArray, list]] = []
+        self.found: list[Found] = []
 
     def block(self, faces: Sequence[NDArray], quads: bool = False, see: Callable | None = None) -> None:
         """Add some faces.
@@ -215,18 +210,6 @@ class Faces:
                 call()
             sums.append([total() for total in totals])
         self.found.append((k, largest, least, sizes, sums))
-
-    def rows(self) -> Rows:
-        """What all blocks together add."""
-        columns = []
-        for k, largest, least, sizes, _ in self.found:
-            edges, width = np.maximum(largest, -least), _shape(k)[1]
-            counts = np.minimum(k - width * np.arange(edges.shape[2]), width)
-            columns += [(edges[:, 2 * i], edges[:, 1], counts, *fan) for i, fan in enumerate(zip(*sizes))]
-        side, base, counts, *sizes = (np.concatenate(column, axis=-1) for column in zip(*columns))
-        totals = [self._assembled(*map(sum, zip(*parts))) for parts in zip(*(sums for *_, sums in self.found))]
-        return Rows(totals[0], totals[1] if self.wanted["shell"] else None, side, base,
-                    np.array((*sizes, np.zeros_like(sizes[0]))[:2]), counts, len(self.found))
 
     def _shaped(self, count: int, k: int, each: bool) -> _Calls:
         shape = (count, *_shape(k), each)
@@ -277,15 +260,28 @@ class Faces:
         self.flipped.append(np.roll(quads[:, turn], -1, axis=0))
         return suspects, suspects[turn]
 
-    @staticmethod
-    def _assembled(rows: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
-        """(20,) `Rows.sums` from the sums of the table's rows, (13,), and the products that have been summed."""
-        mixed = 0.5 * np.add.reduce(products.take(SQUARE))
-        third = 10.0 * np.add.reduce(products.take(CUBE))
-        total = 2.0 * np.concatenate([rows[12:], rows[6:9] + rows[9:12], rows[:6] + mixed, third])
-        if local is not None:
-            total[10:] += np.add.reduce(local.take(CUBE - CUBE // 9 * 3))  # in a table without x, y, z
-        return total
+
+def rows(found: Sequence[Found]) -> Rows:
+    """What all these blocks together add."""
+    columns = []
+    for k, largest, least, sizes, _ in found:
+        edges, width = np.maximum(largest, -least), _shape(k)[1]
+        counts = np.minimum(k - width * np.arange(edges.shape[2]), width)
+        columns += [(edges[:, 2 * i], edges[:, 1], counts, *fan) for i, fan in enumerate(zip(*sizes))]
+    side, base, counts, *sizes = (np.concatenate(column, axis=-1) for column in zip(*columns))
+    sums, *areas = (_assembled(*map(sum, zip(*parts))) for parts in zip(*(sums for *_, sums in found)))
+    return Rows(sums, areas[0] if areas else None, side, base, np.array((*sizes, np.zeros_like(sizes[0]))[:2]), counts,
+                len(found))
+
+
+def _assembled(rows: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
+    """(20,) `Rows.sums` from the sums of the table's rows, (13,), and the products that have been summed."""
+    mixed = 0.5 * np.add.reduce(products.take(SQUARE))
+    third = 10.0 * np.add.reduce(products.take(CUBE))
+    total = 2.0 * np.concatenate([rows[12:], rows[6:9] + rows[9:12], rows[:6] + mixed, third])
+    if local is not None:
+        total[10:] += np.add.reduce(local.take(CUBE - CUBE // 9 * 3))  # in a table without x, y, z
+    return total
 
 
 def _shape(k: int) -> tuple[int, int]:

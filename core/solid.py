@@ -129,9 +129,9 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     witness = Witness(surface, error)
     if threads > 1:
         with ThreadPoolExecutor(1) as pool:
-            waiting = pool.submit(polyhedron.solid_and_area, surface, 1, shell, witness=witness)
-            body = _proven(surface)
-        own = waiting.result()
+            waiting = pool.submit(_proven, surface)
+            own = polyhedron.solid_and_area(surface, threads, shell, witness=witness)
+        body = waiting.result()
     else:
         own = polyhedron.solid_and_area(surface, 1, shell, witness=witness)
         body = _proven(surface)
