@@ -40,20 +40,25 @@ def mesh_surface(mesh, *, edges: bool = True) -> Surface:
     """
     points = _attribute(mesh, "position", "vector", (len(mesh.vertices), 3), np.float32)
     corners = _attribute(mesh, ".corner_vert", "value", (len(mesh.loops),), np.int32)
-    topology = {"corner_vertices": corners}
-    if edges:
-        topology["corner_edges"] = _attribute(mesh, ".corner_edge", "value", corners.shape, np.int32)
+    faces = _faces(mesh, corners)
+    # What telling the faces apart took is free again: to come to new memory costs more than to fill it.
+    named = _attribute(mesh, ".corner_edge", "value", corners.shape, np.int32) if edges else None
+    return Surface(points, corner_vertices=corners, corner_edges=named, **faces)
+
+
+def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
+    """The triangles and quads of a Surface, and which faces they are of."""
     faces = len(mesh.polygons)
     if not faces:
-        return Surface(points, **topology)
+        return {}
     # No face has fewer than three corners, so three a face on average means three in each.
     if len(corners) == 3 * faces:
-        return Surface(points, triangles=corners.reshape(-1, 3), **topology)
+        return {"triangles": corners.reshape(-1, 3)}
 
     mesh.calc_loop_triangles()
     owners = _array(mesh.loop_triangle_polygons, "value", (len(mesh.loop_triangles),), np.int32)
     if len(corners) == 4 * faces and _in_pairs(owners):
-        return Surface(points, quads=corners.reshape(-1, 4), **topology)
+        return {"quads": corners.reshape(-1, 4)}
 
     sizes = np.bincount(owners, minlength=faces) + 2
     starts = np.cumsum(sizes) - sizes
@@ -63,14 +68,12 @@ def mesh_surface(mesh, *, edges: bool = True) -> Surface:
         rows = np.flatnonzero(sizes[owners] > 4)
         triangles = np.concatenate([triangles, _loop_triangles(mesh, rows)])
         triangle_faces = np.concatenate([three, owners[rows]])
-    return Surface(
-        points,
-        triangles=triangles if len(triangles) else NO_TRIANGLES,
-        triangle_faces=triangle_faces.astype(np.int32),
-        quads=corners[starts[four][:, None] + np.arange(4)] if len(four) else NO_QUADS,
-        quad_faces=four.astype(np.int32),
-        **topology,
-    )
+    return {
+        "triangles": triangles if len(triangles) else NO_TRIANGLES,
+        "triangle_faces": triangle_faces.astype(np.int32),
+        "quads": corners[starts[four][:, None] + np.arange(4)] if len(four) else NO_QUADS,
+        "quad_faces": four.astype(np.int32),
+    }
 
 
 def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
