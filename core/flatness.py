@@ -14,7 +14,7 @@ face away from each other. Mostly that is enough to decide; the other faces are 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from .surface import Surface
 from .topology import mesh_faces
-from .vectors import Vector, cross, dot
+from .vectors import cross, dot
 
 BLOCK = 1 << 14
 FLAT = 1e-6  # of the square root of a face's area
@@ -43,14 +43,13 @@ class Flatness:
 
 @dataclass(frozen=True, eq=False)
 class _Seen:
-    """Of some quads or triangles: how many; how many of them are surely not flat, and 6 times their spread; the rows of
-    those that may be bent besides, and of those that may have no area."""
+    """Of some quads or triangles: how many; how many of them are surely not flat, and 6 times their spread; and the
+    rows of those that have to be looked at."""
 
     count: int
     bent: int
     spread: float
     unsure: NDArray[np.intp]
-    narrow: NDArray[np.intp]
 
 
 class Witness:
@@ -93,59 +92,50 @@ class Witness:
             maybe[narrow] = True
             unsure = start + np.flatnonzero(maybe > bent)
             volume[np.flatnonzero(~bent)] = 0.0
-        self.quads[start] = _Seen(len(bent), count, float(np.add.reduce(volume)), unsure, start + narrow)
+        self.quads[start] = _Seen(len(bent), count, float(np.add.reduce(volume)), unsure)
 
     def see_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
         """Every `step`-th from each of these rows on. lengths: (len(starts), k) of their normals."""
         for start, normal in zip(starts, lengths):
-            narrow = start + step * np.flatnonzero(normal <= self.narrow)
-            self.triangles[start] = _Seen(len(normal), 0, 0.0, NONE, narrow)
+            self.triangles[start] = _Seen(len(normal), 0, 0.0, start + step * np.flatnonzero(normal <= self.narrow))
 
     def flatness(self) -> Flatness:
         """What was seen, and where that does not tell or nothing was seen, what is found by looking."""
         surface, triangle_faces = self.surface, self.surface.triangle_faces
         seen = _together(self.quads, len(surface.quads))
-        looked = self._bent(surface.quads[seen.unsure])
-        not_flat = seen.bent + np.count_nonzero(looked)
-        spread = seen.spread + np.ldexp(np.add.reduce(looked), 3 * self.exponent)
-        bare = seen.narrow[self._bare(surface.quads[seen.narrow], *QUAD[:2])]
-        bare = bare if surface.quad_faces is None else surface.quad_faces[bare]
-        rows = _together(self.triangles, len(surface.triangles)).narrow
-        rows = rows[self._bare(surface.triangles[rows], *TRIANGLE)]
-        if triangle_faces is not None and len(triangle_faces):
-            pieces, found = np.bincount(triangle_faces), np.bincount(triangle_faces[rows])
-            rows = np.flatnonzero((found == pieces[:len(found)]) & (found > 0))
-            polygon, corners = self._polygons(pieces)
-            looked = self._bent(corners)
-            not_flat += len(np.unique(polygon[looked > 0.0]))
-            spread += np.ldexp(np.add.reduce(looked), 3 * self.exponent)
-        return Flatness(int(not_flat), float(spread) / 6.0, np.sort(np.concatenate([bare, rows])))
+        volumes, bare = self._look(surface.quads[seen.unsure], QUAD)
+        bare = seen.unsure[bare] if surface.quad_faces is None else surface.quad_faces[seen.unsure[bare]]
+        not_flat, looked = seen.bent + np.count_nonzero(volumes), np.add.reduce(volumes)
+        if len(surface.triangles):
+            rows = _together(self.triangles, len(surface.triangles)).unsure
+            rows = rows[self._look(surface.triangles[rows], TRIANGLE)[1]]
+            if triangle_faces is not None:
+                pieces, found = np.bincount(triangle_faces), np.bincount(triangle_faces[rows])
+                rows = np.flatnonzero((found == pieces[:len(found)]) & (found > 0))
+                polygon, corners = self._polygons(pieces)
+                volumes, _ = self._look(corners, QUAD)
+                not_flat += len(np.unique(polygon[volumes > 0.0]))
+                looked += np.add.reduce(volumes)
+            bare = np.concatenate([bare, rows])
+        spread = (seen.spread + float(np.ldexp(looked, 3 * self.exponent))) / 6.0
+        return Flatness(int(not_flat), spread, np.sort(bare))
 
-    def _spans(self, corners: NDArray, *pairs: tuple[int, int]) -> Iterator[list[Vector]]:
-        """Of (m, c) corners, a block at a time, for each pair the x, y and z of the vector from the second to the
-        first."""
+    def _look(self, corners: NDArray, pairs: tuple) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+        """(m,) 6 times the volume of the tetrahedron on the corners of each face, of what is brought to size 1, zero
+        where the face is flat; and (m,) whether it has no area. pairs: of corners, QUAD or TRIANGLE."""
+        error, volumes, bare = np.ldexp(self.error, -self.exponent), [np.empty(0)], [np.empty(0, bool)]
         for start in range(0, len(corners), BLOCK):
             points = self.surface.points[corners[start:start + BLOCK].astype(np.intp)].T
-            points = np.ldexp(points.astype(np.float64), -self.exponent)
-            yield [[axis[i] - axis[j] for axis in points] for i, j in pairs]
-
-    def _bent(self, corners: NDArray) -> NDArray[np.float64]:
-        """(m,) 6 times the volume of the tetrahedron on each four corners, zero where they are flat."""
-        error, found = np.ldexp(self.error, -self.exponent), [np.empty(0)]
-        for first, second, third in self._spans(corners, *QUAD):
+            points = np.ldexp(points.astype(np.float64, order="C"), -self.exponent)
+            first, second, *third = ((points[:, i] - points[:, j]) for i, j in pairs)
             across = cross(first, second)
-            volume, normal = np.abs(dot(third, across)), np.sqrt(dot(across, across))
-            limit = normal * (8.0 * error + FLAT * np.sqrt(normal))
-            volume[(volume <= limit) | _bare(across, first, second, error)] = 0.0
-            found.append(volume)
-        return np.concatenate(found)
-
-    def _bare(self, corners: NDArray, *pairs: tuple[int, int]) -> NDArray[np.bool_]:
-        """(m,) whether faces are narrower than their coordinates' errors. pairs: of corners, on either side."""
-        error, found = np.ldexp(self.error, -self.exponent), [np.empty(0, bool)]
-        for first, second in self._spans(corners, *pairs):
-            found.append(_bare(cross(first, second), first, second, error))
-        return np.concatenate(found)
+            square = dot(across, across)
+            bare.append(square <= _narrow(np.maximum(dot(first, first), dot(second, second)), error))
+            if third:
+                volume, normal = np.abs(dot(third[0], across)), np.sqrt(square)
+                volume[(volume <= normal * (8.0 * error + FLAT * np.sqrt(normal))) | bare[-1]] = 0.0
+                volumes.append(volume)
+        return np.concatenate(volumes), np.concatenate(bare)
 
     def _polygons(self, pieces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
         """The tetrahedra of the faces of more than one triangle: (m,) which face each is of, and (m, 4) corners.
@@ -170,15 +160,9 @@ def _together(blocks: dict[int, _Seen], count: int) -> _Seen:
     """What was seen of so many rows, in their order, whoever was first; if not of all, then of none."""
     seen = [blocks[start] for start in sorted(blocks)]
     if sum(block.count for block in seen) != count:
-        return _Seen(count, 0, 0.0, np.arange(count), np.arange(count))
+        return _Seen(count, 0, 0.0, np.arange(count))
     return _Seen(count, sum(block.bent for block in seen), sum(block.spread for block in seen),
-                 np.concatenate([NONE, *(block.unsure for block in seen)]),
-                 np.concatenate([NONE, *(block.narrow for block in seen)]))
-
-
-def _bare(normal: Vector, first: Vector, second: Vector, error: float) -> NDArray[np.bool_]:
-    """Whether faces with these edges or diagonals are narrower than their coordinates' errors."""
-    return dot(normal, normal) <= _narrow(np.maximum(dot(first, first), dot(second, second)), error)
+                 np.concatenate([NONE, *(block.unsure for block in seen)]))
 
 
 def _narrow(longest: NDArray | float, error: float) -> NDArray | float:

@@ -127,7 +127,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     error = float(np.linalg.norm(surface.coordinate_error))
     tolerance = max(TOLERANCE * size, 4.0 * error)
     witness = Witness(surface, error)
-    if threads > 1:
+    if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // polyhedron.LEAST) > 1:
         with ThreadPoolExecutor(1) as pool:
             waiting = pool.submit(_proven, surface)
             own = polyhedron.solid_and_area(surface, threads, shell, witness=witness)

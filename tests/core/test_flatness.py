@@ -82,7 +82,9 @@ def told(surface, seen, threads=1):
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("kind", ["flat", "bent", "some", "all sorts"])
-def test_what_the_sums_show_is_what_looking_at_each_face_gives(kind, dtype):
+def test_what_the_sums_show_is_what_looking_at_each_face_gives(kind, dtype, monkeypatch):
+    monkeypatch.setattr(polyhedron, "LEAST", 64)
+    monkeypatch.setattr(polyhedron, "BLOCK", 512)
     surface = quads(kind, dtype)
     for seen, threads in ((False, 1), (True, 1), (True, 3)):
         *found, error = told(surface, seen, threads)
