@@ -17,7 +17,8 @@ large ones on request, take them along.
 Rounding. Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the
 product of its edges, not to the body's size cubed; that keeps the bound small for fine meshes and far from the origin.
 With u = 2^-53, edges e and e' and vertices within `reach` of the reference point, a determinant is off by at most
-9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y| bounds |normal_x|.
+9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y| bounds |normal_x|: as the product of a vertex with the normal, and as
+that of an edge with the product of the other edge and the vertex.
 """
 
 from __future__ import annotations
@@ -95,10 +96,11 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
     if count <= FEW:
         if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
             raise ValueError(NO_VERTEX)
-        triangles, _ = surface.all_triangles()
+        triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
         return job.moments([few(points, center, triangles, area=area, shell=shell)])
     threads = max(1, min(threads, count // LEAST))
     blocks = job.blocks(surface, threads)
+    threads = min(threads, len(blocks))
     if threads == 1:
         return job.moments([job.run(blocks)])
     ends = [len(blocks) * i // threads for i in range(threads + 1)]
@@ -173,7 +175,7 @@ class _Job:
             if first.shape[1] == 3 and len(first) >= PAIRED:
                 corners = pairs(first) if len(block) == 1 else _paired(*block)
             for part in [corners] if corners else [part.T for part in block]:
-                faces.block(part, quads=first.shape[1] == 4)
+                faces.block(part, first.shape[1] == 4)
         if faces.flipped:
             flipped = np.concatenate(faces.flipped, axis=1)
             step = max(len(block[0]) for block in blocks if block[0].shape[1] == 4)
