@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from .surface import flipped_quads
 
 SLICES = 32  # of a row that einsum adds up
-CHUNK = 1024  # columns at most that share one bound of their edges
+CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES
 GAP = 8  # numbers between rows: numpy < 2 leaves its vector loop where output ends at input's start
 FLIP_MARGIN = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32

@@ -17,7 +17,8 @@ large ones on request, take them along.
 Rounding. Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the
 product of its edges, not to the body's size cubed; that keeps the bound small for fine meshes and far from the origin.
 With u = 2^-53, edges e and e' and vertices within `reach` of the reference point, a determinant is off by at most
-9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y| bounds |normal_x|.
+9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y| bounds |normal_x|: as the product of a vertex with the normal, and as
+that of an edge with the product of the other edge and the vertex.
 """
 
 from __future__ import annotations
@@ -109,7 +110,7 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
     if count <= FEW:
         if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
             raise ValueError(NO_VERTEX)
-        triangles, _ = surface.all_triangles()
+        triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
         return job.moments(few(points, center, triangles, area=area, shell=shell))
     return job.moments(rows(job.sums(job.blocks(surface))))
 

@@ -26,6 +26,7 @@ def path(request, monkeypatch):
     monkeypatch.setattr(polyhedron, "FEW", 0)
     monkeypatch.setattr(polyhedron, "BLOCK", 32)
     monkeypatch.setattr(polyhedron, "PAIRED", 0)
+    monkeypatch.setattr(blocks, "SLICES", 8)
     monkeypatch.setattr(blocks, "CHUNK", 16)
     monkeypatch.setattr(polyhedron, "LEAST", 8)
     if request.param == "fast":
@@ -49,6 +50,16 @@ def assert_within(moments, truth, error=None):
     error = moments.error if error is None else error
     for value, bound, right, monomial in zip(moments.raw, error, truth, MONOMIALS):
         assert abs(Fraction(float(value)) - right) <= Fraction(float(bound)), monomial
+
+
+def assert_bounds_hold(surface):
+    """The moments of the volume, with and without areas, and of the area are as near to the truth as they say."""
+    triangles = surface.all_triangles()[0]
+    volume, area = polyhedron.solid_and_area(surface, shell=True)
+    truth = exact.volume_moments(surface.points, triangles, volume.about)
+    assert_within(volume, truth)
+    assert_within(polyhedron.solid_moments(surface), truth)
+    assert_within(area, exact.area_moments(surface.points, triangles, area.about))
 
 
 def assert_exact(surface, truth_at_origin, ulps=8):
@@ -151,9 +162,7 @@ def test_the_bound_holds_for_random_meshes(path, shape, place, seed):
     if seed % 3 == 0 and size > 1e-20:
         points = points.astype(np.float32)
     triangles = rng.integers(0, count, (int(rng.integers(1, 40)), 3))
-    volume, area = polyhedron.solid_and_area(Surface(points, triangles), shell=True)
-    assert_within(volume, exact.volume_moments(points, triangles, volume.about))
-    assert_within(area, exact.area_moments(points, triangles, area.about))
+    assert_bounds_hold(Surface(points, triangles))
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -163,9 +172,7 @@ def test_the_bound_holds_for_slivers(path, seed):
     points[quads[:, 1]] = points[quads[:, 0]] + 10.0 ** rng.uniform(-14, -3) * rng.standard_normal((len(quads), 3))
     points += 10.0 ** rng.uniform(-3, 6)
     triangles = Surface(points, quads=quads).all_triangles()[0]
-    volume, area = polyhedron.solid_and_area(Surface(points, triangles), shell=True)
-    assert_within(volume, exact.volume_moments(points, triangles, volume.about))
-    assert_within(area, exact.area_moments(points, triangles, area.about))
+    assert_bounds_hold(Surface(points, triangles))
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -330,11 +337,9 @@ def test_every_array_type_gives_the_same_moments(path, point_type, index_type):
 @pytest.mark.parametrize("count", [1, 7, 8, 9, 15, 16, 17, 31, 32, 33, 47, 48, 49])
 def test_sums_do_not_depend_on_where_blocks_end(path, count):
     points, quads = grid_torus(noise=0.05)
-    for surface in (Surface(points, quads[:count, :3]), Surface(points, quads=quads[:count])):
-        triangles = surface.all_triangles()[0]
-        volume, area = polyhedron.solid_and_area(surface, shell=True)
-        assert_within(volume, exact.volume_moments(points, triangles, volume.about))
-        assert_within(area, exact.area_moments(points, triangles, area.about))
+    for kept in (points, points.astype(np.float32)):
+        assert_bounds_hold(Surface(kept, quads[:count, :3]))
+        assert_bounds_hold(Surface(kept, quads=quads[:count]))
 
 
 @pytest.mark.parametrize("first", range(3))
@@ -349,6 +354,37 @@ def test_pairs_of_triangles_are_found_however_their_corners_are_turned(path, fir
     broken = triangles.copy()
     broken[-1] = np.roll(broken[-1], 1)
     assert polyhedron.pairs(broken) is None
+
+
+@pytest.mark.parametrize("first", range(3))
+@pytest.mark.parametrize("second", range(3))
+def test_halves_of_quads_are_found_where_all_first_ones_come_first(monkeypatch, first, second):
+    points, quads = grid_torus(20, 8, noise=0.05)
+    halves = np.roll(quads[:, [0, 1, 2]], first, axis=1), np.roll(quads[:, [0, 2, 3]], second, axis=1)
+    monkeypatch.setattr(polyhedron, "FEW", 0)
+    monkeypatch.setattr(polyhedron, "BLOCK", 100)
+    monkeypatch.setattr(polyhedron, "PAIRED", 0)
+    corners, block = [], blocks.Faces.block
+    monkeypatch.setattr(blocks.Faces, "block", lambda faces, part, *more, **named: (
+        corners.append(len(part)), block(faces, part, *more, **named)))
+    assert_bounds_hold(Surface(points, np.concatenate(halves)))
+    assert set(corners) == {4}
+    assert_bounds_hold(Surface(points, np.concatenate([*halves, quads[:1, :3]])))  # one has no other half
+    broken = np.concatenate(halves)
+    broken[-1] = np.roll(broken[-1], 1)
+    corners.clear()
+    assert_bounds_hold(Surface(points, broken))
+    assert set(corners) == {3, 4}
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-3])
+def test_the_bound_holds_where_float32_coordinates_are_tiny_beside_the_center(path, scale):
+    rng = np.random.default_rng(5)
+    points, quads = grid_torus(8, 6, noise=0.05)
+    points = (points + [1.0, 2.0, 0.5]) * scale
+    points[::3] *= 1e-14 * rng.random((len(points[::3]), 1))
+    points[::5, 1] = 1e-30
+    assert_bounds_hold(Surface(points.astype(np.float32), quads=quads))
 
 
 def test_threads_give_the_serial_result_to_the_bit(monkeypatch):
@@ -387,10 +423,7 @@ def test_quads_are_cut_as_blender_cuts_them(path, seed, scale):
     quads = np.concatenate([quads, loose, quads[:5, [0, 1, 1, 2]], quads[:5, [0, 2, 1, 3]]])
     surface = Surface(points, quads=quads)
     assert flipped_quads(points, quads).any() or scale in (1e-12, 1e12)
-    triangles = surface.all_triangles()[0]
-    volume, area = polyhedron.solid_and_area(surface, shell=True)
-    assert_within(volume, exact.volume_moments(points, triangles, volume.about))
-    assert_within(area, exact.area_moments(points, triangles, area.about))
+    assert_bounds_hold(surface)
 
 
 def test_quads_on_the_edge_of_the_rule_are_decided_in_float32(path):
@@ -406,10 +439,7 @@ def test_quads_on_the_edge_of_the_rule_are_decided_in_float32(path):
     quads = np.arange(len(points)).reshape(-1, 4)
     flips = flipped_quads(points, quads)
     assert 50 < flips.sum() < 250
-    volume, area = polyhedron.solid_and_area(Surface(points, quads=quads), shell=True)
-    triangles = Surface(points, quads=quads).all_triangles()[0]
-    assert_within(volume, exact.volume_moments(points, triangles, volume.about))
-    assert_within(area, exact.area_moments(points, triangles, area.about))
+    assert_bounds_hold(Surface(points, quads=quads))
 
 
 def test_area_alone_equals_the_zeroth_shell_moment(path):
