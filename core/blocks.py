@@ -23,7 +23,7 @@ cache.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -65,14 +65,6 @@ class Rows:
     blocks: int = 1
 
 
-def together(parts: Sequence[Rows]) -> Rows:
-    """Several as one."""
-    sums, areas, *columns = zip(*((part.sums, part.areas, part.side, part.base, part.sizes, part.counts)
-                                  for part in parts))
-    return Rows(sum(sums), None if areas[0] is None else sum(areas),
-                *(np.concatenate(column, axis=-1) for column in columns), sum(part.blocks for part in parts))
-
-
 def numbers(count: int, each: bool, exact: bool) -> int:
     """How many numbers the scratch holds for a face of `count` corners; each: as of `_Calls`."""
     fans = count - 2
@@ -92,7 +84,8 @@ class _Calls:
     middle: (3, k). On request tips: (3, c-2, k), the vectors f, and local: (6, c-2, k), f f' + e e'.
 
     start: the calls from the corners to the normals, weigh: those to the weights. largest, least: (3, c-1, chunks) of
-    the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. prepare: the calls that the moments with
+    the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. volume: 6 times that of the tetrahedron of
+    each quad's corners, room: two rows that are free then. prepare: the calls that the moments with
     all weights share, moments: those with each, and the calls that return sums.
     """
 
@@ -141,6 +134,9 @@ class _Calls:
             self.weigh += [partial(np.einsum, "dfk,dfk->fk", normals, normals, out=self.weights[1]),
                            partial(np.sqrt, self.weights[1], self.weights[1])]
         self.cosine = self.weights[1, 0]
+        if fans == 2 and each:
+            self.room = spare[:, 0]
+            self.volume = partial(np.einsum, "dk,dk->k", sides[:, 0], normals[:, 1], out=self.room[2])
         spare = spare.reshape(-1)[:fans * k].reshape(fans, k)
         self.weigh.append(partial(np.abs, self.weights[0], spare))
         self.sizes = [partial(np.add.reduce, chunked(row), axis=2) for row in (spare, self.weights[1])[:1 + area]]
@@ -157,8 +153,11 @@ class _Calls:
             self.moments.append((calls, sums))
 
 
+Found = tuple[int, NDArray, NDArray, list, list]  # of one block: its faces, the edges' extremes, the sizes, the sums
+
+
 class Faces:
-    """The loop body for blocks of faces.
+    """The loop body for blocks of faces. found: what each block so far has added.
 
     points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. area: whether doubled areas are
     wanted, shell: also their moments. exact: whether the third order is.
@@ -170,13 +169,15 @@ class Faces:
         self.buffer = np.empty(0)
         self.calls: dict[tuple[int, int, int, bool], _Calls] = {}
         self.flipped: list[NDArray] = []
-        self.found: list[tuple[int, NDArray, NDArray, NDArray, list]] = []
+        self.found: list[Found] = []
 
-    def block(self, faces: Sequence[NDArray], quads: bool = False) -> None:
+    def block(self, faces: Sequence[NDArray], quads: bool = False, see: Callable | None = None) -> None:
         """Add some faces.
 
         faces: the vertices a, b, c and perhaps d, (k,) each. quads: leave those out that Blender cuts along the other
         diagonal, and append them to `flipped`, turned by one corner; otherwise the first diagonal is taken.
+        see: is shown the doubled areas, (c - 2, k); of quads also 6 times the volumes of the tetrahedra of their
+        corners, (k,), the columns of those whose triangles may face away from each other, and gets room, (2, k).
         ValueError where an index names no point.
         """
         k = len(faces[0])
@@ -195,10 +196,13 @@ class Faces:
             call()
         largest, least = own.largest(), own.least()
         if quads:
-            own.normals[:, :, self._flipped(own, np.maximum(largest, -least), k)] = 0.0
+            suspects, flipped = self._flipped(own, np.maximum(largest, -least), k)
+            own.normals[:, :, flipped] = 0.0
         for call in own.weigh:
             call()
         sizes, sums = [size() for size in own.sizes], []
+        if see is not None:
+            see(own.weights[1, :, :k], *((own.volume()[:k], suspects, own.room[:2, :k]) if quads else ()))
         for call in own.prepare:
             call()
         for calls, totals in own.moments:
@@ -206,18 +210,6 @@ class Faces:
                 call()
             sums.append([total() for total in totals])
         self.found.append((k, largest, least, sizes, sums))
-
-    def rows(self) -> Rows:
-        """What all blocks together add."""
-        columns = []
-        for k, largest, least, sizes, _ in self.found:
-            edges, width = np.maximum(largest, -least), _shape(k)[1]
-            counts = np.minimum(k - width * np.arange(edges.shape[2]), width)
-            columns += [(edges[:, 2 * i], edges[:, 1], counts, *fan) for i, fan in enumerate(zip(*sizes))]
-        side, base, counts, *sizes = (np.concatenate(column, axis=-1) for column in zip(*columns))
-        totals = [self._assembled(*map(sum, zip(*parts))) for parts in zip(*(sums for *_, sums in self.found))]
-        return Rows(totals[0], totals[1] if self.wanted["shell"] else None, side, base,
-                    np.array((*sizes, np.zeros_like(sizes[0]))[:2]), counts, len(self.found))
 
     def _shaped(self, count: int, k: int, each: bool) -> _Calls:
         shape = (count, *_shape(k), each)
@@ -241,9 +233,9 @@ class Faces:
         if single:
             own.corners[...] = target
 
-    def _flipped(self, own: _Calls, largest: NDArray, k: int) -> NDArray[np.intp]:
-        """Those of the first k columns whose quads Blender cuts along their other diagonal, once they are appended to
-        `flipped`.
+    def _flipped(self, own: _Calls, largest: NDArray, k: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Those of the first k columns whose quads Blender may cut along their other diagonal, and those that it does,
+        once they are appended to `flipped`.
 
         They are those whose two normals face away from each other in float32. That can differ from float64 only where
         the product is within float32's rounding of zero.
@@ -255,7 +247,7 @@ class Faces:
             margin = FLIP_MARGIN * length[0] * length[1] ** 2 * length[2]
             least = np.minimum.reduce(cosine.reshape(len(margin), -1), axis=1)
             if length.max() < FLOAT32_OVERFLOW and (least > margin).all():
-                return own.index[0, :0]
+                return own.index[0, :0], own.index[0, :0]
             square = np.einsum("cik,cik->ik", own.edges, own.edges)
             limit = FLIP_MARGIN * square[1] * np.sqrt(square[0] * square[2])
             limit[square.max(axis=0) > FLOAT32_OVERFLOW ** 2] = np.inf
@@ -266,17 +258,30 @@ class Faces:
         loose = self.points[quads.T].reshape(-1, 3)
         turn = flipped_quads(loose, np.arange(len(loose)).reshape(-1, 4))
         self.flipped.append(np.roll(quads[:, turn], -1, axis=0))
-        return suspects[turn]
+        return suspects, suspects[turn]
 
-    @staticmethod
-    def _assembled(rows: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
-        """(20,) `Rows.sums` from the sums of the table's rows, (13,), and the products that have been summed."""
-        mixed = 0.5 * np.add.reduce(products.take(SQUARE))
-        third = 10.0 * np.add.reduce(products.take(CUBE))
-        total = 2.0 * np.concatenate([rows[12:], rows[6:9] + rows[9:12], rows[:6] + mixed, third])
-        if local is not None:
-            total[10:] += np.add.reduce(local.take(CUBE - CUBE // 9 * 3))  # in a table without x, y, z
-        return total
+
+def rows(found: Sequence[Found]) -> Rows:
+    """What all these blocks together add."""
+    columns = []
+    for k, largest, least, sizes, _ in found:
+        edges, width = np.maximum(largest, -least), _shape(k)[1]
+        counts = np.minimum(k - width * np.arange(edges.shape[2]), width)
+        columns += [(edges[:, 2 * i], edges[:, 1], counts, *fan) for i, fan in enumerate(zip(*sizes))]
+    side, base, counts, *sizes = (np.concatenate(column, axis=-1) for column in zip(*columns))
+    sums, *areas = (_assembled(*map(sum, zip(*parts))) for parts in zip(*(sums for *_, sums in found)))
+    return Rows(sums, areas[0] if areas else None, side, base, np.array((*sizes, np.zeros_like(sizes[0]))[:2]), counts,
+                len(found))
+
+
+def _assembled(rows: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
+    """(20,) `Rows.sums` from the sums of the table's rows, (13,), and the products that have been summed."""
+    mixed = 0.5 * np.add.reduce(products.take(SQUARE))
+    third = 10.0 * np.add.reduce(products.take(CUBE))
+    total = 2.0 * np.concatenate([rows[12:], rows[6:9] + rows[9:12], rows[:6] + mixed, third])
+    if local is not None:
+        total[10:] += np.add.reduce(local.take(CUBE - CUBE // 9 * 3))  # in a table without x, y, z
+    return total
 
 
 def _shape(k: int) -> tuple[int, int]:

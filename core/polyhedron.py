@@ -23,24 +23,28 @@ that of an edge with the product of the other edge and the vertex.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
 from math import hypot, isfinite
+from operator import itemgetter
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import NO_VERTEX, TRIPLES, Faces, Rows, numbers, together
+from .blocks import NO_VERTEX, TRIPLES, Faces, Found, Rows, numbers, rows
+from .flatness import Witness
 from .moments import Moments, U, monomials
 from .small import few
-from .surface import Surface, all_there
+from .surface import NO_QUADS, Surface, all_there
 
 BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
 MEMORY = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
 EXACT = 100_000  # triangles up to which the exact third order, half as much again, costs no time to speak of
 FEW = 1024  # triangles up to which `small` is faster
 PAIRED = 1000  # triangles below which looking for pairs costs more than it saves
-LEAST = 16384  # triangles that are worth a thread
+LEAST = 250_000  # triangles that are worth a thread: of fewer the calls are short, and wait for the interpreter
 RANGE = 2.0 ** 100  # reaches beyond this, or below its inverse, are scaled, lest a product of six overflow or vanish
 PAIRWISE = 64  # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
 EXPONENTS = monomials(3)
@@ -51,6 +55,10 @@ PRODUCTS = 8.0 * DEGREE  # u: what products of weights and nodes are off by
 THIRDS = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come to as much again at most
 CONE = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 TO_AREA = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
+
+# (k, 4) quads, or (k, 3) triangles, or two arrays of triangles of which each may be half a quad, with the row that each
+# begins with; or, without, (4, k) corners of quads that are turned.
+_Block = tuple[list[int], list[NDArray]]
 
 
 def solid_moments(surface: Surface, threads: int = 1) -> Moments:
@@ -63,12 +71,13 @@ def solid_moments(surface: Surface, threads: int = 1) -> Moments:
 
 
 def solid_and_area(surface: Surface, threads: int = 1, shell: bool = False, *, exact: bool = False,
-                   about: NDArray | None = None) -> tuple[Moments, Moments]:
+                   about: NDArray | None = None, witness: Witness | None = None) -> tuple[Moments, Moments]:
     """The volume moments as `solid_moments`, and the area: its moments to third order where `shell`, else order 0.
 
     exact: the third order to rounding whatever the size of the mesh. about: (3,) the reference point, if another.
+    witness: is shown the faces, where that costs little.
     """
-    return _measure(surface, threads, area=True, shell=shell, exact=exact, about=about)
+    return _measure(surface, threads, area=True, shell=shell, exact=exact, about=about, witness=witness)
 
 
 def third_moments_exact(surface: Surface, threads: int = 1) -> Moments:
@@ -77,7 +86,7 @@ def third_moments_exact(surface: Surface, threads: int = 1) -> Moments:
 
 
 def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: bool,
-             about: NDArray | None = None) -> tuple[Moments, Moments]:
+             about: NDArray | None = None, witness: Witness | None = None) -> tuple[Moments, Moments]:
     count = len(surface.triangles) + 2 * len(surface.quads)
     if not count:
         about = np.zeros(3) if about is None else about
@@ -92,20 +101,18 @@ def _measure(surface: Surface, threads: int, *, area: bool, shell: bool, exact: 
     if largest and not 1.0 / RANGE < largest < RANGE:
         return _rescaled(surface, int(np.log2(largest)), threads, about, area=area, shell=shell,
                          exact=exact)
-    job = _Job(points, center, reach, surface.coordinate_error, count, area, shell, exact or count <= EXACT)
+    exact = exact or count <= EXACT
+    # Two threads have a block each: the sums are the same with one, and with more where there is room for more.
+    room, each = MEMORY[0] * count + MEMORY[1], 8 * numbers(3, area, exact)
+    size = max(2, min(BLOCK, room // (2 * each), count) // 2 * 2)
+    threads = max(1, min(threads, count // LEAST, room // (each * size)))
+    job = _Job(points, center, reach, surface.coordinate_error, count, area, shell, exact, witness, size, threads)
     if count <= FEW:
         if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
             raise ValueError(NO_VERTEX)
         triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
-        return job.moments([few(points, center, triangles, area=area, shell=shell)])
-    threads = max(1, min(threads, count // LEAST))
-    blocks = job.blocks(surface, threads)
-    threads = min(threads, len(blocks))
-    if threads == 1:
-        return job.moments([job.run(blocks)])
-    ends = [len(blocks) * i // threads for i in range(threads + 1)]
-    with ThreadPoolExecutor(threads) as pool:
-        return job.moments(list(pool.map(lambda a, b: job.run(blocks[a:b]), ends, ends[1:])))
+        return job.moments(few(points, center, triangles, area=area, shell=shell))
+    return job.moments(rows(job.sums(job.blocks(surface))))
 
 
 def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -141,7 +148,7 @@ def _rescaled(surface: Surface, exponent: int, threads: int, about: NDArray | No
 @dataclass(frozen=True, eq=False)
 class _Job:
     """One surface to be measured. points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count:
-    triangles."""
+    triangles; size: those in a block."""
 
     points: NDArray
     center: NDArray[np.float64]
@@ -151,41 +158,65 @@ class _Job:
     area: bool
     shell: bool
     exact: bool
+    witness: Witness | None
+    size: int
+    threads: int
 
-    def blocks(self, surface: Surface, threads: int) -> list[tuple[NDArray, ...]]:
-        """The faces in as few blocks as the memory allows, a multiple of the threads: (k, 4) quads, or (k, 3)
-        triangles, or two arrays of triangles of which each may be half a quad."""
-        memory = (MEMORY[0] * self.count + MEMORY[1]) // threads
-        size = max(1, min(BLOCK, memory // (8 * numbers(3, self.area, self.exact))))
-        size = -(-self.count // (threads * -(-self.count // (threads * size))))
-        size += size % 2
-        triangles, half = surface.triangles, len(surface.triangles) // 2
+    def blocks(self, surface: Surface) -> list[_Block]:
+        """The faces in as few blocks as the memory allows, whatever the number of threads."""
+        triangles, half, size = surface.triangles, len(surface.triangles) // 2, self.size
         if _paired(triangles[:1], triangles[half:half + 1]) is None:
             half = 0
-        whole = (((triangles[:half], triangles[half:2 * half]), size // 2), ((triangles[2 * half:],), size),
-                 ((surface.quads,), size // 2))
-        return [tuple(array[i:i + step] for array in arrays)
-                for arrays, step in whole for i in range(0, len(arrays[0]), step)]
+        whole = (((0, half), (triangles[:half], triangles[half:2 * half]), size // 2),
+                 ((2 * half,), (triangles[2 * half:],), size), ((0,), (surface.quads,), size // 2))
+        return [([start + i for start in starts], [array[i:i + step] for array in arrays])
+                for starts, arrays, step in whole for i in range(0, len(arrays[0]), step)]
 
-    def run(self, blocks: list[tuple[NDArray, ...]]) -> Rows:
-        """The sums over some of the blocks. Safe in threads."""
+    def sums(self, blocks: list[_Block]) -> list[Found]:
+        """What the blocks add, in their order, whichever thread has had them."""
+        queue = iter(enumerate(blocks))
+        threads = min(self.threads, len(blocks))
+        if threads == 1:
+            parts = self._run(queue)
+        else:
+            with ThreadPoolExecutor(threads) as pool:
+                parts = [part for own in pool.map(self._run, [queue] * threads) for part in own]
+        parts.sort(key=itemgetter(0))
+        found = [one for _, own, _ in parts for one in own]
+        flipped, step = np.concatenate([NO_QUADS.T, *(one for *_, own in parts for one in own)], axis=1), self.size // 2
+        if flipped.size:
+            found += self.sums([([], [flipped[:, i:i + step]]) for i in range(0, flipped.shape[1], step)])
+        return found
+
+    def _run(self, queue: Iterator[tuple[int, _Block]]) -> list[tuple[int, list[Found], list[NDArray]]]:
+        """Of each block that is taken from the queue: its number, what it adds, and quads that were left out."""
         faces = Faces(self.points, self.center, area=self.area, shell=self.shell, exact=self.exact)
-        for block in blocks:
-            first, corners = block[0], None
-            if first.shape[1] == 3 and len(first) >= PAIRED:
-                corners = pairs(first) if len(block) == 1 else _paired(*block)
-            for part in [corners] if corners else [part.T for part in block]:
-                faces.block(part, first.shape[1] == 4)
-        if faces.flipped:
-            flipped = np.concatenate(faces.flipped, axis=1)
-            step = max(len(block[0]) for block in blocks if block[0].shape[1] == 4)
-            for i in range(0, flipped.shape[1], step):
-                faces.block(flipped[:, i:i + step])
-        return faces.rows()
+        parts = []
+        for number, block in queue:
+            faces.found, faces.flipped = [], []
+            self._add(faces, *block)
+            parts.append((number, faces.found, faces.flipped))
+        return parts
 
-    def moments(self, parts: list[Rows]) -> tuple[Moments, Moments]:
+    def _add(self, faces: Faces, starts: list[int], arrays: list[NDArray]) -> None:
+        first, halves, witness = arrays[0], None, self.witness
+        if not starts:
+            faces.block(first)
+            return
+        if first.shape[1] == 4:
+            faces.block(first.T, quads=True, see=witness and partial(witness.see_quads, *starts))
+            return
+        if len(first) >= PAIRED:
+            halves = pairs(first) if len(arrays) == 1 else _paired(*arrays)
+        if halves:
+            seen = (starts, 1) if len(arrays) == 2 else ([starts[0], starts[0] + 1], 2)
+            faces.block(halves, see=witness and partial(witness.see_triangles, *seen))
+            return
+        for start, part in zip(starts, arrays):
+            faces.block(part.T, see=witness and partial(witness.see_triangles, [start], 1))
+
+    def moments(self, rows: Rows) -> tuple[Moments, Moments]:
         """Volume and area, with their bounds."""
-        rows = parts[0] if len(parts) == 1 else together(parts)
         bounds = _Bounds(self, rows)
         raw = rows.sums / DIVISORS
         volume = Moments(raw, self.center, "volume", *bounds.volume(raw))

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from . import polyhedron
 from .components import Components
-from .flatness import examine
+from .flatness import Witness
 from .mending import Mended, counted, listed, mend
 from .moments import SECOND, Moments
 from .nesting import cut_from, decide, relate
@@ -126,14 +126,16 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     surface, vertices, size = _used(surface)
     error = float(np.linalg.norm(surface.coordinate_error))
     tolerance = max(TOLERANCE * size, 4.0 * error)
-    own = None
-    if threads > 1:  # most surfaces turn out to be measured as they are, and the area always is
+    witness = Witness(surface, error)
+    if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // polyhedron.LEAST) > 1:
         with ThreadPoolExecutor(1) as pool:
-            waiting = pool.submit(polyhedron.solid_and_area, surface, 1, shell)
-            flatness, body = examine(surface, error), _proven(surface)
-        own = waiting.result()
+            waiting = pool.submit(_proven, surface)
+            own = polyhedron.solid_and_area(surface, threads, shell, witness=witness)
+        body = waiting.result()
     else:
-        flatness, body = examine(surface, error), _proven(surface)
+        own = polyhedron.solid_and_area(surface, 1, shell, witness=witness)
+        body = _proven(surface)
+    flatness = witness.flatness()
     proven = body is not None
     if not proven:
         body = mend(surface, tolerance, size)
@@ -141,9 +143,9 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     turn = np.zeros(body.number, bool) if compared is None else compared.turned
     turn_each = turn
     measured = _to_measure(surface, body, turn, np.ones(1, bool) if compared is None else compared.solid, proven)
-    volume, area = own if own and measured is surface else polyhedron.solid_and_area(measured, threads, shell)
+    volume, area = own if measured is surface else polyhedron.solid_and_area(measured, threads, shell)
     if body.changed:  # caps are no part of the area, and left out faces are
-        area = (own or polyhedron.solid_and_area(surface, threads, shell))[1]
+        area = own[1]
     if compared is None:
         solid = bool(abs(volume.total) > _noise(size, area.total, body.caps.any(), error))
         turn = turn | (solid and volume.total < 0.0 and not body.open.any())  # what is open has no inside
@@ -231,8 +233,7 @@ def _used(surface: Surface) -> tuple[Surface, NDArray[np.intp] | None, float]:
         number = np.cumsum(used) - 1
         surface = replace(
             surface, points=points[used], triangles=number[surface.triangles], quads=number[surface.quads],
-            corner_vertices=None if surface.corner_vertices is None else number[surface.corner_vertices],
-            edges=None if surface.edges is None else number[surface.edges])
+            corner_vertices=None if surface.corner_vertices is None else number[surface.corner_vertices])
     low, high = surface.box
     with np.errstate(invalid="ignore", over="ignore"):
         size = float(np.linalg.norm(high - low))
@@ -257,19 +258,13 @@ def _proven(surface: Surface) -> Mended | None:
     sides = closed_sides(surface)
     if sides is None:
         return None
-    quad_faces, triangle_faces = mesh_faces(surface)
-    present = np.zeros(max(quad_faces.max(initial=-1), triangle_faces.max(initial=-1)) + 1, bool)
-    present[quad_faces] = present[triangle_faces] = True
-    number = np.arange(len(present))
-    if not present.all():
-        number = np.cumsum(present) - 1
-        sides = number[sides]
-    shell, shells = components(int(number[-1]) + 1, sides[:, 0], sides[:, 1])
-    triangles, face = surface.triangles[:0], triangle_faces[:0]
+    shell, shells = components(int(sides.max()) + 1, *sides)
+    triangles, face = surface.triangles[:0], shell[:0]
     if shells > 1:
+        quad_faces, triangle_faces = mesh_faces(surface)
         triangles = np.concatenate([surface.quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3), surface.triangles])
         face = np.concatenate([np.repeat(quad_faces, 2), triangle_faces])
-    return Mended(surface.points, triangles, face, np.zeros(len(face), bool), shell[number[face]], shells,
+    return Mended(surface.points, triangles, face, np.zeros(len(face), bool), shell[face], shells,
                   np.zeros(shells, bool), np.zeros((shells, 3)), counts={"closed": True, "components": shells})
 
 

@@ -30,8 +30,8 @@ class Surface:
     triangles: (m, 3) vertex indices, the triangular faces and Blender's tessellation of n-gons.
     quads: (q, 4) vertex indices in corner order; cut as `flipped_quads` says.
     triangle_faces, quad_faces: the mesh face each one belongs to; None where face i is simply row i.
-    corner_vertices, corner_edges, edges: (c,), (c,), (e, 2), the mesh's own corners and edges. They prove closedness
-        without sorting; None where the source has none.
+    corner_vertices, corner_edges: (c,), the mesh's own corners, and the edge from each one to the next. They prove
+        closedness without sorting; None where the source has none.
     moved: (3,) see `coordinate_error`.
     """
 
@@ -42,7 +42,6 @@ class Surface:
     quad_faces: NDArray[np.integer] | None = None
     corner_vertices: NDArray[np.integer] | None = None
     corner_edges: NDArray[np.integer] | None = None
-    edges: NDArray[np.integer] | None = None
     moved: NDArray[np.float64] | None = None
 
     @cached_property

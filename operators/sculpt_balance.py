@@ -286,7 +286,7 @@ def _measured(context: Context, obj: Object) -> Measurement:
 
 def _read(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh | None) -> Part:
     """The surface as it is measured; Refused where its vertices are not those of the mesh."""
-    reading = read_object(obj, context.evaluated_depsgraph_get())
+    reading = read_object(obj, context.evaluated_depsgraph_get(), edges=False)
     part = reading.parts[0]
     if reading.singular:
         raise Refused("a zero scale flattens it; set its scale first")

@@ -51,7 +51,7 @@ def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
     """The evaluated surfaces of an object in the world: for each part, all points of the first
     place where it stands and some points of all others. None where there is nothing to see."""
     try:
-        reading = read_object(obj, depsgraph)
+        reading = read_object(obj, depsgraph, edges=False)
     except Unreadable:
         return None
     shapes = []

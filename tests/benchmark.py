@@ -77,13 +77,27 @@ def measure_arrays(points: np.ndarray, triangles: np.ndarray, threads: int = 1) 
 
 
 def gather(points: np.ndarray, faces: np.ndarray) -> None:
-    """The floor: subtract a reference point and fetch every corner's coordinates, in blocks."""
+    """The floor: subtract a reference point and fetch every corner's coordinates in float64, in blocks."""
     size = 16384
-    flat = (points - points[0]).reshape(-1)
+    flat = np.subtract(points, points[0], dtype=np.float64).reshape(-1)
     for start in range(0, len(faces), size):
         index = np.multiply(faces[start:start + size].T, 3, dtype=np.intp)
         for axis in range(3):
             flat[axis:].take(index, mode="clip")
+
+
+def gather_in_place(points: np.ndarray, faces: np.ndarray) -> None:
+    """The same as fast as numpy can: without a copy of the points, into arrays that are made once and stay in cache."""
+    size, corners = 32768, faces.shape[1]
+    flat, origin = points.reshape(-1), points[0].astype(np.float64)[:, None, None]
+    index, fetched = np.empty((corners, size), np.intp), np.empty((3, corners, size), points.dtype)
+    place = np.empty(fetched.shape)
+    for start in range(0, len(faces) - size + 1, size):  # what is left over is not worth a line
+        index[...] = faces[start:start + size].T
+        np.multiply(index, 3, index)
+        for axis in range(3):
+            flat[axis:].take(index, None, fetched[axis], "wrap")
+        np.subtract(fetched, origin, place)
 
 
 def interleaved(rows: dict[str, Callable[[], object]], rounds: int) -> dict[str, list[float]]:
@@ -295,13 +309,13 @@ def blender(side: int, rounds: int) -> None:
     depsgraph = bpy.context.evaluated_depsgraph_get()
 
     def moments_only(threads: int) -> None:
-        (part,) = read_object(body, depsgraph).parts
-        volume = solid_and_area(part.surface, threads)[0].mapped(part.matrices[0])
+        (part,) = read_object(body, depsgraph, edges=False).parts
+        volume = solid_moments(part.surface, threads).mapped(part.matrices[0])
         MassProperties.from_moments(volume, refine=lambda: third_moments_exact(part.surface, threads))
 
-    def floor() -> None:
+    def floor(fetch: Callable[[np.ndarray, np.ndarray], None]) -> None:
         surface = read_floor(body.evaluated_get(depsgraph).to_mesh())
-        gather(surface.points.astype(np.float64), surface.quads)
+        fetch(surface.points, surface.quads)
 
     def by_bmesh() -> None:
         edited = bmesh.new()
@@ -313,11 +327,12 @@ def blender(side: int, rounds: int) -> None:
             "mass properties, 2 threads": lambda: moments_only(2),
             "with the full verdict, 1 thread": lambda: measure_object(body, depsgraph, MeasureOptions(threads=1)),
             "with the full verdict, 2 threads": lambda: measure_object(body, depsgraph, MeasureOptions(threads=2)),
-            "read and gather only": floor,
+            "read and gather only": lambda: floor(gather),
+            "the same, in place": lambda: floor(gather_in_place),
             "bmesh from_object + calc_volume": by_bmesh}
     times = interleaved(rows, rounds)
     table("evaluated mesh of {:,} quads, Blender {:s}".format(side * side, bpy.app.version_string), times,
-          ["read and gather only", "bmesh from_object + calc_volume"], 2 * side * side)
+          list(rows)[4:], 2 * side * side)
     bpy.data.objects.remove(body)
 
 

@@ -44,13 +44,16 @@ class Gathered:
     sources: the original objects that were read, without the first.
     vanished: how many instances are scaled to nothing.
     splines: of each evaluated surface object that was read, its patches, None where its mesh has to do.
-    materials, attribute: whether the faces' materials are wanted, and the name of the vertices' attribute.
+    materials, attribute, edges: whether the faces' materials are wanted, the name of the vertices' attribute, and
+        whether the edges at the corners are.
     """
 
-    def __init__(self, root, depsgraph, materials: bool = False, attribute: str | None = None):
+    def __init__(
+        self, root, depsgraph, materials: bool = False, attribute: str | None = None, edges: bool = True
+    ):
         self.root = root
         self.depsgraph = depsgraph
-        self.materials, self.attribute = materials, attribute
+        self.materials, self.attribute, self.edges = materials, attribute, edges
         # A geometry set owns the meshes that it hands out, and the keys are their addresses.
         self._owners: list[object] = []
         self._forget()
@@ -229,7 +232,10 @@ class Gathered:
         return (key, _of_object(owner)) if self.materials and owner is not None else key
 
     def _read(self, mesh, owner) -> tuple[Surface, Painted]:
-        return mesh_surface(mesh), self._paint(mesh, owner)
+        if not len(mesh.polygons):
+            vertices, edges = self.faceless
+            self.faceless = (vertices + len(mesh.vertices), edges + len(mesh.edges))
+        return mesh_surface(mesh, edges=self.edges), self._paint(mesh, owner)
 
     def _paint(self, mesh, owner) -> Painted:
         vertices = None
@@ -258,11 +264,7 @@ class Gathered:
         self, key: Hashable, read: Callable[[], tuple[Surface, Painted]], places: NDArray
     ) -> None:
         if key not in self._surfaces:
-            surface, self._painted[key] = read()
-            self._surfaces[key] = surface
-            if not len(surface.triangles) and not len(surface.quads):
-                vertices, edges = self.faceless
-                self.faceless = (vertices + len(surface.points), edges + len(surface.edges))
+            self._surfaces[key], self._painted[key] = read()
         self._places.setdefault(key, []).append(places)
 
     def _count_surfaceless(self, geometry, count: int) -> None:

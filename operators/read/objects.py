@@ -23,12 +23,12 @@ from .visibility import NOT_EVALUATED, evaluated_geometry, hidden_reason, requir
 
 
 def read_object(
-    obj, depsgraph, *, materials: bool = False, attribute: str | None = None
+    obj, depsgraph, *, materials: bool = False, attribute: str | None = None, edges: bool = True
 ) -> Reading:
     """Read one object, original or evaluated, as the up-to-date viewport `depsgraph` has it.
 
     materials: with the materials of its faces. attribute: with the values of a float attribute on its
-    vertices.
+    vertices. edges: with what proves surfaces closed.
 
     Raises Unreadable with the reason and the remedy: of a kind without surface, not evaluated,
     nothing with a face, coordinates or transforms that are not finite.
@@ -37,7 +37,7 @@ def read_object(
     require_kind(obj)
     _require_readable_mode(obj)
     evaluated, matrix = _evaluated(obj, depsgraph)
-    gathered = Gathered(evaluated, depsgraph, materials, attribute)
+    gathered = Gathered(evaluated, depsgraph, materials, attribute, edges)
     gathered.gather()
     parts = gathered.parts()
     if not parts:

@@ -62,7 +62,7 @@ def read_section(obj, depsgraph) -> SectionReading:
         return _selected_faces(obj, depsgraph)
     if obj.type in {"CURVE", "FONT"} and not any(modifier.show_viewport for modifier in obj.modifiers):
         return _outlines(obj, depsgraph)
-    reading = read_object(obj, depsgraph)
+    reading = read_object(obj, depsgraph, edges=False)
     warnings = list(reading.warnings)
     if obj.type in {"CURVE", "FONT"}:
         warnings.append("What its modifiers make of Blender's fill was measured, at a resolution of {:s}.".format(
@@ -80,7 +80,7 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
         bmesh.from_edit_mesh(obj.data).to_mesh(copy)
         chosen = np.empty(len(copy.polygons), bool)
         copy.polygons.foreach_get("select", chosen)
-        surface = mesh_surface(copy) if chosen.any() else None
+        surface = mesh_surface(copy, edges=False) if chosen.any() else None
     finally:
         bpy.data.meshes.remove(copy)
     if surface is None:
@@ -207,7 +207,7 @@ def _filled(obj, depsgraph) -> Surface | None:
     evaluated = obj.evaluated_get(depsgraph)
     mesh = evaluated.to_mesh()
     try:
-        return mesh_surface(mesh) if mesh is not None and len(mesh.polygons) else None
+        return mesh_surface(mesh, edges=False) if mesh is not None and len(mesh.polygons) else None
     finally:
         evaluated.to_mesh_clear()
 

@@ -99,8 +99,7 @@ def test_a_surface_holds_the_mesh_as_it_is(points, faces):
     assert np.array_equal(surface.points, [v.co[:] for v in obj.data.vertices])
     assert np.array_equal(surface.corner_vertices, [loop.vertex_index for loop in obj.data.loops])
     assert np.array_equal(surface.corner_edges, [loop.edge_index for loop in obj.data.loops])
-    assert np.array_equal(surface.edges, [edge.vertices[:] for edge in obj.data.edges])
-    for indices in (surface.triangles, surface.quads, surface.corner_vertices, surface.edges):
+    for indices in (surface.triangles, surface.quads, surface.corner_vertices, surface.corner_edges):
         assert indices.dtype == np.int32
 
 

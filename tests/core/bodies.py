@@ -129,7 +129,7 @@ def surface(part, dtype=np.float64, **more):
 
 
 def mesh(points, faces, dtype=np.float64):
-    """A surface as a reader makes it from polygons: quads, fans for larger ones, and the mesh's corners and edges."""
+    """A surface as a reader makes it from polygons: quads, fans for larger ones, the mesh's corners and their edges."""
     edges, corner_edges = {}, []
     for face in faces:
         for a, b in zip(face, [*face[1:], face[0]]):
@@ -141,7 +141,7 @@ def mesh(points, faces, dtype=np.float64):
         np.asarray(points, dtype), triangles=np.array([fan for _, fan in fans], int).reshape(-1, 3),
         quads=np.array(quads, int).reshape(-1, 4), triangle_faces=np.array([k for k, _ in fans], int),
         quad_faces=np.array([k for k, face in enumerate(faces) if len(face) == 4], int),
-        corner_vertices=np.concatenate(faces), corner_edges=np.array(corner_edges), edges=np.array(list(edges)))
+        corner_vertices=np.concatenate(faces), corner_edges=np.array(corner_edges))
 
 
 def volume(part):

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core import shell_tree
+from body_moments.core import polyhedron, shell_tree
 from body_moments.core.solid import measure_solid
 from body_moments.core.surface import Surface
 
@@ -387,13 +387,28 @@ def test_the_meshs_own_corners_lead_to_the_same_result_as_its_triangles(dtype):
     assert quick.volume.total == pytest.approx(upright.volume.total, rel=1e-13)  # turned quads keep their diagonals
 
 
+@pytest.mark.parametrize("flipped", [0, 1])
+def test_threads_change_nothing(flipped, monkeypatch):
+    monkeypatch.setattr(polyhedron, "LEAST", 64)
+    monkeypatch.setattr(polyhedron, "BLOCK", 256)
+    points, quads = ring(40, 30)
+    quads[:flipped] = quads[:flipped, ::-1]
+    points[::5] *= 1.01
+    results = [measure_solid(mesh(points, quads.tolist(), np.float32), shell=True, threads=k) for k in (1, 2, 3)]
+    for other in results[1:]:
+        assert other.health.as_record() == results[0].health.as_record() and other.warnings == results[0].warnings
+        for key in ("raw", "error", "input"):
+            for of in ("volume", "area"):
+                np.testing.assert_array_equal(getattr(getattr(other, of), key), getattr(getattr(results[0], of), key))
+
+
 def test_loose_vertices_and_edges_change_nothing():
     points, quads = ring(12, 8)
     plain = mesh(points, quads.tolist())
     result = measure_solid(plain)
     loose = replace(plain, points=np.concatenate([[[1e6, np.nan, np.inf]], points, [[-1e5, 0, 0]]]),
                     quads=plain.quads + 1, corner_vertices=plain.corner_vertices + 1,
-                    edges=np.concatenate([plain.edges + 1, [[0, 5], [0, len(points) + 1]]]))
+                    corner_edges=plain.corner_edges + 1)
     other = measure_solid(loose)
     np.testing.assert_array_equal(other.volume.raw, result.volume.raw)
     assert other.health.as_record() == result.health.as_record() and other.warnings == ()

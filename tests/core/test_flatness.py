@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the sums show of the faces, against each face looked at by itself."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core import polyhedron
+from body_moments.core.flatness import FLAT, NO_AREA, Witness
+from body_moments.core.solid import measure_solid
+from body_moments.core.surface import Surface
+
+from tests.core.bodies import mesh, ring, rotation
+
+
+def one_by_one(surface, error):
+    """The number of bent quads, their spread and the faces without area, by the definition."""
+    points = [[Fraction(float(x)) for x in point] for point in surface.points]
+
+    def span(i, j):
+        return [x - y for x, y in zip(points[i], points[j])]
+
+    def cross(u, v):
+        return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+
+    def dot(u, v):
+        return sum(x * y for x, y in zip(u, v))
+
+    bent, spread, bare = 0, Fraction(0), []
+    for face, corners in enumerate([*surface.quads.tolist(), *surface.triangles.tolist()]):
+        a, b, c = corners[:3]
+        first, second = (span(c, a), span(corners[3], b)) if len(corners) == 4 else (span(b, a), span(c, a))
+        normal = cross(first, second)
+        square, longest = float(dot(normal, normal)), float(max(dot(first, first), dot(second, second)))
+        volume = abs(dot(span(b, a), normal)) if len(corners) == 4 else 0
+        if square <= longest * (error**2 + NO_AREA**2 * longest):
+            bare.append(face)
+        elif volume > square ** 0.5 * (8.0 * error + FLAT * square ** 0.25):
+            bent, spread = bent + 1, spread + volume / 6
+    return bent, float(spread), bare
+
+
+def quads(kind, dtype):
+    """A torus of 1800 quads: flat but for rounding, bent, some of them bent or folded, or without area."""
+    points, faces = ring(60, 30)
+    rng = np.random.default_rng(3)
+    loose = points[faces].reshape(-1, 3)  # each quad with corners of its own, so that they can be bent one by one
+    faces = np.arange(len(loose)).reshape(-1, 4)
+    a, b, _, d = (loose[k::4].copy() for k in range(4))
+    scale = np.exp(rng.uniform(-4.0, 0.0, (len(faces), 1)))
+    b, d = a + (b - a) * scale, a + (d - a) * scale
+    c = b + d - a  # flat
+    normal = np.cross(b - a, d - a)
+    if kind == "bent":
+        c += normal * rng.uniform(-5.0, 5.0, (len(c), 1))
+    if kind in ("some", "all sorts"):
+        c[::7] += (normal * rng.uniform(-5.0, 5.0, (len(c), 1)))[::7]
+        c[1::7] += (normal * 1e-6 * rng.uniform(-200.0, 200.0, (len(c), 1)))[1::7]  # about the limit
+    if kind == "all sorts":
+        c[::5] = a[::5] - 0.3 * (c - a)[::5]  # folded
+        d[::11] = b[::11]  # two triangles on each other
+        c[::13] = b[::13] + (b - a)[::13]
+        d[::13] = a[::13] - (b - a)[::13]  # no area
+        b[::17] = a[::17]
+        d[::17] = a[::17]
+    points = np.stack([a, b, c, d], axis=1).reshape(-1, 3)
+    return Surface((points @ rotation(3).T + [0.1, 0.2, 0.3]).astype(dtype), quads=faces.astype(np.int32))
+
+
+def told(surface, seen, threads=1):
+    error = float(np.linalg.norm(surface.coordinate_error))
+    witness = Witness(surface, error)
+    if seen:
+        polyhedron.solid_and_area(surface, threads, witness=witness)
+        assert sum(block.count for block in witness.quads.values()) == len(surface.quads)
+        assert sum(block.count for block in witness.triangles.values()) == len(surface.triangles)
+    found = witness.flatness()
+    return found.not_flat, found.spread, found.without_area.tolist(), error
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("kind", ["flat", "bent", "some", "all sorts"])
+def test_what_the_sums_show_is_what_looking_at_each_face_gives(kind, dtype, monkeypatch):
+    monkeypatch.setattr(polyhedron, "LEAST", 64)
+    monkeypatch.setattr(polyhedron, "BLOCK", 512)
+    surface = quads(kind, dtype)
+    for seen, threads in ((False, 1), (True, 1), (True, 3)):
+        *found, error = told(surface, seen, threads)
+        bent, spread, bare = one_by_one(surface, error)
+        assert (found[0], found[2]) == (bent, bare)
+        assert found[1] == pytest.approx(spread, rel=1e-11)
+    assert (bent > 0) == (kind != "flat") and (len(bare) > 200) == (kind == "all sorts")
+
+
+@pytest.mark.parametrize("order", ["pairs", "halves", "loose"])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_triangles_without_area_are_found_wherever_they_stand(order, dtype):
+    surface = quads("all sorts", dtype)
+    halves = surface.quads[:, [0, 1, 2]], surface.quads[:, [0, 2, 3]]
+    triangles = np.stack(halves, axis=1).reshape(-1, 3) if order == "pairs" else np.concatenate(halves)
+    if order == "loose":
+        triangles = triangles[np.random.default_rng(0).permutation(len(triangles))]
+    surface = Surface(surface.points, triangles)
+    for seen in (False, True):
+        *found, error = told(surface, seen)
+        bent, spread, bare = one_by_one(surface, error)
+        assert found == [0, 0.0, bare] and len(bare) > 300
+
+
+def test_in_a_large_mesh_a_face_without_area_has_its_own_number_and_polygons_their_spread():
+    points, faces = ring(60, 30)
+    faces = faces.tolist()
+    points = np.concatenate([points, [points[faces[700][1]], points[faces[700][2]]]])
+    a, b, c, d = faces[700]
+    faces[700:701] = [[a, b, c], [a, c, d]]
+    e, f, g, h = faces[-1]
+    faces[-1:] = [[e, f, g, h, len(points)]]
+    points = np.concatenate([points, [(points[h] + points[e]) / 2.0]])
+    surface = mesh(points, faces)
+    error = 0.0
+    plain = Witness(surface, error).flatness()
+    found = measure_solid(surface).health
+    assert (found.non_planar_faces, found.faults.degenerate_faces.tolist()) == (plain.not_flat, [])
+    assert found.volume_spread == pytest.approx(plain.spread, rel=1e-13)
+    flat = points.copy()
+    flat[d] = points[a]
+    assert measure_solid(replace(surface, points=flat)).health.faults.degenerate_faces.tolist() == [701]
+
+
+@pytest.mark.parametrize("scale", [2.0 ** -120, 2.0 ** 120])
+def test_sizes_beyond_the_range_of_the_sums_do_not_matter(scale):
+    surface = quads("some", np.float64)
+    plain, scaled = (Witness(replace(surface, points=surface.points * s), 0.0) for s in (1.0, scale))
+    for witness in (plain, scaled):
+        polyhedron.solid_and_area(witness.surface, witness=witness)
+    plain, scaled = plain.flatness(), scaled.flatness()
+    assert scaled.not_flat == plain.not_flat > 200
+    assert scaled.spread == pytest.approx(plain.spread * scale ** 3, rel=1e-12)
