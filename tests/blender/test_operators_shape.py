@@ -157,14 +157,15 @@ def test_what_is_too_far_away_for_its_shape_to_be_seen_is_refused(operator, capf
     assert "Far: It stands so far from the world's origin" in capfd.readouterr().out
 
 
-def test_an_object_too_large_to_have_a_signature_is_refused(tmp_path):
-    only(wedge(location=(0, 0, 0), scale=1e12))
-    bpy.context.object.scale = (1e15, 1e15, 1e15)
+def test_an_object_of_astronomical_size_is_found_by_its_shape():
+    small = wedge("Small", location=(1, 2, 3))
+    huge = wedge("Huge", location=(0, 0, 0), scale=1e12)
+    huge.scale = (1e15, 1e15, 1e15)
+    only(huge)
     bpy.context.view_layer.update()
-    assert "too large" in refused("find_similar") and "Traceback" not in refused("find_similar")
-    library = tmp_path / "library.jsonl"
-    library.write_text('{"schema": "body-moments/1", "objects": []}\n', encoding="utf-8")
-    assert "too large" in refused("find_in_library", filepath=str(library))
+    assert run("find_similar", scaled=True) == {"FINISHED"}
+    (found,) = bpy.context.scene.body_moments_search.found
+    assert found.name == small.name and found.distance < 1e-6
 
 
 def test_match_pose_needs_two_objects():
