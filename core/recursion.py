@@ -26,15 +26,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .affine import monomial_count, monomials, predecessors, rows_of
-from .levels import LENGTH, TINY, Levels, Sums
+from .levels import TINY, Levels, Sums, layout
 from .moments import Moments, U
 from .polyhedron import finite_box, middle, pairs, solid_and_area
 from .surface import Surface, all_there, flipped_quads
 
 MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 FAST = 3  # orders up to this one have their own kernel
-NUMBERS = 480_000  # that a block's rows of one degree may hold; with fewer, two threads wait for each other
-FEWEST, MOST = 256, 16384  # faces in a block
+NUMBERS = 2_000_000  # that a block's scratch may hold; with fewer, two threads wait for each other
+FEWEST, MOST = 4608, 16384  # faces in a block
 BATCH = 8  # blocks that are handed to a thread at once
 RANGE = 1000.0  # powers of two beyond which a moment is no number
 
@@ -121,6 +121,14 @@ def _factors(order: int) -> NDArray[np.float64]:
                      for p, q, r in monomials(order).tolist()])
 
 
+def _split(rows: NDArray, most: int, unit: int) -> Iterator[NDArray]:
+    """An array in parts of about the same length, at most `most`, and multiples of `unit` but for the last."""
+    parts = -(-len(rows) // most)
+    step = -(-len(rows) // (parts * unit)) * unit if parts else 1
+    for start in range(0, len(rows), step):
+        yield rows[start:start + step]
+
+
 @dataclass(frozen=True, eq=False)
 class _Task:
     """Some faces, (m, 3) or (m, 4), of a piece of the body. half_ulp: (3,) as of its points."""
@@ -155,7 +163,7 @@ class _Stream:
         self.order, self.area, self.threads, self.progress = order, area, max(1, threads), progress
         self.center = about
         self.exponent = None if reach is None else frexp(reach)[1]
-        self.size = min(max(NUMBERS // rows_of(order) // 64 * 64, FEWEST), MOST)
+        self.sizes = {count: min(max(NUMBERS // layout(count, order, 1)[0], FEWEST), MOST) for count in (3, 4)}
         self.idle: list[Levels] = []
         self.half_ulp = np.zeros(3)
 
@@ -195,11 +203,11 @@ class _Stream:
             half_ulp = surface.coordinate_error
             self.half_ulp = np.maximum(self.half_ulp, half_ulp)
             for faces in (surface.triangles, surface.quads):
-                size = self.size * (2 if faces.shape[1] == 3 else 1)  # where two triangles make one face of ours
+                size = self.sizes[4] * (2 if faces.shape[1] == 3 else 1)  # where two triangles make one face of ours
                 blocks = -(-len(faces) // size)
-                step = size * max(1, min(BATCH, -(-blocks // (4 * self.threads))))
-                for start in range(0, len(faces), step):
-                    yield _Task(points, faces[start:start + step], half_ulp)
+                batch = max(1, min(BATCH, blocks if self.threads == 1 else blocks // (4 * self.threads)))
+                for part in _split(faces, size * batch, 2):
+                    yield _Task(points, part, half_ulp)
 
     def _settle(self, surface: Surface) -> None:
         """The reference point and the scale, by the first piece where nobody has given them."""
@@ -228,15 +236,12 @@ class _Stream:
 
     def _blocks(self, task: _Task) -> list[list[NDArray]]:
         """The corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles."""
-        faces, size, blocks = task.faces, self.size, []
+        faces = task.faces
         if faces.shape[1] == 4:
             faces = np.where(flipped_quads(task.points, faces)[:, None], np.roll(faces, -1, axis=1), faces)
-        else:
-            halves = pairs(faces)
-            faces = faces if halves is None else np.stack(halves, axis=1)
-        for start in range(0, len(faces), size):
-            blocks.append(list(faces[start:start + size].T))
-        return blocks
+        corners = pairs(faces) if faces.shape[1] == 3 else None
+        corners = list(faces.T) if corners is None else corners
+        return list(zip(*(_split(corner, self.sizes[len(corners)], 1) for corner in corners)))
 
     def _moments(self, total: _Total, of: str) -> Moments:
         """What the sums come to, in the body's own unit, with its bounds."""
@@ -246,7 +251,7 @@ class _Stream:
         sizes = total.sizes[3 * row:3 * row + 3]
         raw = (total.high[row] + total.low[row]) * factors
         mean = 2.0 * ((degree + 3.0) if of == "volume" else 1.0)  # ∫ |x^α| is at most weight reach^α / this
-        rounding = U * (8.0 * degree + LENGTH + 100.0)
+        rounding = U * (8.0 * degree + 228.0)
         error = (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean + 8.0 * U * np.abs(raw) + TINY * total.faces
         moved = self._moved(total, of) if self.half_ulp.any() else np.zeros(len(raw))
         powers = self.exponent * (degree + dimension)

@@ -24,7 +24,7 @@ def path(request, monkeypatch):
         monkeypatch.setattr(recursion, "MOST", 16)
         monkeypatch.setattr(recursion, "BATCH", 2)
         monkeypatch.setattr(levels, "CHUNK", 4)
-        monkeypatch.setattr(levels, "LENGTH", 8)
+        monkeypatch.setattr(levels, "SLICES", 2)
 
 
 def octahedron(level=2, noise=0.0, seed=0):
