@@ -47,17 +47,17 @@ def multinomials(degree: int) -> NDArray[np.float64]:
 
 @dataclass(frozen=True, eq=False)
 class Sums:
-    """What some blocks of faces add, in the unit in which their coordinates are at most about 1.
+    """What some blocks of faces add, in the unit in which their coordinates are of about 1.
 
     sums: (blocks, weights, K) Σ over faces of determinant S_α, and of doubled area S_α.
-    sizes: (sets, K) Σ weight reach^α over chunks, for the weights |determinant| with its rounding, that rounding alone,
-        the volume that moving every vertex by its half ulp sweeps; and with areas: doubled area with its rounding, that
-        alone, and the area that moving the vertices adds.
-    faces: how many.
+    chunks: (3 + 3 + weights + c-1, m), of each chunk of CHUNK faces the largest and the least coordinates, Σ |weight|
+        and the squares of its longest edges from the first corner.
+    half_ulp: (3,) of the coordinates. faces: how many.
     """
 
     sums: NDArray[np.float64]
-    sizes: NDArray[np.float64]
+    chunks: NDArray[np.float64]
+    half_ulp: NDArray[np.float64]
     faces: int
 
 
@@ -89,9 +89,7 @@ class _Block:
     corners: (3, c, k). edges: (3, c-1, k). tips: (w, c-2, k), the weights of the triangles a, b, c and a, c, d; both:
     (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree. heavy: (w, 3, c, k),
     weights times corners. room: for what is needed for a moment.
-    total: (w, K), the sums. chunks: (3 + 3 + w + c-1, m), of each chunk the largest and the least coordinates, Σ |weight|
-    and the squares of its longest edges. A chunk is CHUNK neighbours; they stand below each other in the (CHUNK, m) that
-    a row is.
+    total: (w, K), the sums. chunks: as of `Sums`; neighbours stand below each other in the (CHUNK, m) that a row is.
     """
 
     def __init__(self, buffer: NDArray, count: int, k: int, order: int, weights: int):
@@ -243,8 +241,8 @@ class Levels:
                 step()
             sums.append(own.total.copy())
             chunks.append(own.chunks.copy())
-        reach, weights = self._bounds(np.concatenate(chunks, axis=1), half_ulp * scale)
-        return Sums(np.array(sums), self._sizes(reach, weights), sum(len(faces[0]) for faces in blocks))
+        return Sums(np.array(sums), np.concatenate(chunks, axis=1), half_ulp * scale,
+                    sum(len(faces[0]) for faces in blocks))
 
     def _shaped(self, count: int, k: int) -> _Block:
         """A block for k faces, or a few more."""
@@ -276,33 +274,31 @@ class Levels:
         np.subtract(own.corners[:, 1:], own.corners[:, :1], out=own.edges)
         np.subtract(own.corners, (center * scale)[:, None, None], out=own.corners)
 
-    def _bounds(self, chunks: NDArray, half_ulp: NDArray) -> tuple[NDArray, NDArray]:
-        """(3, m) the reach of each chunk, (3 or 6, m) the weights of `Sums.sizes`; from `_Block.chunks`."""
-        high, low, sizes, squares = np.split(chunks, (3, 6, 6 + self.weights))
-        reach = np.maximum(high, -low) * (1.0 + 4.0 * U) + half_ulp[:, None]
-        edges = np.sqrt(squares + SQUARE) * (1.0 + 1e-9)
-        terms = CHUNK * (edges[:-1] * edges[1:]).sum(axis=0)  # of each component of the normals, or of their lengths
-        rounding, sizes = ROUNDING * terms, sizes * (1.0 + 1e-9)
-        step = np.linalg.norm(half_ulp)
-        double = sizes[1] + 3.0 * rounding if self.weights == 2 else terms
-        added = step * CHUNK * ((edges[:-1] + edges[1:]).sum(axis=0) + 2.0 * (len(edges) - 1) * step)
-        uncertain = rounding * reach.sum(axis=0)
-        rows = [sizes[0] + uncertain, uncertain, step * (double / 2.0 + added)]
-        if self.weights == 2:
-            rows += [double, 3.0 * rounding, added]
-        return reach, np.array(rows)
 
-    def _sizes(self, reach: NDArray, weights: NDArray) -> NDArray[np.float64]:
-        """(sets, K) Σ weight reach^α over chunks. reach: (3, m), weights: (sets, m)."""
-        sets, m = weights.shape
-        powers = np.empty((rows_of(self.order), sets, m))
-        vector = np.broadcast_to(reach[:, None], (3, sets, m))
-        powers[0] = weights
-        found = [np.add.reduce(powers[:1], axis=2)]
-        for degree in range(1, self.order + 1):
-            _raise_powers(lambda ufunc, *operands: ufunc(*operands), powers, degree, vector, powers)
-            found.append(np.add.reduce(powers[:rows_of(degree)], axis=2))
-        return np.concatenate(found).T
+def sizes(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
+    """(sets, K) Σ weight reach^α over the chunks of blocks of one shape and half ulp, for the weights |determinant| with
+    its rounding, that rounding alone, the volume that moving every vertex by its half ulp sweeps; and with areas:
+    doubled area with its rounding, that alone, and the area that moving the vertices adds."""
+    chunks, half_ulp = np.concatenate([part.chunks for part in parts], axis=1), parts[0].half_ulp
+    high, low, own, squares = np.split(chunks, (3, 6, 6 + weights))
+    reach = np.maximum(high, -low) * (1.0 + 4.0 * U) + half_ulp[:, None]
+    edges, own = np.sqrt(squares + SQUARE) * (1.0 + 1e-9), own * (1.0 + 1e-9)
+    terms = CHUNK * (edges[:-1] * edges[1:]).sum(axis=0)  # bounds Σ |normal|, and what its components are made from
+    rounding, step = ROUNDING * terms, np.linalg.norm(half_ulp)
+    double = own[1] + 3.0 * rounding if weights == 2 else terms
+    added = step * CHUNK * ((edges[:-1] + edges[1:]).sum(axis=0) + 2.0 * (len(edges) - 1) * step)
+    uncertain = rounding * reach.sum(axis=0)
+    rows = [own[0] + uncertain, uncertain, step * (double / 2.0 + added)]
+    if weights == 2:
+        rows += [double, 3.0 * rounding, added]
+    powers = np.empty((rows_of(order), len(rows), chunks.shape[1]))
+    powers[0] = rows
+    found = [np.add.reduce(powers[:1], axis=2)]
+    vector = np.broadcast_to(reach[:, None], (3, *powers.shape[1:]))
+    for degree in range(1, order + 1):
+        _raise_powers(lambda ufunc, *operands: ufunc(*operands), powers, degree, vector, powers)
+        found.append(np.add.reduce(powers[:rows_of(degree)], axis=2))
+    return np.concatenate(found).T
 
 
 def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:

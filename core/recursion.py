@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .affine import monomial_count, monomials, predecessors, rows_of
-from .levels import TINY, Levels, Sums, layout
+from .levels import TINY, Levels, Sums, layout, sizes
 from .moments import Moments, U
 from .polyhedron import finite_box, middle, pairs, solid_and_area
 from .surface import Surface, all_there, flipped_quads
@@ -139,11 +139,13 @@ class _Task:
 
 
 class _Total:
-    """A running sum of arrays with what each addition rounds off kept beside it (Neumaier), and its plain sizes."""
+    """A running sum of arrays with what each addition rounds off kept beside it (Neumaier), and what bounds it."""
 
-    def __init__(self):
+    def __init__(self, order: int, weights: int):
+        self.order, self.weights = order, weights
         self.high = self.low = self.sizes = np.zeros(())
         self.faces = 0
+        self.pending: list[Sums] = []
 
     def add(self, part: Sums) -> None:
         for row in part.sums:
@@ -151,8 +153,19 @@ class _Total:
             grown = total - self.high
             self.low = self.low + ((self.high - (total - grown)) + (row - grown))
             self.high = total
-        self.sizes = self.sizes + part.sizes
         self.faces += part.faces
+        last = self.pending[-1] if self.pending else part
+        columns = sum(other.chunks.shape[1] for other in self.pending)
+        if (len(last.chunks) != len(part.chunks) or not np.array_equal(last.half_ulp, part.half_ulp)
+                or columns * rows_of(self.order) * 3 * self.weights > NUMBERS):
+            self.settle()
+        self.pending.append(part)
+
+    def settle(self) -> None:
+        """The bounds of what has been added: seldom, and of much at once."""
+        if self.pending:
+            self.sizes = self.sizes + sizes(self.order, self.weights, self.pending)
+            self.pending = []
 
 
 class _Stream:
@@ -169,11 +182,12 @@ class _Stream:
 
     def measured(self, stream: Iterable[Surface]) -> tuple[Moments, Moments | None]:
         """Volume and, where wanted, area."""
-        total = _Total()
+        total = _Total(self.order, 2 if self.area else 1)
         for part in self._parts(self._tasks(stream)):
             total.add(part)
             if self.progress is not None:
                 self.progress(total.faces)
+        total.settle()
         if not total.faces:
             return _nothing(self.order, "volume"), _nothing(self.order, "area") if self.area else None
         return self._moments(total, "volume"), self._moments(total, "area") if self.area else None
