@@ -33,8 +33,8 @@ from .surface import Surface, all_there, flipped_quads
 
 MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 FAST = 3  # orders up to this one have their own kernel
-NUMBERS = 2_000_000  # that a block's scratch may hold; with fewer, two threads wait for each other
-FEWEST, MOST = 4608, 16384  # faces in a block
+NUMBERS = 1_400_000  # that a block's scratch may hold; with fewer, two threads wait for each other
+FEWEST = 4608  # faces in a block; of rows less than half its buffer of 8192 long, numpy copies those it uses again
 BATCH = 8  # blocks that are handed to a thread at once
 RANGE = 1000.0  # powers of two beyond which a moment is no number
 
@@ -121,10 +121,11 @@ def _factors(order: int) -> NDArray[np.float64]:
                      for p, q, r in monomials(order).tolist()])
 
 
-def _split(rows: NDArray, most: int, unit: int) -> Iterator[NDArray]:
-    """An array in parts of about the same length, at most `most`, and multiples of `unit` but for the last."""
-    parts = -(-len(rows) // most)
-    step = -(-len(rows) // (parts * unit)) * unit if parts else 1
+def _split(rows: NDArray, least: int, most: int, threads: int = 1) -> Iterator[NDArray]:
+    """An array in as many parts for each thread, of about the same even length: at most `most`, and at least `least`
+    rather than that."""
+    parts = max(1, min(-(-len(rows) // (most * threads)) * threads, len(rows) // least))
+    step = max(2, -(-len(rows) // (2 * parts)) * 2)
     for start in range(0, len(rows), step):
         yield rows[start:start + step]
 
@@ -176,7 +177,7 @@ class _Stream:
         self.order, self.area, self.threads, self.progress = order, area, max(1, threads), progress
         self.center = about
         self.exponent = None if reach is None else frexp(reach)[1]
-        self.sizes = {count: min(max(NUMBERS // layout(count, order, 1)[0], FEWEST), MOST) for count in (3, 4)}
+        self.sizes = {count: max(NUMBERS // layout(count, order, 1)[0], FEWEST) for count in (3, 4)}
         self.idle: list[Levels] = []
         self.half_ulp = np.zeros(3)
 
@@ -217,10 +218,12 @@ class _Stream:
             half_ulp = surface.coordinate_error
             self.half_ulp = np.maximum(self.half_ulp, half_ulp)
             for faces in (surface.triangles, surface.quads):
-                size = self.sizes[4] * (2 if faces.shape[1] == 3 else 1)  # where two triangles make one face of ours
-                blocks = -(-len(faces) // size)
+                whole = faces.shape[1] == 4
+                ours = 1 if whole or pairs(faces[:2]) is None else 2  # where two triangles make one face of ours
+                most = ours * self.sizes[4 if whole or ours == 2 else 3]
+                blocks = len(faces) // most
                 batch = max(1, min(BATCH, blocks if self.threads == 1 else blocks // (4 * self.threads)))
-                for part in _split(faces, size * batch, 2):
+                for part in _split(faces, FEWEST * ours, most * batch, self.threads):
                     yield _Task(points, part, half_ulp)
 
     def _settle(self, surface: Surface) -> None:
@@ -255,7 +258,7 @@ class _Stream:
             faces = np.where(flipped_quads(task.points, faces)[:, None], np.roll(faces, -1, axis=1), faces)
         corners = pairs(faces) if faces.shape[1] == 3 else None
         corners = list(faces.T) if corners is None else corners
-        return list(zip(*(_split(corner, self.sizes[len(corners)], 1) for corner in corners)))
+        return list(zip(*(_split(corner, FEWEST, self.sizes[len(corners)]) for corner in corners)))
 
     def _moments(self, total: _Total, of: str) -> Moments:
         """What the sums come to, in the body's own unit, with its bounds."""

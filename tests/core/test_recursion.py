@@ -21,7 +21,7 @@ from tests.core.test_polyhedron import PLACES, SHAPES, SIZES, grid_torus
 def path(request, monkeypatch):
     if request.param == "many blocks":
         monkeypatch.setattr(recursion, "FEWEST", 16)
-        monkeypatch.setattr(recursion, "MOST", 16)
+        monkeypatch.setattr(recursion, "NUMBERS", 0)
         monkeypatch.setattr(recursion, "BATCH", 2)
         monkeypatch.setattr(levels, "CHUNK", 4)
         monkeypatch.setattr(levels, "SLICES", 2)
