@@ -35,7 +35,7 @@ CHUNK = 32  # faces that share one bound of their coordinates
 SLICES = 16  # of a row, that einsum adds up: a divisor of CHUNK
 ROUNDING = 9.0 * U  # of a determinant, and of a doubled area, relative to the sizes of their terms: see `polyhedron`
 SQUARE = 1e-145  # underflow loses less than its root of a length, and than `ROUNDING` times it of a doubled area
-TINY = 1e-290  # more than underflow can lose of one face whose coordinates are at most about 1
+TINY = 1e-220  # more than underflow can lose of one face whose coordinates are at most 256
 
 
 @lru_cache
@@ -47,7 +47,7 @@ def multinomials(degree: int) -> NDArray[np.float64]:
 
 @dataclass(frozen=True, eq=False)
 class Sums:
-    """What some blocks of faces add, in the unit in which their coordinates are of about 1.
+    """What some blocks of faces add, in the unit in which their coordinates are at most about 256.
 
     sums: (blocks, weights, K) Σ over faces of determinant S_α, and of doubled area S_α.
     chunks: (3 + 3 + weights + c-1, m), of each chunk of CHUNK faces the largest and the least coordinates, Σ |weight|
@@ -200,9 +200,8 @@ class _Block:
             self._do(np.multiply, self.corners[:, 1::2], tips, row[:, 1::2])
         sums, grown = np.zeros((len(heavy), 3, below + 1)), np.empty((len(heavy), rows))
         self._dot("wifsk,frsk->wirk", heavy[:, :, 1:], self.levels, sums[:, :, :-1])
-        for axis, old, new in ((0, slice(below), slice(below)), (1, slice(below - degree, below), slice(below, rows - 1)),
-                               (2, slice(below - 1, below), slice(rows - 1, rows))):
-            self._dot("wsk,rsk->wrk", heavy[:, axis, 0], powers[old], grown[:, new])
+        for axis, old, new in ((0, 0, 0), (1, below - degree, below), (2, below - 1, rows - 1)):
+            self._dot("wsk,rsk->wrk", heavy[:, axis, 0], powers[old:], grown[:, new:new + below - old])
         self._do(_add_last, sums, grown, degree, self.total[:, known:])
 
     def _room(self, *shape: int) -> NDArray[np.float64]:
@@ -226,8 +225,8 @@ class Levels:
         self.block: _Block | None = None
 
     def run(self, points: NDArray, center: NDArray, scale: float, half_ulp: NDArray,
-            blocks: Sequence[Sequence[NDArray]]) -> Sums:
-        """The sums over blocks of faces, all triangles or all pairs.
+            blocks: Sequence[Sequence[NDArray]], size: int) -> Sums:
+        """The sums over blocks of faces, all triangles or all pairs, of about this size.
 
         points: (n, 3) contiguous float32 or float64. center: (3,) what is subtracted. scale: a power of two by which
         they are multiplied then. half_ulp: (3,) before that. blocks: for each, the vertices a, b, c (and d) of its
@@ -235,7 +234,8 @@ class Levels:
         """
         sums, chunks = [], []
         for faces in blocks:
-            own = self._shaped(len(faces), len(faces[0]))
+            k = len(faces[0])
+            own = self._shaped(len(faces), size if k > 0.9 * size else k)
             self._gather(own, points, faces, center, scale)
             for step in own.steps:
                 step()
@@ -245,10 +245,8 @@ class Levels:
                     sum(len(faces[0]) for faces in blocks))
 
     def _shaped(self, count: int, k: int) -> _Block:
-        """A block for k faces, or a few more."""
-        own = self.block
-        if own is None or own.corners.shape[1] != count or not 0.9 * own.k <= k <= own.k:
-            k = -(-k // CHUNK) * CHUNK
+        k, own = -(-k // CHUNK) * CHUNK, self.block
+        if own is None or own.corners.shape[1:] != (count, k):
             needed = k * layout(count, self.order, self.weights)[0] + 8
             if len(self.buffer) < needed:
                 self.buffer = np.empty(needed)
@@ -276,9 +274,9 @@ class Levels:
 
 
 def sizes(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
-    """(sets, K) Σ weight reach^α over the chunks of blocks of one shape and half ulp, for the weights |determinant| with
-    its rounding, that rounding alone, the volume that moving every vertex by its half ulp sweeps; and with areas:
-    doubled area with its rounding, that alone, and the area that moving the vertices adds."""
+    """(sets, K) Σ weight reach^α over the chunks of blocks of one kind, for the weights |determinant| with its
+    rounding, that rounding alone, the volume that moving every vertex by its half ulp sweeps; and with areas: doubled
+    area with its rounding, that alone, and the area that moving the vertices adds."""
     chunks, half_ulp = np.concatenate([part.chunks for part in parts], axis=1), parts[0].half_ulp
     high, low, own, squares = np.split(chunks, (3, 6, 6 + weights))
     reach = np.maximum(high, -low) * (1.0 + 4.0 * U) + half_ulp[:, None]

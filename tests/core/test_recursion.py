@@ -185,7 +185,7 @@ def test_threads_change_nothing(path, order):
     points, quads = grid_torus(20, 12, noise=0.05)
     one, two = (moments_to_order(Surface(points, quads=quads), order, area=True, threads=k) for k in (1, 2))
     for a, b in zip(one, two):
-        assert (np.abs(a.raw - b.raw) <= 1e-15 * np.abs(a.raw).max()).all()
+        assert (np.abs(a.raw - b.raw) <= (1e-15 if order == 3 else 0.0) * np.abs(a.raw).max()).all()
 
 
 def test_progress_counts_faces_up_to_the_last(path):
