@@ -216,7 +216,7 @@ class _Block:
 class Levels:
     """The loop body, with its scratch. Not to be shared by threads.
 
-    order: of the moments, at least 2. area: whether sums weighted with doubled areas are wanted beside the volume's.
+    order: of the moments, at least 3. area: whether sums weighted with doubled areas are wanted beside the volume's.
     """
 
     def __init__(self, order: int, area: bool):
