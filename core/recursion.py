@@ -54,8 +54,9 @@ def moments_to_order(body: Surface | Iterable[Surface | NDArray], order: int, *,
     reach: how far the body extends from there, roughly; of such a stream by default what its first piece does.
 
     `error` bounds the rounding of every moment, `input` what storing coordinates as float32 may have changed (of a
-    closed surface). Memory: a block's scratch for each thread, some 11 MB, 75 MB at order 30, beside what `body` holds. ValueError where
-    coordinates are not finite, a face names no vertex, or a moment would be beyond the range of numbers.
+    closed surface). Memory: a block's scratch for each thread, some 11 MB, and at order 30 75 MB, beside what `body`
+    holds. ValueError where coordinates are not finite, a face names no vertex, or a moment would be beyond the range of
+    numbers.
     """
     if order < 0:
         raise ValueError("The order of moments is 0 or more.")
