@@ -5,23 +5,25 @@
 Over the triangle a, b, c the mean of the monomial x^α of degree n is 2 α! / (n+2)! times the coefficient S_α of the
 generating function 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)). Each factor is one level of a recursion,
 
-    C_α = (n! / α!) a^α,    D_α = C_α + Σ_i b_i D_{α-e_i},    S_α = D_α + Σ_i c_i S_{α-e_i},
+    C_α = (n! / α!) a^α,    D_α = C_α + Σ_i c_i D_{α-e_i},    S_α = D_α + Σ_i b_i S_{α-e_i},
 
-of which only one degree is kept at a time. Two triangles that share the edge a-b share C and D. Of the last degree only
-sums over faces are wanted, and those of S_α = C_α + Σ_i b_i D_{α-e_i} + Σ_i c_i S_{α-e_i} need no D and no S.
+of which only one degree is kept at a time. Two triangles that share the edge a-c share C and D. Of the last degree only
+sums over faces are wanted, and those of S_α = C_α + Σ_i c_i D_{α-e_i} + Σ_i b_i S_{α-e_i} need no D and no S.
 
 Rows are the monomials of one degree in the order of `moments.monomials`, columns are faces. The rows that a level's sum
 takes from the degree below stand in runs, so that nothing is fetched or copied: 14 operations a moment, all on whole
-rows. Blocks are large, because long calls are what lets threads run side by side. All sums are of positive terms if the
-coordinates are positive, so a computed S_α is off by at most (6 n + 8) u S_α(|a|, |b|, |c|).
+rows. What Python does between two calls of numpy only one thread can do at a time, and a thread that has to wait for it
+loses more than most calls take: hence calls that are few and long, over large blocks and all levels at once, with views
+that are made once. All sums are of positive terms if the coordinates are positive, so a computed S_α is off by at most
+(6 n + 8) u S_α(|a|, |b|, |c|).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from math import factorial
+from functools import lru_cache, partial
+from math import factorial, prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,10 +31,11 @@ from numpy.typing import NDArray
 from .affine import monomial_count, monomials, predecessors, rows_of
 from .moments import U
 
-CHUNK = 16  # faces that share one bound of their coordinates
-LENGTH = 128  # products that einsum may add up in any order
+CHUNK = 32  # faces that share one bound of their coordinates
+SLICES = 16  # of a row, that einsum adds up: a divisor of CHUNK
 ROUNDING = 9.0 * U  # of a determinant, and of a doubled area, relative to the sizes of their terms: see `polyhedron`
-TINY = 1e-290  # more than underflow can lose of one face whose coordinates are at most about 1
+SQUARE = 1e-145  # underflow loses less than its root of a length, and than `ROUNDING` times it of a doubled area
+TINY = 1e-220  # more than underflow can lose of one face whose coordinates are at most 256
 
 
 @lru_cache
@@ -44,240 +47,279 @@ def multinomials(degree: int) -> NDArray[np.float64]:
 
 @dataclass(frozen=True, eq=False)
 class Sums:
-    """What some blocks of faces add, in the unit in which their coordinates are at most about 1.
+    """What some blocks of faces add, in the unit in which their coordinates are at most about 256.
 
     sums: (blocks, weights, K) Σ over faces of determinant S_α, and of doubled area S_α.
-    sizes: (sets, K) Σ weight reach^α over chunks, for the weights |determinant| with its rounding, that rounding alone,
-        the volume that moving every vertex by its half ulp sweeps; and with areas: doubled area with its rounding, that
-        alone, and the area that moving the vertices adds.
-    faces: how many.
+    chunks: (3 + 3 + weights + c-1, m), of each chunk of CHUNK faces the largest and the least coordinates, Σ |weight|
+        and the squares of its longest edges from the first corner.
+    half_ulp: (3,) of the coordinates. faces: how many.
     """
 
     sums: NDArray[np.float64]
-    sizes: NDArray[np.float64]
+    chunks: NDArray[np.float64]
+    half_ulp: NDArray[np.float64]
     faces: int
 
 
-class _Scratch:
-    """Contiguous rows for blocks of `count` corners and k columns, carved out of one buffer.
+@lru_cache
+def layout(count: int, order: int, weights: int) -> tuple[int, dict[str, tuple[int, tuple[int, ...]]]]:
+    """How many rows a block of faces of `count` corners needs, and of each array of `_Block` its first row and shape.
 
-    corners: (3, c, k), edges: (3, c-1, k), both over `vectors`. weights: (w, f, k) of the f = c-2 triangles. powers:
-    (R, k). first: (1, R, k) and second: (f, R, k), D and S of one degree. room: for what is needed for a moment only.
+    A row is left free between arrays: numpy < 2 leaves its vector loop where output ends at input's start. What is
+    wanted while weighing only shares memory with what is wanted while summing.
+    """
+    ends, fans, lower = count - 1, count - 2, rows_of(order - 1)
+    kept = {"heavy": (weights, 3, count), "tips": (weights, fans), "both": (weights,)}
+    weighing = {"index": (count,), "edges": (3, ends), "normals": (3, fans), "minus": (3, fans), "single": (3 * count,)}
+    summing = {"powers": (lower,), "levels": (ends, lower), "room": (2 * ends * (order - 1),)}
+    start, end, places = 0, 0, {}
+    for shapes in (kept, weighing, summing):
+        row = start
+        for name, shape in shapes.items():
+            places[name] = row, shape
+            row += prod(shape) + 1
+        start, end = start or row, max(end, row)
+    return end, places
+
+
+class _Block:
+    """The rows of a block of faces, k columns carved out of one buffer, and what is done with them once the corners'
+    coordinates and the edges from the first corner are there: `steps`, in their order.
+
+    corners: (3, c, k). edges: (3, c-1, k). tips: (w, c-2, k), the weights of the triangles a, b, c and a, c, d; both:
+    (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree. heavy: (w, 3, c, k),
+    weights times corners. room: for what is needed for a moment.
+    total: (w, K), the sums. chunks: as of `Sums`; neighbours stand below each other in the (CHUNK, m) that a row is.
     """
 
     def __init__(self, buffer: NDArray, count: int, k: int, order: int, weights: int):
-        fans, rows = count - 2, rows_of(order)
-        position = -(buffer.ctypes.data // 8) % 8
+        rows, places = layout(count, order, weights)
+        start = -(buffer.ctypes.data // 8) % 8
+        table = buffer[start:start + rows * k].reshape(rows, k)
+        arrays = {name: table[first:first + prod(shape)].reshape(*shape, k) for name, (first, shape) in places.items()}
+        self.k, self.order = k, order
+        self.heavy, self.edges, self.powers, self.levels = (
+            arrays[name] for name in ("heavy", "edges", "powers", "levels"))
+        self.corners, self.tips = self.heavy[-1], arrays["tips"]
+        self.both = arrays["both"] if count == 4 else self.tips[:, 0]
+        self.index, self.room = arrays["index"].view(np.intp), arrays["room"].reshape(-1)
+        self.single = arrays["single"].reshape(-1).view(np.float32)[:3 * count * k].reshape(3, count, k)
+        self.total = np.empty((weights, monomial_count(order)))
+        self.chunks = np.empty((6 + weights + count - 1, k // CHUNK))
+        self.steps: list[Callable[[], object]] = []
+        self._weigh(arrays["normals"], arrays["minus"])
+        self._sum()
 
-        def carve(*shape: int) -> NDArray[np.float64]:
-            # 64-byte aligned and 64 bytes apart: numpy < 2 leaves its vector loop where output ends at input's start
-            nonlocal position
-            start, size = position, int(np.prod(shape))
-            position = start + -(-size // 8) * 8 + 8
-            return buffer[start:start + size].reshape(shape)
+    def _do(self, function: Callable, *operands: object) -> None:
+        self.steps.append(partial(function, *operands))
 
-        self.k, self.fans = k, fans
-        self.index = carve(count, k).view(np.intp)
-        self.offsets = carve(count, k).view(np.intp)
-        self.vectors = carve(3, 2 * count - 1, k)
-        self.corners, self.edges = self.vectors[:, :count], self.vectors[:, count:]
-        self.normals, self.minus = carve(3, fans, k), carve(3, fans, k)
-        self.weights = carve(weights, fans, k)
-        self.both = carve(weights, k)
-        self.powers, self.first, self.second = carve(rows, k), carve(1, rows, k), carve(fans, rows, k)
-        self.heavy = carve(fans, 3 * weights, k)
-        self.room = carve(max(2 * fans * rows, 3 * (2 * count - 1)) * k)
+    def _weigh(self, normals: NDArray, minus: NDArray) -> None:
+        """Determinants, doubled areas, and what their bounds are made from."""
+        edges, corners, tips = self.edges, self.corners, self.tips
+        first, second = edges[:, :-1], edges[:, 1:]
+        for x, y, z in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+            self._do(np.multiply, first[y], second[z], normals[x])
+            self._do(np.multiply, first[z], second[y], minus[x])
+        self._do(np.subtract, normals, minus, normals)
+        self._do(partial(np.einsum, out=tips[0]), "cfk,ck->fk", normals, corners[:, 0])
+        if len(tips) == 2:
+            self._do(partial(np.einsum, out=tips[1]), "cfk,cfk->fk", normals, normals)
+            self._do(np.sqrt, tips[1], tips[1])
+        if tips.shape[1] == 2:
+            self._do(np.add.reduce, tips, 1, None, self.both)
+        squares = minus.reshape(-1)[:edges[0].size].reshape(edges[0].shape)
+        self._do(partial(np.einsum, out=squares), "ick,ick->ck", edges, edges)
+        sizes = edges.reshape(-1)[:tips.size].reshape(tips.shape)
+        self._do(np.abs, tips, sizes)
+        row = 0
+        for function, rows in ((np.maximum, corners), (np.minimum, corners), (np.add, sizes), (np.maximum, squares)):
+            split = rows.reshape(len(rows), -1, self.k // CHUNK)
+            self._do(function.reduce, split, 1, None, self.chunks[row:row + len(rows)])
+            row += len(rows)
 
-    @staticmethod
-    def numbers(count: int, order: int, weights: int) -> int:
-        """How many numbers a column takes."""
-        fans, rows = count - 2, rows_of(order)
-        return (2 * count + 3 * (2 * count - 1) + 6 * fans + (fans + 1) * weights + rows * (fans + 2)
-                + 3 * fans * weights + max(2 * fans * rows, 3 * (2 * count - 1)))
+    def _sum(self) -> None:
+        """The sums over the block, degree by degree."""
+        corners, levels, powers, tips = self.corners, self.levels, self.powers, self.tips
+        first, ends = corners[:, 0], corners[:, 1:]
+        self._do(np.add.reduce, self.both, 1, None, self.total[:, 0])
+        self._do(np.add, first, corners[:, 2], levels[1, :3])
+        self._do(np.add, corners[:, 1::2].transpose(1, 0, 2), levels[1, :3], levels[::2, :3])
+        self._dot("wfsk,frsk->wrk", tips, levels[::2, :3], self.total[:, 1:4])
+        for degree in range(2, self.order):
+            rows, known = rows_of(degree), monomial_count(degree - 1)
+            self._raise(degree, ends[:, :, None])
+            _raise_powers(self._do, first if degree == 2 else powers, degree, first, powers)
+            self._add_powers(degree)
+            self._do(np.add, levels[::2, :rows], levels[1, :rows], levels[::2, :rows])
+            self._dot("wfsk,frsk->wrk", tips, levels[::2, :rows], self.total[:, known:known + rows])
+        self._last()
+
+    def _add_powers(self, degree: int) -> None:
+        """C of this degree added to D."""
+        rows, most = rows_of(degree), len(self.room) // self.k
+        for start in range(0, rows, most):
+            part = slice(start, min(start + most, rows))
+            grown = self._room(part.stop - start)
+            self._do(np.multiply, self.powers[part], multinomials(degree)[part], grown)
+            self._do(np.add, self.levels[1, part], grown, self.levels[1, part])
+
+    def _raise(self, degree: int, vectors: NDArray) -> None:
+        """Σ_i v_i L_{α-e_i} in place of all levels L, (c-1, R, k), one degree lower. vectors: (3, c-1, 1, k).
+
+        Without a factor x, a row stands where it stood; without y or z, in the run of rows with one less q+r.
+        """
+        levels, below = self.levels, rows_of(degree - 1)
+        last, new = levels[:, below - degree:below], levels[:, below:below + degree + 1]
+        self._do(np.multiply, last, vectors[1], new[:, :-1])
+        self._do(np.multiply, last[:, -1:], vectors[2], new[:, -1:])
+        by_z = self._room(len(levels), degree - 1)
+        self._do(np.multiply, last[:, :-1], vectors[2], by_z)
+        self._do(np.add, new[:, 1:-1], by_z, new[:, 1:-1])
+        end = degree - 1
+        while end:
+            first = end  # and the runs before it that fit into the room
+            while first > 1 and _start(end) - _start(first - 2) < self.order:
+                first -= 1
+            products = self._room(2, len(levels), _start(end) - _start(first - 1))
+            self._do(np.multiply, levels[:, _start(first - 1):_start(end)], vectors[1:], products)
+            rows = levels[:, _start(first) if first > 1 else 0:_start(end + 1)]
+            self._do(np.multiply, rows, vectors[0], rows)
+            for s in range(first, end + 1):
+                before = _start(s - 1) - _start(first - 1)
+                for axis in (0, 1):
+                    rows = levels[:, _start(s) + axis:_start(s) + axis + s]
+                    self._do(np.add, rows, products[axis, :, before:before + s], rows)
+            end = first - 1
+
+    def _last(self) -> None:
+        """The sums of the last degree: of products of the rows one degree lower and weighted coordinates."""
+        degree, heavy, powers = self.order, self.heavy, self.powers
+        rows, below, known = rows_of(degree), rows_of(degree - 1), monomial_count(degree - 1)
+        for row, both, tips in zip(heavy, self.both, self.tips):  # in place of the corners at last
+            self._do(np.multiply, self.corners[:, ::2], both, row[:, ::2])
+            self._do(np.multiply, self.corners[:, 1::2], tips, row[:, 1::2])
+        sums, grown = np.zeros((len(heavy), 3, below + 1)), np.empty((len(heavy), rows))
+        self._dot("wifsk,frsk->wirk", heavy[:, :, 1:], self.levels, sums[:, :, :-1])
+        for axis, old, new in ((0, 0, 0), (1, below - degree, below), (2, below - 1, rows - 1)):
+            self._dot("wsk,rsk->wrk", heavy[:, axis, 0], powers[old:], grown[:, new:new + below - old])
+        self._do(_add_last, sums, grown, degree, self.total[:, known:])
+
+    def _room(self, *shape: int) -> NDArray[np.float64]:
+        return self.room[:prod(shape) * self.k].reshape(*shape, self.k)
+
+    def _dot(self, products: str, weights: NDArray, rows: NDArray, out: NDArray) -> None:
+        """Scalar products of weights (..., k) with rows (..., k)."""
+        self._do(_dots, products, weights.reshape(*weights.shape[:-1], SLICES, -1),
+                 rows.reshape(*rows.shape[:-1], SLICES, -1), out)
 
 
 class Levels:
     """The loop body, with its scratch. Not to be shared by threads.
 
-    order: of the moments. area: whether sums weighted with doubled areas are wanted beside the volume's.
+    order: of the moments, at least 3. area: whether sums weighted with doubled areas are wanted beside the volume's.
     """
 
     def __init__(self, order: int, area: bool):
         self.order, self.weights = order, 2 if area else 1
         self.buffer: NDArray = np.empty(0)
-        self.scratch: dict[tuple[int, int], _Scratch] = {}
+        self.block: _Block | None = None
 
     def run(self, points: NDArray, center: NDArray, scale: float, half_ulp: NDArray,
-            blocks: Sequence[Sequence[NDArray]]) -> Sums:
-        """The sums over blocks of faces.
+            blocks: Sequence[Sequence[NDArray]], size: int) -> Sums:
+        """The sums over blocks of faces, all triangles or all pairs, of about this size.
 
         points: (n, 3) contiguous float32 or float64. center: (3,) what is subtracted. scale: a power of two by which
         they are multiplied then. half_ulp: (3,) before that. blocks: for each, the vertices a, b, c (and d) of its
         faces, (k,) each, checked: triangles a, b, c and a, c, d.
         """
-        sums, largest, sizes = [], [], []
+        sums, chunks = [], []
         for faces in blocks:
-            own = self._shaped(len(faces), len(faces[0]))
+            k = len(faces[0])
+            own = self._shaped(len(faces), size if k > 0.9 * size else k)
             self._gather(own, points, faces, center, scale)
-            reach, weights = self._weigh(own, half_ulp * scale)
-            sums.append(self._summed(own))
-            largest.append(reach)
-            sizes.append(weights)
-        reach, weights = np.concatenate(largest, axis=1), np.concatenate(sizes, axis=1)
-        return Sums(np.array(sums), self._sizes(reach, weights), sum(len(faces[0]) for faces in blocks))
+            for step in own.steps:
+                step()
+            sums.append(own.total.copy())
+            chunks.append(own.chunks.copy())
+        return Sums(np.array(sums), np.concatenate(chunks, axis=1), half_ulp * scale,
+                    sum(len(faces[0]) for faces in blocks))
 
-    def _shaped(self, count: int, k: int) -> _Scratch:
-        k = -(-k // CHUNK) * CHUNK
-        if (count, k) not in self.scratch:
-            needed = k * _Scratch.numbers(count, self.order, self.weights) + 16 * 16
+    def _shaped(self, count: int, k: int) -> _Block:
+        k, own = -(-k // CHUNK) * CHUNK, self.block
+        if own is None or own.corners.shape[1:] != (count, k):
+            needed = k * layout(count, self.order, self.weights)[0] + 8
             if len(self.buffer) < needed:
                 self.buffer = np.empty(needed)
-            self.scratch = {(count, k): _Scratch(self.buffer, count, k, self.order, self.weights)}
-        return self.scratch[count, k]
+            self.block = own = _Block(self.buffer, count, k, self.order, self.weights)
+        return own
 
-    def _gather(self, own: _Scratch, points: NDArray, faces: Sequence[NDArray], center: NDArray, scale: float) -> None:
-        """The corners' coordinates and the edges from the first corner. Neighbours, CHUNK of them, stand below each
-        other in the (CHUNK, columns) that a row is."""
+    @staticmethod
+    def _gather(own: _Block, points: NDArray, faces: Sequence[NDArray], center: NDArray, scale: float) -> None:
+        """The corners' coordinates and the edges from the first corner."""
         k, flat = len(faces[0]), points.reshape(-1)
         for row, corner in zip(own.index, faces):
-            filled = np.full(own.k, faces[0][0], np.intp)  # filled up with faces that are a point
-            filled[:k] = corner
-            row.reshape(CHUNK, -1)[...] = filled.reshape(-1, CHUNK).T
-        np.multiply(own.index, 3, out=own.offsets)
-        for axis in range(3):
-            own.corners[axis] = flat[axis:].take(own.offsets, mode="wrap")
-        np.subtract(own.corners[:, 1:], own.corners[:, :1], out=own.edges)
-        np.subtract(own.corners, center[:, None, None], out=own.corners)
+            if k < own.k:  # filled up with faces that are a point
+                corner = np.concatenate([corner, np.full(own.k - k, faces[0][0])])
+            row.reshape(CHUNK, -1)[...] = corner.reshape(-1, CHUNK).T
+        np.multiply(own.index, 3, out=own.index)
+        target = own.single if points.dtype == np.float32 else own.corners
+        for axis in range(3):  # the indices have been checked: "wrap" is the mode that costs least
+            flat[axis:].take(own.index, out=target[axis], mode="wrap")
+        if points.dtype == np.float32:
+            own.corners[...] = target
         if scale != 1.0:
-            np.multiply(own.vectors, scale, out=own.vectors)
-
-    def _weigh(self, own: _Scratch, half_ulp: NDArray) -> tuple[NDArray, NDArray]:
-        """Determinants and doubled areas; (3, m) the reach of each chunk, (3 or 6, m) the weights of `Sums.sizes`."""
-        normals, edges = own.normals, own.edges
-        first, second = edges[:, :-1], edges[:, 1:]
-        for x, y, z in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-            np.multiply(first[y], second[z], out=normals[x])
-            np.multiply(first[z], second[y], out=own.minus[x])
-        np.subtract(normals, own.minus, out=normals)
-        np.einsum("cfk,ck->fk", normals, own.corners[:, 0], out=own.weights[0])
-        if self.weights == 2:
-            np.multiply(normals, normals, out=normals)
-            np.add(normals[0], normals[1], out=normals[0])
-            np.add(normals[0], normals[2], out=normals[0])
-            np.sqrt(normals[0], out=own.weights[1])
-        absolute = np.abs(own.vectors, out=own.room[:own.vectors.size].reshape(own.vectors.shape))
-        chunked = absolute.reshape(*absolute.shape[:2], CHUNK, -1)
-        tops = np.maximum.reduce(chunked, axis=2)  # (3, 2c-1, m)
-        corners = own.corners.shape[1]
-        reach = tops[:, :corners].max(axis=1) * (1.0 + 4.0 * U) + half_ulp[:, None]
-        (a, b, c), (x, y, z) = tops[:, corners:-1], tops[:, corners + 1:]
-        tau = CHUNK * np.array([b * z + c * y, c * x + a * z, a * y + b * x]).sum(axis=1)  # all faces of the chunk
-        sizes = np.add.reduce(np.abs(own.weights, out=own.minus[:self.weights]).reshape(
-            self.weights, own.fans, CHUNK, -1), axis=(1, 2)) * (1.0 + 1e-9)
-        rounding = ROUNDING * np.array([(reach * tau).sum(axis=0), tau.sum(axis=0)])
-        step = np.linalg.norm(half_ulp)
-        lengths = np.sqrt((tops[:, corners:] ** 2).sum(axis=0))
-        double = sizes[1] + rounding[1] if self.weights == 2 else np.sqrt((tau ** 2).sum(axis=0))
-        added = step * CHUNK * ((lengths[:-1] + lengths[1:]).sum(axis=0) + 2.0 * own.fans * step)
-        rows = [sizes[0] + rounding[0], rounding[0], step * (double / 2.0 + added)]
-        if self.weights == 2:
-            rows += [double, rounding[1], added]
-        return reach, np.array(rows)
-
-    def _summed(self, own: _Scratch) -> NDArray[np.float64]:
-        """(w, K) the block's sums."""
-        total = np.empty((self.weights, monomial_count(self.order)))
-        first, middle, others = own.corners[:, 0], own.corners[:, 2 if own.fans == 2 else 1], own.corners[:, 1::2]
-        if own.fans == 1:
-            others = own.corners[:, 2:]
-        np.add.reduce(own.weights, axis=1, out=own.both)
-        total[:, 0] = _dots(own.both, np.ones((1, own.k)))[:, 0]
-        own.powers[0] = own.first[:, 0] = own.second[:, 0] = 1.0
-        for degree in range(1, self.order):
-            self._raise_powers(own.powers, degree, first)
-            rows, known = rows_of(degree), monomial_count(degree - 1)
-            grown = own.room[:rows * own.k].reshape(rows, own.k)
-            self._raise(own, own.first, degree, middle[:, None])
-            np.multiply(own.powers[:rows], multinomials(degree), out=grown)
-            np.add(own.first[0, :rows], grown, out=own.first[0, :rows])
-            self._raise(own, own.second, degree, others)
-            np.add(own.second[:, :rows], own.first[:, :rows], out=own.second[:, :rows])
-            part = sum(_dots(own.weights[:, f], own.second[f, :rows]) for f in range(own.fans))
-            total[:, known:known + rows] = part
-        if self.order:
-            self._last(own, first, middle, others, total[:, monomial_count(self.order - 1):])
-        return total
-
-    @staticmethod
-    def _raise(own: _Scratch, level: NDArray, degree: int, vectors: NDArray) -> None:
-        """Σ_i v_i L_{α-e_i} in place of a level L, (f, R, k), one degree lower. vectors: (3, f, k).
-
-        Without a factor x, a row stands where it stood; without y or z, in the run of rows with one less q+r.
-        """
-        below = rows_of(degree - 1)
-        old, size = level[:, :below], len(level) * below * own.k
-        by_y, by_z = (own.room[i * size:(i + 1) * size].reshape(old.shape) for i in (0, 1))
-        np.multiply(old, vectors[1, :, None], out=by_y)
-        np.multiply(old, vectors[2, :, None], out=by_z)
-        np.multiply(old, vectors[0, :, None], out=old)
-        level[:, below:below + degree] = by_y[:, below - degree:]
-        level[:, below + degree] = by_z[:, below - 1]
-        for s in range(1, degree + 1):
-            start, before = s * (s + 1) // 2, s * (s - 1) // 2
-            last = s == degree
-            rows = level[:, start + 1:start + 1 + s - last]
-            np.add(rows, by_z[:, before:start - last], out=rows)
-            if not last:
-                rows = level[:, start:start + s]
-                np.add(rows, by_y[:, before:start], out=rows)
-
-    @staticmethod
-    def _raise_powers(powers: NDArray, degree: int, vector: NDArray) -> None:
-        """Row by row, x^α of one degree in place of those of the degree below: those without x from the last ones."""
-        rows = rows_of(degree - 1)
-        np.multiply(powers[rows - degree:rows], vector[1], out=powers[rows:rows + degree])
-        np.multiply(powers[rows - 1], vector[2], out=powers[rows + degree])
-        np.multiply(powers[:rows], vector[0], out=powers[:rows])
-
-    def _last(self, own: _Scratch, first: NDArray, middle: NDArray, others: NDArray, total: NDArray) -> None:
-        """The sums of the last degree into `total`, (w, rows)."""
-        degree, weights = self.order, self.weights
-        rows, below = rows_of(degree), rows_of(degree - 1)
-        places = predecessors(degree, below)
-        np.multiply(own.weights.transpose(1, 0, 2)[:, None], others.transpose(1, 0, 2)[:, :, None],
-                    out=own.heavy.reshape(own.fans, 3, weights, own.k))
-        sums = sum(_dots(own.heavy[f], own.second[f, :below]) for f in range(own.fans))
-        heavy = own.heavy[0]
-        np.multiply(own.both[None], middle[:, None], out=heavy.reshape(3, weights, own.k))
-        sums = sums + _dots(heavy, own.first[0, :below])
-        sums = np.concatenate([sums.reshape(3, weights, below), np.zeros((3, weights, 1))], axis=2)
-        self._raise_powers(own.powers, degree, first)
-        total[...] = _dots(own.both, own.powers[:rows]) * multinomials(degree)[:, 0]
-        for axis in range(3):
-            total += sums[axis].take(places[axis], axis=1)
-
-    def _sizes(self, reach: NDArray, weights: NDArray) -> NDArray[np.float64]:
-        """(sets, K) Σ weight reach^α over chunks. reach: (3, m), weights: (sets, m)."""
-        sets, m = weights.shape
-        powers = np.empty((rows_of(self.order), sets, m))
-        vector = np.broadcast_to(reach[:, None], (3, sets, m))
-        powers[0] = weights
-        found = [np.add.reduce(powers[:1], axis=2)]
-        for degree in range(1, self.order + 1):
-            self._raise_powers(powers, degree, vector)
-            found.append(np.add.reduce(powers[:rows_of(degree)], axis=2))
-        return np.concatenate(found).T
+            np.multiply(own.corners, scale, out=own.corners)
+        np.subtract(own.corners[:, 1:], own.corners[:, :1], out=own.edges)
+        np.subtract(own.corners, (center * scale)[:, None, None], out=own.corners)
 
 
-def _dots(weights: NDArray, rows: NDArray) -> NDArray[np.float64]:
-    """(w, r) the scalar products of (w, k) with (r, k), no more than LENGTH products in any order and then pairs of
-    sums."""
-    k = rows.shape[1]
-    whole = k // LENGTH * LENGTH
-    if not whole:
-        return np.einsum("wk,rk->wr", weights, rows)
-    found = np.add.reduce(np.einsum("wjk,rjk->wrj", weights[:, :whole].reshape(len(weights), -1, LENGTH),
-                                    rows[:, :whole].reshape(len(rows), -1, LENGTH)), axis=2)
-    if whole < k:
-        found += np.einsum("wk,rk->wr", weights[:, whole:], rows[:, whole:])
-    return found
+def sizes(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
+    """(sets, K) Σ weight reach^α over the chunks of blocks of one kind, for the weights |determinant| with its
+    rounding, that rounding alone, the volume that moving every vertex by its half ulp sweeps; and with areas: doubled
+    area with its rounding, that alone, and the area that moving the vertices adds."""
+    chunks, half_ulp = np.concatenate([part.chunks for part in parts], axis=1), parts[0].half_ulp
+    high, low, own, squares = np.split(chunks, (3, 6, 6 + weights))
+    reach = np.maximum(high, -low) * (1.0 + 4.0 * U) + half_ulp[:, None]
+    edges, own = np.sqrt(squares + SQUARE) * (1.0 + 1e-9), own * (1.0 + 1e-9)
+    terms = CHUNK * (edges[:-1] * edges[1:]).sum(axis=0)  # bounds Σ |normal|, and what its components are made from
+    rounding, step = ROUNDING * terms, np.linalg.norm(half_ulp)
+    double = own[1] + 3.0 * rounding if weights == 2 else terms
+    added = step * CHUNK * ((edges[:-1] + edges[1:]).sum(axis=0) + 2.0 * (len(edges) - 1) * step)
+    uncertain = rounding * reach.sum(axis=0)
+    rows = [own[0] + uncertain, uncertain, step * (double / 2.0 + added)]
+    if weights == 2:
+        rows += [double, 3.0 * rounding, added]
+    powers = np.empty((rows_of(order), len(rows), chunks.shape[1]))
+    powers[0] = rows
+    found = [np.add.reduce(powers[:1], axis=2)]
+    vector = np.broadcast_to(reach[:, None], (3, *powers.shape[1:]))
+    for degree in range(1, order + 1):
+        _raise_powers(lambda ufunc, *operands: ufunc(*operands), powers, degree, vector, powers)
+        found.append(np.add.reduce(powers[:rows_of(degree)], axis=2))
+    return np.concatenate(found).T
+
+
+def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
+    """Row by row, x^α of one degree from those of the degree below, perhaps in their place: those without x from the
+    last ones. do: what does it, or will do it."""
+    rows = rows_of(degree - 1)
+    do(np.multiply, old[rows - degree:rows], vector[1], powers[rows:rows + degree])
+    do(np.multiply, old[rows - 1], vector[2], powers[rows + degree])
+    do(np.multiply, old[:rows], vector[0], powers[:rows])
+
+
+def _start(run: int) -> int:
+    """The first of the rows of one degree with this q+r."""
+    return run * (run + 1) // 2
+
+
+def _dots(products: str, weights: NDArray, rows: NDArray, out: NDArray) -> None:
+    """Scalar products over slices of the rows, and over what is left of them then."""
+    np.add.reduce(np.einsum(products, weights, rows), -1, None, out)
+
+
+def _add_last(sums: NDArray, powers: NDArray, degree: int, total: NDArray) -> None:
+    """The last degree: what x, y and z times the rows one degree lower come to, and C."""
+    np.multiply(powers, multinomials(degree)[:, 0], total)
+    for axis, places in enumerate(predecessors(degree, rows_of(degree - 1))):
+        total += sums[:, axis].take(places, axis=1)

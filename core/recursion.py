@@ -10,7 +10,8 @@ w and over the triangle itself, of doubled area A,
 
 Their explicit sum for S has binomial(n+9, 9) terms up to order n; the recursion of `levels` takes the generating
 function factor by factor, some 14 operations for each moment and triangle. Coordinates are taken about a point of the
-body, and scaled by a power of two to at most about 1, lest their 20th powers lose every digit or leave the range.
+body, and scaled by a power of two to at most about 1 where they are far from it, lest their 20th powers lose every
+digit or leave the range.
 """
 
 from __future__ import annotations
@@ -26,16 +27,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .affine import monomial_count, monomials, predecessors, rows_of
-from .levels import LENGTH, TINY, Levels, Sums
+from .levels import TINY, Levels, Sums, layout, sizes
 from .moments import Moments, U
 from .polyhedron import finite_box, middle, pairs, solid_and_area
 from .surface import Surface, all_there, flipped_quads
 
 MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 FAST = 3  # orders up to this one have their own kernel
-NUMBERS = 480_000  # that a block's rows of one degree may hold; with fewer, two threads wait for each other
-FEWEST, MOST = 256, 16384  # faces in a block
+NUMBERS = 1_400_000  # that a block's scratch may hold; with fewer, two threads wait for each other
+FEWEST = 4608  # faces in a block; of rows less than half its buffer of 8192 long, numpy copies those it uses again
 BATCH = 8  # blocks that are handed to a thread at once
+USUAL = 8  # powers of two up to which coordinates are left as they are
 RANGE = 1000.0  # powers of two beyond which a moment is no number
 
 
@@ -52,8 +54,9 @@ def moments_to_order(body: Surface | Iterable[Surface | NDArray], order: int, *,
     reach: how far the body extends from there, roughly; of such a stream by default what its first piece does.
 
     `error` bounds the rounding of every moment, `input` what storing coordinates as float32 may have changed (of a
-    closed surface). Memory: a block's scratch for each thread, some 20 MB, beside what `body` holds. ValueError where
-    coordinates are not finite, a face names no vertex, or a moment would be beyond the range of numbers.
+    closed surface). Memory: a block's scratch for each thread, some 11 MB, and at order 30 75 MB, beside what `body`
+    holds. ValueError where coordinates are not finite, a face names no vertex, or a moment would be beyond the range of
+    numbers.
     """
     if order < 0:
         raise ValueError("The order of moments is 0 or more.")
@@ -121,21 +124,31 @@ def _factors(order: int) -> NDArray[np.float64]:
                      for p, q, r in monomials(order).tolist()])
 
 
+def _exponent(reach: float) -> int:
+    """Of the power of two that bodies which reach so far are scaled by: none at all if they are of a usual size."""
+    exponent = frexp(reach)[1]
+    return exponent if abs(exponent) > USUAL else 0
+
+
 @dataclass(frozen=True, eq=False)
 class _Task:
-    """Some faces, (m, 3) or (m, 4), of a piece of the body. half_ulp: (3,) as of its points."""
+    """Some faces, (m, 3) or (m, 4), of a piece of the body. size: how many of them make a block. half_ulp: (3,) as of
+    its points."""
 
     points: NDArray
     faces: NDArray
+    size: int
     half_ulp: NDArray[np.float64]
 
 
 class _Total:
-    """A running sum of arrays with what each addition rounds off kept beside it (Neumaier), and its plain sizes."""
+    """A running sum of arrays with what each addition rounds off kept beside it (Neumaier), and what bounds it."""
 
-    def __init__(self):
+    def __init__(self, order: int, weights: int):
+        self.order, self.weights = order, weights
         self.high = self.low = self.sizes = np.zeros(())
         self.faces = 0
+        self.pending: list[Sums] = []
 
     def add(self, part: Sums) -> None:
         for row in part.sums:
@@ -143,8 +156,19 @@ class _Total:
             grown = total - self.high
             self.low = self.low + ((self.high - (total - grown)) + (row - grown))
             self.high = total
-        self.sizes = self.sizes + part.sizes
         self.faces += part.faces
+        last = self.pending[-1] if self.pending else part
+        columns = sum(other.chunks.shape[1] for other in self.pending)
+        if (len(last.chunks) != len(part.chunks) or not np.array_equal(last.half_ulp, part.half_ulp)
+                or columns * rows_of(self.order) * 3 * self.weights > NUMBERS):
+            self.settle()
+        self.pending.append(part)
+
+    def settle(self) -> None:
+        """The bounds of what has been added: seldom, and of much at once."""
+        if self.pending:
+            self.sizes = self.sizes + sizes(self.order, self.weights, self.pending)
+            self.pending = []
 
 
 class _Stream:
@@ -154,18 +178,18 @@ class _Stream:
                  about: NDArray | None, reach: float | None):
         self.order, self.area, self.threads, self.progress = order, area, max(1, threads), progress
         self.center = about
-        self.exponent = None if reach is None else frexp(reach)[1]
-        self.size = min(max(NUMBERS // rows_of(order) // 64 * 64, FEWEST), MOST)
+        self.exponent = None if reach is None else _exponent(reach)
         self.idle: list[Levels] = []
         self.half_ulp = np.zeros(3)
 
     def measured(self, stream: Iterable[Surface]) -> tuple[Moments, Moments | None]:
         """Volume and, where wanted, area."""
-        total = _Total()
+        total = _Total(self.order, 2 if self.area else 1)
         for part in self._parts(self._tasks(stream)):
             total.add(part)
             if self.progress is not None:
                 self.progress(total.faces)
+        total.settle()
         if not total.faces:
             return _nothing(self.order, "volume"), _nothing(self.order, "area") if self.area else None
         return self._moments(total, "volume"), self._moments(total, "area") if self.area else None
@@ -195,11 +219,21 @@ class _Stream:
             half_ulp = surface.coordinate_error
             self.half_ulp = np.maximum(self.half_ulp, half_ulp)
             for faces in (surface.triangles, surface.quads):
-                size = self.size * (2 if faces.shape[1] == 3 else 1)  # where two triangles make one face of ours
+                size = self._size(faces)
                 blocks = -(-len(faces) // size)
-                step = size * max(1, min(BATCH, -(-blocks // (4 * self.threads))))
+                step = size * (BATCH if self.threads == 1 else max(1, min(BATCH, blocks // (4 * self.threads))))
                 for start in range(0, len(faces), step):
-                    yield _Task(points, faces[start:start + step], half_ulp)
+                    yield _Task(points, faces[start:start + step], size, half_ulp)
+
+    def _size(self, faces: NDArray) -> int:
+        """How many faces make a block: blocks are of even length, and as many for each of 2 or 4 threads. Whatever the
+        number of threads the blocks are the same, and so is their sum."""
+        corners = faces.shape[1]
+        ours = 2 if corners == 3 and pairs(faces[:2]) is not None else 1  # where two triangles make one face of ours
+        most = ours * max(NUMBERS // layout(corners + ours - 1, self.order, 1)[0], FEWEST)
+        blocks = -(-len(faces) // (4 * most)) * 4
+        blocks = max(1, min(blocks, len(faces) // (ours * FEWEST)))
+        return max(2, -(-len(faces) // (2 * blocks)) * 2)
 
     def _settle(self, surface: Surface) -> None:
         """The reference point and the scale, by the first piece where nobody has given them."""
@@ -208,7 +242,7 @@ class _Stream:
             self.center = middle(low, high, surface.points.dtype)
         largest = float(np.maximum(high - self.center, self.center - low).max())
         if self.exponent is None:
-            self.exponent = frexp(largest)[1] if largest else 0
+            self.exponent = _exponent(largest)
         beyond = frexp(largest)[1] - self.exponent
         if (max(beyond, 0) + 2) * (self.order + 3) > RANGE:
             raise ValueError("A piece of the body reaches much farther than the first. Give a point of the body, and "
@@ -222,21 +256,19 @@ class _Stream:
         if not all_there(task.faces, len(task.points)):
             raise ValueError("a face names a vertex that does not exist")
         levels = self.idle.pop() if self.idle else Levels(self.order, self.area)
-        found = levels.run(task.points, self.center, 2.0 ** -self.exponent, task.half_ulp, self._blocks(task))
+        found = levels.run(task.points, self.center, 2.0 ** -self.exponent, task.half_ulp, *self._blocks(task))
         self.idle.append(levels)
         return found
 
-    def _blocks(self, task: _Task) -> list[list[NDArray]]:
-        """The corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles."""
-        faces, size, blocks = task.faces, self.size, []
+    def _blocks(self, task: _Task) -> tuple[list[list[NDArray]], int]:
+        """The corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles; and
+        how many there are in each block but the last."""
+        faces = task.faces
         if faces.shape[1] == 4:
             faces = np.where(flipped_quads(task.points, faces)[:, None], np.roll(faces, -1, axis=1), faces)
-        else:
-            halves = pairs(faces)
-            faces = faces if halves is None else np.stack(halves, axis=1)
-        for start in range(0, len(faces), size):
-            blocks.append(list(faces[start:start + size].T))
-        return blocks
+        halves = pairs(faces) if faces.shape[1] == 3 else None
+        corners, size = (faces.T, task.size) if halves is None else (halves, task.size // 2)
+        return [[corner[start:start + size] for corner in corners] for start in range(0, len(corners[0]), size)], size
 
     def _moments(self, total: _Total, of: str) -> Moments:
         """What the sums come to, in the body's own unit, with its bounds."""
@@ -246,7 +278,7 @@ class _Stream:
         sizes = total.sizes[3 * row:3 * row + 3]
         raw = (total.high[row] + total.low[row]) * factors
         mean = 2.0 * ((degree + 3.0) if of == "volume" else 1.0)  # ∫ |x^α| is at most weight reach^α / this
-        rounding = U * (8.0 * degree + LENGTH + 100.0)
+        rounding = U * (8.0 * degree + 228.0)
         error = (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean + 8.0 * U * np.abs(raw) + TINY * total.faces
         moved = self._moved(total, of) if self.half_ulp.any() else np.zeros(len(raw))
         powers = self.exponent * (degree + dimension)
