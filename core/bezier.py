@@ -23,7 +23,8 @@ from .quadrature import gauss, gauss_and_ends
 
 Rule = tuple[tuple[int, ...], tuple[int, ...]]  # along s and t the points of a Gauss rule, or of two side by side
 Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
-FEW, MOST_CELLS = 32, 8192  # cells; made at a time
+FEW = 32  # cells of a patch: none of them is so small that rounding by the size of the patch would matter to it
+MOST_CELLS = 8192  # made at a time
 DERIVATIVES = (((0, 0),), ((0, 0), (1, 0), (0, 1)), ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)))
 
 
@@ -32,12 +33,12 @@ class Cells:
     """Bézier patches of the same orders k and k', polynomial or rational.
 
     net: (3, k, c, k') their control points, or (4, k, c, k') those times their weights, and the weights. home: (3, c)
-    what the control points are about, itself about the point that everything is taken about; None if it is that one.
+    or (3, 1) what the control points are about, near them, itself about the point that everything is taken about.
     steady: whether the weights are the same along s, and along t. reach: how far any point can be from that point.
     """
 
     net: NDArray[np.float64]
-    home: NDArray[np.float64] | None
+    home: NDArray[np.float64]
     steady: tuple[bool, bool]
     reach: float
 
@@ -49,7 +50,7 @@ class Cells:
         return self.net.shape[2]
 
     def __getitem__(self, rows) -> Cells:
-        home = None if self.home is None else self.home[:, rows]
+        home = self.home if self.home.shape[1] == 1 else self.home[:, rows]
         return Cells(self.net[:, :, rows], home, self.steady, self.reach)
 
     def split(self) -> Cells:
@@ -57,22 +58,20 @@ class Cells:
         rows = self.net.swapaxes(1, 2)
         quarters = [np.matmul(np.matmul(one, rows), other.T)
                     for one in _halves(rows.shape[2]) for other in _halves(rows.shape[3])]
-        home = None if self.home is None else np.tile(self.home, 4)
+        home = self.home if self.home.shape[1] == 1 else np.tile(self.home, 4)
         return Cells(np.concatenate(quarters, axis=1).swapaxes(1, 2), home, self.steady, self.reach).at_home()
 
     def at_home(self) -> Cells:
-        """The same about their first control points: what is added up is as small as the cell then, and so is its
-        rounding. Of few cells none is so small that rounding by the size of them all would matter."""
-        if self.home is None and len(self) <= FEW:
-            return self
-        home = self.net[:3, 0, :, 0]
-        move = home[:, None, :, None]
-        if len(self.net) == 4:
-            home = home / self.net[3, 0, :, 0]
-            move = home[:, None, :, None] * self.net[3]
-        net = self.net.copy()
-        net[:3] -= move
-        return Cells(net, home.copy() if self.home is None else self.home + home, self.steady, self.reach)
+        """The same about their own first control points: what is added up is as small as the cell then, and so is its
+        rounding."""
+        net, first = np.empty_like(self.net), self.net[:3, 0, :, 0]
+        if len(net) == 4:
+            net[3] = self.net[3]
+            first = first / net[3, 0, :, 0]
+            np.subtract(self.net[:3], first[:, None, :, None] * net[3], out=net[:3])
+        else:
+            np.subtract(self.net, first[:, None, :, None], out=net)
+        return Cells(net, self.home + first, self.steady, self.reach)
 
     def at(self, rule: Rule, most: int = 1, ends: bool = False) -> tuple[list[NDArray[np.float64]], Weights]:
         """The patches and their derivatives at the points of Gauss rules, and the weights of those points.
@@ -91,8 +90,7 @@ class Cells:
         found = [blocks[j][:, i] for i, j in DERIVATIVES[most]]
         if d == 4:
             found = _divided(found)
-        if self.home is not None:
-            found[0] += self.home[:, None, :, None]
+        found[0] += self.home[:, None, :, None]
         return found, (s_weights, t_weights)
 
 
@@ -121,11 +119,13 @@ def _cells_of_group(spaces: tuple[Space, Space], group: Sequence[Patch], about: 
         nets = np.array([patch.points for patch in some])
         nets -= about
         reach = math.sqrt(np.maximum.reduce(np.einsum("gijd,gijd->gij", nets, nets), axis=None))
+        home = nets[:, 0, 0].copy()
+        nets -= home[:, None, None]
         if some[0].weights is not None:
             nets = homogeneous(nets, np.array([patch.weights for patch in some]))
         for start in range(0, u, rows):
-            spans = slice(start, start + rows), slice(None)
-            yield Cells(bezier_nets(nets, spaces, spans), None, some[0].steady, reach)
+            spans = slice(start, min(start + rows, u)), slice(0, v)
+            yield cells_of_nets(nets, home, spaces, spans, some[0].steady, reach)
 
 
 def homogeneous(points: NDArray, weights: NDArray) -> NDArray[np.float64]:
@@ -136,21 +136,26 @@ def homogeneous(points: NDArray, weights: NDArray) -> NDArray[np.float64]:
     return net
 
 
-def bezier_nets(nets: NDArray, spaces: tuple[Space, Space], spans: tuple[slice, slice]) -> NDArray[np.float64]:
-    """(d, k, c, k') the control points of the Bézier patches of g control nets (g, count_s, count_t, d), those of some
-    spans of s and t only, in the order of nets, spans of s, spans of t."""
+def cells_of_nets(nets: NDArray, home: NDArray, spaces: tuple[Space, Space], spans: tuple[slice, slice],
+                  steady: tuple[bool, bool], reach: float) -> Cells:
+    """The Bézier patches of g control nets (g, count_s, count_t, 3 or 4) about points near them, home (g, 3): those of
+    some spans of s and t, in the order of nets, spans of s, spans of t."""
     s, rows = spaces[0].blossoms[spans[0]], spaces[0].acting[spans[0]]
     t, columns = spaces[1].blossoms[spans[1]], spaces[1].acting[spans[1]]
     (u, k), (v, kk), (g, _, count, d) = rows.shape, columns.shape, nets.shape
     half = np.matmul(s, nets.swapaxes(0, 1).take(rows, axis=0).reshape(u, k, -1)).reshape(u, k, g, count, d)
     whole = np.matmul(t, half.transpose(3, 4, 1, 2, 0).take(columns, axis=0).reshape(v, kk, -1))
-    return whole.reshape(v, kk, d, k, g, u).transpose(2, 3, 4, 5, 0, 1).reshape(d, k, g * u * v, kk)
+    net = whole.reshape(v, kk, d, k, g, u).transpose(2, 3, 4, 5, 0, 1).reshape(d, k, g * u * v, kk)
+    cells = Cells(net, home.T if g == 1 else np.repeat(home.T, u * v, axis=1), steady, reach)
+    return cells.at_home() if u * v > FEW else cells
 
 
 def _joined(parts: Sequence[Cells]) -> Cells:
-    found = parts[0] if len(parts) == 1 else Cells(
-        np.concatenate([part.net for part in parts], axis=2), None, parts[0].steady, max(part.reach for part in parts))
-    return found.at_home()
+    if len(parts) == 1:
+        return parts[0]
+    homes = [np.broadcast_to(part.home, (3, len(part))) for part in parts]
+    return Cells(np.concatenate([part.net for part in parts], axis=2), np.concatenate(homes, axis=1),
+                 parts[0].steady, max(part.reach for part in parts))
 
 
 @lru_cache(maxsize=128)

@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from .bezier import MOST_CELLS, Cells, bezier_nets, homogeneous
+from .bezier import MOST_CELLS, cells_of_nets, homogeneous
 from .bspline import Space
 from .moments import Moments, monomials
 from .patch import Patch
@@ -40,13 +40,16 @@ class Evaluator:
         self._rule = tuple((RATIONAL if self.rational else exact_points(space.order, order),) for space in self.spaces)
         self._flux = partial(flux_sums, order=order, area=True)
         self._divisor = monomials(order).sum(axis=1) + 3.0
+        self._home = self.about
         self._net = np.zeros((*patch.points.shape[:2], 3 + self.rational))
         self._sums = np.zeros((len(self._divisor) + 1, *(len(space.spans) for space in self.spaces)))
         self.area = 0.0
 
     def moments(self, points: NDArray, weights: NDArray | None = None) -> Moments:
         """All moments for these control points (count_s, count_t, 3): the flux through the patch, about `about`."""
-        net = np.asarray(points, np.float64) - self.about
+        points = np.asarray(points, np.float64)
+        self._home = points[0, 0].copy()
+        net = points - self._home
         if self.rational:
             net = homogeneous(net, np.ones(net.shape[:2]) if weights is None else np.asarray(weights))
         self._net = net
@@ -61,7 +64,7 @@ class Evaluator:
 
         `moments` must have been called for the others.
         """
-        place = np.asarray(point, np.float64) - self.about
+        place = np.asarray(point, np.float64) - self._home
         self._net[i, j] = np.append(place * weight, weight) if self.rational else place
         for rows in _touched(self.spaces[0], i):
             for columns in _touched(self.spaces[1], j):
@@ -69,7 +72,8 @@ class Evaluator:
         return self._made()
 
     def _evaluate(self, rows: slice, columns: slice) -> None:
-        cells = Cells(bezier_nets(self._net[None], self.spaces, (rows, columns)), None, (False, False), 0.0).at_home()
+        home = (self._home - self.about)[None]
+        cells = cells_of_nets(self._net[None], home, self.spaces, (rows, columns), (False, False), 0.0)
         sums = blocks(cells, self._rule, self._flux)[0]
         self._sums[:, rows, columns] = sums.reshape(len(sums), rows.stop - rows.start, -1)
 

@@ -233,3 +233,31 @@ def test_points_that_are_not_finite_are_refused():
 
 def test_equal_weights_make_a_polynomial_patch():
     assert Patch((clamped(3), clamped(3)), np.zeros((3, 3, 3)), np.full((3, 3), 0.7)).weights is None
+
+
+@pytest.mark.parametrize("far", [2.0**7, 2.0**14, 2.0**20])
+@pytest.mark.parametrize("weighted", [False, True])
+def test_a_patch_far_from_the_point_is_as_exact_as_its_bound_says(weighted, far):
+    """Its tangents must not be differences of what is as large as the distance, nor its rules disagree by it."""
+    rng = np.random.default_rng(1)
+    shape = (6, 5)
+    points = rng.integers(-2**20, 2**20, (*shape, 3)) / 2.0**20  # with the distance added still exact
+    weights = 10.0 ** rng.uniform(-0.5, 0.5, shape) if weighted else None
+    spaces = clamped(4, (0.25, 0.5)), clamped(3, (0.125, 0.75))
+    here, _ = volume_moments(closed_by_cones(Patch(spaces, points, weights)), 2, ORIGIN)
+    there, settled = volume_moments(closed_by_cones(Patch(spaces, points + far, weights), far), 2, ORIGIN)
+    expected = here.shifted(np.full(3, -far))
+    assert settled
+    assert (np.abs(there.raw - expected.raw) <= there.error + expected.error).all()
+
+
+def closed_by_cones(patch, place=0.0):
+    """With the cones from a point to its rim."""
+    found = [patch]
+    for axis, end, forward in ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False)):
+        curve = patch.side(axis, end)
+        rim = np.round(curve.points * 2.0**20) / 2.0**20  # as they were
+        ends = (np.full_like(rim, place), rim)[::1 if forward else -1]
+        weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
+        found.append(Patch((curve.space, clamped(2)), np.stack(ends, axis=1), weights))
+    return found
