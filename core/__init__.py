@@ -37,6 +37,7 @@ In the plane, and along curves
 
 Free-form surfaces (Soldea, Elber and Rivlin)
     bspline, patch              function spaces and their derivatives; patches
+    bezier                      the Bézier patches that they consist of
     patch_moments               sections 2 and 3, by a radial flux: solids, areas, sheets
     patch_solid, closure        what patches bound; whether they close, and their caps
     reevaluation, following     moments while control points move: of a patch, of a body
