@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .deformation import spline_modifiers
-from .instances import Gathered, shows_itself
-from .visibility import edit_modifiers, hidden_reason, instanced_by_parent, metaball_families
+from .instances import Gathered, shows_itself, visible_objects
+from .visibility import edit_modifiers, hidden_reason, instanced_by_parent, measurable, metaball_families
 
 
 def why_empty(obj, gathered: Gathered, depsgraph) -> str:
@@ -74,6 +74,7 @@ def decisions(obj, gathered: Gathered, depsgraph) -> Iterator[str]:
             yield (
                 "The instanced “{:s}” is read as the viewport shows it; the render differs: {:s}."
             ).format(source.name, "; ".join(differences))
+    yield from _members(gathered.collections)
     yield from _node_errors(obj)
     if gathered.vanished:
         yield "Left out: {:d} instances scaled to zero.".format(gathered.vanished)
@@ -93,6 +94,25 @@ def _rendered(obj, scene, exact: bool = False) -> Iterator[str]:
         yield "Read as the viewport shows it; the render differs: {:s}.".format(
             "; ".join(differences)
         )
+
+
+def _members(collections) -> Iterator[str]:
+    """The members of instanced collections that only the viewport or only the render shows."""
+    shown, rendered = (
+        {
+            member.original: None
+            for collection in collections
+            for member in visible_objects(collection, switch)
+            if measurable(member.original) and member.type != "META"  # which Blender cannot instance
+        }
+        for switch in ("hide_viewport", "hide_render")
+    )
+    missing = [member for member in rendered if member not in shown]
+    if missing:
+        yield "Left out, since shown by the render only: {:s}.".format(_names(missing))
+    extra = [member for member in shown if member not in rendered]
+    if extra:
+        yield "Measured, although not shown by the render: {:s}.".format(_names(extra))
 
 
 def _node_errors(obj) -> Iterator[str]:

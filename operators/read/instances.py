@@ -44,6 +44,7 @@ class Gathered:
     sources: the original objects that were read, without the first.
     vanished: how many instances are scaled to nothing.
     splines: of each evaluated surface object that was read, its patches, None where its mesh has to do.
+    collections: the original collections that it instances, as far as Blender's own list was not needed.
     materials, attribute, edges: whether the faces' materials are wanted, the name of the vertices' attribute, and
         whether the edges at the corners are.
     """
@@ -56,6 +57,7 @@ class Gathered:
         self.materials, self.attribute, self.edges = materials, attribute, edges
         # A geometry set owns the meshes that it hands out, and the keys are their addresses.
         self._owners: list[object] = []
+        self.collections: dict[object, None] = {}
         self._forget()
 
     def _forget(self) -> None:
@@ -185,10 +187,11 @@ class Gathered:
         return True
 
     def _collection(self, collection, places: NDArray) -> None:
+        self.collections[collection.original] = None
         shift = np.eye(4)
         shift[:3, 3] = -np.array(collection.instance_offset[:], np.float64)
         places = places @ shift
-        for member in _visible_objects(collection):
+        for member in visible_objects(collection):
             evaluated = member.evaluated_get(self.depsgraph)
             self._object(evaluated, places @ float64_matrix(evaluated.matrix_world))
 
@@ -314,17 +317,17 @@ def _listed_only(obj) -> bool:
     )
 
 
-def _visible_objects(collection) -> Iterator:
-    """The collection's objects and those of its children, each once, without those disabled in
-    viewports."""
+def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:
+    """The collection's objects and those of its children, each once, without those disabled in viewports, or with
+    `hide_render` in renders."""
     seen = set()
     pending = [collection]
     while pending:
         current = pending.pop()
-        if current.hide_viewport:
+        if getattr(current, switch):
             continue
         for obj in current.objects:
-            if not obj.hide_viewport and obj not in seen:
+            if not getattr(obj, switch) and obj not in seen:
                 seen.add(obj)
                 yield obj
         pending.extend(reversed(current.children))

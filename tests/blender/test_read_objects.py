@@ -314,6 +314,34 @@ def test_the_levels_of_an_instanced_object_are_said():
     assert any("instanced “Source”" in warning for warning in read(obj).warnings)
 
 
+def test_members_of_an_instanced_collection_that_only_the_viewport_or_the_render_shows_are_said():
+    members, inner = collection("Members"), collection("Inner", False)
+    members.children.link(inner)
+    cube("Kept", members)
+    obj = link("Instancer")
+    obj.instance_type, obj.instance_collection = "COLLECTION", members
+    assert read(obj).warnings == []
+    off, cutter, unused = cube("Off", members), cube("Cutter", members), cube("Unused", members)
+    cube("Spare", inner)
+    lamp = link("Lamp", bpy.data.lights.new("Lamp", "SUN"), members)
+    for one in (off, lamp, unused):
+        one.hide_viewport = True
+    unused.hide_render = cutter.hide_render = inner.hide_viewport = True
+    reading = read(obj)
+    assert reading.places == 2
+    assert reading.warnings == [
+        "Left out, since shown by the render only: “Off”, “Spare”.",
+        "Measured, although not shown by the render: “Cutter”.",
+    ]
+    inner.hide_render = True
+    assert read(obj).warnings[0] == "Left out, since shown by the render only: “Off”."
+    outer = link("Outer")
+    outer.instance_type, outer.instance_collection = "COLLECTION", collection("Outer")
+    link("Again", None, outer.instance_collection).instance_type = "COLLECTION"
+    bpy.data.objects["Again"].instance_collection = members
+    assert read(outer).warnings == read(obj).warnings
+
+
 def test_errors_of_nodes_are_said():
     obj = cube()
 
