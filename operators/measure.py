@@ -102,7 +102,7 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
                                     "was measured, as fine as the viewport's resolution.")
         elif density is not None and shell and obj.type == "CURVE" and shows_flat_region(obj):
             reading.warnings.append("A density that is not one value needs polygons: the faces that Blender fills the "
-                                    "curve with were measured, as fine as the viewport's resolution.")
+                                    "curve with were measured.")
         body = mesh_body(reading, unit, shell=shell, union=options.overlap == "union", threads=options.threads)
         weighed = None
         if density is not None:

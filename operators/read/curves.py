@@ -20,7 +20,7 @@ from .deformation import deformed, is_deformed, spline_modifiers
 from .reading import Unreadable
 from .visibility import evaluated_geometry
 
-Controls = tuple[NDArray[np.float64], NDArray[np.float64] | None]
+STRAIGHT = 1e-6  # of a spline's length: what float32 leaves of a straight line
 
 
 def read_curves(obj, depsgraph) -> tuple[list[Curve], list[str]]:
@@ -58,6 +58,34 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[str]]:
     if not found:
         raise Unreadable(obj.name, "It has no spline that is a curve; add points to one.")
     return found, notes
+
+
+def is_round(obj) -> bool:
+    """Whether the polygons that Blender draws for a curve or text object stand for something that is not straight."""
+    curve = obj.data
+    if obj.type == "FONT" or (curve.bevel_mode != "OBJECT" and curve.bevel_depth and curve.bevel_resolution):
+        return True
+    shapes = [curve.bevel_object if curve.bevel_mode == "OBJECT" else None, curve.taper_object]
+    return not all(_is_straight(spline) for data in (curve, *(one.data for one in shapes if one))
+                   for spline in data.splines)
+
+
+def _is_straight(spline) -> bool:
+    """Whether a spline has no bend but at its points."""
+    if spline.type == "POLY" or (spline.type == "NURBS" and spline.order_u == 2):
+        return True
+    pieces = _control_points(spline)[None]
+    if spline.type == "BEZIER":
+        knots = pieces.reshape(-1, 3, 3)
+        after = np.roll(knots, -1, axis=0)
+        pieces = np.concatenate([knots[:, 1:], after[:, :2]], axis=1)[:None if spline.use_cyclic_u else -1]
+    arms = pieces - pieces[:, :1]
+    lengths = np.linalg.norm(arms, axis=2)
+    if not lengths.any():
+        return True
+    longest = np.take_along_axis(arms, lengths.argmax(axis=1)[:, None, None], axis=1)
+    beside = np.linalg.norm(np.cross(arms, longest), axis=2)
+    return bool((beside <= STRAIGHT * lengths.max(axis=1, keepdims=True) ** 2).all())
 
 
 def _control_points(spline) -> NDArray[np.float64]:

@@ -10,9 +10,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .curves import is_round
 from .deformation import spline_modifiers
 from .instances import Gathered, shows_itself, visible_objects
 from .visibility import edit_modifiers, hidden_reason, instanced_by_parent, measurable, metaball_families
+
+POLYGONS = (
+    "{:s} measured as the polygons that Blender draws, as fine as the viewport's resolution; twice as fine, they come "
+    "four times as near."
+)
 
 
 def why_empty(obj, gathered: Gathered, depsgraph) -> str:
@@ -65,6 +71,7 @@ def decisions(obj, gathered: Gathered, depsgraph) -> Iterator[str]:
         others = _family(obj, depsgraph)[1:]
         if others:
             yield "Holds the polygons of its metaball family: {:s}.".format(_names(others))
+    yield from _polygons(obj, gathered.drawn)
     yield from _mode(obj)
     exact = {evaluated.original for evaluated, splines in gathered.splines.items() if splines}
     yield from _rendered(obj, depsgraph.scene, obj in exact)
@@ -127,6 +134,17 @@ def _node_errors(obj) -> Iterator[str]:
 def _family(obj, depsgraph) -> list:
     families = metaball_families(depsgraph.view_layer)
     return next((family for family in families if obj in family), [obj])
+
+
+def _polygons(obj, drawn) -> Iterator[str]:
+    """What polygons stand for, of curves, text and metaballs."""
+    for source in drawn:
+        if source.type == "META":
+            yield POLYGONS.format("Its surface was")
+        elif source.type in {"CURVE", "FONT"} and is_round(source):
+            yield POLYGONS.format(
+                "Its curves were" if source == obj else "The curves of “{:s}” were".format(source.name)
+            )
 
 
 def _mode(obj) -> Iterator[str]:

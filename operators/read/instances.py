@@ -44,6 +44,7 @@ class Gathered:
     sources: the original objects that were read, without the first.
     vanished: how many instances are scaled to nothing.
     splines: of each evaluated surface object that was read, its patches, None where its mesh has to do.
+    drawn: the original objects of other kinds than meshes whose own polygons were read.
     collections: the original collections that it instances, as far as Blender's own list was not needed.
     materials, attribute, edges: whether the faces' materials are wanted, the name of the vertices' attribute, and
         whether the edges at the corners are.
@@ -64,6 +65,7 @@ class Gathered:
         self.faceless = (0, 0)
         self.left_out: Counter[str] = Counter()
         self.sources: dict[object, None] = {}
+        self.drawn: dict[object, None] = {}
         self.vanished = 0
         self._surfaces: dict[Hashable, Surface] = {}
         self.splines: dict[Hashable, SplineReading | None] = {}
@@ -228,6 +230,8 @@ class Gathered:
     def _mesh(self, key: Hashable, mesh, places: NDArray, owner=None) -> None:
         """Add a mesh; owner: the evaluated object whose material slots it is shown with."""
         if mesh is not None:
+            if owner is not None and owner.original.type != "MESH" and len(mesh.polygons):
+                self.drawn[owner.original] = None
             self._add(self._key(key, owner), lambda: self._read(mesh, owner), places)
 
     def _key(self, key: Hashable, owner) -> Hashable:

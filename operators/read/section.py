@@ -65,8 +65,7 @@ def read_section(obj, depsgraph) -> SectionReading:
     reading = read_object(obj, depsgraph, edges=False)
     warnings = list(reading.warnings)
     if obj.type in {"CURVE", "FONT"}:
-        warnings.append("What its modifiers make of Blender's fill was measured, at a resolution of {:s}.".format(
-            _resolution(obj) or str(obj.data.resolution_u)))
+        warnings.append("What its modifiers make of Blender's fill was measured.")
     surface = joined([part.surface.mapped(matrix[:3, :3], matrix[:3, 3])
                       for part in reading.parts for matrix in part.matrices])
     return SectionReading(

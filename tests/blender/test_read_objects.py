@@ -108,9 +108,101 @@ def test_a_nurbs_surface_is_read_as_its_patches_beside_its_display_mesh():
     assert len(reading.parts[0].splines.patches) == 1
 
 
-@pytest.mark.parametrize("make", [cube, bevelled, text, shaped], ids=lambda make: make.__name__)
+@pytest.mark.parametrize("make", [cube, shaped], ids=lambda make: make.__name__)
 def test_what_is_read_as_it_is_needs_no_words(make):
     assert read(make()).warnings == []
+
+
+@pytest.mark.parametrize("make", [bevelled, text, ball], ids=lambda make: make.__name__)
+def test_polygons_that_stand_for_what_is_round_are_said(make):
+    obj = make()
+    assert len([warning for warning in read(obj).warnings if "polygons that Blender draws" in warning]) == 1
+    if obj.type != "META":
+        members = collection("Members")
+        members.objects.link(obj)
+        instancer = link("Instancer")
+        instancer.instance_type, instancer.instance_collection = "COLLECTION", members
+        (warning,) = read(instancer).warnings
+        assert warning.startswith("The curves of “{:s}” were measured as the polygons".format(obj.name))
+
+
+def spline_object(kind, points, depth=0.0):
+    data = bpy.data.curves.new("Line", "CURVE")
+    data.dimensions, data.extrude, data.bevel_depth, data.bevel_resolution = "3D", 0.5, depth, 0
+    spline = data.splines.new(kind)
+    items = spline.bezier_points if kind == "BEZIER" else spline.points
+    items.add(len(points) - 1)
+    for item, point in zip(items, points):
+        if kind == "BEZIER":
+            item.co = point
+            item.handle_left_type = item.handle_right_type = "VECTOR"
+        else:
+            item.co = (*point, 1.0)
+    return link("Line", data)
+
+
+CORNER = [(0.0, 0.1, 0.0), (3.0, 0.7, 0.3), (3.3, 4.0, 0.1), (-1.0, 2.0, 0.7)]
+
+
+def said(obj):
+    return any("polygons that Blender draws" in warning for warning in read(obj).warnings)
+
+
+def test_straight_splines_are_their_polygons_unless_their_bevel_is_round():
+    for depth in (0.0, 0.1):
+        obj = spline_object("POLY", CORNER, depth)
+        assert not said(obj)
+        obj.data.bevel_resolution = 2
+        assert said(obj) == (depth > 0.0)
+
+
+@pytest.mark.parametrize("cyclic", [False, True])
+def test_bezier_splines_are_their_polygons_where_their_handles_are_straight(cyclic):
+    obj = spline_object("BEZIER", CORNER)
+    (spline,) = obj.data.splines
+    spline.use_cyclic_u = cyclic
+    depsgraph()
+    assert not said(obj)
+    for item, name in ((spline.bezier_points[0], "handle_left"), (spline.bezier_points[-1], "handle_right")):
+        setattr(item, name + "_type", "FREE")
+        setattr(item, name, item.co + item.co.orthogonal())
+    assert said(obj) == cyclic
+    spline.bezier_points[1].handle_right_type = "FREE"
+    spline.bezier_points[1].handle_right.z += 0.1
+    assert said(obj)
+
+
+def test_nurbs_splines_are_their_polygons_where_they_are_of_order_2_or_straight():
+    obj = spline_object("NURBS", CORNER)
+    (spline,) = obj.data.splines
+    for order in (2, 3, 4):
+        spline.order_u = order
+        assert said(obj) == (order > 2)
+    assert not said(spline_object("NURBS", [(t, 2.0 * t, -t) for t in (0.0, 1.0, 1.5, 4.0)]))
+
+
+@pytest.mark.parametrize("mode, name", [("OBJECT", "bevel_object"), ("ROUND", "taper_object")])
+def test_a_round_profile_or_taper_of_a_straight_spline_is_said(mode, name):
+    obj, other = spline_object("POLY", CORNER, 0.1), spline_object("POLY", CORNER[:3])
+    bpy.ops.curve.primitive_bezier_circle_add(radius=0.1)
+    obj.data.bevel_mode, other.data.extrude = mode, 0.0
+    for shape in (other, bpy.context.object):
+        setattr(obj.data, name, shape)
+        assert said(obj) == (shape != other)
+
+
+def test_a_curve_that_only_carries_instances_has_no_polygons_to_speak_of():
+    bpy.ops.curve.primitive_bezier_circle_add()
+    obj = bpy.context.object
+
+    def build(tree, source):
+        points = node(tree, "GeometryNodeCurveToPoints", {}, Curve=source).outputs[0]
+        made = node(tree, "GeometryNodeInstanceOnPoints", Points=points,
+                    Instance=node(tree, "GeometryNodeMeshCube").outputs[0])
+        return made.outputs[0]
+
+    nodes(obj, build)
+    assert read(obj).places == 10 and not said(obj)
 
 
 def test_the_metaball_with_the_lowest_number_holds_its_familys_polygons():
