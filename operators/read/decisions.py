@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from .curves import is_round
 from .deformation import spline_modifiers
 from .instances import Gathered, shows_itself, visible_objects
+from .splines import weightless
 from .visibility import edit_modifiers, hidden_reason, instanced_by_parent, measurable, metaball_families
 
 POLYGONS = (
@@ -66,7 +67,7 @@ def decisions(obj, gathered: Gathered, depsgraph) -> Iterator[str]:
             obj.parent.name
         )
     for evaluated, splines in gathered.splines.items():
-        yield from _spline_notes(evaluated.original, splines, obj)
+        yield from _spline_notes(evaluated, splines, obj)
     if obj.type == "META":
         others = _family(obj, depsgraph)[1:]
         if others:
@@ -167,14 +168,18 @@ def _mode(obj) -> Iterator[str]:
         yield "Read in Sculpt Mode, with the modifiers that act there."
 
 
-def _spline_notes(source, splines, obj) -> Iterator[str]:
+def _spline_notes(evaluated, splines, obj) -> Iterator[str]:
     """What was decided about a surface object, `obj` or one that it instances."""
-    name = "" if source == obj else " of “{:s}”".format(source.name)
     if splines is None:
-        meshed = spline_modifiers(source)[1]
-        yield "Display mesh{:s} instead of the surface, as fine as the viewport's resolution{:s}.".format(
-            name, ", as modifiers work on the mesh: {:s}".format(_names(meshed)) if meshed else ""
-        )
+        source = evaluated.original
+        name = "" if source == obj else " of “{:s}”".format(source.name)
+        meshed, count = spline_modifiers(source)[1], weightless(evaluated.data.splines)
+        reason = ""
+        if meshed:
+            reason = ", as modifiers work on the mesh: {:s}".format(_names(meshed))
+        elif count:
+            reason = ", as weights of its control points ({:d}) are not positive; raise them above zero".format(count)
+        yield "Display mesh{:s} instead of the surface, as fine as the viewport's resolution{:s}.".format(name, reason)
     else:
         yield from splines.notes
 

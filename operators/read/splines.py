@@ -42,7 +42,7 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     places = coordinates[:, :3].astype(np.float64)
     if is_deformed(evaluated):
         places = deformed(evaluated, places, depsgraph)
-    if not np.isfinite(coordinates).all() or not np.isfinite(places).all() or not (coordinates[:, 3] > 0.0).all():
+    if weightless(splines) or not np.isfinite(coordinates).all() or not np.isfinite(places).all():
         return None
     starts = np.cumsum([0] + [len(row) for row in rows])
     patches, samples, left_out = [], [], 0
@@ -76,6 +76,11 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
             notes.append("Its control points were recovered from the display mesh, to about 6 digits, as Blender does "
                          "not tell where its modifiers or keys move them.")
     return SplineReading(tuple(patches), stored, tuple(notes))
+
+
+def weightless(splines) -> int:
+    """How many control points have a weight that is not positive, for which the display mesh has to be measured."""
+    return sum(int((~(_points(spline)[:, 3] > 0.0)).sum()) for spline in splines if spline.type == "NURBS")
 
 
 def _points(spline) -> NDArray[np.float32]:

@@ -332,7 +332,9 @@ def test_weights_of_zero_leave_the_display_mesh():
     obj.data.splines[0].points[17].co[3] = 0.0
     obj.data.update_tag()
     found = measured(obj)
-    assert not found.method.startswith("NURBS") and any("Display mesh" in warning for warning in found.warnings)
+    assert not found.method.startswith("NURBS") and found.warnings[0] == (
+        "Display mesh instead of the surface, as fine as the viewport's resolution, as weights of its control points "
+        "(1) are not positive; raise them above zero.")
 
 
 def test_numbers_follow_an_edit_while_live_is_on():
