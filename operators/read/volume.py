@@ -109,8 +109,10 @@ def _volume(obj, depsgraph):
     volume = evaluated.data if isinstance(evaluated.data, bpy.types.Volume) else geometry.volume
     if volume is None:
         return None
-    if not volume.grids.load():
-        raise Unreadable(obj.name, "Its file cannot be read: {:s}.".format(
+    # A saved file turns an empty path into that of a folder.
+    folder = os.path.isdir(bpy.path.abspath(volume.filepath, library=obj.data.library))
+    if not volume.grids.load() and not folder:
+        raise Unreadable(obj.name, "Its file cannot be read: {:s}; give it another one.".format(
             volume.grids.error_message.rstrip(".") or "it is missing or damaged"))
     if not len(volume.grids):
         if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:

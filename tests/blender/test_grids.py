@@ -312,13 +312,26 @@ def test_a_density_is_refused_as_a_solid(tmp_path):
         measure(obj)
 
 
+def test_a_volume_without_a_file_is_asked_for_one_after_saving_too(tmp_path):
+    """Blender saves its empty path as one of a folder."""
+    linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
+    bpy.ops.mesh.primitive_cube_add()
+    mesh_to_volume(bpy.context.object)
+    path = str(tmp_path / "empty.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    with pytest.raises(Unreadable, match="It has no grids; give it a file"):
+        measure(bpy.data.objects["Empty"])
+    assert measure(bpy.data.objects["Fog"]).volume > 0.0
+
+
 def test_what_cannot_be_measured_says_why(tmp_path):
     empty = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
     with pytest.raises(Unreadable, match="no grids"):
         measure(empty)
     missing = linked(bpy.data.objects.new("Missing", bpy.data.volumes.new("Missing")))
     missing.data.filepath = str(tmp_path / "none.vdb")
-    with pytest.raises(Unreadable):
+    with pytest.raises(Unreadable, match="none.vdb not found; give it another one"):
         measure(missing)
     nothing = volume_object(tmp_path / "a.vdb", vdb_grid(np.zeros((4, 4, 4), np.float32)))
     with pytest.raises(Unreadable, match="Every voxel"):
