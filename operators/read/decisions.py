@@ -33,8 +33,12 @@ def why_empty(obj, gathered: Gathered, depsgraph) -> str:
             )
     if gathered.vanished:
         return "All that it instances is scaled to zero; give the instances a scale."
-    if obj.type == "CURVE" and not obj.modifiers:
-        return "It is a line without a surface; give the curve a bevel or an extrusion, or fill it."
+    if obj.type == "FONT" and not obj.data.body.strip():
+        return "Its text is empty; type one."
+    if obj.type in {"CURVE", "FONT"} and not obj.modifiers:
+        return "It shows lines without a surface; give it a bevel or an extrusion, or fill it{:s}.".format(
+            ", or set its kind to Wire" if obj.type == "CURVE" else ""
+        )
     if set(gathered.left_out) == {"volumes"} and (gathered.sources or obj.type != "VOLUME"):
         return "It shows volumes by instances only, which are not measured; measure the Volume objects themselves."
     if gathered.left_out:

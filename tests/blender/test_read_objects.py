@@ -245,7 +245,13 @@ def test_what_has_no_faces_is_refused_with_what_it_has():
     assert "has no geometry" in refused(link("Nothing", mesh("Nothing", [], [])))
     bpy.ops.curve.primitive_bezier_circle_add()
     assert "bevel" in refused(bpy.context.object)
+    assert "kind to Wire" in refused(bpy.context.object)
     assert not measurable(bpy.context.object)
+    letters = text()
+    letters.data.extrude, letters.data.fill_mode = 0.0, "NONE"
+    assert refused(letters) == "It shows lines without a surface; give it a bevel or an extrusion, or fill it."
+    letters.data.body = " "
+    assert refused(letters) == "Its text is empty; type one."
     cloud = link("Cloud", bpy.data.pointclouds.new("Cloud"))
     strands = link("Strands", bpy.data.hair_curves.new("Strands"))
     volume = link("Volume", bpy.data.volumes.new("Volume"))
