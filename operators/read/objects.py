@@ -36,15 +36,14 @@ def read_object(
     obj = obj.original
     require_kind(obj)
     _require_readable_mode(obj)
-    evaluated, matrix = _evaluated(obj, depsgraph)
-    gathered = Gathered(evaluated, depsgraph, materials, attribute, edges)
+    reading = placed(obj, depsgraph)
+    gathered = Gathered(obj.evaluated_get(depsgraph), depsgraph, materials, attribute, edges)
     gathered.gather()
     parts = gathered.parts()
     if not parts:
         raise Unreadable(obj.name, why_empty(obj, gathered, depsgraph))
     for part in parts:
         _require_finite(obj.name, part.surface)
-    reading = _placed(obj, evaluated, matrix)
     reading.parts, reading.warnings = parts, list(decisions(obj, gathered, depsgraph))
     return reading
 
@@ -57,8 +56,7 @@ def read_lines(obj, depsgraph) -> Reading:
     obj = obj.original
     if obj.type != "CURVE":
         raise Unreadable(obj.name, "Only a curve can be a wire; measure it as a solid or a shell.")
-    evaluated, matrix = _evaluated(obj, depsgraph)
-    reading = _placed(obj, evaluated, matrix)
+    reading = placed(obj, depsgraph)
     reading.curves, reading.warnings = read_curves(obj, depsgraph)
     return reading
 
@@ -68,21 +66,24 @@ def read_patches(obj, depsgraph) -> Reading | None:
     compared with it, and no word about the render. None where it shows more, or has to be measured by its mesh.
     """
     obj = obj.original
-    evaluated, matrix = _evaluated(obj, depsgraph)
+    reading = placed(obj, depsgraph)
     if obj.type != "SURFACE" or obj.instance_type != "NONE" or len(obj.particle_systems):
         return None
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
+    evaluated = obj.evaluated_get(depsgraph)
     splines = spline_reading(evaluated, depsgraph, geometry.mesh if is_deformed(evaluated) else None)
     if splines is None:
         return None
-    reading = _placed(obj, evaluated, matrix)
     nothing = Surface(np.zeros((0, 3), np.float32))
-    reading.parts = [Part(nothing, matrix[None], splines=splines)]
+    reading.parts = [Part(nothing, reading.matrix[None], splines=splines)]
     return reading
 
 
-def _evaluated(obj, depsgraph) -> tuple:
-    """The evaluated object and its world matrix."""
+def placed(obj, depsgraph) -> Reading:
+    """An evaluated object's name and place, with nothing read of it yet.
+
+    Raises Unreadable where Blender has not evaluated it, or its transform is not finite.
+    """
     evaluated = obj.evaluated_get(depsgraph)
     if not evaluated.is_evaluated:
         raise Unreadable(obj.name, hidden_reason(obj, depsgraph) or NOT_EVALUATED)
@@ -92,10 +93,6 @@ def _evaluated(obj, depsgraph) -> tuple:
             obj.name,
             "Its transform is not finite; reset its location, rotation and scale, or its parent's.",
         )
-    return evaluated, matrix
-
-
-def _placed(obj, evaluated, matrix) -> Reading:
     location, rotation, _scale = evaluated.matrix_world.decompose()
     return Reading(
         name=obj.name,

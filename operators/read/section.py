@@ -18,12 +18,10 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.rotation import rotation_matrix
 from ...core.surface import Surface, joined
 from .mesh import mesh_surface
-from .objects import read_object
-from .reading import Unreadable, float64_matrix
-from .visibility import NOT_EVALUATED, hidden_reason
+from .objects import placed, read_object
+from .reading import Unreadable
 
 SECTION_TYPES = {"MESH", "CURVE", "FONT"}
 
@@ -84,8 +82,8 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
         bpy.data.meshes.remove(copy)
     if surface is None:
         raise Unreadable(obj.name, "None of its faces is selected; select the faces of the section.")
-    matrix, rotation, location = _place(obj, depsgraph)
-    surface = surface.mapped(matrix[:3, :3], matrix[:3, 3])
+    place = placed(obj, depsgraph)
+    surface = surface.mapped(place.matrix[:3, :3], place.matrix[:3, 3])
     inside = chosen[surface.triangle_faces]
     triangles = surface.triangles[inside]
     _require_finite(obj, surface.points[triangles])
@@ -97,8 +95,8 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     count = int(np.count_nonzero(chosen))
     return SectionReading(
         obj.name, "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count), surface.points, triangles,
-        surface.triangle_faces[inside], float(np.linalg.norm(surface.coordinate_error)), rotation, location,
-        warnings=warnings)
+        surface.triangle_faces[inside], float(np.linalg.norm(surface.coordinate_error)), place.rotation,
+        place.location, warnings=warnings)
 
 
 def _outlines(obj, depsgraph) -> SectionReading:
@@ -109,8 +107,8 @@ def _outlines(obj, depsgraph) -> SectionReading:
     if not loops:
         raise Unreadable(obj.name, "It has no closed outline; write a text." if obj.type == "FONT" else
                          "It has no closed outline; close its splines (Toggle Cyclic).")
-    matrix, rotation, location = _place(obj, depsgraph)
-    linear = matrix[:3, :3]
+    place = placed(obj, depsgraph)
+    linear = place.matrix[:3, :3]
     facing = np.cross(linear[:, 0], linear[:, 1]) * np.sign(np.linalg.det(linear) or 1.0)
     filled = _filled(obj, depsgraph)
     warnings = list(_said(obj, sum(map(len, loops)), open_splines))
@@ -119,10 +117,10 @@ def _outlines(obj, depsgraph) -> SectionReading:
         # Only the evaluated text follows its curve, and only its fill is there to be read.
         if filled is None:
             raise Unreadable(obj.name, "It follows a curve and is not filled; fill it, or convert it to a mesh.")
-        surface, loops = filled.mapped(linear, matrix[:3, 3]), None
+        surface, loops = filled.mapped(linear, place.matrix[:3, 3]), None
         triangles, faces = surface.triangles, surface.triangle_faces
     else:
-        surface = Surface(local).mapped(linear, matrix[:3, 3])
+        surface = Surface(local).mapped(linear, place.matrix[:3, 3])
         rows = [np.stack([np.full(len(loop) - 2, loop[0]), loop[1:-1], loop[2:]], axis=1) for loop in loops]
         triangles = np.concatenate(rows)
         faces = np.arange(len(triangles))
@@ -133,7 +131,8 @@ def _outlines(obj, depsgraph) -> SectionReading:
     _require_finite(obj, surface.points)
     return SectionReading(
         obj.name, "Text" if obj.type == "FONT" else "Curve", surface.points, triangles, faces,
-        float(np.linalg.norm(surface.coordinate_error)), rotation, location, loops, facing, drawn, warnings)
+        float(np.linalg.norm(surface.coordinate_error)), place.rotation, place.location, loops, facing,
+        drawn, warnings)
 
 
 def _said(obj, corners: int, open_splines: int) -> Iterator[str]:
@@ -160,18 +159,6 @@ def _require_flat_outlines(obj) -> None:
                                    "measure its outline.")
     if curve.offset:
         raise Unreadable(obj.name, "Its Offset moves the outline that is filled; set it to 0, or convert it to a mesh.")
-
-
-def _place(obj, depsgraph) -> tuple[NDArray, NDArray, NDArray]:
-    evaluated = obj.evaluated_get(depsgraph)
-    if not evaluated.is_evaluated:
-        raise Unreadable(obj.name, hidden_reason(obj, depsgraph) or NOT_EVALUATED)
-    matrix = float64_matrix(evaluated.matrix_world)
-    if not np.isfinite(matrix).all():
-        raise Unreadable(obj.name, "Its transform is not finite; reset its location, rotation and scale, or its "
-                                   "parent's.")
-    location, rotation, _ = evaluated.matrix_world.decompose()
-    return matrix, rotation_matrix(rotation), np.array(location[:], np.float64)
 
 
 def _wire(obj) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
