@@ -47,6 +47,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
 
     def _begin(self, context: bpy.types.Context) -> None:
         self._found: list[tuple[bpy.types.Object, Measurement]] = []
+        self._refused: list[tuple[bpy.types.Object, str]] = []
         self._failed: list[str] = []
         self._steps = self._measure(_chosen(context), context.evaluated_depsgraph_get())
 
@@ -55,16 +56,17 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
             try:
                 self._found.append((obj, measure_object(obj, depsgraph)))
             except Unreadable as error:
-                self._failed.append("{:s}: {:s}".format(obj.name_full, error.reason))
-                refuse(obj, error.reason)
-            else:
-                refuse(obj, None)
+                self._refused.append((obj, error.reason))
             yield done
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Nothing is stored before everything is measured, so that a cancelled run leaves nothing behind."""
+        for obj, reason in self._refused:
+            self._failed.append("{:s}: {:s}".format(obj.name_full, reason))
+            refuse(obj, reason)
         stored = []
         for obj, measurement in self._found:
+            refuse(obj, None)
             try:
                 properties.store(obj, measurement)
             except RuntimeError as error:
@@ -82,8 +84,9 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
         tried = stored + len(self._failed)
         parts = ["Measured {:d} of {:d} objects".format(stored, tried)] if tried > 1 else []
         if tried == stored == 1:
-            parts.append("Measured {:s}".format(self._found[0][0].name))
-        if warned:
+            name = self._found[0][0].name
+            parts.append(("Measured {:s}, with warnings" if warned else "Measured {:s}").format(name))
+        elif warned:
             parts.append("{:d} with warnings".format(warned))
         parts += selection.listed(self._failed)
         self.report({"WARNING"} if self._failed or warned else {"INFO"}, "; ".join(parts))

@@ -107,9 +107,10 @@ class OBJECT_OT_body_moments_measure_section(Operator):
         for area in context.screen.areas if context.screen else ():
             area.tag_redraw()
         warned = sum(bool(warnings) for *_, warnings in found)
-        told = ["Measured the section of {:s}".format(found[0][0].name)] if len(found) == 1 else (
-            ["Measured {:d} sections".format(len(found))] if found else [])
-        if warned:
+        one = "Measured the section of {:s}, with warnings" if warned else "Measured the section of {:s}"
+        told = ["Measured {:d} sections".format(len(found))] if len(found) > 1 else [
+            one.format(obj.name) for obj, *_ in found]
+        if warned and len(found) > 1:
             told.append("{:d} with warnings".format(warned))
         self.report({"WARNING"} if failed or warned else {"INFO"}, "; ".join(told + selection.listed(failed)))
         return {"FINISHED"} if found else {"CANCELLED"}

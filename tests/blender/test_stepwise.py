@@ -9,7 +9,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators import stepwise
+from body_moments.operators import results, stepwise
 from body_moments.operators.find_symmetry import OBJECT_OT_body_moments_find_symmetry
 from body_moments.operators.fourier import OBJECT_OT_body_moments_fourier_run
 from body_moments.operators.match_pose import OBJECT_OT_body_moments_match_pose
@@ -99,6 +99,36 @@ def test_esc_between_two_objects_leaves_everything_as_it_was(cls, settings, monk
     assert window.timers == [] and window.told[-1] is None and operator.reports[-1][0] == "INFO"
     assert all((place(body) == matrix).all() for body, matrix in zip(bodies, before, strict=True))
     assert not any("body_mass" in body or body.is_property_set("body_moments_symmetry") for body in bodies)
+
+
+def test_esc_leaves_what_was_said_of_objects_that_could_not_be_measured(monkeypatch):
+    monkeypatch.setattr("body_moments.operators.measure_selected.AT_ONCE", 1)
+    bodies = three()
+    whole, nothing = bodies[0].data, bpy.data.meshes.new("Nothing")
+    for body in bodies:
+        body.data = nothing
+    assert finished(*pressed(OBJECT_OT_body_moments_measure)) == {"CANCELLED"}
+    said = [results.refusal(body) for body in bodies]
+    assert all(said)
+    for body in bodies:
+        body.data = whole
+    operator, window = pressed(OBJECT_OT_body_moments_measure)
+    assert operator.modal(window, TIMER) == {"RUNNING_MODAL"}
+    assert operator.modal(window, ESC) == {"CANCELLED"}
+    assert [results.refusal(body) for body in bodies] == said
+    assert finished(*pressed(OBJECT_OT_body_moments_measure)) == {"FINISHED"}
+    assert not any(results.refusal(body) for body in bodies)
+
+
+def test_one_object_with_warnings_is_not_counted(monkeypatch):
+    monkeypatch.setattr("body_moments.operators.measure_selected.AT_ONCE", 0)
+    text = bpy.data.objects.new("Text", bpy.data.curves.new("Text", "FONT"))
+    text.data.body, text.data.extrude = "o", 0.1
+    bpy.context.scene.collection.objects.link(text)
+    only(text)
+    operator, window = pressed(OBJECT_OT_body_moments_measure)
+    assert finished(operator, window) == {"FINISHED"}
+    assert operator.reports == [("WARNING", "Measured Text, with warnings")]
 
 
 @pytest.mark.parametrize(("cls", "settings"), OPERATORS)
