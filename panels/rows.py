@@ -14,9 +14,9 @@ from bpy.types import Context, UILayout
 from ..operators.clipboard import OBJECT_OT_body_moments_copy_value
 from ..operators.units import SI_UNITS, Units
 
-LABEL = 0.36  # share of a row that its label takes
+LABEL, SHORT = 0.36, 0.2  # share of a row that its label takes, and one of few letters
 MARGIN = 96  # what tabs, borders and an icon take of the region's width, in unscaled pixels
-NARROW = 160
+NARROW = 80  # no line is made narrower: longer words would stand alone, and be cut off
 
 
 def value(layout: UILayout, units: Units, label: str, quantity: str, si: float) -> None:
@@ -62,7 +62,7 @@ def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
 def texts(layout: UILayout, label: str, text: str, exact: str, unit: str) -> None:
     """Label, text to the right, copy button."""
     row = layout.row(align=True)
-    split = row.split(factor=LABEL, align=True)
+    split = row.split(factor=LABEL if len(label) > 3 else SHORT, align=True)
     split.label(text=label)
     cell = split.row(align=True)
     cell.alignment = "RIGHT"

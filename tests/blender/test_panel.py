@@ -257,6 +257,16 @@ def test_warnings_are_wrapped_and_complete():
     assert " ".join(lines) == sentence and len(lines) > 2
 
 
+def test_sentences_fit_into_the_narrowest_sidebar():
+    from body_moments.panels import rows
+
+    style = SimpleNamespace(widget=SimpleNamespace(points=11.0))
+    for scale in (1.0, 2.0):
+        preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=scale), ui_styles=[style])
+        context = SimpleNamespace(region=SimpleNamespace(width=184 * scale), preferences=preferences)
+        assert 0 < rows._width(context)[0] <= (184 - rows.MARGIN) * scale
+
+
 def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
     from body_moments.operators import measure
 
