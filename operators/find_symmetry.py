@@ -110,7 +110,7 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
             area.tag_redraw()
         if self._failures or not told:
             return selection.summarise(self, len(told), len(self._objects), "Looked at {count}", self._failures, told)
-        self.report({"INFO"}, "; ".join(told[:selection.LISTED]))
+        self.report({"INFO"}, "; ".join(selection.listed(told)))
         return {"FINISHED"}
 
 

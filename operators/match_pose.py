@@ -83,7 +83,7 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
         snapping.refresh(context, moved)
         if notes and fits and not self._failures:
             self.report({"INFO"}, "Laid {:s} onto {:s}. {:s}".format(
-                selection.counted(len(notes)), active.name, ". ".join(notes[:selection.LISTED])))
+                selection.counted(len(notes)), active.name, ". ".join(selection.listed(notes))))
             return {"FINISHED"}
         text = "Laid {count} onto " + active.name
         return selection.summarise(self, len(notes), len(self._others), text, self._failures, notes)

@@ -157,6 +157,17 @@ def test_symmetries_are_kept_when_all_are_found():
     assert kind == "WARNING" and "1 of 3 objects left unchanged. b: " in text
 
 
+@pytest.mark.parametrize(("cls", "settings"), OPERATORS[1:])
+def test_what_a_report_does_not_name_it_counts(cls, settings):
+    bodies = [*three(), add(mesh_body(), "d"), add(mesh_body(), "e")]
+    only(*bodies)
+    operator, window = pressed(cls, **settings)
+    assert finished(operator, window) == {"FINISHED"}
+    ((kind, text),) = operator.reports
+    more = 2 if cls is OBJECT_OT_body_moments_find_symmetry else 1  # nothing is told of what others are laid onto
+    assert kind == "INFO" and text.endswith("and {:d} more".format(more))
+
+
 def test_a_child_is_laid_where_it_belongs_although_its_parent_moves_too():
     target, parent, child = three()
     child.parent = parent
