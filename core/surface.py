@@ -147,6 +147,6 @@ def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
     it flips where the normals of the two triangles at the first diagonal face away from each other.
     """
     a, b, c, d = (points.astype(np.float32, copy=False)[quads[:, i]] for i in range(4))
-    first, second, diagonal = (b - a).T, (d - a).T, (c - a).T
     with np.errstate(over="ignore", invalid="ignore"):
+        first, second, diagonal = (b - a).T, (d - a).T, (c - a).T
         return dot(cross(first, diagonal), cross(second, diagonal)) > 0.0

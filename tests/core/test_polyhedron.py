@@ -426,6 +426,11 @@ def test_quads_are_cut_as_blender_cuts_them(path, seed, scale):
     assert_bounds_hold(surface)
 
 
+def test_corners_farther_apart_than_float32_can_say_are_cut_without_a_warning():
+    points = np.array([[-3e38, 0, 0], [3e38, 0, 0], [3e38, 3e38, 0], [-3e38, 3e38, 0]], np.float32)
+    assert not flipped_quads(points, np.array([[0, 1, 2, 3]])).any()
+
+
 def test_quads_on_the_edge_of_the_rule_are_decided_in_float32(path):
     """Arrow heads whose normals are at right angles to within rounding: float64 alone would often decide otherwise."""
     rng = np.random.default_rng(3)
