@@ -117,10 +117,11 @@ def _cells_of_group(spaces: tuple[Space, Space], group: Sequence[Patch], about: 
     for first in range(0, len(group), step):
         some = group[first:first + step]
         nets = np.array([patch.points for patch in some])
-        nets -= about
-        reach = math.sqrt(np.maximum.reduce(np.einsum("gijd,gijd->gij", nets, nets), axis=None))
         home = nets[:, 0, 0].copy()
-        nets -= home[:, None, None]
+        nets -= home[:, None, None]  # not after `about`, far from which they would be rounded
+        home -= about
+        places = nets + home[:, None, None]
+        reach = math.sqrt(np.maximum.reduce(np.einsum("gijd,gijd->gij", places, places), axis=None))
         if some[0].weights is not None:
             nets = homogeneous(nets, np.array([patch.weights for patch in some]))
         for start in range(0, u, rows):

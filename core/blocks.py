@@ -37,6 +37,7 @@ CHUNK = 1024  # columns at most that share one bound of their edges; a multiple 
 GAP = 8  # numbers between rows: numpy < 2 leaves its vector loop where output ends at input's start
 FLIP_MARGIN = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
+FLOAT32_UNDERFLOW = 1e-36  # the cosine up to which they do at its other end
 NO_VERTEX = "a face names a vertex that does not exist"
 TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
 TENSOR = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
@@ -244,12 +245,12 @@ class Faces:
         cosine[k:] = np.inf  # where the block is filled up
         if self.points.dtype == np.float32:
             length = np.sqrt((largest ** 2).sum(axis=0))
-            margin = FLIP_MARGIN * length[0] * length[1] ** 2 * length[2]
+            margin = np.maximum(FLIP_MARGIN * length[0] * length[1] ** 2 * length[2], FLOAT32_UNDERFLOW)
             least = np.minimum.reduce(cosine.reshape(len(margin), -1), axis=1)
             if length.max() < FLOAT32_OVERFLOW and (least > margin).all():
                 return own.index[0, :0], own.index[0, :0]
             square = np.einsum("cik,cik->ik", own.edges, own.edges)
-            limit = FLIP_MARGIN * square[1] * np.sqrt(square[0] * square[2])
+            limit = np.maximum(FLIP_MARGIN * square[1] * np.sqrt(square[0] * square[2]), FLOAT32_UNDERFLOW)
             limit[square.max(axis=0) > FLOAT32_OVERFLOW ** 2] = np.inf
             suspects = np.flatnonzero(cosine <= limit)
         else:  # float32 sees coordinates that were rounded first: all are suspects

@@ -14,24 +14,31 @@ from .bspline import Space
 
 def checked_points(points: ArrayLike, weights: ArrayLike | None, shape: tuple[int, ...]
                    ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Control points (*shape, 3) and weights (*shape), float64; weights that are all the same are none.
+    """Control points (*shape, 3) and weights (*shape), float64; weights that are all the same are none. They are copies
+    that cannot be written to: what has been found out about them stays true.
 
     ValueError for another shape, what is not finite, and weights that are not positive.
     """
-    points = np.ascontiguousarray(points, np.float64)
+    points = _own(points)
     if points.shape != (*shape, 3):
         raise ValueError("Its function space needs control points of the shape {}.".format((*shape, 3)))
     if not np.isfinite(points).all():
         raise ValueError("Some of its control points are not finite. Delete them, or mend what moves them.")
     if weights is None:
         return points, None
-    weights = np.ascontiguousarray(weights, np.float64)
+    weights = _own(weights)
     if weights.shape != shape:
         raise ValueError("Its function space needs weights of the shape {}.".format(shape))
     if not (np.isfinite(weights).all() and (weights > 0.0).all()):
         raise ValueError("Some of its weights are not positive, so that it may reach infinity. Give them weights above "
                          "zero.")
     return points, None if (weights == weights.flat[0]).all() else weights
+
+
+def _own(values: ArrayLike) -> NDArray[np.float64]:
+    own = np.array(values, np.float64, order="C")
+    own.setflags(write=False)
+    return own
 
 
 @dataclass(frozen=True, eq=False)

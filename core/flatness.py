@@ -67,7 +67,7 @@ class Witness:
         self.quads: dict[int, _Seen] = {}
         self.triangles: dict[int, _Seen] = {}
         # What is looked at one by one is brought to about size 1, lest sixth powers of small lengths underflow.
-        self.exponent = int(np.frexp(max(size, np.finfo(np.float32).tiny))[1])
+        self.exponent = int(np.frexp(max(size, float(np.finfo(np.float32).tiny)))[1])
 
     def see_quads(self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray
                   ) -> None:

@@ -47,18 +47,17 @@ def multinomials(degree: int) -> NDArray[np.float64]:
 
 @dataclass(frozen=True, eq=False)
 class Sums:
-    """What some blocks of faces add, in the unit in which their coordinates are at most about 256.
+    """What a block of faces adds, in the unit in which their coordinates are at most about 256.
 
-    sums: (blocks, weights, K) Σ over faces of determinant S_α, and of doubled area S_α.
+    sums: (weights, K) Σ over faces of determinant S_α, and of doubled area S_α.
     chunks: (3 + 3 + weights + c-1, m), of each chunk of CHUNK faces the largest and the least coordinates, Σ |weight|
         and the squares of its longest edges from the first corner.
-    half_ulp: (3,) of the coordinates. faces: how many.
+    half_ulp: (3,) of the coordinates.
     """
 
     sums: NDArray[np.float64]
     chunks: NDArray[np.float64]
     half_ulp: NDArray[np.float64]
-    faces: int
 
 
 @lru_cache
@@ -224,25 +223,20 @@ class Levels:
         self.buffer: NDArray = np.empty(0)
         self.block: _Block | None = None
 
-    def run(self, points: NDArray, center: NDArray, scale: float, half_ulp: NDArray,
-            blocks: Sequence[Sequence[NDArray]], size: int) -> Sums:
-        """The sums over blocks of faces, all triangles or all pairs, of about this size.
+    def run(self, points: NDArray, center: NDArray, scale: float, half_ulp: NDArray, faces: Sequence[NDArray],
+            size: int) -> Sums:
+        """The sums over a block of faces, all triangles or all pairs. size: how many are in one that is full.
 
         points: (n, 3) contiguous float32 or float64. center: (3,) what is subtracted. scale: a power of two by which
-        they are multiplied then. half_ulp: (3,) before that. blocks: for each, the vertices a, b, c (and d) of its
-        faces, (k,) each, checked: triangles a, b, c and a, c, d.
+        they are multiplied then. half_ulp: (3,) before that. faces: their vertices a, b, c (and d), (k,) each, checked:
+        triangles a, b, c and a, c, d.
         """
-        sums, chunks = [], []
-        for faces in blocks:
-            k = len(faces[0])
-            own = self._shaped(len(faces), size if k > 0.9 * size else k)
-            self._gather(own, points, faces, center, scale)
-            for step in own.steps:
-                step()
-            sums.append(own.total.copy())
-            chunks.append(own.chunks.copy())
-        return Sums(np.array(sums), np.concatenate(chunks, axis=1), half_ulp * scale,
-                    sum(len(faces[0]) for faces in blocks))
+        k = len(faces[0])
+        own = self._shaped(len(faces), size if k > 0.9 * size else k)
+        self._gather(own, points, faces, center, scale)
+        for step in own.steps:
+            step()
+        return Sums(own.total.copy(), own.chunks.copy(), half_ulp * scale)
 
     def _shaped(self, count: int, k: int) -> _Block:
         k, own = -(-k // CHUNK) * CHUNK, self.block

@@ -17,7 +17,7 @@ digit or leave the range.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
@@ -142,7 +142,8 @@ class _Task:
 
 
 class _Total:
-    """A running sum of arrays with what each addition rounds off kept beside it (Neumaier), and what bounds it."""
+    """A running sum of arrays with what each addition rounds off kept beside it (Neumaier), and what bounds it. faces:
+    how many there were."""
 
     def __init__(self, order: int, weights: int):
         self.order, self.weights = order, weights
@@ -151,12 +152,10 @@ class _Total:
         self.pending: list[Sums] = []
 
     def add(self, part: Sums) -> None:
-        for row in part.sums:
-            total = self.high + row
-            grown = total - self.high
-            self.low = self.low + ((self.high - (total - grown)) + (row - grown))
-            self.high = total
-        self.faces += part.faces
+        total = self.high + part.sums
+        grown = total - self.high
+        self.low = self.low + ((self.high - (total - grown)) + (part.sums - grown))
+        self.high = total
         last = self.pending[-1] if self.pending else part
         columns = sum(other.chunks.shape[1] for other in self.pending)
         if (len(last.chunks) != len(part.chunks) or not np.array_equal(last.half_ulp, part.half_ulp)
@@ -185,8 +184,10 @@ class _Stream:
     def measured(self, stream: Iterable[Surface]) -> tuple[Moments, Moments | None]:
         """Volume and, where wanted, area."""
         total = _Total(self.order, 2 if self.area else 1)
-        for part in self._parts(self._tasks(stream)):
-            total.add(part)
+        for faces, parts in self._parts(self._tasks(stream)):
+            for part in parts:
+                total.add(part)
+            total.faces += faces
             if self.progress is not None:
                 self.progress(total.faces)
         total.settle()
@@ -194,8 +195,8 @@ class _Stream:
             return _nothing(self.order, "volume"), _nothing(self.order, "area") if self.area else None
         return self._moments(total, "volume"), self._moments(total, "area") if self.area else None
 
-    def _parts(self, tasks: Iterator[_Task]) -> Iterator[Sums]:
-        """The results in the order of the tasks, whoever finishes first; a few are under way at a time."""
+    def _parts(self, tasks: Iterator[_Task]) -> Iterator[tuple[int, list[Sums]]]:
+        """The results of `_run` in the order of the tasks, whoever finishes first; a few are under way at a time."""
         if self.threads == 1:
             yield from map(self._run, tasks)
             return
@@ -251,24 +252,27 @@ class _Stream:
             raise ValueError("It is too large for moments of order {:d} to be numbers. Scale it down."
                              .format(self.order))
 
-    def _run(self, task: _Task) -> Sums:
-        """One task, in whatever thread."""
+    def _run(self, task: _Task) -> tuple[int, list[Sums]]:
+        """One task, in whatever thread: how many faces it has, and what each of its blocks adds."""
         if not all_there(task.faces, len(task.points)):
             raise ValueError("a face names a vertex that does not exist")
         levels = self.idle.pop() if self.idle else Levels(self.order, self.area)
-        found = levels.run(task.points, self.center, 2.0 ** -self.exponent, task.half_ulp, *self._blocks(task))
+        found = [levels.run(task.points, self.center, 2.0 ** -self.exponent, task.half_ulp, corners, size)
+                 for corners, size in self._blocks(task)]
         self.idle.append(levels)
-        return found
+        return len(task.faces), found
 
-    def _blocks(self, task: _Task) -> tuple[list[list[NDArray]], int]:
+    @staticmethod
+    def _blocks(task: _Task) -> Iterator[tuple[Sequence[NDArray], int]]:
         """The corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles; and
-        how many there are in each block but the last."""
-        faces = task.faces
-        if faces.shape[1] == 4:
-            faces = np.where(flipped_quads(task.points, faces)[:, None], np.roll(faces, -1, axis=1), faces)
-        halves = pairs(faces) if faces.shape[1] == 3 else None
-        corners, size = (faces.T, task.size) if halves is None else (halves, task.size // 2)
-        return [[corner[start:start + size] for corner in corners] for start in range(0, len(corners[0]), size)], size
+        how many there are in a block that is full. Each block is looked at by itself, lest it be another one with other
+        neighbours."""
+        for start in range(0, len(task.faces), task.size):
+            faces = task.faces[start:start + task.size]
+            if faces.shape[1] == 4:
+                faces = np.where(flipped_quads(task.points, faces)[:, None], np.roll(faces, -1, axis=1), faces)
+            halves = pairs(faces) if faces.shape[1] == 3 else None
+            yield (faces.T, task.size) if halves is None else (halves, task.size // 2)
 
     def _moments(self, total: _Total, of: str) -> Moments:
         """What the sums come to, in the body's own unit, with its bounds."""

@@ -198,10 +198,11 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
 def _possible(volume: Moments, surface: Surface, size: float) -> bool:
     """Whether a body within the points' bounding box, `size` across, can have these moments: its center is inside, and
     its second central moments are those of a positive mass. Where a surface intersects itself, they need not be."""
-    total, first = volume.raw[0], volume.raw[1:4]
+    total = volume.raw[0]
     if not total > 0.0:
         return True  # an open surface's sum, which is told as such
-    second = volume.raw[SECOND] / total - np.outer(first, first) / total**2
+    mean = volume.raw[1:4] / total
+    second = volume.raw[SECOND] / total - np.outer(mean, mean)
     scale = np.trace(second)
     rounding = 8.0 * (volume.error[SECOND].max() / total + np.finfo(float).eps * np.abs(second).max())
     slack = 1e-6 * size + volume.error[1:4].max() / total

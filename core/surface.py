@@ -146,7 +146,8 @@ def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
     Blender's own rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast):
     it flips where the normals of the two triangles at the first diagonal face away from each other.
     """
-    a, b, c, d = (points.astype(np.float32, copy=False)[quads[:, i]] for i in range(4))
-    first, second, diagonal = (b - a).T, (d - a).T, (c - a).T
     with np.errstate(over="ignore", invalid="ignore"):
+        points = points.astype(np.float32, copy=False)
+        a, b, c, d = (points[quads[:, i]] for i in range(4))
+        first, second, diagonal = (b - a).T, (d - a).T, (c - a).T
         return dot(cross(first, diagonal), cross(second, diagonal)) > 0.0

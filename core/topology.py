@@ -30,7 +30,7 @@ def closed_sides(surface: Surface) -> NDArray[np.int32] | None:
     """(2, e) the mesh faces on the two sides of each used edge, where the mesh's own corners prove that every edge that
     has faces has two, which run along it in opposite directions; None where they do not, or where there are none.
 
-    Edges without faces do not count.
+    Edges without faces do not count. That the corners name their edges rightly is taken from the mesh.
     """
     corners, edges = surface.corner_vertices, surface.corner_edges
     if corners is None or edges is None or not len(corners) == len(edges) > 0:
@@ -38,7 +38,9 @@ def closed_sides(surface: Surface) -> NDArray[np.int32] | None:
     sides_at = _sides_at(surface)
     if sides_at is None:
         return None
-    count = int(edges.max()) + 1
+    count = int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1  # in which a negative edge is a large one
+    if 2 * count > np.iinfo(edges.dtype).max:
+        return None
     sides = np.full(2 * count, -1, np.int32)
     for start in range(0, len(corners), BLOCK):
         faces, upward = sides_at(start)

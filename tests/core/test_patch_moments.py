@@ -251,6 +251,16 @@ def test_a_patch_far_from_the_point_is_as_exact_as_its_bound_says(weighted, far)
     assert (np.abs(there.raw - expected.raw) <= there.error + expected.error).all()
 
 
+def test_a_far_point_of_many_digits_does_not_round_the_patch():
+    points = np.random.default_rng(1).uniform(-1.0, 1.0, (6, 5, 3))
+    patch = Patch((clamped(4, (0.25, 0.5)), clamped(3, (0.125, 0.75))), points)
+    far = np.array([41000.1, -164000.7, -103000.3])
+    there = volume_moments([patch], 0, far)[0]
+    # S · (S_s x S_t) is linear in the point that S is about.
+    expected = volume_moments([patch], 0, ORIGIN)[0].total - far @ patch_moments.vector_area([patch]) / 3.0
+    assert abs(there.total - expected) <= there.error[0]
+
+
 def closed_by_cones(patch, place=0.0):
     """With the cones from a point to its rim."""
     found = [patch]

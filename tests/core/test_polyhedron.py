@@ -426,6 +426,21 @@ def test_quads_are_cut_as_blender_cuts_them(path, seed, scale):
     assert_bounds_hold(surface)
 
 
+@pytest.mark.parametrize("scale", [1.5e-11, 6e-12, 3e-12])
+def test_quads_so_small_that_the_rule_underflows_are_decided_in_float32(scale):
+    points = (np.random.default_rng(1).standard_normal((40000, 3)) * scale).astype(np.float32)
+    quads = np.arange(len(points)).reshape(-1, 4)
+    loop = blocks.Faces(points, np.zeros(3), area=True, shell=False, exact=False)
+    loop.block(quads.T, quads=True)
+    turned = np.roll(quads[flipped_quads(points, quads)], -1, axis=1)
+    np.testing.assert_array_equal(np.concatenate(loop.flipped, axis=1), turned.T)
+
+
+def test_corners_farther_apart_than_float32_can_say_are_cut_without_a_warning():
+    points = np.array([[-3e38, 0, 0], [3e38, 0, 0], [3e38, 3e38, 0], [-3e38, 3e38, 0]], np.float32)
+    assert not flipped_quads(points, np.array([[0, 1, 2, 3]])).any()
+
+
 def test_quads_on_the_edge_of_the_rule_are_decided_in_float32(path):
     """Arrow heads whose normals are at right angles to within rounding: float64 alone would often decide otherwise."""
     rng = np.random.default_rng(3)

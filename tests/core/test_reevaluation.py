@@ -13,6 +13,7 @@ from body_moments.core.patch_solid import measure_patches
 from body_moments.core.phi import phi, phi_moments
 from body_moments.core.reevaluation import Evaluator
 
+from tests.core import exact
 from tests.core.exact_splines import flux_moment, sphere, torus, tube
 
 ABOUT = np.array([0.25, -0.5, 0.125])
@@ -168,3 +169,22 @@ def test_the_estimate_of_a_followed_rational_body_holds(spread):
         anew = measure_patches([now]).volume.shifted(body.volume.about)
         assert (np.abs(body.volume.raw - anew.raw) <= body.volume.error + anew.error).all()
     assert kept or spread > 0.5
+
+
+def test_arrays_that_are_written_to_again_change_no_patch():
+    """Else the body that is followed would see no difference, and a patch whose weights were steady would stay so."""
+    spaces = clamped(2), clamped(2)
+    nets = [np.array([[corners[0], corners[3]], [corners[1], corners[2]]])
+            for corners in np.array(exact.box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))[exact.BOX_QUADS]]
+    body = FollowedBody([Patch(spaces, net) for net in nets])
+    for net in nets:
+        net[..., 0] *= 2.0
+    assert body.follow([Patch(spaces, net) for net in nets])
+    assert body.volume.total == pytest.approx(2.0, rel=1e-14)
+    weights = np.array([[1.0, 2.0], [1.0, 2.0]])
+    patch = Patch(spaces, nets[0], weights)
+    assert patch.steady == (True, False)
+    weights[0, 0] = 5.0
+    assert patch.weights[0, 0] == 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        patch.points[0, 0, 0] = 7.0

@@ -35,6 +35,7 @@ from tests.core.bodies import (
     with_flipped,
     without,
 )
+from tests.core.test_polyhedron import grid_torus
 
 CUBE = box()
 FAR_CUBE = box((1, 1, 1), (2, 2, 2))  # no face's plane contains the origin
@@ -540,3 +541,12 @@ def test_arbitrary_faces_over_arbitrary_points_are_survived(block):
                                        quad_faces=np.arange(m, m + len(quads))))
         assert np.isfinite(result.volume.raw).all() and result.volume.total >= 0.0, seed
         assert result.method == "open" or result.warnings, seed
+
+
+@pytest.mark.parametrize("exponent", [-200, -100, 133, 160])
+def test_a_body_of_any_size_is_as_possible_as_another(exponent):
+    points, quads = grid_torus(8, 6)
+    points[points[:, 0] > 0.0] *= 1.5  # so that its center is not that of its box
+    one, other = (measure_solid(Surface(np.ldexp(points, k), quads=quads)) for k in (0, exponent))
+    assert one.method == other.method == "exact"
+    assert other.volume.total == pytest.approx(np.ldexp(one.volume.total, 3 * exponent), rel=1e-14)

@@ -6,10 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from body_moments.core.surface import Surface
 from body_moments.core.topology import closed_sides, components, find_edges, first_equal, orientation, shells
 from body_moments.core.weld import equal_positions, face_groups, near_positions
 
 from tests.core.bodies import CORNERS, SIDES, box, joined, mesh, moebius, ring, soup, sphere, welded
+from tests.core.test_polyhedron import grid_torus
 
 
 def union_find(count, a, b):
@@ -191,3 +193,16 @@ def test_faces_on_the_same_vertices_share_a_group_however_they_are_cut_and_turne
                           [0, 1, 2], [2, 0, 1], [2, 3, 4]])
     faces = np.array([0, 0, 1, 1, 2, 3, 4])
     np.testing.assert_array_equal(face_groups(triangles, faces), [0, 0, 0, 0, 2, 2, 4])
+
+
+@pytest.mark.parametrize("type_", [np.int8, np.int16, np.int32, np.uint32])
+def test_edges_that_no_mesh_has_or_too_many_for_their_type_prove_nothing(type_):
+    points, quads = grid_torus(8, 6)
+    corners = quads.ravel()
+    ends = np.sort(np.stack([corners, np.roll(quads, -1, axis=1).ravel()], axis=1), axis=1)
+    edges = np.unique(ends, axis=0, return_inverse=True)[1].ravel().astype(type_)
+    surface = Surface(points, quads=quads, corner_vertices=corners, corner_edges=edges)
+    sides = closed_sides(surface)
+    assert (sides is None) == (type_ is np.int8)  # in which twice 96 is no number
+    if type_ is not np.uint32:
+        assert closed_sides(replace(surface, corner_edges=edges - edges.max() - type_(1))) is None
