@@ -126,7 +126,8 @@ def test_bodies_of_any_size_have_the_same_signature():
     for found, size in zip(others, (1e-16, 1e16)):
         assert found["size"] == pytest.approx(first["size"] * size, rel=1e-6)  # a float32 scale
         for name in ("invariants", "zernike", "fourier", "chirality"):
-            assert np.allclose(found[name], first[name], rtol=1e-9, atol=1e-12)
+            # degree 20 of Zernike's magnifies the rounding of moments by some 1e5
+            assert np.allclose(found[name], first[name], rtol=1e-12, atol=1e-10)
 
 
 def test_a_wrong_question_is_wrong_usage(tmp_path, capsys):
