@@ -29,6 +29,8 @@ CLEAR = 1e-2  # a harmonic above this fixes a direction well; weaker ones only w
 FLAT = 1e-6  # of the largest extent: along an axis of less, a body is a lamina and has no skewness
 SHARE = 0.25  # of what tells directions apart: at most that much is taken for equal
 SPREAD = 240  # directions from which extreme ones are looked for
+GAP = 0.18  # from any direction to the nearest of them
+STEPS = 16  # from there to a maximum, most of them for those that are hardly curved
 RING = 40  # more directions than these are a circle of them, or all
 
 
@@ -165,11 +167,12 @@ def _extreme_directions(central: Moments, spread: Spread, degree: int, clear: fl
         return np.empty((0, 3)), 1.0
     found = []
     for sign in (1.0, -1.0) if degree % 2 == 0 else (1.0,):
-        points = _climbed(sign * tensor, degree, span)
+        within = min(noise, SHARE * span)
+        points = _climbed(sign * tensor, degree, span, within)
         height = _contracted(sign * tensor, degree, points)
         if height.max() - _contracted(sign * tensor, degree, _sphere()).min() <= least:
             return np.empty((0, 3)), sign
-        top = points[height > height.max() - min(noise, SHARE * span)]
+        top = points[height > height.max() - within]
         found.append((distinct(top, 1e-2), sign))
     directions, sign = min(found, key=lambda pair: len(pair[0]))
     if len(directions) <= RING:
@@ -179,26 +182,28 @@ def _extreme_directions(central: Moments, spread: Spread, degree: int, clear: fl
     return (np.array([pole, -pole]) if values[2] - values[0] > 0.1 else np.empty((0, 3))), sign
 
 
-def _climbed(tensor: NDArray, degree: int, span: float) -> NDArray[np.float64]:
-    """The local maxima on the sphere that points all over it climb to, the best approached first: steps along the
-    gradient, then Newton's. span: between the largest and the least value."""
+def _climbed(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:
+    """The maxima on the sphere, the best approached first, that are no more than `within` below the largest; each
+    several times. span: between the largest and the least value.
+
+    From the highest points of all over it: along the sphere the function is a trigonometric polynomial, so that by
+    Bernstein's inequality it loses at most (degree GAP)² span / 4 on the way from a maximum to the nearest of them.
+    Steps are Newton's in the directions that are curved, and always uphill.
+    """
     points, scale = _sphere(), degree ** 2 * span
-    for last in [False] * 200 + [True] * 8:
-        gradient = degree * _contracted(tensor, degree - 1, points)
-        along = (gradient * points).sum(axis=1)
-        uphill = gradient - along[:, None] * points
-        move = uphill / scale
-        if last:
-            normal = points[:, :, None] * points[:, None, :]
-            flat = np.eye(3) - normal
-            hessian = flat @ (degree * (degree - 1) * _contracted(tensor, degree - 2, points)) @ flat
-            hessian -= along[:, None, None] * flat + scale * normal
-            curved = np.abs(np.linalg.det(hessian)) > 1e-6 * scale ** 3  # on a circle of maxima it is not
-            hessian[~curved] = -np.eye(3)
-            newton = np.linalg.solve(hessian, -uphill[:, :, None])[:, :, 0]
-            move = np.where((curved & (np.linalg.norm(newton, axis=1) < 0.1))[:, None], newton, move)
-        points = points + move
-        points = points / np.linalg.norm(points, axis=1)[:, None]
+    height = _contracted(tensor, degree, points)
+    points = points[height >= height.max() - within - (degree * GAP) ** 2 / 4.0 * span]
+    for _ in range(STEPS):
+        twice = _contracted(tensor, degree - 2, points)
+        once = degree * np.einsum("nij,nj->ni", twice, points)
+        along = (once * points).sum(axis=1)[:, None]
+        uphill = once - along * points
+        flat = np.eye(3) - points[:, :, None] * points[:, None, :]
+        values, vectors = np.linalg.eigh(flat @ (degree * (degree - 1) * twice) @ flat - along[:, None] * flat)
+        move = np.einsum("nji,nj->ni", vectors, uphill) / np.maximum(np.abs(values), 1e-3 * scale)
+        move /= np.maximum(np.linalg.norm(move, axis=1) / GAP, 1.0)[:, None]
+        points = points + np.einsum("nij,nj->ni", vectors, move)
+        points /= np.linalg.norm(points, axis=1)[:, None]
     steep = np.linalg.norm(uphill, axis=1)
     order = np.argsort(steep)
     return points[order[steep[order] <= max(1e-4 * scale, steep.min())]]
@@ -281,9 +286,8 @@ def _rotated(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
 @lru_cache
 def tensor_index(degree: int) -> NDArray[np.int64]:
     """(3, ..., 3) where in `Moments.raw` the entries of the symmetric tensor of a degree stand; read-only."""
-    axes = np.indices((3,) * degree).reshape(degree, -1)
-    table = np.array([index(*(int((column == axis).sum()) for axis in range(3))) for column in axes.T])
-    table = table.reshape((3,) * degree)
+    axes = np.indices((3,) * degree)
+    table = index(*((axes == axis).sum(axis=0) for axis in range(3)))
     table.flags.writeable = False
     return table
 
