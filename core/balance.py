@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from .gradient import Gradient, area_gradient, volume_gradient
 from .moments import Moments, U
 from .polyhedron import solid_and_area
-from .surface import Surface
+from .surface import Surface, normals
 from .wall import first_fold
 
 STEPS = 100
@@ -199,11 +199,11 @@ class _Fans:
         points = surface.points.astype(np.float64)
         faces = np.unique(faces, return_inverse=True)[1].ravel()
         number = int(faces.max(initial=-1)) + 1
-        normals = _normals(points, triangles)
+        vectors = normals(points, triangles)
         corner = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
         self.owner, self.vertex = corner // self.count, corner % self.count
         self.share = 1.0 / np.bincount(self.owner, minlength=number)[self.owner]
-        area = np.bincount(faces, np.linalg.norm(normals, axis=1) / 2.0, number)
+        area = np.bincount(faces, np.linalg.norm(vectors, axis=1) / 2.0, number)
         self.areas = np.bincount(self.vertex, area[self.owner] * self.share, self.count)
         middles = np.stack([np.bincount(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)],
                            axis=1)
@@ -212,8 +212,8 @@ class _Fans:
         fan = np.concatenate([triangles[whole], np.concatenate([rims, self.count + owners[:, None]], axis=1)])
         owners = np.concatenate([faces[whole], owners])
         self.points = np.concatenate([points, middles])
-        facing = np.stack([np.bincount(faces, column, number) for column in normals.T], axis=1)[owners]
-        self.against = (_normals(self.points, fan) * facing).sum(axis=1) < 0.0  # where a face is not convex
+        facing = np.stack([np.bincount(faces, column, number) for column in vectors.T], axis=1)[owners]
+        self.against = (normals(self.points, fan) * facing).sum(axis=1) < 0.0  # where a face is not convex
         self.fan = fan
 
     def center_gradient(self, center: NDArray) -> NDArray[np.float64]:
@@ -231,12 +231,6 @@ class _Fans:
         for column, shared in zip(own.T, middle.T):
             column += np.bincount(self.vertex, shared[self.owner] * self.share, self.count)
         return own.reshape(-1, 3, 3)
-
-
-def _normals(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
-    """(m, 3) the normals of triangles, twice as long as their areas."""
-    a, b, c = (points[triangles[:, k]] for k in range(3))
-    return np.cross(b - a, c - a)
 
 
 def _rims(triangles: NDArray, faces: NDArray, count: int) -> tuple[NDArray[np.integer], NDArray[np.integer]]:

@@ -63,6 +63,12 @@ class Space:
         knots = np.asarray(self.knots)
         return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
 
+    def steps(self, each: int) -> NDArray[np.float64]:
+        """(spans * each + 1,) parameters at equal steps in every span, both ends of the domain included."""
+        low, high = self.intervals.T
+        inner = low[:, None] + (high - low)[:, None] * (np.arange(each) / each)
+        return np.append(inner.ravel(), high[-1])
+
     @cached_property
     def ends(self) -> NDArray[np.float64]:
         """(2, count) what each control point weighs at the domain's ends."""

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .moments import Moments
+from .surface import normals
 from .weighted import weighted_solid
 
 
@@ -38,8 +39,7 @@ class Components:
         points = self.points.astype(np.float64)
         if linear is not None:
             points = points @ np.asarray(linear).T
-        a, b, c = (points[self.triangles[:, k]] for k in range(3))
-        return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0
+        return np.linalg.norm(normals(points, self.triangles), axis=1) / 2.0
 
     def moments(self, like: Moments) -> list[Moments]:
         """The volume moments of each part, negative for cavities. like: the whole body's."""

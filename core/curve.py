@@ -93,6 +93,4 @@ class Curve:
 
     def samples(self, each: int) -> NDArray[np.float64]:
         """(spans * each + 1, 3) points at equal steps in every span, both ends included."""
-        low, high = self.space.intervals.T
-        steps = low[:, None] + (high - low)[:, None] * (np.arange(each) / each)
-        return self.at(np.append(steps.ravel(), high[-1]))
+        return self.at(self.space.steps(each))

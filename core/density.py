@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -74,8 +75,7 @@ def grid_moments(samples: NDArray | Blocks, shape: Sequence[int], matrix: ArrayL
         raise ValueError("The transform of the grid is singular or not finite.")
     axes = [Axis.uniform(count, spline_order) for count in shape]
     inside = density_moments(samples, axes, order, value)
-    volume = Moments(inside.raw, inside.about, "volume", inside.error, inside.input).mapped(matrix)
-    return Moments(volume.raw, volume.about, "mass", volume.error, volume.input)
+    return replace(replace(inside, of="volume").mapped(matrix), of="mass")
 
 
 class Trivariate:

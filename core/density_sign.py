@@ -19,6 +19,7 @@ from .polynomial import Polynomial
 NEGLIGIBLE = 1e-6  # of the largest density: float32 coordinates make as much
 GRID = 9  # points along each side of the box that are tried
 TRIED = 24  # points that are located in the body
+BLOCK = 1 << 15  # triangles at a time
 
 
 def negative_place(density: Polynomial, points: NDArray, triangles: NDArray, solid: bool
@@ -57,8 +58,8 @@ def winding(points: NDArray, triangles: NDArray, place: ArrayLike) -> float:
     """How often closed triangles surround a place: the sum of their solid angles by 4 π (A. van Oosterom and
     J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983)."""
     total = 0.0
-    for start in range(0, len(triangles), 1 << 15):
-        a, b, c = (points[triangles[start:start + (1 << 15), k]] - np.asarray(place, float) for k in range(3))
+    for start in range(0, len(triangles), BLOCK):
+        a, b, c = (points[triangles[start:start + BLOCK, k]] - np.asarray(place, float) for k in range(3))
         la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
         volume = (a * np.cross(b, c)).sum(axis=1)
         below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb

@@ -128,11 +128,11 @@ def own_axes(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]
     return u @ v, skew.max(axis=(1, 2)) > SHEARED
 
 
-def own_fields(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def own_fields(matrices: NDArray) -> NDArray[np.float64]:
     """(k, 4, 4) the maps from a body's coordinates to lengths along its own axes from its own origin, where `matrices`
-    put it; and whether each shears."""
-    axes, sheared = own_axes(matrices)
+    put it."""
+    axes, _ = own_axes(matrices)
     fields = np.zeros((len(matrices), 4, 4))
     fields[:, :3, :3] = axes.transpose(0, 2, 1) @ np.asarray(matrices, np.float64)[:, :3, :3]
     fields[:, 3, 3] = 1.0
-    return fields, sheared
+    return fields

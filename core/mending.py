@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .caps import find_loops, join_sides
-from .surface import Surface
+from .surface import Surface, normals
 from .topology import Edges, components, find_edges, orientation, shells
 from .weld import equal_positions, face_groups, near_positions, vertex_tolerance
 
@@ -177,7 +177,7 @@ def _copies(points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, no
     votes = np.bincount(region[owner], vote, minlength=number)
     asked = np.bincount(region[owner], others > 0, minlength=number) > 0
 
-    vector = _vectors(points, triangles)
+    vector = normals(points, triangles)
     vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)
     agree = np.sign(np.einsum("ij,ij->i", vector[face], vector[group])) * np.linalg.norm(vector[face], axis=1)
     parallel = np.bincount(region, agree * later, minlength=number)
@@ -202,12 +202,6 @@ def _copied(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np
     return copied[group]
 
 
-def _vectors(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
-    """(m, 3) twice the area vector of each triangle."""
-    a, b, c = (points[triangles[:, k]].astype(np.float64) for k in range(3))
-    return np.cross(b - a, c - a)
-
-
 def counted(numbers: NDArray[np.integer], one: str, many: str) -> str:
     """A sentence about numbered things: `one` takes the number, `many` how many there are and the first few of them."""
     if len(numbers) == 1:
@@ -230,7 +224,7 @@ def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:
     a = np.concatenate([one, gap.one]) // 3
     b = np.concatenate([other, gap.other]) // 3
     disagree = np.concatenate([against, gap.against])
-    area = np.linalg.norm(_vectors(points, triangles), axis=1) if disagree.any() else np.zeros(len(triangles))
+    area = np.linalg.norm(normals(points, triangles), axis=1) if disagree.any() else np.zeros(len(triangles))
     turned, twisted = orientation(len(triangles), a, b, disagree, area)
     part, parts = components(len(triangles), a, b)
     filled = np.zeros(len(edges.count), bool)

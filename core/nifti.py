@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from .rotation import rotation_matrix
 from .samples import Scan, mapped, shape_of, unpacked
 
 TYPES = {2: "u1", 4: "i2", 8: "i4", 16: "f4", 64: "f8", 256: "i1", 512: "u2", 768: "u4", 1024: "i8", 1280: "u8"}
@@ -68,9 +69,7 @@ def _place(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
         if not all(map(math.isfinite, (b, c, d, *offset))) or b * b + c * c + d * d > 1.0 + 1e-5:
             raise ValueError("The NIfTI header tells a rotation that is none.")
         a = math.sqrt(max(0.0, 1.0 - (b * b + c * c + d * d)))
-        turn = np.array([[a*a + b*b - c*c - d*d, 2*(b*c - a*d), 2*(b*d + a*c)],
-                         [2*(b*c + a*d), a*a + c*c - b*b - d*d, 2*(c*d - a*b)],
-                         [2*(b*d - a*c), 2*(c*d + a*b), a*a + d*d - b*b - c*c]])
+        turn = rotation_matrix((a, b, c, d))
         turn[:, 2] *= -1.0 if pixdim[0] < 0.0 else 1.0
         matrix[:3, :3], matrix[:3, 3] = turn * spacing, offset
         return matrix, True

@@ -71,9 +71,4 @@ class Patch:
 
     def samples(self, each: int) -> NDArray[np.float64]:
         """A grid of points, each + 1 to every span and direction, ends included."""
-        steps = []
-        for space in self.spaces:
-            low, high = space.intervals.T
-            inner = low[:, None] + (high - low)[:, None] * (np.arange(each) / each)
-            steps.append(np.append(inner.ravel(), high[-1]))
-        return self.grid(*steps)
+        return self.grid(*(space.steps(each) for space in self.spaces))

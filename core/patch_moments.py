@@ -58,10 +58,15 @@ class Integral:
     settled: bool
 
 
+def control_box(patches: Sequence[Patch]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(3,) and (3,) the least and the largest coordinates of all control points."""
+    return (np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0),
+            np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0))
+
+
 def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
     """(3,) the middle of the box around all control points: the reference point."""
-    low = np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
-    high = np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
+    low, high = control_box(patches)
     return low + (high - low) / 2.0
 
 

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .closure import Closure, close_patches
-from .moments import Moments, sum_moments
+from .moments import Moments, monomials, sum_moments
 from .nesting import decide, relate
 from .patch import Patch
-from .patch_moments import area_moments, area_slope, patches_center, sheet_moments, volume_moments
+from .patch_moments import area_moments, area_slope, control_box, patches_center, sheet_moments, volume_moments
 from .shell_tree import sort_shells
 from .solid import NO_VOLUME, ROUNDING, Health
 from .weld import TOLERANCE
@@ -123,16 +123,14 @@ def measure_sheet(patches: Sequence[Patch], inner: float, outer: float, *, store
 
 def patches_size(patches: Sequence[Patch]) -> float:
     """The diagonal of the box around all control points."""
-    low = np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
-    high = np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
+    low, high = control_box(patches)
     return float(np.linalg.norm(high - low))
 
 
 def _moved(moments: Moments, stored: float, gap: float, area: float, reach: float) -> NDArray[np.float64]:
     """(K,) what a skin moved by `stored`, and a gap of that area along seams, may change: at most the area they sweep
     times the largest value of the monomial, which is at most `reach` to its degree."""
-    degree = np.array([0] + [n for n in range(1, moments.order + 1) for _ in range((n + 1) * (n + 2) // 2)])
-    return (stored * area + gap) * reach ** degree.astype(np.float64)
+    return (stored * area + gap) * reach ** monomials(moments.order).sum(axis=1)
 
 
 def _compared(parts: list[list[Patch]], total: NDArray, solid: NDArray[np.bool_], tolerance: float

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .caps import ramp
 from .simplex import SimplexMoments, enclosed_moments, facet_moments
 from .topology import components
 
@@ -205,7 +206,7 @@ def _crossings(points: NDArray, edges: NDArray, touch: float) -> tuple[int, bool
     if (wide * tall).sum() > PAIRS:
         return 0, True
     edge = np.repeat(np.arange(len(edges)), wide * tall)
-    within = np.arange(len(edge)) - np.repeat(np.cumsum(wide * tall) - wide * tall, wide * tall)
+    within = ramp(wide * tall)
     key = (low[edge, 0] + within // tall[edge]) * (2 * CELLS) + low[edge, 1] + within % tall[edge]
     order = np.argsort(key, kind="stable")
     edge, key = edge[order], key[order]

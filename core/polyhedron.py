@@ -35,7 +35,7 @@ from numpy.typing import NDArray
 
 from .blocks import NO_VERTEX, TRIPLES, Faces, Found, Rows, numbers, rows
 from .flatness import Witness
-from .moments import Moments, U, monomials
+from .moments import PAIRWISE, Moments, U, monomials
 from .small import few
 from .surface import NO_QUADS, Surface, all_there
 
@@ -46,7 +46,6 @@ FEW = 1024  # triangles up to which `small` is faster
 PAIRED = 1000  # triangles below which looking for pairs costs more than it saves
 LEAST = 250_000  # triangles that are worth a thread: of fewer the calls are short, and wait for the interpreter
 RANGE = 2.0 ** 100  # reaches beyond this, or below its inverse, are scaled, lest a product of six overflow or vanish
-PAIRWISE = 64  # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
 FACTORS = np.sort([[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS])  # of 1, x, y, z

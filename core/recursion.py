@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .affine import monomial_count, monomials, predecessors, rows_of
+from .blocks import NO_VERTEX
 from .levels import TINY, Levels, Sums, layout, sizes
 from .moments import Moments, U
 from .polyhedron import finite_box, middle, pairs, solid_and_area
@@ -255,7 +256,7 @@ class _Stream:
     def _run(self, task: _Task) -> tuple[int, list[Sums]]:
         """One task, in whatever thread: how many faces it has, and what each of its blocks adds."""
         if not all_there(task.faces, len(task.points)):
-            raise ValueError("a face names a vertex that does not exist")
+            raise ValueError(NO_VERTEX)
         levels = self.idle.pop() if self.idle else Levels(self.order, self.area)
         found = [levels.run(task.points, self.center, 2.0 ** -self.exponent, task.half_ulp, corners, size)
                  for corners, size in self._blocks(task)]

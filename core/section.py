@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from .moments import U
 from .polygon import area_moments, boundary_edges, outline_areas, outline_moments
 from .simplex import SimplexMoments
+from .surface import normals
 from .weld import equal_positions
 
 FLAT = 1e-5  # of a region's size: points farther off their plane are not planar; an area is off by the square of this
@@ -120,19 +121,18 @@ def fit_plane(points: NDArray, triangles: NDArray, prefer: NDArray, origin: NDAr
     plane the second. origin: (3,) a point whose foot on the plane becomes its origin. error: how far the points may be
     from where they were meant. ValueError where they are not planar, or have no area.
     """
-    a, b, c = (points[triangles[:, i]] for i in range(3))
-    normals = np.cross(b - a, c - a)
-    sizes = np.sqrt((normals * normals).sum(axis=1))
+    vectors = normals(points, triangles)
+    sizes = np.sqrt((vectors * vectors).sum(axis=1))
     used = points[np.unique(triangles)]
     size = float(np.sqrt(((used.max(axis=0) - used.min(axis=0)) ** 2).sum()))
     largest = int(np.argmax(sizes))
     if not sizes[largest] > 0.0:
         raise ValueError("It has no area.")
     # Faces that look the other way are of the same plane.
-    side = np.sign(normals @ normals[largest])
-    total = (normals * side[:, None]).sum(axis=0)
+    side = np.sign(vectors @ vectors[largest])
+    total = (vectors * side[:, None]).sum(axis=0)
     normal = total / np.sqrt(total @ total)
-    if (normals @ normal).sum() < 0.0 if facing is None else facing @ normal < 0.0:
+    if (vectors @ normal).sum() < 0.0 if facing is None else facing @ normal < 0.0:
         normal = -normal
     middle = used.min(axis=0) / 2.0 + used.max(axis=0) / 2.0
     heights = (used - middle) @ normal

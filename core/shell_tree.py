@@ -28,7 +28,7 @@ MOST_WORK = 10_000_000  # pairs of boxes looked at
 class Shells:
     """Triangles sorted by shell, and the measures of each shell.
 
-    triangles: (m, 3); shell: (m,) ascending; start: (c + 1,) where each shell begins; order: (m,) what was sorted.
+    triangles: (m, 3); shell: (m,) ascending; start: (c + 1,) where each shell begins.
     low, high: (c, 3) boxes; volume: (c,) signed; area: (c,).
     """
 
@@ -105,7 +105,7 @@ class Tree:
                 np.minimum(np.minimum(a, b), c, out=low[k, rows])
                 np.maximum(np.maximum(a, b), c, out=high[k, rows])
                 cell = (0.5 * (low[k, rows] + high[k, rows]) - corner[k, shell[rows]]) * scale[shell[rows]]
-                code[rows] |= _spread(cell.astype(np.int64)) << k
+                code[rows] |= spread_bits(cell.astype(np.int64)) << k
         order = _radix_order(code)
         order = order[_radix_order(shell[order])]
         self.ids, shell = ids[order], shell[order]
@@ -286,7 +286,7 @@ def _piercing(corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance
     return at[depth > tolerance]
 
 
-def _spread(value: NDArray[np.int64]) -> NDArray[np.int64]:
+def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
     """Ten bits with two zeros after each: a third of a Morton code."""
     value = (value | value << 16) & 0x030000FF
     value = (value | value << 8) & 0x0300F00F

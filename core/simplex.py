@@ -24,11 +24,10 @@ from math import comb, factorial, isfinite
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .moments import U
+from .moments import PAIRWISE, U
 
 MEMORY = 1 << 20  # numbers in the table of a block
 LEAST = 64  # simplices in a block, whatever the table takes
-PAIRWISE = 64  # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
 UNDERFLOW = 2.0 ** -1000  # of a body of size 1: far above what products of its coordinates lose where they vanish
 
 

@@ -111,6 +111,12 @@ def all_there(indices: NDArray[np.integer], count: int) -> bool:
     return not indices.size or bool(unsigned.max() < count)
 
 
+def normals(points: NDArray, triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """(m, 3) the normals of (m, 3) triangles over (n, 3) points, each twice as long as its triangle's area."""
+    a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
+    return np.cross(b - a, c - a)
+
+
 def joined(surfaces: Sequence[Surface]) -> Surface:
     """Several surfaces, in the same coordinates, as one of triangles in float64. Faces are numbered one surface after
     the other."""

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .precise import normals
+from .shell_tree import spread_bits
 from .surface import Surface
 from .waves import GridWaves, ListWaves
 
@@ -101,9 +102,7 @@ class Faces:
 
 def _interleaved(cells: NDArray) -> NDArray[np.int64]:
     """The bits of three numbers below 1024, (3, k), in turn: where a Z-shaped curve passes a place."""
-    spread = cells
-    for shift, mask in ((16, 0x30000FF), (8, 0x300F00F), (4, 0x30C30C3), (2, 0x9249249)):
-        spread = (spread | spread << shift) & mask
+    spread = spread_bits(cells)
     return spread[0] | spread[1] << 1 | spread[2] << 2
 
 

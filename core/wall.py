@@ -21,10 +21,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .moments import Moments, U, index, monomial_count, monomials
+from .moments import PAIRWISE, Moments, U, index, monomial_count, monomials
 from .nesting import pierced
 from .offset import UNEVEN, blocks, offset_directions
-from .polyhedron import PAIRWISE
 from .surface import Surface
 from .topology import find_edges
 from .vectors import cross

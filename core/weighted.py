@@ -24,10 +24,9 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from .moments import Moments, U, index, monomials
+from .moments import PAIRWISE, Moments, U, index, monomials
 
 BLOCK = 4096  # triangles whose table stays in the cache
-PAIRWISE = 64  # u: as in `polyhedron`
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
 FACTORIALS = np.array([factorial(p) * factorial(q) * factorial(r) for p, q, r in EXPONENTS.tolist()], float)

@@ -89,4 +89,3 @@ def _input(body: Body, mass: Moments) -> NDArray[np.float64]:
     solid = body.volume.shifted(mass.about).truncated(mass.order)
     scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)
     return solid.input * max(scale, mass.total / solid.total)
-

@@ -242,4 +242,3 @@ def _sheets(reading: Reading, i: int, values: NDArray, unit: float, threads: int
         return weighted_sheet(surface.points, triangles, density, area, stored=by_vertex)
 
     return mapped_areas(part.surface, measured(part.surface), in_metres(part.matrices, unit), measured)
-

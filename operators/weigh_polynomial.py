@@ -75,7 +75,7 @@ def _solids(reading: Reading, body: Body, in_world: bool, unit: float) -> Iterat
         yield from _by_place(reading, body, unit)
         return
     for solid, matrices in body.solids:
-        yield _Piece(solid.mended, matrices, matrices if in_world else own_fields(matrices)[0], solid.volume.about)
+        yield _Piece(solid.mended, matrices, matrices if in_world else own_fields(matrices), solid.volume.about)
 
 
 def _by_place(reading: Reading, body: Body, unit: float) -> Iterator[_Piece]:
@@ -110,7 +110,7 @@ def _sheets(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
     """The surfaces themselves, each under similarities only."""
     for part in reading.parts:
         matrices = in_metres(part.matrices, unit)
-        fields, axes = own_fields(matrices)[0], own_axes(matrices)[0]
+        fields, axes = own_fields(matrices), own_axes(matrices)[0]
         for surface, places, which in even_surfaces(part.surface, matrices):
             own = fields[which]
             if surface is not part.surface:  # mapped already: only the turn is left

@@ -15,6 +15,7 @@ from tests.blender.bodies import add, measured, only
 
 pytestmark = pytest.mark.usefixtures("scene")
 
+
 def bezier_area(obj):
     """The area of four cubic quarters by Green's theorem, with the handles' length k: 4 (1/2 + 3k/5 - 3k²/20)."""
     point = obj.data.splines[0].bezier_points[0]
