@@ -10,6 +10,7 @@ maps at once. For one map it is faster to turn first, degree by degree, and to s
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import lru_cache
 
 import numpy as np
@@ -22,7 +23,7 @@ def monomial_count(order: int) -> int:
 
 
 def order_of(count: int) -> int:
-    """The lowest order whose monomials are at least `count`."""
+    """The lowest order that has at least `count` monomials."""
     order = 0
     while monomial_count(order) < count:
         order += 1
@@ -70,6 +71,20 @@ def maps_last(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float6
     """(3, 3, k) and (3, k): the linear parts and the offsets of (k, 4, 4) maps."""
     rows = np.ascontiguousarray(np.asarray(matrices, np.float64)[:, :3].transpose(1, 2, 0))
     return rows[:, :3], rows[:, 3]
+
+
+def distinct_linear(matrices: NDArray) -> Iterator[tuple[NDArray[np.float64], NDArray[np.intp]]]:
+    """The different linear parts of (k, 4, 4) maps: each of them, (3, 3), and which of the maps have it, (j,)."""
+    linear, which = np.unique(matrices[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
+    for i, row in enumerate(linear):
+        yield row.reshape(3, 3), np.flatnonzero(which.ravel() == i)
+
+
+def translations(offsets: NDArray) -> NDArray[np.float64]:
+    """(k, 4, 4) the maps that move by (k, 3) offsets and do nothing else."""
+    matrices = np.tile(np.eye(4), (len(offsets), 1, 1))
+    matrices[:, :3, 3] = offsets
+    return matrices
 
 
 def horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:

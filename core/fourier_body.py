@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .affine import distinct_linear
 from .fourier import Transform
 from .fourier_grid import GridTransform
 from .precise import wave
@@ -78,7 +79,6 @@ def _placed(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDAr
     points = surface.points.astype(np.float64)
     center = points.min(axis=0) / 2.0 + points.max(axis=0) / 2.0
     around = Surface(points - center, triangles, moved=surface.coordinate_error)
-    linear, which = np.unique(matrices[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
     offsets = matrices[:, :3, 3] + matrices[:, :3, :3] @ center
-    for i, row in enumerate(linear):
-        yield around.mapped(row.reshape(3, 3)), offsets[which.reshape(-1) == i]
+    for linear, own in distinct_linear(matrices):
+        yield around.mapped(linear), offsets[own]

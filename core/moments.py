@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from .affine import horner, index, maps_last, monomial_count, monomials, order_of, raised_places, shift, turn
 
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
+HALF_ULP = 2.0 ** -24  # of float32, relatively
 PAIRWISE = 64  # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
 BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
 SIMILARITY = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this

@@ -24,13 +24,12 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from .moments import PAIRWISE, Moments, U, index, monomials
+from .moments import HALF_ULP, PAIRWISE, Moments, U, index, monomials
 
 BLOCK = 4096  # triangles whose table stays in the cache
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
 FACTORIALS = np.array([factorial(p) * factorial(q) * factorial(r) for p, q, r in EXPONENTS.tolist()], float)
-HALF_ULP = 2.0 ** -24  # of float32, relatively
 
 
 def weighted_solid(points: NDArray, triangles: NDArray, density: NDArray, like: Moments) -> Moments:

@@ -4,16 +4,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..core.curve import Curve
 from ..core.curve_moments import length_moments, plane_moments
-from ..core.moments import Moments, monomial_count
+from ..core.moments import HALF_ULP, Moments, monomial_count, monomials
 from ..core.plane_region import plane_region
 from ..core.solid import Health
 from .body import Body
 
-HALF_ULP = 2.0 ** -24
+DEGREE = monomials(3).sum(axis=1)
 
 
 def wire_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
@@ -25,9 +27,8 @@ def wire_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
     nothing = Moments(np.zeros(monomial_count(3)), length.about, "volume")
     # a length moves by as much as its ends, and by its turning as much again: an estimate for smooth curves
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
-    degree = np.array([0] + [n for n in (1, 2, 3) for _ in range((n + 1) * (n + 2) // 2)])
-    moved = stored * (2.0 * len(curves) + 8.0 * length.total / max(reach, 1e-300)) * reach ** degree.astype(np.float64)
-    length = Moments(length.raw, length.about, "length", length.error, moved)
+    moved = stored * (2.0 * len(curves) + 8.0 * length.total / max(reach, 1e-300)) * reach ** DEGREE
+    length = replace(length, input=moved)
     closed = all(np.allclose(*curve.samples(1)[[0, -1]]) for curve in curves)
 
     def to_order(order: int, _with_area: bool) -> tuple[Moments, Moments]:
@@ -47,8 +48,7 @@ def region_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
     area = plane_moments(curves, normal)
     rim = length_moments(curves, 0).total
     reach = max(float(np.abs(curve.points - area.about).max()) for curve in curves)
-    degree = np.array([0] + [n for n in (1, 2, 3) for _ in range((n + 1) * (n + 2) // 2)])
-    area = Moments(area.raw, area.about, "area", area.error, 2.0 * stored * rim * reach ** degree.astype(np.float64))
+    area = replace(area, input=2.0 * stored * rim * reach ** DEGREE)
     nothing = Moments(np.zeros_like(area.raw), area.about, "volume")
 
     def to_order(order: int, _with_area: bool) -> tuple[Moments, Moments]:

@@ -18,7 +18,7 @@ from ..core.surface import Surface
 from ..core.waves import Grid
 from .density import density_field
 from .measure import MeasureOptions, resolved
-from .mesh_body import mesh_body
+from .mesh_body import in_metres, mesh_body
 from .read import Reading, Unreadable, read_object, shows_flat_region
 
 
@@ -55,8 +55,8 @@ def object_transform(
     """The transform of one object as it is evaluated.
 
     q: rad/m, (M, 3) or a grid, along the axes of the frame, "world" or "object"; or what makes a grid from the body's
-    largest extent in m. area: ∫ exp(-i q·x) dA over its faces
-    in m²; else of what it is measured as, in m³: ∫ exp(-i q·x) dV of a solid, and thickness times ∫ dA of a shell.
+    largest extent in m. area: ∫ exp(-i q·x) dA over its faces, in m²; else of what it is measured as, in m³:
+    ∫ exp(-i q·x) dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell.
     Raises `Unreadable`, with the reason and the remedy, where there is no transform.
     """
     unit = options.unit_scale or decimal(depsgraph.scene.unit_settings.scale_length)
@@ -68,7 +68,7 @@ def object_transform(
         if area or shell:
             if shell and not area:
                 _require_thin(options)
-            parts = [(part.surface, _scaled(part.matrices, unit)) for part in reading.parts]
+            parts = [(part.surface, in_metres(part.matrices, unit)) for part in reading.parts]
             of, total = "area", body.area.total
         else:
             if options.kind == "wire":
@@ -116,13 +116,6 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
     if not 0.0 < size < np.inf:
         raise ValueError("It has no size; set the largest frequency.")
     return size
-
-
-def _scaled(matrices: NDArray, unit: float) -> NDArray[np.float64]:
-    """World matrices to SI."""
-    scaled = np.array(matrices, np.float64)
-    scaled[:, :3] *= unit
-    return scaled
 
 
 def _to_object(reading: Reading, unit: float) -> NDArray[np.float64]:

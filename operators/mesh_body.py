@@ -10,6 +10,7 @@ from dataclasses import fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.affine import distinct_linear, translations
 from ..core.images import area_of_images
 from ..core.moments import Moments, are_similarities, map_sum, sum_moments
 from ..core.polyhedron import solid_and_area
@@ -21,6 +22,12 @@ from .read import Reading
 from .read.union import union_surface
 
 COMPARED = 200_000  # triangles up to which instances are compared with each other as shells of one mesh
+RANKED = ("open", "capped", "reoriented", "exact")  # methods: of several, the first counts
+FLATTENED = ("A zero scale flattens it; set its scale, or its parents', to something else than zero, or measure it as "
+             "a shell.")
+SOME_FLATTENED = "{:d} of its instances are flattened by a zero scale and enclose nothing."
+NOT_COMPARED = ("Overlap was not looked for between its {:d} instances, and boxes around some of them overlap; what "
+                "those share counts twice.")
 
 
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> Body:
@@ -30,13 +37,10 @@ def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, thread
     there is nothing to measure.
     """
     if reading.singular and not shell:
-        raise ValueError("A zero scale flattens it; set its scale, or its parents', to something else than zero, or "
-                         "measure it as a shell.")
+        raise ValueError(FLATTENED)
     body = _united(reading, unit, threads) if union and not shell else _summed(reading, unit, shell, threads)
     if reading.flattened and not shell:
-        body = replace(body, warnings=(
-            "{:d} of its instances are flattened by a zero scale and enclose nothing.".format(reading.flattened),
-            *body.warnings))
+        body = replace(body, warnings=(SOME_FLATTENED.format(reading.flattened), *body.warnings))
     return body
 
 
@@ -47,9 +51,7 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
         if sum((len(part.surface.triangles) + 2 * len(part.surface.quads)) * len(part.matrices)
                for part in reading.parts) <= COMPARED:
             return _as_one(reading, unit, threads)
-        warnings.append(
-            "Overlap was not looked for between its {:d} instances, and boxes around some of them overlap; what "
-            "those share counts twice.".format(reading.places))
+        warnings.append(NOT_COMPARED.format(reading.places))
     for part in reading.parts:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
         matrices = in_metres(part.matrices, unit)
@@ -69,7 +71,7 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
     if solid_methods and len(solid_methods) < len(methods):
         warnings.append("{:d} of its {:d} surfaces are flat, as a ground is that instances stand on; they add area and "
                         "no volume.".format(methods.count(None), len(methods)))
-    method = min(solid_methods, key=("open", "capped", "reoriented", "exact").index, default="open")
+    method = min(solid_methods, key=RANKED.index, default="open")
     return _body(sum_moments(volumes), sum_moments(areas), together(healths), method, warnings, parts,
                  [part.surface for part in reading.parts], threads)
 
@@ -111,17 +113,12 @@ def _to_order(solids: list[tuple[SolidMeasure, NDArray]], surfaces: list[Surface
 
 def _as_one(reading: Reading, unit: float, threads: int) -> Body:
     """All parts where they stand as one surface, so that they are compared as the shells of one mesh are."""
-    surface = _realized(reading)
+    surface = reading.joined()
     solid = measure_solid(surface, threads=threads)
     scale = np.diag([unit, unit, unit, 1.0])
     health = replace(solid.health, volume_spread=solid.health.volume_spread * unit**3, faults=Faults())
     return _body(solid.volume.mapped(scale), solid.area.mapped(scale), health, solid.method, solid.warnings,
                  [(solid, scale[None])], [surface], threads)
-
-
-def _realized(reading: Reading) -> Surface:
-    return joined([part.surface.mapped(matrix[:3, :3], matrix[:3, 3])
-                   for part in reading.parts for matrix in part.matrices])
 
 
 def places_meet(reading: Reading) -> bool:
@@ -186,12 +183,8 @@ def even_surfaces(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface
     if even.all():
         return
     rest = np.flatnonzero(~even)
-    linear, which = np.unique(matrices[rest, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
-    for i, row in enumerate(linear):
-        own = rest[which.ravel() == i]
-        moved = np.tile(np.eye(4), (len(own), 1, 1))
-        moved[:, :3, 3] = matrices[own, :3, 3]
-        yield surface.mapped(row.reshape(3, 3)), moved, own
+    for linear, own in distinct_linear(matrices[rest]):
+        yield surface.mapped(linear), translations(matrices[rest[own], :3, 3]), rest[own]
 
 
 def together(healths: Iterable[tuple[Health, int]]) -> Health:
@@ -200,7 +193,7 @@ def together(healths: Iterable[tuple[Health, int]]) -> Health:
     first, copies = healths[0]
     if len(healths) == 1 and copies == 1:
         return first
-    total = {"faults": type(first.faults)(), "closed": all(h.closed for h, _ in healths),
+    total = {"faults": Faults(), "closed": all(h.closed for h, _ in healths),
              "welded": any(h.welded for h, _ in healths),
              "volume_spread": sum(h.volume_spread for h, _ in healths),
              "cap_area_share": max(h.cap_area_share for h, _ in healths)}

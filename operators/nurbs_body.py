@@ -15,19 +15,26 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.affine import distinct_linear, translations
 from ..core.moments import Moments, are_similarities, map_sum, monomial_count, sum_moments
 from ..core.patch import Patch
 from ..core.patch_moments import area_moments, volume_moments
 from ..core.patch_solid import PatchMeasure, measure_patches, measure_sheet
 from ..core.surface import Surface
 from .body import Body
-from .mesh_body import in_metres, mesh_body, places_meet, together
+from .mesh_body import (
+    FLATTENED,
+    NOT_COMPARED,
+    RANKED,
+    SOME_FLATTENED,
+    in_metres,
+    mesh_body,
+    places_meet,
+    together,
+)
 from .read import Part, Reading
 
-RANKED = ("open", "capped", "reoriented", "exact")
 HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)}  # of a wall, in thicknesses
-FLATTENED = ("A zero scale flattens it; set its scale, or its parents', to something else than zero, or measure it as "
-             "a shell.")
 
 
 def nurbs_body(reading: Reading, unit: float, *, wall: str | None, thickness: float, union: bool, threads: int,
@@ -52,11 +59,9 @@ def nurbs_body(reading: Reading, unit: float, *, wall: str | None, thickness: fl
     others = [rest] if rest else []
     warnings = [warning for one in (*measures, *others) for warning in one.warnings]
     if reading.flattened:
-        warnings.append("{:d} of its instances are flattened by a zero scale and enclose nothing.".format(
-            reading.flattened))
+        warnings.append(SOME_FLATTENED.format(reading.flattened))
     if reading.places > 1 and places_meet(reading):
-        warnings.append("Overlap was not looked for between its {:d} instances, and boxes around some of them overlap; "
-                        "what those share counts twice.".format(reading.places))
+        warnings.append(NOT_COMPARED.format(reading.places))
     places = [in_metres(part.matrices, unit) for part in own]
     volume = sum_moments([*map(map_sum, (one.volume for one in measures), places), *(one.volume for one in others)])
     area = sum_moments([moments for part, one, matrices in zip(own, measures, places)
@@ -160,16 +165,10 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
 def _distinct(patches: Sequence[Patch], matrices: NDArray) -> Iterator[tuple[list[Patch], NDArray]]:
     """The patches under each different linear map, facing as before, and the (k, 4, 4) translations to where they
     stand."""
-    if not len(matrices):
-        return
-    linear, which = np.unique(matrices[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
-    for i, row in enumerate(linear):
+    for linear, own in distinct_linear(matrices):
         turn = np.eye(4)
-        turn[:3, :3] = row.reshape(3, 3)
+        turn[:3, :3] = linear
         mapped = [patch.mapped(turn) for patch in patches]
         if np.linalg.det(turn) < 0.0:
             mapped = [patch.turned() for patch in mapped]
-        own = np.flatnonzero(which.ravel() == i)
-        places = np.tile(np.eye(4), (len(own), 1, 1))
-        places[:, :3, 3] = matrices[own, :3, 3]
-        yield mapped, places
+        yield mapped, translations(matrices[own, :3, 3])

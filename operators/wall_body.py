@@ -14,12 +14,13 @@ from math import floor, inf, isfinite, log10
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.moments import Moments, are_similarities, map_sum, sum_moments
+from ..core.moments import Moments, map_sum, sum_moments
 from ..core.polyhedron import solid_and_area
 from ..core.solid import SolidMeasure
 from ..core.surface import Surface
 from ..core.wall import Sweep, share, sweep
 from .body import Body
+from .mesh_body import even_surfaces
 from .read import Reading
 
 WORTH_TELLING = 0.01  # of the thickness
@@ -124,20 +125,13 @@ def find_walls(reading: Reading, body: Body, side: str) -> Walls:
     pieces, notes = [], []
     for part, (solid, matrices) in zip(reading.parts, body.solids):
         surface = _oriented(part.surface, solid, notes)
-        even = are_similarities(matrices[:, :3, :3])
-        if even.any():
-            swept = sweep(surface)
-            scale = np.cbrt(np.abs(np.linalg.det(matrices[even, :3, :3])))
+        for image, places, _ in even_surfaces(surface, matrices):
+            swept = sweep(image)
+            scale = np.cbrt(np.abs(np.linalg.det(places[:, :3, :3])))
             _, which = np.unique(np.round(np.log(scale) / SAME_SCALE), return_inverse=True)
             for i in range(int(which.max()) + 1):
                 own = which.ravel() == i
-                pieces.append(Piece(swept, float(scale[own].mean()), matrices[even][own]))
-        rows, which = np.unique(matrices[~even, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
-        for i, row in enumerate(rows):
-            places = matrices[~even][which.ravel() == i, :3, 3]
-            moved = np.tile(np.eye(4), (len(places), 1, 1))
-            moved[:, :3, 3] = places
-            pieces.append(Piece(sweep(surface.mapped(row.reshape(3, 3))), 1.0, moved))
+                pieces.append(Piece(swept, float(scale[own].mean()), places[own]))
     return Walls(body, side, tuple(pieces), tuple(dict.fromkeys(notes)))
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.affine import distinct_linear
 from ..core.components import Components, PartDensities, part_densities
 from ..core.mending import listed
 from ..core.moments import Moments, are_similarities, map_sum, sum_moments
@@ -190,10 +191,8 @@ def _alike(matrices: NDArray) -> Iterator[NDArray]:
     if even.any():
         yield matrices[even]
     rest = matrices[~even]
-    if len(rest):
-        linear, which = np.unique(rest[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
-        for i in range(len(linear)):
-            yield rest[which.ravel() == i]
+    for _, own in distinct_linear(rest):
+        yield rest[own]
 
 
 def _mixed(parts: Components, found: PartDensities, names: list[str] | None) -> list[str]:

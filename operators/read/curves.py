@@ -18,6 +18,7 @@ from ...core.bspline import Space
 from ...core.curve import Curve
 from .deformation import deformed, is_deformed, spline_modifiers
 from .reading import Unreadable
+from .splines import weighted_points
 from .visibility import evaluated_geometry
 
 STRAIGHT = 1e-6  # of a spline's length: what float32 leaves of a straight line
@@ -91,9 +92,7 @@ def _is_straight(spline) -> bool:
 def _control_points(spline) -> NDArray[np.float64]:
     """(n, 3) in the order in which Blender counts them; of a Bézier point both handles, around it."""
     if spline.type != "BEZIER":
-        row = np.empty(4 * len(spline.points), np.float32)
-        spline.points.foreach_get("co", row)
-        return row.reshape(-1, 4)[:, :3].astype(np.float64)
+        return weighted_points(spline)[:, :3].astype(np.float64)
     rows = np.empty((3, 3 * len(spline.bezier_points)), np.float32)
     for row, name in zip(rows, ("handle_left", "co", "handle_right")):
         spline.bezier_points.foreach_get(name, row)
@@ -136,9 +135,7 @@ def _curve(spline, places: NDArray[np.float64]) -> Curve | None:
         space = blender_space(len(places), spline.order_u, cyclic, spline.use_bezier_u, spline.use_endpoint_u)
         if space is None:
             return None
-        weights = np.empty(4 * len(places), np.float32)
-        spline.points.foreach_get("co", weights)
-        return Curve(space, places, weights.reshape(-1, 4)[:, 3].astype(np.float64))
+        return Curve(space, places, weighted_points(spline)[:, 3].astype(np.float64))
     if spline.type == "BEZIER":
         knots = places.reshape(-1, 3, 3)
         if cyclic:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...core.curve import Curve
 from ...core.patch import Patch
-from ...core.surface import Surface
+from ...core.surface import Surface, joined
 
 # Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
 # float32 entries alone may have made it: such a matrix cannot be told from one that flattens.
@@ -109,6 +109,11 @@ class Reading:
     @property
     def places(self) -> int:
         return sum(len(part.matrices) for part in self.parts)
+
+    def joined(self) -> Surface:
+        """All parts, wherever they stand, as one surface of triangles in the world, float64."""
+        return joined([part.surface.mapped(matrix[:3, :3], matrix[:3, 3])
+                       for part in self.parts for matrix in part.matrices])
 
 
 def flattens(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -10,7 +10,7 @@ cannot be told before it is sampled.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import bpy
@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.surface import Surface
+from .reading import float64_matrix
 
 BLOCK = 1 << 21  # voxels that are sampled at a time
 MOST = 1 << 29  # voxels that are sampled at all
@@ -36,7 +37,7 @@ class SampledGrid:
                              "which this Blender lacks; convert it to floats.".format(grid.name))
         self._obj, self._depsgraph, self._name = obj, depsgraph, grid.name
         self._kind, self._dtype = KINDS[grid.data_type]
-        self.to_object = np.array([row[:] for row in grid.matrix_object], np.float64)
+        self.to_object = float64_matrix(grid.matrix_object)
         corners = np.array([[*corner] for corner in bound_box], np.float64)
         index = (corners - self.to_object[:3, 3]) @ np.linalg.inv(self.to_object[:3, :3]).T
         low, high = np.floor(index.min(axis=0)).astype(np.int64) - 1, np.ceil(index.max(axis=0)).astype(np.int64) + 1
@@ -60,7 +61,7 @@ class SampledGrid:
                          "lacks; use the node Grid to Mesh, and measure that.")
 
     @contextmanager
-    def _sampler(self):
+    def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
         """Gives a function from the first voxel of a block and its shape to the values."""
         made = []
 

@@ -13,13 +13,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-import bmesh
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.surface import Surface, joined
-from .mesh import mesh_surface
+from ...core.surface import Surface
+from .mesh import from_edit_mesh, mesh_surface
 from .objects import placed, read_object
 from .reading import Unreadable
 
@@ -64,23 +63,20 @@ def read_section(obj, depsgraph) -> SectionReading:
     warnings = list(reading.warnings)
     if obj.type in {"CURVE", "FONT"}:
         warnings.append("What its modifiers make of Blender's fill was measured.")
-    surface = joined([part.surface.mapped(matrix[:3, :3], matrix[:3, 3])
-                      for part in reading.parts for matrix in part.matrices])
+    surface = reading.joined()
     return SectionReading(
         obj.name, "All Faces", surface.points, surface.triangles, surface.triangle_faces,
         float(np.linalg.norm(surface.coordinate_error)), reading.rotation, reading.location, warnings=warnings)
 
 
 def _selected_faces(obj, depsgraph) -> SectionReading:
-    copy = bpy.data.meshes.new("Body Moments Reading")
-    try:
-        bmesh.from_edit_mesh(obj.data).to_mesh(copy)
+    def selected(copy: bpy.types.Mesh) -> tuple[NDArray[np.bool_], Surface]:
         chosen = np.empty(len(copy.polygons), bool)
         copy.polygons.foreach_get("select", chosen)
-        surface = mesh_surface(copy, edges=False) if chosen.any() else None
-    finally:
-        bpy.data.meshes.remove(copy)
-    if surface is None:
+        return chosen, mesh_surface(copy, edges=False)
+
+    chosen, surface = from_edit_mesh(obj.data, selected)
+    if not chosen.any():
         raise Unreadable(obj.name, "None of its faces is selected; select the faces of the section.")
     place = placed(obj, depsgraph)
     surface = surface.mapped(place.matrix[:3, :3], place.matrix[:3, 3])

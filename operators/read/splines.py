@@ -16,12 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.blender_knots import blender_space, display_parameters, display_table
+from ...core.bspline import Space
+from ...core.moments import HALF_ULP
 from ...core.patch import Patch
 from .deformation import deformed, is_deformed, spline_modifiers
 from .reading import SplineReading
 
 AGREE = 4e-6  # of the largest coordinate: float32 evaluation, of order 6 by order 6
-HALF_ULP = 2.0 ** -24
 RECOVERED = 1e-6  # of the size: what control points that were solved for may be off by
 LARGEST_SOLVED = 1e4  # condition of a direction's samples
 
@@ -37,7 +38,7 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     splines = [spline for spline in evaluated.data.splines if spline.type == "NURBS"]
     if not splines or len(splines) < len(evaluated.data.splines):
         return None
-    rows = [_points(spline) for spline in splines]
+    rows = [weighted_points(spline) for spline in splines]
     coordinates = np.concatenate(rows)
     places = coordinates[:, :3].astype(np.float64)
     if is_deformed(evaluated):
@@ -80,17 +81,17 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
 
 def weightless(splines) -> int:
     """How many control points have a weight that is not positive, for which the display mesh has to be measured."""
-    return sum(int((~(_points(spline)[:, 3] > 0.0)).sum()) for spline in splines if spline.type == "NURBS")
+    return sum(int((~(weighted_points(spline)[:, 3] > 0.0)).sum()) for spline in splines if spline.type == "NURBS")
 
 
-def _points(spline) -> NDArray[np.float32]:
-    """(n, 4) control points and weights."""
+def weighted_points(spline) -> NDArray[np.float32]:
+    """(n, 4) the control points and weights of a spline that is not a Bézier one."""
     row = np.empty(4 * len(spline.points), np.float32)
     spline.points.foreach_get("co", row)
     return row.reshape(-1, 4)
 
 
-def _spaces(spline):
+def _spaces(spline) -> tuple[Space, Space] | None:
     """The spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
     spaces = (blender_space(spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v,
                             spline.use_endpoint_v),
