@@ -33,6 +33,8 @@ PARTNERS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
 ITSELF = np.arange(3)[:, None]
 TURNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])  # keep the frame's hand
 
+# by symmetry, the axes whose moments are equal
+EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
 NOTES = {
     "isotropic": "Every axis through the center is a principal axis; the object's own axes are used",
     "prolate": "Axes 2 and 3 have equal moments; the directions nearest to the object's axes are used",
@@ -169,7 +171,7 @@ def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float
     tilt = float(np.max(np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))))
     symmetry = ("isotropic" if equal.all() else "oblate" if equal[0] else "prolate" if equal[1] else "asymmetric")
 
-    free = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}[symmetry]
+    free = EQUAL_AXES[symmetry]
     noise = looser * NOISE + 4.0 * step / np.minimum(size[:, None], size[PARTNERS])
     real = size * np.sqrt(scale)
     skew, doubt = _third_scores(moments, shift, real, axes)
@@ -242,10 +244,10 @@ def settled(frame: NDArray, free: tuple[int, ...], prefer: NDArray) -> NDArray[n
     if np.linalg.norm(wish) < 1e-6:  # half a turn away: any direction is as near; take the one along a preferred axis
         wish = prefer[:, np.argmin(np.abs(fixed @ prefer))]
         wish = wish - fixed * (fixed @ wish)
-    settled = frame.copy()
-    settled[:, first] = wish / np.linalg.norm(wish)
-    settled[:, second] = np.cross(fixed, settled[:, first])
-    return settled
+    turned = frame.copy()
+    turned[:, first] = wish / np.linalg.norm(wish)
+    turned[:, second] = np.cross(fixed, turned[:, first])
+    return turned
 
 
 def _nearest(candidates: list[NDArray], prefer: NDArray) -> NDArray[np.float64]:

@@ -13,6 +13,7 @@ parents and constraints.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import atan2, cos, pi, sin
 
 import numpy as np
@@ -31,10 +32,15 @@ class Refused(Exception):
     """Why an object was left as it is: a sentence with a remedy, without the object's name."""
 
 
-def require_own(obj: Object, what: str) -> None:
-    """Refused for an object on which the file cannot keep `what`."""
+def require_editable(obj: Object) -> None:
+    """Refused for a linked object."""
     if not obj.is_editable:
         raise Refused("it is linked from another file; make it local first")
+
+
+def require_own(obj: Object, what: str) -> None:
+    """Refused for an object on which the file cannot keep `what`."""
+    require_editable(obj)
     if obj.override_library is not None:  # of which a file keeps only what Blender lets be overridden
         raise Refused("it is a library override, which would lose {:s} with the file; make it local first".format(what))
 
@@ -99,9 +105,7 @@ def _rotation(obj: Object) -> Matrix3:
 def _delta_rotation(obj: Object) -> Matrix3:
     if obj.rotation_mode == "QUATERNION":
         return rotation_matrix(obj.delta_rotation_quaternion)
-    if (
-        obj.rotation_mode == "AXIS_ANGLE"
-    ):  # its delta has no place in Blender's interface and is not shown
+    if obj.rotation_mode == "AXIS_ANGLE":  # its delta has no place in Blender's interface and is not shown
         return np.eye(3)
     return euler_matrix(np.array(obj.delta_rotation_euler), obj.rotation_mode)
 
@@ -163,7 +167,7 @@ def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
     _assign(obj, "rotation_euler", euler_angles(rotation, mode, near), obj.lock_rotation)
 
 
-def _assign(obj: Object, channel: str, value: NDArray, locks, slack: float = 1e-6) -> None:
+def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], slack: float = 1e-6) -> None:
     before = np.array(getattr(obj, channel), np.float64)
     moved = np.abs(value - before) > max(slack, 1e-6 * np.abs(before).max())
     if np.any(moved & np.array(locks, bool)):

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Clear: remove the stored results from objects. Settings stay."""
 
-from bpy.types import Context, Operator
+from bpy.types import Context, Object, Operator
 
 from . import selection, staleness
-from .channels import Refused
+from .channels import Refused, require_editable
 from .write import properties, section
 
 SYMMETRY = "body_moments_symmetry"
@@ -20,7 +20,7 @@ class OBJECT_OT_body_moments_clear(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return selection.poll_selected(cls, context, modes=())
+        return selection.poll_selected(cls, context, any_mode=True)
 
     def execute(self, context: Context) -> set[str]:
         objects = [
@@ -29,9 +29,8 @@ class OBJECT_OT_body_moments_clear(Operator):
             if any(key in obj for key in (*properties.DESCRIPTIONS, section.KEY)) or obj.is_property_set(SYMMETRY)
         ]
 
-        def remove(obj) -> bool:
-            if not obj.is_editable:
-                raise Refused("it is linked from another file; make it local first")
+        def remove(obj: Object) -> bool:
+            require_editable(obj)
             symmetric = obj.is_property_set(SYMMETRY)
             obj.property_unset(SYMMETRY)
             return properties.clear(obj) | section.clear(obj) | symmetric

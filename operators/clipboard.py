@@ -56,7 +56,7 @@ class OBJECT_OT_body_moments_copy_report(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if not selection.poll_selected(cls, context, modes=()):
+        if not selection.poll_selected(cls, context, any_mode=True):
             return False
         if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
             cls.poll_message_set("Measure the selected objects first")

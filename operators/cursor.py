@@ -4,7 +4,7 @@
 
 import numpy as np
 from bpy.props import BoolProperty
-from bpy.types import Context, Operator
+from bpy.types import Context, Object, Operator, View3DCursor
 from mathutils import Matrix
 
 from ..core.decimal import decimal
@@ -29,14 +29,14 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return selection.poll_selected(cls, context, modes=())
+        return selection.poll_selected(cls, context, any_mode=True)
 
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected(context)
         depsgraph = context.evaluated_depsgraph_get()
         bodies = []
 
-        def add(obj) -> bool:
+        def add(obj: Object) -> bool:
             measurement = measure_object(obj, depsgraph, MeasureOptions())
             if measurement.method.endswith("open"):
                 raise Refused(
@@ -67,7 +67,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
         return selection.summarise(self, count, len(objects), text, failures, notes)
 
 
-def _turn(cursor, axes: np.ndarray) -> None:
+def _turn(cursor: View3DCursor, axes: np.ndarray) -> None:
     mode = cursor.rotation_mode
     rotation = Matrix(axes).to_quaternion()
     if mode == "QUATERNION":

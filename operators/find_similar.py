@@ -8,7 +8,6 @@ is selected.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -21,7 +20,7 @@ from ..core.library import UNCLEAR, Entry, nearest, read_library, verdict
 from ..core.matching import FITS, Match
 from ..core.signature import Likeness, Signature, compared
 from . import selection, snapping
-from .measure import MeasureOptions
+from .measure import THREADS, MeasureOptions
 from .read import measurable_objects
 from .shape import Shape, Skin, matched, surface_shape_of
 from .stepwise import Stepwise
@@ -30,7 +29,6 @@ ORDER = 12  # of the descriptors: more than tell parts apart, a fourth of the ti
 LISTED = 20
 MIRRORED = BoolProperty(name="Mirror Images Too", default=False, description="Mirror images are as near as copies")
 SCALED = BoolProperty(name="Other Sizes Too", default=False, description="Copies of another size are as near as others")
-THREADS = os.cpu_count() or 1
 
 
 class BodyMomentsSimilar(PropertyGroup):
@@ -165,8 +163,7 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
             picked = [self._objects[entry] for entry, likeness in rows if chosen.get(verdict(likeness))]
             for obj in context.view_layer.objects:
                 obj.select_set(obj in picked or obj == context.object)
-        for area in context.screen.areas if context.screen else ():
-            area.tag_redraw()
+        selection.redraw(context)
         return self.tell(rows, ["{:s}: {:s}".format(*failure) for failure in self._failures])
 
 
@@ -185,7 +182,7 @@ class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
     filepath: StringProperty(name="Library", description="The file to look in", subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.jsonl", options={"HIDDEN"})
 
-    def invoke(self, context: Context, _event) -> set[str]:
+    def invoke(self, context: Context, _event: Event) -> set[str]:
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 

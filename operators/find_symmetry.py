@@ -73,7 +73,7 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return selection.poll_selected(cls, context, modes=())
+        return selection.poll_selected(cls, context, any_mode=True)
 
     def execute(self, context: Context) -> set[str]:
         self._begin(context)
@@ -106,8 +106,7 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
         told = ["{:s}: {:s}, {:s}{:s}".format(obj.name, found.group, described(found),
                                               OF_DISPLAY_MESH if displayed(measurement) else "")
                 for obj, measurement, found, _ in self._found]
-        for area in context.screen.areas if context.screen else ():
-            area.tag_redraw()
+        selection.redraw(context)
         if self._failures or not told:
             return selection.summarise(self, len(told), len(self._objects), "Looked at {count}", self._failures, told)
         self.report({"INFO"}, "; ".join(selection.listed(told)))

@@ -9,13 +9,13 @@ from math import pi
 from pathlib import Path
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
 from ..core.decimal import decimal
 from ..core.waves import Grid
 from .fourier_body import ObjectTransform, object_transform
-from .measure import MeasureOptions
+from .measure import THREADS, MeasureOptions
 from .read import Unreadable, measurable
 from .stepwise import Stepwise
 from .write import spectrum
@@ -54,7 +54,7 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
     bl_options = {"UNDO"}
 
     filter_glob: StringProperty(default="*" + SUFFIX, options={"HIDDEN"})
-    check_existing: bpy.props.BoolProperty(default=True, options={"HIDDEN"})
+    check_existing: BoolProperty(default=True, options={"HIDDEN"})
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -132,12 +132,13 @@ class OBJECT_OT_body_moments_fourier_run(Stepwise, _Settings, Operator):
         if not self.filepath or not self._path.parent.is_dir():
             raise OSError("There is no folder {:s} to write to".format(str(self._path.parent) if self.filepath else ""))
         self._work: ObjectTransform = object_transform(
-            obj, depsgraph, MeasureOptions(threads=os.cpu_count() or 1), self._grid, frame=self.frame.lower(),
+            obj, depsgraph, MeasureOptions(threads=THREADS), self._grid, frame=self.frame.lower(),
             area=self.of == "AREA")
         self._steps = self._work.steps()
 
     def _grid(self, size: float) -> Grid:
-        """For a body of so many metres. By itself its step is π over the size."""
+        """The grid for a body of this size in m. Where no largest frequency is asked for, its step is π over the
+        size."""
         return Grid(self.count, decimal(self.largest) or pi / size * (self.count // 2))
 
     def _finish(self, context: Context) -> set[str]:

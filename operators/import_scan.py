@@ -10,11 +10,12 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 
 import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntVectorProperty, StringProperty
-from bpy.types import Context, Operator
+from bpy.types import Context, Menu, Object, Operator
 from bpy_extras.io_utils import ImportHelper
 from numpy.typing import NDArray
 
@@ -114,7 +115,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         return read_scan(path)
 
 
-def _write(module, target: Path, scan: Scan, matrix: NDArray) -> float:
+def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> float:
     """Write the scan as a grid, whole or not at all, and tell its least value. The background is no sample's value, so
     that none is lost, but zero where no sample is negative."""
     least, exact = np.inf, True
@@ -145,7 +146,7 @@ def _slabs(scan: Scan) -> Iterator[tuple[int, NDArray[np.float64]]]:
         yield start, samples[start:start + planes].astype(np.float64) * scan.slope + scan.intercept
 
 
-def _object(context: Context, path: Path):
+def _object(context: Context, path: Path) -> Object:
     volume = bpy.data.volumes.new(path.stem)
     volume.filepath = str(path)
     obj = bpy.data.objects.new(path.stem, volume)
@@ -158,7 +159,7 @@ def _object(context: Context, path: Path):
     return obj
 
 
-def _menu(menu, _context: Context) -> None:
+def _menu(menu: Menu, _context: Context) -> None:
     menu.layout.operator(OBJECT_OT_body_moments_import_scan.bl_idname, text="Scan of Densities (.nii/.nrrd/.npy)")
 
 

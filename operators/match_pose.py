@@ -100,7 +100,7 @@ def _told(name: str, found: Match, size: float, units: Units) -> str:
 def _planned(context: Context, obj: Object, target: Shape, skin: Skin) -> tuple[reframe.Plan, Match]:
     """Where the object lies on the target, and how well."""
     reframe.check_movable(obj)
-    if obj in _parents(context.object):
+    if obj in selection.lineage(context.object):
         raise Refused("the active object is its child and would move with it; clear the parent first")
     shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
     found = matched(shape, target, Skin(shape), skin)
@@ -120,14 +120,6 @@ def _move(context: Context, plan: reframe.Plan) -> bool:
         return False
     reframe.move(context, plan)
     return True
-
-
-def _parents(obj: Object) -> list[Object]:
-    found = []
-    while obj.parent is not None:
-        obj = obj.parent
-        found.append(obj)
-    return found
 
 
 CLASSES = (OBJECT_OT_body_moments_match_pose,)

@@ -8,6 +8,7 @@ all go through it.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -36,6 +37,7 @@ from .weigh import Weighed, weigh
 
 AT_ONCE = 20_000  # faces up to which moments of higher order, for a frame that needs them, take no time to speak of
 KNOWN = 3  # the order to which every measurement has its moments
+THREADS = os.cpu_count() or 1  # for what takes long
 UNASKED = ("Its principal axes are those nearest to the object's that moments to third order allow; with so many faces "
            "higher ones were not looked at. Snapping and --pose do, and may choose others.")
 
@@ -183,12 +185,10 @@ def resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> Mea
     if density is None and mass is None:
         given = settings.linear_density if kind == "wire" else settings.density
         density, mass = (decimal(given), None) if settings.mass_from == "DENSITY" else (None, decimal(settings.mass))
-    return MeasureOptions(
-        kind=kind, density=density, mass=mass,
+    return replace(
+        options, kind=kind, density=density, mass=mass,
         thickness=decimal(settings.thickness) * unit if options.thickness is None else options.thickness,
-        overlap=options.overlap or settings.overlap.lower(), wall=options.wall or settings.wall.lower(),
-        threads=options.threads, order=options.order, surface=options.surface, pose=options.pose,
-        compare=options.compare)
+        overlap=options.overlap or settings.overlap.lower(), wall=options.wall or settings.wall.lower())
 
 
 def to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> Measurement:

@@ -8,8 +8,10 @@ from collections.abc import Iterator
 
 import bpy
 
+from ..core.measurement import Measurement
 from . import selection
-from .measure import Measurement, Unreadable, measure_object
+from .measure import measure_object
+from .read import Unreadable
 from .results import refuse
 from .staleness import settle
 from .stepwise import Stepwise
@@ -75,8 +77,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
             stored.append(obj)
         settle(context, stored)
         self._say(len(stored))
-        for area in context.screen.areas if context.screen else ():
-            area.tag_redraw()
+        selection.redraw(context)
         return {"FINISHED"} if stored else {"CANCELLED"}
 
     def _say(self, stored: int) -> None:
@@ -97,9 +98,4 @@ def _chosen(context: bpy.types.Context) -> list[bpy.types.Object]:
     return list(context.selected_objects)
 
 
-def register() -> None:
-    bpy.utils.register_class(OBJECT_OT_body_moments_measure)
-
-
-def unregister() -> None:
-    bpy.utils.unregister_class(OBJECT_OT_body_moments_measure)
+CLASSES = (OBJECT_OT_body_moments_measure,)

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import csv
 import io
-import os
 from collections import OrderedDict
 from dataclasses import dataclass
 from functools import lru_cache
@@ -24,8 +23,8 @@ from ..core.moments import Moments, monomial_count, monomials
 from . import staleness
 from .clipboard import to_clipboard
 from .fingerprint import matrix_hash, settings_hash
-from .measure import MeasureOptions, Unreadable, measure_object
-from .read import measurable
+from .measure import THREADS, MeasureOptions, measure_object
+from .read import Unreadable, measurable
 from .selection import one_line
 from .units import number
 
@@ -182,7 +181,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
 
     def execute(self, context: Context) -> set[str]:
         obj, scene = context.object, context.scene
-        options = MeasureOptions(order=scene.body_moments.moments_order, surface=True, threads=os.cpu_count() or 1)
+        options = MeasureOptions(order=scene.body_moments.moments_order, surface=True, threads=THREADS)
         depsgraph = context.evaluated_depsgraph_get()
         try:
             one = measure_object(obj, depsgraph, options)

@@ -52,7 +52,7 @@ def _along_axes(obj: Object, body: snapping.Body) -> np.ndarray | None:
     return target
 
 
-def _is_there(obj, body: snapping.Body) -> bool:
+def _is_there(obj: Object, body: snapping.Body) -> bool:
     now = world(obj)
     linear = now[:3, :3]
     if np.abs(linear.T @ linear - np.eye(3)).max() > UNIT_SCALE or np.linalg.det(linear) < 0.0:

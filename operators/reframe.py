@@ -14,7 +14,7 @@ changed get a copy of their own, shared among them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 import bpy
@@ -35,6 +35,7 @@ from .channels import (
 )
 from .density import fixed_to
 from .read import Unreadable
+from .selection import lineage
 from .surroundings import SAME_SHAPE, Surroundings, referring, same_shape, shape
 
 # What these do does not depend on where an object's origin is, nor on its axes.
@@ -101,7 +102,7 @@ def check(obj: Object) -> None:
 
 
 def reframe(
-    context: Context, plans: list[Plan], progress=lambda: None
+    context: Context, plans: list[Plan], progress: Callable[[], None] = lambda: None
 ) -> tuple[list[Plan], list[tuple[Object, str]]]:
     """Carry out the plans; those that were, and for each other object the reason why it was left
     as it was.
@@ -127,7 +128,7 @@ def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
     for plan in plans:
         change = np.linalg.solve(plan.target, world(plan.obj))
         reach = np.abs(np.array(plan.obj.bound_box)).max()
-        above = set(_lineage(plan.obj))
+        above = set(lineage(plan.obj))
         for other, members in groups:
             if (
                 members[0].obj.data == plan.obj.data
@@ -185,15 +186,11 @@ def _reframe_group(context: Context, group: list[Plan], users: dict[Object, set[
                 for obj in objects:
                     obj.data = data
                 transform_data(data, change)
-            _remove(trial)
+            bpy.data.batch_remove([trial])
         elif kept:
             for plan in group:
                 plan.notes.append("got a copy of its data, for other objects use it too")
         context.view_layer.update()
-
-
-def _remove(data: ID) -> None:
-    bpy.data.batch_remove([data])
 
 
 def check_movable(obj: Object) -> None:
@@ -273,14 +270,8 @@ def location_tolerance(obj: Object, size: float) -> float:
     """How near to a point an origin can be told to be: some float32 steps of every location on
     the way to the world.
     """
-    reach = max(np.abs(world(one)[:3, 3]).max() for one in _lineage(obj))
+    reach = max(np.abs(world(one)[:3, 3]).max() for one in lineage(obj))
     return 4e-7 * size + 4.0 * FLOAT32 * reach
-
-
-def _lineage(obj: Object) -> Iterable[Object]:
-    while obj is not None:
-        yield obj
-        obj = obj.parent
 
 
 # Data
@@ -301,16 +292,14 @@ def transform_data(data: ID, change: Matrix4) -> None:
 
 
 def _transform_mesh(mesh: bpy.types.Mesh, change: Matrix4) -> None:
-    layers = [mesh.attributes["position"].data] if mesh.vertices else []
-    name = "vector"
-    exact = [_mapped(layer, name, change) for layer in layers]
+    exact = _mapped(mesh.attributes["position"].data, "vector", change) if mesh.vertices else None
     keys = [block.data for block in mesh.shape_keys.key_blocks] if mesh.shape_keys else []
     exact_keys = [_mapped(key, "co", change) for key in keys]
     # Blender's own transform also turns custom normals; its float32 coordinates are replaced by the
     # exact ones.
     mesh.transform(Matrix(change), shape_keys=True)
-    if mesh.vertices:
-        mesh.attributes["position"].data.foreach_set(name, exact[0])
+    if exact is not None:
+        mesh.attributes["position"].data.foreach_set("vector", exact)
     for key, points in zip(keys, exact_keys):
         key.foreach_set("co", points)
     if np.linalg.det(change[:3, :3]) < 0.0:

@@ -37,6 +37,10 @@ class Total:
     doubts: tuple[str, ...]
 
 
+_refusals: dict[int, str] = {}  # session uid → reason
+_total: tuple[tuple, Total] | None = None  # what the last total was computed for, and that total
+
+
 def refuse(obj: Object, reason: str | None) -> None:
     """Keep, until Blender ends, why the object could not be measured; None forgets it."""
     _refusals.pop(obj.session_uid, None)
@@ -47,9 +51,6 @@ def refuse(obj: Object, reason: str | None) -> None:
 def refusal(obj: Object) -> str:
     """Why the object could not be measured when that was last tried, or nothing."""
     return _refusals.get(obj.session_uid, "")
-
-
-_refusals: dict[int, str] = {}
 
 
 def of_object(obj: Object, scene: Scene) -> properties.Stored | None:
@@ -73,9 +74,6 @@ def total(context: Context) -> Total:
     if _total is None or _total[0] != key:
         _total = (key, _sum(context))
     return _total[1]
-
-
-_total: tuple[tuple, Total] | None = None
 
 
 def _sum(context: Context) -> Total:

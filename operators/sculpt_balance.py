@@ -169,7 +169,7 @@ class _EditedMesh:
         if not len(self.movable):
             raise Refused("no vertex is selected; select those that may move")
 
-    def _vertices(self):
+    def _vertices(self) -> bmesh.types.BMVertSeq:
         return bmesh.from_edit_mesh(self.obj.data).verts
 
     def put(self, points: NDArray[np.float32]) -> None:
@@ -223,7 +223,7 @@ def _balance(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, wa
     start = part.surface.mapped(linear, offset)
     size = float(np.linalg.norm(np.ptp(start.points, axis=0)))
     tolerance = THERE * size + 4.0 * FLOAT32 * np.abs(np.concatenate([start.points, [wanted.point]])).max()
-    with _put_back(context, mesh) as done:
+    with _put_back(context, mesh):
         surface = start
         for _ in range(ATTEMPTS):
             found = balance(surface, mesh.movable, wanted.point, across=wanted.across, willing=mesh.willing,
@@ -234,7 +234,6 @@ def _balance(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, wa
             after = _measured(context, obj)
             off = np.abs(wanted.across @ (wanted.point - after.mass_properties.center)).max()
             if off <= tolerance:
-                done.append(True)
                 break
             surface = replace(_read(context, obj, None).surface.mapped(linear, offset), points=start.points)
         else:
@@ -252,15 +251,15 @@ def _balance(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, wa
 
 
 @contextmanager
-def _put_back(context: Context, mesh: _EditedMesh | _GroupedMesh) -> Iterator[list]:
-    """Put the vertices back unless something is appended to the list."""
-    done: list[bool] = []
+def _put_back(context: Context, mesh: _EditedMesh | _GroupedMesh) -> Iterator[None]:
+    """Put the vertices back where something fails in here."""
     try:
-        yield done
-    finally:
-        if mesh.changed and not done:
+        yield
+    except BaseException:
+        if mesh.changed:
             mesh.put(mesh.start)
             context.view_layer.update()
+        raise
 
 
 def _check(obj: Object) -> None:

@@ -22,21 +22,19 @@ def selected(context: Context) -> list[Object]:
     too.
     """
     objects = [obj for obj in context.view_layer.objects.selected if measurable(obj)]
-    return sorted(objects, key=_depth)
+    return sorted(objects, key=lambda obj: sum(1 for _ in lineage(obj)))
 
 
-def _depth(obj: Object) -> int:
-    depth = 0
-    while obj.parent is not None:
-        obj, depth = obj.parent, depth + 1
-    return depth
+def lineage(obj: Object | None) -> Iterator[Object]:
+    """The object, its parent, that one's parent, and so on."""
+    while obj is not None:
+        yield obj
+        obj = obj.parent
 
 
-def poll_selected(
-    cls: type[Operator], context: Context, modes: Sequence[str] = ("OBJECT",)
-) -> bool:
-    """Whether something is selected in a mode that suits; says why not."""
-    if modes and context.mode not in modes:
+def poll_selected(cls: type[Operator], context: Context, any_mode: bool = False) -> bool:
+    """Whether something is selected, in Object Mode unless any mode will do; says why not."""
+    if not any_mode and context.mode != "OBJECT":
         cls.poll_message_set("Switch to Object Mode first")
         return False
     if not context.view_layer.objects.selected:
@@ -45,8 +43,14 @@ def poll_selected(
     return True
 
 
+def redraw(context: Context) -> None:
+    """Have the window drawn again, where there is one: what was stored shows in several of its areas."""
+    for area in context.screen.areas if context.screen else ():
+        area.tag_redraw()
+
+
 @contextmanager
-def progress(count: float):
+def progress(count: float) -> Iterator[Callable[[], None]]:
     """A counter to call after each of `count` steps; shown at the cursor where there are many."""
     manager = bpy.context.window_manager
     shown = count > 1

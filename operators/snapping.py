@@ -20,7 +20,7 @@ from bpy.types import Context, Object, Operator
 from numpy.typing import NDArray
 
 from ..core.decimal import decimal
-from ..core.pose import strict_frame
+from ..core.pose import EQUAL_AXES, strict_frame
 from . import reframe, selection, staleness
 from .channels import Refused
 from .measure import MeasureOptions, measure_body, measure_object
@@ -36,7 +36,6 @@ STRICT = BoolProperty(
     default=False,
 )
 REFUSALS = (Refused, Unreadable, ValueError, RuntimeError)
-EQUAL = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
 TURNED = 1e-3  # what float32 coordinates may turn directions by that moments of higher order fix
 DIAGONAL = 4e-7  # of the trace: what float32 coordinates leave of products of inertia
 
@@ -106,7 +105,7 @@ def body_of(context: Context, obj: Object, strict: bool = False) -> Body:
         gyration=body.radii_of_gyration / unit,
         mass=body.mass,
         note=principal.note,
-        own=tuple(i for i in EQUAL[principal.symmetry] if i not in principal.free),
+        own=tuple(i for i in EQUAL_AXES[principal.symmetry] if i not in principal.free),
         unique=principal.unique,
     )
 

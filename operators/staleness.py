@@ -123,7 +123,7 @@ def section_reason(obj: Object) -> str:
     parts = section.fingerprint(obj).split(":")
     if len(parts) != 4:
         return ""
-    if parts[1] == EDITED or _section_edited(obj):
+    if parts[1] == EDITED or section.fingerprint(obj) in _edited.get(obj.session_uid, ()):
         return "Geometry Changed"
     return "Transform Changed" if parts[2] != matrix_hash(obj) else ""
 
@@ -142,10 +142,6 @@ def symmetry_reason(obj: Object) -> str:
 def _symmetry_mark(obj: Object) -> str:
     # Asked first: reading a group that is not there makes one.
     return obj.body_moments_symmetry.fingerprint if obj.is_property_set("body_moments_symmetry") else ""
-
-
-def _section_edited(obj: Object) -> bool:
-    return section.fingerprint(obj) in _edited.get(obj.session_uid, ())
 
 
 def _settings_edited(obj: Object, fingerprint: str, scene: Scene) -> bool:
@@ -266,6 +262,4 @@ def register() -> None:
 def unregister() -> None:
     for name, function in reversed(HANDLERS):
         getattr(bpy.app.handlers, name).remove(function)
-    _edited.clear()
-    _settings.clear()
-    _changes.clear()
+    _load()

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from bpy.types import ID, Depsgraph, Object
+from bpy.types import ID, Constraint, Depsgraph, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
@@ -175,7 +175,7 @@ class Surroundings:
             constraint.inverse_matrix = Matrix(inverse)
 
 
-def _child_of(obj: Object):
+def _child_of(obj: Object) -> list[Constraint]:
     constraints = list(obj.constraints)
     if obj.pose is not None:
         constraints += [constraint for bone in obj.pose.bones for constraint in bone.constraints]

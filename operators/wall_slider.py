@@ -11,17 +11,14 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 from bpy.types import Context, Object, PropertyGroup
 
 from ..core.decimal import decimal
+from ..core.measurement import Measurement
 from .read import Reading
 from .wall_body import Walls
 from .write import properties
-
-if TYPE_CHECKING:
-    from ..core.measurement import Measurement
 
 KEPT = 64  # objects
 

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from collections.abc import Callable
 from pathlib import Path
 
 import bpy
@@ -19,7 +20,7 @@ from ..write import spectrum
 LARGEST_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 
 
-def add_options(parser: ArgumentParser, positive) -> None:
+def add_options(parser: ArgumentParser, positive: Callable[[str], float]) -> None:
     """--fourier and what belongs to it. positive: the type of a positive number."""
     add = parser.add_argument
     add("--fourier", type=Path, metavar="OUT.npz",

@@ -27,7 +27,7 @@ from ...core.measurement import Measurement
 from .. import settings
 from ..array_body import ArrayOptions, measure_array
 from ..counted import doubts
-from ..measure import MeasureOptions, measure_object
+from ..measure import THREADS, MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
 from ..shape import DISPLAY_MESH, OF_SHAPES, POLYGONS, NoShape, shape_of
 from ..staleness import settle
@@ -60,7 +60,7 @@ class Run:
             **wanted,
             order=self.options.order,
             surface=self.options.surface_moments,
-            threads=os.cpu_count() or 1,
+            threads=THREADS,
         )
 
     def measure(self) -> None:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Iterator
 from itertools import product
+from types import ModuleType
 
 import bpy
 import numpy as np
@@ -25,7 +26,7 @@ FARTHEST = 1 << 29  # an index from which on the module fails without a word
 DTYPES = {"float": np.float32, "double": np.float64, "int32": np.int32, "int64": np.int64, "bool": np.bool_}
 
 
-def openvdb():
+def openvdb() -> ModuleType | None:
     """The module, or None where this Blender has none."""
     if hasattr(bpy.utils, "expose_bundled_modules"):
         bpy.utils.expose_bundled_modules()

@@ -19,6 +19,7 @@ from ...core.mass import MassProperties
 from ...core.measurement import Measurement
 from ...core.pose import PrincipalFrame
 from ...core.rotation import quaternion, rotation_matrix
+from .record import TENSOR
 
 DESCRIPTIONS = {
     "body_mass": "Mass in kg",
@@ -44,8 +45,7 @@ LENGTHS = {"body_mass": 0, "body_density": 0, "body_volume": 0, "body_area": 0, 
            "body_inertia": 6, "body_principal_moments": 3, "body_principal_axes": 4, "body_error_bound": 8}
 OPTIONAL = ("body_length", "body_display_volume")  # of wires, and of what was measured without its display mesh
 BOUNDED = ("volume", "area", "center_of_mass", "inertia")
-ENTRIES = ("xx", "yy", "zz", "xy", "xz", "yz")
-TENSOR = ((0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2))
+ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +77,7 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
         "body_volume": measurement.volume,
         "body_area": measurement.area,
         "body_center_of_mass": body.center.tolist(),
-        "body_inertia": body.inertia[TENSOR].tolist(),
+        "body_inertia": tensor_entries(body.inertia).tolist(),
         "body_principal_moments": body.principal.moments.tolist(),
         "body_principal_axes": quaternion(body.principal.axes).tolist(),
         "body_error_bound": [float(source[name]) for source in (bound, bound["input"]) for name in BOUNDED],
@@ -175,7 +175,7 @@ def stored(rows: tuple[tuple[float, ...], ...]) -> Stored:
     """The results that `numbers` has read, in the object frame."""
     (mass,), (density,), (volume,), (area,), center, entries, moments, turn, bounds = rows
     tensor = np.zeros((3, 3))
-    tensor[TENSOR] = tensor[TENSOR[::-1]] = entries
+    tensor[ROWS, COLUMNS] = tensor[COLUMNS, ROWS] = entries
     axes = rotation_matrix(turn) if any(turn) else np.eye(3)
     rounding, inputs = (dict(zip(BOUNDED, bounds[i:i + 4])) for i in (0, 4))
     frame = PrincipalFrame(np.array(moments), axes, symmetry="", unique=False, note="")
@@ -187,4 +187,4 @@ def stored(rows: tuple[tuple[float, ...], ...]) -> Stored:
 
 def tensor_entries(tensor: NDArray) -> NDArray[np.float64]:
     """(6,) a (3, 3) tensor in the order of ENTRIES."""
-    return tensor[TENSOR]
+    return tensor[ROWS, COLUMNS]

@@ -4,7 +4,7 @@
 `body-moments/1`.
 
 A document is what one file gave: one record for each object, their total, and what could not be
-measured. All numbers are SI. Centres, tensors, axes and moments are in the world frame or in each
+measured. All numbers are SI. Centers, tensors, axes and moments are in the world frame or in each
 object's own frame (its location and rotation, unit scale); objects do not share their frames, so
 the total is always in the world frame. A number that is not finite is written as null, never as NaN
 or Infinity, which are not JSON.
@@ -107,7 +107,7 @@ def total(measurements: Sequence[Measurement], warnings: Sequence[str] = ()) -> 
         ),
     }
     if measurements:
-        with suppress(ValueError):  # together they have no mass, and so no centre
+        with suppress(ValueError):  # together they have no mass, and so no center
             entry.update(_inertial(combined([one.mass_moments for one in measurements])))
     return plain(entry | {"warnings": warnings})
 
