@@ -13,6 +13,7 @@ below plus what is filled of its own, and Gauss's rule integrates it exactly.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -92,7 +93,7 @@ def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[n
     return sums
 
 
-def _batches(triangles: NDArray, shape: NDArray):
+def _batches(triangles: NDArray, shape: NDArray) -> Iterator[slice]:
     """Slices of the triangles that are expected to give about PIECES pieces each."""
     spans = np.minimum(np.ptp(triangles, axis=1), shape) + 1.0
     expected = np.cumsum(spans[:, 0] * spans[:, 1] + spans[:, 1] * spans[:, 2] + spans[:, 2] * spans[:, 0])

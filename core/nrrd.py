@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -114,7 +115,7 @@ def _after_lines(path: Path, start: int, count: int) -> int:
         return file.tell()
 
 
-def _place(fields: dict[str, str], numbers) -> tuple[NDArray[np.float64], bool, float | None]:
+def _place(fields: dict[str, str], numbers: Callable[..., list]) -> tuple[NDArray[np.float64], bool, float | None]:
     """Where the samples stand, whether the header says so, and in which unit."""
     matrix = np.eye(4)
     words = re.findall(r'"([^"]*)"', fields.get("space units", fields.get("units", "")))

@@ -89,6 +89,11 @@ class Tree:
     def __init__(self, points: NDArray[np.floating], shells: Shells, wanted: NDArray[np.bool_]) -> None:
         self.origin = (shells.low[wanted].min(axis=0) + shells.high[wanted].max(axis=0)) / 2.0
         self.columns = np.ascontiguousarray(points.T, np.float64) - self.origin[:, None]
+        self._grow(self._sort(shells, wanted), wanted)
+
+    def _sort(self, shells: Shells, wanted: NDArray[np.bool_]) -> NDArray[np.intp]:
+        """`ids`, `bottom` and `top`: the triangles of the wanted shells, shell by shell, each in Morton order. Returns
+        (m,) the shell of each."""
         ids, shell = shells.triangles, shells.shell
         if not wanted.all():
             rows = np.flatnonzero(wanted[shell])
@@ -110,7 +115,10 @@ class Tree:
         order = order[_radix_order(shell[order])]
         self.ids, shell = ids[order], shell[order]
         self.bottom, self.top = low[:, order], high[:, order]
+        return shell
 
+    def _grow(self, shell: NDArray[np.intp], wanted: NDArray[np.bool_]) -> None:
+        """The nodes over the sorted triangles. shell: (m,) of each triangle."""
         present = np.flatnonzero(wanted)
         begin = np.searchsorted(shell, present)
         size = np.searchsorted(shell, present, side="right") - begin

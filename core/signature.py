@@ -28,6 +28,7 @@ from .harmonics import coupled, harmonic_moments
 from .moments import Moments, monomials
 from .zernike import BY_MOMENTS, Multiplets, degrees, descriptors, loss, radial_power, zernike_moments
 
+Key = tuple[int, int]  # (n, l) of a multiplet
 INVARIANT_ORDER = 6
 COUPLED_ORDER = 4  # of the moments that are coupled in threes
 CHIRAL_ORDER = 6
@@ -138,25 +139,29 @@ def _chirality(harmonic: Multiplets) -> NDArray[np.float64]:
     return np.array([coupled(*(harmonic[key] for key in triple)) for triple in _chiral_triples()])
 
 
-@lru_cache
-def _pairs() -> list:
-    keys = [key for key in degrees(INVARIANT_ORDER) if key[1] and key[0] > 1]
-    return [(a, b) for a, b in combinations_with_replacement(keys, 2) if a[1] == b[1]]
+def _multiplets(order: int) -> list[Key]:
+    """The harmonic moments (n, l) that turn, l > 0, but for those of first order, which are zero about the center."""
+    return [(n, l) for n, l in degrees(order) if l and n > 1]
 
 
 @lru_cache
-def _even_triples() -> list:
-    keys = [key for key in degrees(COUPLED_ORDER) if key[1] and key[0] > 1]
-    return [t for t in combinations_with_replacement(keys, 3) if _couple(t) and sum(key[1] for key in t) % 2 == 0]
+def _pairs() -> list[tuple[Key, Key]]:
+    return [(a, b) for a, b in combinations_with_replacement(_multiplets(INVARIANT_ORDER), 2) if a[1] == b[1]]
 
 
 @lru_cache
-def _chiral_triples() -> list:
+def _even_triples() -> list[tuple[Key, Key, Key]]:
+    triples = combinations_with_replacement(_multiplets(COUPLED_ORDER), 3)
+    return [t for t in triples if _couple(t) and sum(l for _, l in t) % 2 == 0]
+
+
+@lru_cache
+def _chiral_triples() -> list[tuple[Key, Key, Key]]:
     """Three different multiplets: of two alike, an odd coupling is zero."""
-    keys = [key for key in degrees(CHIRAL_ORDER) if key[1] and key[0] > 1]
-    return [t for t in combinations(keys, 3) if _couple(t) and sum(key[1] for key in t) % 2]
+    return [t for t in combinations(_multiplets(CHIRAL_ORDER), 3) if _couple(t) and sum(l for _, l in t) % 2]
 
 
-def _couple(triple: tuple) -> bool:
-    a, b, c = sorted(key[1] for key in triple)
+def _couple(triple: tuple[Key, Key, Key]) -> bool:
+    """Whether three multiplets have a scalar: their degrees are the sides of a triangle."""
+    a, b, c = sorted(l for _, l in triple)
     return c <= a + b

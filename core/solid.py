@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from . import polyhedron
 from .components import Components
-from .flatness import Witness
+from .flatness import Flatness, Witness
 from .mending import Mended, counted, listed, mend
 from .moments import SECOND, Moments
 from .nesting import cut_from, decide, relate
@@ -126,32 +126,22 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     surface, vertices, size = _used(surface)
     error = float(np.linalg.norm(surface.coordinate_error))
     tolerance = max(TOLERANCE * size, 4.0 * error)
-    witness = Witness(surface, error)
-    if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // polyhedron.LEAST) > 1:
-        with ThreadPoolExecutor(1) as pool:
-            waiting = pool.submit(_proven, surface)
-            own = polyhedron.solid_and_area(surface, threads, shell, witness=witness)
-        body = waiting.result()
-    else:
-        own = polyhedron.solid_and_area(surface, 1, shell, witness=witness)
-        body = _proven(surface)
-    flatness = witness.flatness()
+    own, body, flatness = _as_it_stands(surface, shell, threads, error)
     proven = body is not None
     if not proven:
         body = mend(surface, tolerance, size)
     compared = _compared(body, tolerance, error) if body.number > 1 else None
     turn = np.zeros(body.number, bool) if compared is None else compared.turned
-    turn_each = turn
     measured = _to_measure(surface, body, turn, np.ones(1, bool) if compared is None else compared.solid, proven)
     volume, area = own if measured is surface else polyhedron.solid_and_area(measured, threads, shell)
     if body.changed:  # caps are no part of the area, and left out faces are
         area = own[1]
     if compared is None:
         solid = bool(abs(volume.total) > _noise(size, area.total, body.caps.any(), error))
-        turn = turn | (solid and volume.total < 0.0 and not body.open.any())  # what is open has no inside
+        told = turn | (solid and volume.total < 0.0 and not body.open.any())  # what is open has no inside
         caps = body.caps.sum(axis=0) * solid
     else:
-        solid = bool(compared.solid.any())
+        solid, told = bool(compared.solid.any()), turn
         caps = body.caps[compared.solid].sum(axis=0)
     cap_share = float(caps[2] / area.total) if area.total > 0.0 else 0.0
     open_parts = bool(body.open.any())
@@ -161,7 +151,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     if inside_out:
         volume = replace(volume, raw=-volume.raw)
         measured = replace(measured, quads=measured.quads[:, [0, 3, 2, 1]], triangles=measured.triangles[:, ::-1])
-    flipped, inverted = _turned_faces(body, turn)
+    flipped, inverted = _turned_faces(body, told)
     impossible = solid and not _possible(volume, surface, size)
     if open_parts or not solid or impossible:
         method = "open"
@@ -189,10 +179,24 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
         faults=Faults(**faults, flipped_faces=flipped, degenerate_faces=flatness.without_area))
 
     def parts() -> Components:
-        return _parts(measured, body, compared, turn_each ^ inside_out, proven)
+        return _parts(measured, body, compared, turn ^ inside_out, proven)
 
     return SolidMeasure(volume=volume, area=area, health=health, method=method, warnings=tuple(notes),
                         mended=measured, components=parts)
+
+
+def _as_it_stands(surface: Surface, shell: bool, threads: int, error: float
+                  ) -> tuple[tuple[Moments, Moments], Mended | None, Flatness]:
+    """The moments of volume and area of the surface as it is given, the body where its own edges prove it closed, else
+    None, and how flat its faces are. Sums and proof run side by side where that is worth a thread."""
+    witness = Witness(surface, error)
+    if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // polyhedron.LEAST) > 1:
+        with ThreadPoolExecutor(1) as pool:
+            waiting = pool.submit(_proven, surface)
+            sums = polyhedron.solid_and_area(surface, threads, shell, witness=witness)
+        return sums, waiting.result(), witness.flatness()
+    sums = polyhedron.solid_and_area(surface, 1, shell, witness=witness)
+    return sums, _proven(surface), witness.flatness()
 
 
 def _possible(volume: Moments, surface: Surface, size: float) -> bool:
@@ -255,7 +259,8 @@ def _noise(size: float, area: float, capped: bool, error: float) -> float:
 
 
 def _proven(surface: Surface) -> Mended | None:
-    """The body where the mesh's own edges prove it closed and oriented. Of one shell nobody needs the triangles."""
+    """The body where the mesh's own edges prove it closed and oriented. The triangles of a single shell are left out:
+    nothing asks for them."""
     sides = closed_sides(surface)
     if sides is None:
         return None

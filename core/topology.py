@@ -156,7 +156,7 @@ def first_equal(*columns: NDArray) -> NDArray[np.intp]:
     return first.astype(np.intp)
 
 
-ODD = np.uint64(0x9E3779B97F4A7C15)
+ODD = np.uint64(0x9E3779B97F4A7C15)  # 2^64 divided by the golden ratio, as in SplitMix64
 
 
 def mixed(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
