@@ -19,7 +19,7 @@ Solids and shells of triangles and quads
     images, components          areas of uneven images (Nanson); the closed parts of a body
     wall, offset                shells of real thickness; where their vertices go
     gradient, balance           derivatives by every vertex; the least change of shape that moves the center
-    sheynin_tuzikov             reference, as printed: Sheynin and Tuzikov 2001 (factorised: `recursion`, `simplex`)
+    sheynin_tuzikov             reference, as printed: Sheynin and Tuzikov 2001 (factorized: `recursion`, `simplex`)
     durso                       reference, as printed: D'Urso 2005
     zhang_chen                  reference, as printed: Zhang and Chen 2001
 

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The least change of shape that brings a body's center of mass to where it shall be.
+"""The least change of shape that brings a body's center of mass to a given point.
 
 Some vertices may move. With the derivative G of the center at the start, the moves v that bring it there with the least
 Σ a |v|² / m are v = (m / a) G' λ, with one λ for each coordinate of the center. Here a is the area that a vertex stands
 for, an equal share of its faces', so that the shape found does not depend on how finely the mesh is cut, and m ≤ 1 how
-willingly it moves. Moves longer than a limit are cut to it, which is what the same least problem with that limit says.
+willingly it moves. Moves longer than a limit are cut to it, which is the solution of the same problem with that limit.
 For G and a, every face is taken as the fan around its middle, so that the diagonals it is cut by show in the shape as
 little as they can: the center itself is that of the faces as they are cut.
 
@@ -28,8 +28,8 @@ from .polyhedron import solid_and_area
 from .surface import Surface, normals
 from .wall import first_fold
 
-STEPS = 100
-HALVINGS = 20
+STEPS = 100  # of Newton's method at most; it takes a few
+HALVINGS = 20  # of one step, until the center comes nearer
 REACHED = 64.0 * U  # of the body's size and its distance from the origin: what rounding leaves of a center
 POWERLESS = 1e-12  # of what the most effective direction does
 SLIVER = 1e-9  # of its longest side squared: a triangle without a normal
@@ -46,7 +46,7 @@ class Balanced:
 
 def balance(surface: Surface, movable: NDArray[np.integer], target: NDArray, *, across: NDArray | None = None,
             willing: NDArray | None = None, limit: float = np.inf, shell: bool = False) -> Balanced:
-    """Moves the vertices `movable`, (k,), least so that the center of mass comes to `target`, (3,).
+    """Moves the vertices `movable`, (k,), as little as possible so that the center of mass comes to `target`, (3,).
 
     across: (r, 3) orthonormal rows: along these directions only; by default all three. willing: (k,) above 0 to 1.
     limit: how far a vertex may move. shell: the mass is in the surface, else in the body it bounds, which must be

@@ -44,12 +44,13 @@ class Cells:
 
     @property
     def orders(self) -> tuple[int, int]:
+        """k and k'."""
         return self.net.shape[1], self.net.shape[3]
 
     def __len__(self) -> int:
         return self.net.shape[2]
 
-    def __getitem__(self, rows) -> Cells:
+    def __getitem__(self, rows: slice | NDArray) -> Cells:
         home = self.home if self.home.shape[1] == 1 else self.home[:, rows]
         return Cells(self.net[:, :, rows], home, self.steady, self.reach)
 

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from .moments import Moments, index, monomials
 
 ORDER = 6  # by which the axes of every prism to a hexagon's, of a cube and of an icosahedron are found
-NOISE = 1e-5  # a normalised third moment below this is noise: ten times what float32 coordinates make
+NOISE = 1e-5  # a normalized third moment below this is noise: ten times what float32 coordinates make
 GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)  # of it with the degree: as the moments of a normal distribution grow
 CLEAR = 1e-2  # a harmonic above this fixes a direction well; weaker ones only where there is no other
 FLAT = 1e-6  # of the largest extent: along an axis of less, a body is a lamina and has no skewness
@@ -39,7 +39,7 @@ class Spread:
     """What second moments say. axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents
     (standard deviations) along them. free: the axes that equal moments leave free. step: how far float32 has moved
     the points, as a length. tilt: the angle by which that and rounding may have turned the other axes. noise:
-    normalised third moments that differ by less are equal."""
+    normalized third moments that differ by less are equal."""
 
     axes: NDArray[np.float64]
     size: NDArray[np.float64]
@@ -52,7 +52,7 @@ class Spread:
 @dataclass(frozen=True, eq=False)
 class Frames:
     """frames: (k, 3, 3) rotations whose columns are the axes, all of them alike to the body. values, noise: (n,) the
-    normalised central moments of third to the highest order in each of them, and what of them is noise.
+    normalized central moments of third to the highest order in each of them, and what of them is noise.
     round_about: the directions that no moment fixes: none (), those around one axis of the frames (that axis,), or
     all (0, 1, 2)."""
 
@@ -77,7 +77,7 @@ def canonical_frames(moments: Moments, spread: Spread, starts: NDArray) -> Frame
 
 
 def distinct(arrays: NDArray, within: float) -> NDArray[np.float64]:
-    """Of (n, ...) vectors or matrices the first of those whose entries differ by less."""
+    """Those of (n, ...) vectors or matrices that differ from all earlier ones by at least `within` in some entry."""
     same = np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
     return arrays[np.argmax(same, axis=1) == np.arange(len(arrays))]
 
@@ -114,13 +114,33 @@ def _around(central: Moments, spread: Spread, bases: NDArray, axis: int,
     fourfold: the sign that a harmonic with m = 4 gets; others get a positive one. E[cos 4φ] is negative for a square
     whose sides lie along the axes.
     """
+    found = _clear_harmonic(central, spread, bases, axis)
+    if found is None:
+        return bases, False
+    m, c, least = found
+    c = fourfold * c if m == 4 else c
+    angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
+    cos, sin = np.cos(angles)[..., None], np.sin(angles)[..., None]
+    first, second = (axis + 1) % 3, (axis + 2) % 3
+    a, b = bases[:, None, :, first], bases[:, None, :, second]
+    frames = np.repeat(bases[:, None], m, axis=1)
+    frames[..., first], frames[..., second] = cos * a + sin * b, cos * b - sin * a
+    # Of several directions, those about which it is the same.
+    noise = min(2.0 * spread.noise / NOISE * least, SHARE * np.abs(c).max())
+    alike = np.abs(c) > np.abs(c).max() - noise
+    return frames[alike].reshape(-1, 3, 3), True
+
+
+def _clear_harmonic(central: Moments, spread: Spread, bases: NDArray, axis: int
+                    ) -> tuple[int, NDArray[np.complex128], float] | None:
+    """The first harmonic about that axis of the bases that is above noise, CLEAR ones before weaker ones: its m, (n,)
+    its value in each basis, and what of it is noise."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order, size = [first, second, axis], _sizes(spread)
     harmonics = {}
     for degree in range(3, central.order + 1):
         tensor = _rotated(central.raw[tensor_index(degree)], bases[:, :, order])
         noise = _units(central, replace(spread, noise=NOISE), degree)[1]
-        looser = spread.noise / NOISE
         for m in range(1, degree + 1):
             for k in range((degree - m) % 2, degree - m + 1, 2):
                 c = _harmonic(tensor, degree, m, k) / (size[first] ** (degree - k) * size[axis] ** k)
@@ -128,23 +148,11 @@ def _around(central: Moments, spread: Spread, bases: NDArray, axis: int,
                 powers = np.zeros(3, int)
                 powers[[first, axis]] = degree - k, k
                 harmonics[degree, m, k] = c, weight * noise[index(*powers) - index(degree, 0, 0)]
-    chosen = None
     for clear in (CLEAR, 0.0):
-        chosen = chosen or next((key for key, (c, least) in harmonics.items()
-                                 if np.abs(c).max() > max(least, clear)), None)
-    if chosen is None:
-        return bases, False
-    _, m, _ = chosen
-    c, least = harmonics[chosen]
-    c = fourfold * c if m == 4 else c
-    angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
-    cos, sin = np.cos(angles)[..., None], np.sin(angles)[..., None]
-    a, b = bases[:, None, :, first], bases[:, None, :, second]
-    frames = np.repeat(bases[:, None], m, axis=1)
-    frames[..., first], frames[..., second] = cos * a + sin * b, cos * b - sin * a
-    # Of several directions, those about which it is the same.
-    alike = np.abs(c) > np.abs(c).max() - min(2.0 * looser * least, SHARE * np.abs(c).max())
-    return frames[alike].reshape(-1, 3, 3), True
+        for (_, m, _), (c, least) in harmonics.items():
+            if np.abs(c).max() > max(least, clear):
+                return m, c, least
+    return None
 
 
 def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.complex128]:
@@ -237,7 +245,7 @@ def _completed(axis: NDArray) -> NDArray[np.float64]:
 
 
 def _written(central: Moments, spread: Spread, frames: NDArray) -> tuple[NDArray, NDArray]:
-    """(k, n) the normalised moments in the frames, and (n,) what of them is noise."""
+    """(k, n) the normalized moments in the frames, and (n,) what of them is noise."""
     values, noises = [], []
     for degree in range(3, central.order + 1):
         unit, noise = _units(central, spread, degree)
@@ -248,7 +256,7 @@ def _written(central: Moments, spread: Spread, frames: NDArray) -> tuple[NDArray
 
 
 def _units(central: Moments, spread: Spread, degree: int) -> tuple[NDArray, NDArray]:
-    """For each monomial of a degree the product of the extents along its axes, and what of its normalised moment is
+    """For each monomial of a degree the product of the extents along its axes, and what of its normalized moment is
     noise: of float32 coordinates, and of rounding."""
     powers = monomials(degree)[index(degree, 0, 0):]
     size = _sizes(spread)
@@ -262,7 +270,7 @@ def _units(central: Moments, spread: Spread, degree: int) -> tuple[NDArray, NDAr
 
 
 def _sizes(spread: Spread) -> NDArray[np.float64]:
-    """(3,) the extents; infinite where there is hardly any, lest noise by nothing be a number."""
+    """(3,) the extents; infinite along an axis that has hardly any, so that no noise is divided by next to nothing."""
     return np.where(spread.size > FLAT * spread.size.max(), spread.size, np.inf)
 
 

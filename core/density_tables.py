@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from .bspline import Space
 from .quadrature import gauss
 
-MAX_ORDER = 16  # of the splines: a sane limit, far above any use
+MAX_ORDER = 16  # of the splines: far above any use
 
 
 @dataclass(frozen=True, eq=False)

@@ -48,7 +48,7 @@ THIRD = (720, {
     "bap": 1, "bpa": 1, "pba": 1,
 })
 THIRD_AS_PRINTED = (720, {**THIRD[1], "baa": 0, "bab": 4})
-PRINTED = (ZEROTH, FIRST, SECOND, THIRD)
+FORMULAS = (ZEROTH, FIRST, SECOND, THIRD)
 
 
 def tensor(points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tuple[int, dict[str, int]]) -> NDArray:
@@ -68,7 +68,7 @@ def tensor(points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tu
         height = dot(foot, normal)
         for a, b in zip(corners, [*corners[1:], corners[0]]):
             letters = {"a": np.array(a, object), "b": np.array(b, object), "p": np.array(foot, object)}
-            weight = dot(cross(a, b), normal) * height / square  # c_j (p⊥·n), with n not normalised
+            weight = dot(cross(a, b), normal) * height / square  # c_j (p⊥·n), with n not normalized
             for word, multiple in products.items():
                 product = np.array(weight * multiple, object)
                 for letter in word:

@@ -28,7 +28,7 @@ BLOCK = 1 << 14
 FLAT = 1e-6  # of the square root of a face's area
 NO_AREA = 1e-12  # of a face's size, for float64 points
 NONE = np.empty(0, np.intp)
-QUAD, TRIANGLE = ((2, 0), (3, 1), (1, 0)), ((1, 0), (2, 0))  # corners from which to which to look
+QUAD, TRIANGLE = ((2, 0), (3, 1), (1, 0)), ((1, 0), (2, 0))  # corners (i, j) whose differences i - j are taken
 
 
 @dataclass(frozen=True, eq=False)

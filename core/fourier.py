@@ -53,7 +53,7 @@ def surface_transform(surface: Surface, q: ArrayLike | Grid, threads: int = 1) -
 
 
 def finished(transform: Transform) -> Spectrum:
-    """The outcome of a transform."""
+    """The outcome of a transform, once all its steps are done here."""
     for _ in transform.steps():
         pass
     return transform.result()

@@ -30,7 +30,7 @@ def graded_sum(moments: Moments, density: Polynomial, matrices: NDArray, fields:
     default they are the images'. about: (3,), by default the mean of the images of `moments.about`.
 
     error: rounding, on top of what `moments.error` comes to; input: what `moments.input` comes to. Of a body with a
-    negative density somewhere both hold all the same. ValueError where the order does not reach.
+    negative density somewhere both hold all the same. ValueError where the moments' order is below the degree.
     """
     order = moments.order - density.degree
     if order < 0:

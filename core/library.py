@@ -27,6 +27,7 @@ class Entry:
 
     @property
     def label(self) -> str:
+        """FILE:NAME, by which the command line tells bodies of one name apart."""
         return "{:s}:{:s}".format(self.file, self.name) if self.file else self.name
 
 
@@ -56,12 +57,13 @@ def read_library(path: Path) -> tuple[list[Entry], list[str]]:
 
 def nearest(wanted: Signature, entries: Iterable[Entry], any_size: bool = False,
             any_hand: bool = False) -> list[tuple[Entry, Likeness]]:
-    """All of them, the most alike first."""
+    """All entries with their likeness to the one that is wanted, the most alike first."""
     rows = [(entry, compared(wanted, entry.signature)) for entry in entries]
     return sorted(rows, key=lambda row: row[1].distance(any_size, any_hand))
 
 
 def same_size(likeness: Likeness) -> bool:
+    """Whether the two bodies are of one size, to noise."""
     return abs(likeness.scale - 1.0) <= SAME_SIZE
 
 

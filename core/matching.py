@@ -4,7 +4,7 @@
 
 The pose leaves as many ways as the body has rotations, and all of them are tried. So are half turns about the axes, for
 noise may decide a sign. The residual is measured on the surfaces, in both directions, so that neither may be a part of
-the other. A mirror image is recognised as such: a reflection fits, and no rotation does.
+the other. A mirror image is recognized as such: a reflection fits, and no rotation does.
 """
 
 from __future__ import annotations

@@ -58,6 +58,7 @@ class Moments:
 
     @property
     def order(self) -> int:
+        """The largest p+q+r."""
         return order_of(len(self.raw))
 
     def __getitem__(self, exponents: tuple[int, int, int]) -> float:
@@ -122,18 +123,18 @@ class Moments:
         # A change of axes stretches nothing, whatever is measured and however the rotation was rounded.
         return replace(map_sum(replace(self, of="mass"), matrix[None], np.zeros(3)), of=self.of)
 
-    def normalised(self, by: str = "size") -> Moments:
+    def normalized(self, by: str = "size") -> Moments:
         """The central moments without unit, of degree n, about (0, 0, 0): the same wherever the body is, however large.
 
         by: "size", μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas: those of the body scaled to a volume, or area,
         of 1. "gyration", μ / (m R^n) with R² = ∫ r² dm / m: those of the body scaled to a radius of gyration and a mass
-        of 1. `error` and `input` hold for the body's true centre. ValueError where there is too little to divide by.
+        of 1. `error` and `input` hold for the body's true center. ValueError where there is too little to divide by.
         """
         dimension = {"volume": 3, "area": 2}.get(self.of)
         if by == "size" and dimension is None:
-            raise ValueError("Masses have no size of their own: normalise them by the radius of gyration.")
+            raise ValueError("Masses have no size of their own: normalize them by the radius of gyration.")
         if self.order < (2 if by == "gyration" else 1) or not self.total > 2.0 * (self.error[0] + self.input[0]):
-            raise ValueError("There is too little, or too low an order, to normalise moments by.")
+            raise ValueError("There is too little, or too low an order, to normalize moments by.")
         body = self.about_center()
         n = monomials(self.order).sum(axis=1)
         trace = float(body.raw[[4, 7, 9]].sum()) if by == "gyration" else 1.0
@@ -142,7 +143,7 @@ class Moments:
         else:
             factor = body.total ** -(1.0 + n / dimension)
         bounds = []
-        for delta in (body.error, body.error + body.input):  # of the total, the trace, and the centre's place
+        for delta in (body.error, body.error + body.input):  # of the total, the trace, and the center's place
             total = body.total / (body.total - delta[0])
             off = (np.abs(body.raw[1:4]) + delta[1:4]) / (body.total - delta[0]) + 2.0 * U * np.abs(body.about)
             size = np.abs(body.raw) + delta
@@ -150,7 +151,7 @@ class Moments:
             if by == "gyration":
                 spread = delta[[4, 7, 9]].sum() + away[[4, 7, 9]].sum()
                 if not trace > 2.0 * spread:
-                    raise ValueError("There is too little, or too low an order, to normalise moments by.")
+                    raise ValueError("There is too little, or too low an order, to normalize moments by.")
                 stretch = total ** np.abs(n / 2.0 - 1.0) * (trace / (trace - spread)) ** (n / 2.0)
             else:
                 stretch = total ** (1.0 + n / dimension)

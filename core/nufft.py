@@ -103,7 +103,8 @@ def _gauss(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _side(half: int, width: int) -> int:
-    """Of the fine grid: a number made of small primes, which the fast Fourier transform likes."""
+    """The cells along a side of the fine grid: an even number with small prime factors only, for which a fast Fourier
+    transform is fast."""
     n = int(OVERSAMPLING * (2 * half + 1)) + width
     n += n % 2
     while _rough(n):
@@ -112,6 +113,7 @@ def _side(half: int, width: int) -> int:
 
 
 def _rough(n: int) -> bool:
+    """Whether a prime above 7 divides n."""
     for prime in (2, 3, 5, 7):
         while n % prime == 0:
             n //= prime

@@ -41,7 +41,7 @@ class Flaws:
 def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
     """∫ x^p y^q dA for all p + q ≤ order, with error bounds.
 
-    points: (n, 2). edges: (m, 2) indices. about: by default the centre of the points' box.
+    points: (n, 2). edges: (m, 2) indices. about: by default the center of the points' box.
     ValueError where the edges do not close.
     """
     edges = np.asarray(edges)

@@ -55,13 +55,13 @@ THIRDS = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come t
 CONE = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 TO_AREA = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
 
-# (k, 4) quads, or (k, 3) triangles, or two arrays of triangles of which each may be half a quad, with the row that each
-# begins with; or, without, (4, k) corners of quads that are turned.
+# What is measured at a time: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles whose rows may be halves
+# of one quad, with the surface's row that each array begins at; or, without rows, the (4, k) corners of turned quads.
 _Block = tuple[list[int], list[NDArray]]
 
 
 def solid_moments(surface: Surface, threads: int = 1) -> Moments:
-    """The volume moments to third order about the centre of the bounding box.
+    """The volume moments to third order about the center of the bounding box.
 
     Positive for outward faces, signed otherwise. An open surface is closed by the cone from that point.
     Raises ValueError for coordinates that are not finite and indices that name no point.
@@ -123,7 +123,7 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
 
 
 def middle(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
-    """The centre of a bounding box of points of this type, put where subtracting it from float32 is exact."""
+    """The center of a bounding box of points of this type, for float32 rounded so that subtracting it is exact."""
     center = low / 2.0 + high / 2.0
     return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
 

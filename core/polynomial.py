@@ -50,6 +50,7 @@ class Polynomial:
 
     @property
     def degree(self) -> int:
+        """The largest p+q+r; 0 where there are no terms."""
         return max((sum(powers) for powers in self.terms), default=0)
 
     def coefficients(self) -> NDArray[np.float64]:
@@ -212,6 +213,7 @@ def _times(left: dict[Exponents, Fraction], right: dict[Exponents, Fraction], no
 
 
 def _only(terms: dict[Exponents, Fraction]) -> dict[Exponents, Fraction]:
+    """The terms that are not zero."""
     return {powers: value for powers, value in terms.items() if value}
 
 

@@ -93,7 +93,7 @@ def principal_frame(moments: Moments, prefer: NDArray | None = None, refine: Cal
 
 
 def frames_alike(moments: Moments, noise: float = NOISE) -> Frames:
-    """The principal frames, to some order of at least 3, in which the body is the same. noise: the normalised third
+    """The principal frames, to some order of at least 3, in which the body is the same. noise: the normalized third
     moment that is taken for none; what else counts as equal grows with it."""
     fixed = _fixed(moments, None, noise / NOISE)
     return canonical_frames(moments, fixed.spread, fixed.frames)
@@ -207,7 +207,7 @@ def _decided(size: NDArray, doubt: NDArray, noise: NDArray) -> bool:
 
 
 def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
-    """(3, 3) for each axis i its skewness and the two normalised third moments odd in i and even in another axis,
+    """(3, 3) for each axis i its skewness and the two normalized third moments odd in i and even in another axis,
     M_iii, M_ijj and M_ikk; and the bounds of their errors."""
     total = moments.raw[0]
     second, third = moments.raw[SECOND] / total, moments.raw[THIRD] / total

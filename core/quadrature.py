@@ -33,8 +33,8 @@ def gauss_and_ends(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64
 def triangle_rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(3, k) barycentric coordinates and (k,) weights, positive and of sum 1/2, exact to degree 2n-1.
 
-    Gauss's rule across a triangle and, for the weight 1 - u that its narrowing brings, Gauss's and Jacobi's towards its
-    tip (from the eigenvalues of their matrix, Golub and Welsch 1969), n² points; for n = 3 Radon's seven (1948).
+    The Gauss-Legendre rule across the triangle times the Gauss-Jacobi rule towards its tip, for the weight 1 - u by
+    which the triangle narrows (nodes by Golub and Welsch, 1969): n² points; for n = 3 the seven of Radon (1948).
     """
     if n == 3:
         root = np.sqrt(15.0)

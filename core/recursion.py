@@ -126,7 +126,7 @@ def _factors(order: int) -> NDArray[np.float64]:
 
 
 def _exponent(reach: float) -> int:
-    """Of the power of two that bodies which reach so far are scaled by: none at all if they are of a usual size."""
+    """The exponent of the power of two by which a body that reaches so far is scaled: 0 where its size is usual."""
     exponent = frexp(reach)[1]
     return exponent if abs(exponent) > USUAL else 0
 
@@ -143,8 +143,8 @@ class _Task:
 
 
 class _Total:
-    """A running sum of arrays with what each addition rounds off kept beside it (Neumaier), and what bounds it. faces:
-    how many there were."""
+    """A running sum of arrays, with what the additions round off kept beside it (Neumaier), and with the sums that its
+    bounds are made of. faces: how many were added."""
 
     def __init__(self, order: int, weights: int):
         self.order, self.weights = order, weights
@@ -153,6 +153,7 @@ class _Total:
         self.pending: list[Sums] = []
 
     def add(self, part: Sums) -> None:
+        """Add a block's sums."""
         total = self.high + part.sums
         grown = total - self.high
         self.low = self.low + ((self.high - (total - grown)) + (part.sums - grown))
@@ -165,7 +166,7 @@ class _Total:
         self.pending.append(part)
 
     def settle(self) -> None:
-        """The bounds of what has been added: seldom, and of much at once."""
+        """Add up the bounds of what is pending: rarely, for much at once."""
         if self.pending:
             self.sizes = self.sizes + sizes(self.order, self.weights, self.pending)
             self.pending = []

@@ -26,7 +26,7 @@ from .vectors import Number, Vector, cross, dot, minus
 def sigma(exponents: tuple[int, int, int], a: Vector, b: Vector, c: Vector) -> Number:
     """Σ_pqr of the corners a, b, c: numbers, or arrays with one entry for each triangle."""
     powers = [[_powers(corner[axis], exponents[axis]) for corner in (a, b, c)] for axis in range(3)]
-    parts = [list(_thirds(n)) for n in exponents]
+    parts = [list(_compositions(n)) for n in exponents]
     total = 0
     for k, k_ways in parts[0]:
         for l, l_ways in parts[1]:
@@ -95,10 +95,11 @@ def _summed(points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int
 
 
 def exponents_to(order: int) -> list[tuple[int, int, int]]:
+    """(p, q, r) of all monomials to an order, in the order of `moments.monomials`."""
     return [tuple(row) for row in monomials(order).tolist()]
 
 
-def _thirds(n: int) -> Iterator[tuple[tuple[int, int, int], int]]:
+def _compositions(n: int) -> Iterator[tuple[tuple[int, int, int], int]]:
     """All (k₁, k₂, k₃) that add up to n, and n! / (k₁! k₂! k₃!)."""
     for first in range(n + 1):
         for second in range(n - first + 1):

@@ -73,7 +73,7 @@ def enclosed_moments(points: ArrayLike, simplices: ArrayLike, order: int, about:
 
     points: (m, n). simplices: (k, n) indices, outward where det(v_1, …, v_n) > 0 for a body around the origin: edges
     counter-clockwise in the plane, triangles counter-clockwise from outside in space. about: (n,), by default the
-    centre of the points' box. signs: (k,) 1 or -1, the orientation of each simplex beside the order of its corners; on
+    center of the points' box. signs: (k,) 1 or -1, the orientation of each simplex beside the order of its corners; on
     a line, where a corner alone has none, it tells the upper ends from the lower ones. ValueError for coordinates that
     are not finite and for indices that name no point.
     """

@@ -280,10 +280,11 @@ def _propagated(bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, st
 
 
 def first_fold(jacobian: NDArray, doubt: NDArray) -> NDArray[np.float64]:
-    """(m,) up to which s the (3, 3, m) quadratics a + b s + c s² are all positive for sure, infinite where for ever.
+    """(m,) the s up to which three quadratics a + b s + c s² are certainly positive, infinite where they always are.
 
-    Each is lowered by what rounding may have raised it by, and a double root counts as one though its discriminant be
-    rounded below zero. The largest root of a y² + b y + c is 1 / s.
+    jacobian: (3, 3, m) their coefficients a, b and c; doubt: (3, m) what rounding may have raised these by, which is
+    taken off. A discriminant that rounding alone may have made negative counts as zero. The largest root of
+    a y² + b y + c is 1 / s.
     """
     a, b, c = jacobian - doubt[:, None]
     dead = ~(a > 0.0)

@@ -3,7 +3,7 @@
 """Zernike moments of a body in the unit ball, and the radial power of its Fourier transform.
 
 Ω_nlm = sqrt(3/4π) ∫ R_nl(r) conj(Y_lm) dV with R_nl = sqrt(2n+3) r^l P_k^(0, l+1/2)(2r² - 1), k = (n-l)/2, orthonormal
-on the ball: the normalisation of Novotni and Klein (3D Zernike descriptors for content based shape retrieval, 2003), in
+on the ball: the normalization of Novotni and Klein (3D Zernike descriptors for content based shape retrieval, 2003), in
 which a full ball has Ω_000 = 1. The descriptor ‖Ω_nl‖ is the same however the body is turned, or mirrored.
 
 To order 20 they are sums of raw moments. These sums cancel, and `loss` estimates what is lost. Above that order, and

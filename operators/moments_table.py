@@ -110,7 +110,7 @@ def _shown(computed: Computed, of: str, about: str, frame: str) -> tuple[tuple[D
 
 def placed(computed: Computed, of: str, about: str, frame: str, order: int) -> Moments:
     """The moments along the axes of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or
-    "NORMALIZED", as `Moments.normalised` by size. ValueError where that cannot be, or leaves the range of numbers."""
+    "NORMALIZED", as `Moments.normalized` by size. ValueError where that cannot be, or leaves the range of numbers."""
     with np.errstate(over="ignore", invalid="ignore"):
         moments = _placed(computed, of, about, frame, order)
     if not np.isfinite([moments.raw, moments.error, moments.input]).all():
@@ -126,7 +126,7 @@ def _placed(computed: Computed, of: str, about: str, frame: str, order: int) -> 
     if frame == "OBJECT":
         moments = moments.in_frame(rotation, origin)
     if about == "NORMALIZED":
-        return moments.normalised()
+        return moments.normalized()
     return moments if frame == "OBJECT" else moments.shifted(origin)
 
 
@@ -137,7 +137,7 @@ def label(powers: list[int]) -> str:
 
 
 def unit(of: str, about: str, degree: int) -> str:
-    """m⁵, or nothing for normalised ones."""
+    """m⁵, or nothing for normalized ones."""
     if about == "NORMALIZED":
         return ""
     return "m" + str(degree + (3 if of == "VOLUME" else 2)).translate(POWERS)

@@ -115,6 +115,7 @@ def summarise(
 
 
 def counted(count: int) -> str:
+    """ "1 object", "2 objects"."""
     return "1 object" if count == 1 else "{:d} objects".format(count)
 
 

@@ -70,7 +70,7 @@ def torus(n: int, m: int, noise: float, lopsided: bool = False) -> tuple[np.ndar
 
 
 def measure_arrays(points: np.ndarray, triangles: np.ndarray, threads: int = 1) -> MassProperties:
-    """The whole path: volume, centre, inertia and the principal frame with its signs."""
+    """The whole path: volume, center, inertia and the principal frame with its signs."""
     surface = Surface(points, triangles)
     refine = lambda: third_moments_exact(surface, threads)  # noqa: E731
     return MassProperties.from_moments(solid_moments(surface, threads), refine=refine)

@@ -181,11 +181,11 @@ def central_box(sides, order):
 
 @pytest.mark.parametrize("by", ["size", "gyration"])
 @pytest.mark.parametrize("size", [1.0, 1e-7, 3e4])
-def test_normalised_moments_have_no_unit_and_know_no_place(by, size):
+def test_normalized_moments_have_no_unit_and_know_no_place(by, size):
     sides, order = (1, 2, 3), 7
     body = floats(box_moments((5, -3, 2), (6, -1, 5), order)).mapped(np.diag([size, size, size, 1.0]))
     body = Moments(body.raw, body.about, input=1e-9 * np.abs(body.raw) * (body.raw > 0), error=body.error)
-    found = body.normalised(by)
+    found = body.normalized(by)
     n = monomials(order).sum(axis=1)
     central = np.array([float(x) for x in central_box(sides, order)])
     gyration = np.sqrt(14.0 / 12.0)
@@ -198,32 +198,32 @@ def test_normalised_moments_have_no_unit_and_know_no_place(by, size):
         assert found.raw[[4, 7, 9]].sum() == pytest.approx(1.0, rel=1e-10)
 
 
-def test_areas_are_normalised_to_an_area_of_one():
+def test_areas_are_normalized_to_an_area_of_one():
     body = Moments(np.array([4.0, 0, 0, 0, 8.0, 0, 0, 2.0, 0, 0]), np.zeros(3), "area")
-    assert body.normalised().raw[4] == pytest.approx(8.0 / 4.0 ** 2)
-    assert body.normalised("gyration")[2, 0, 0] == pytest.approx(0.8)
+    assert body.normalized().raw[4] == pytest.approx(8.0 / 4.0 ** 2)
+    assert body.normalized("gyration")[2, 0, 0] == pytest.approx(0.8)
 
 
 @pytest.mark.parametrize("by", ["size", "gyration"])
-def test_the_bounds_of_normalised_moments_hold_for_bodies_moved_within_theirs(by):
+def test_the_bounds_of_normalized_moments_hold_for_bodies_moved_within_theirs(by):
     rng = np.random.default_rng(0)
     exact = np.array([float(x) for x in box_moments((0, 0, 0), (1, 2, 3), 6)])
     for _ in range(50):
         delta = 1e-6 * np.abs(exact) * rng.uniform(-1, 1, len(exact))
-        told = Moments(exact + delta, np.zeros(3), error=np.abs(delta) + 1e-20).normalised(by)
-        true = Moments(exact, np.zeros(3)).normalised(by)
+        told = Moments(exact + delta, np.zeros(3), error=np.abs(delta) + 1e-20).normalized(by)
+        true = Moments(exact, np.zeros(3)).normalized(by)
         assert (np.abs(told.raw - true.raw) <= told.error + true.error).all()
         assert told.error.max() < 1e-3
 
 
-def test_what_cannot_be_normalised_is_refused():
+def test_what_cannot_be_normalized_is_refused():
     with pytest.raises(ValueError, match="gyration"):
-        Moments(np.ones(10), np.zeros(3), "mass").normalised()
+        Moments(np.ones(10), np.zeros(3), "mass").normalized()
     for body in (Moments(np.zeros(10), np.zeros(3)), Moments(np.ones(1), np.zeros(3))):
         with pytest.raises(ValueError, match="too little"):
-            body.normalised()
+            body.normalized()
     with pytest.raises(ValueError, match="too low"):
-        Moments(np.ones(4), np.zeros(3)).normalised("gyration")
+        Moments(np.ones(4), np.zeros(3)).normalized("gyration")
 
 
 def test_scaling_by_a_density_scales_the_bounds():

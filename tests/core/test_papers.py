@@ -71,7 +71,7 @@ def triangles(points, faces):
 def test_durso_and_sheynin_tuzikov_agree_exactly_to_third_order(body):
     points, faces = BODIES[body]()
     truth = dict(zip(exponents(3), sheynin_tuzikov.volume_moments(points, faces, 3)))
-    for rank, formula in enumerate(durso.PRINTED):
+    for rank, formula in enumerate(durso.FORMULAS):
         tensor = durso.tensor(points, faces, formula)
         for entry in product(range(3), repeat=rank):
             value = tensor[entry] if rank else tensor
@@ -184,7 +184,7 @@ def test_durso_holds_at_any_order_with_any_apex_in_the_face():
 def test_a_face_without_area_adds_nothing():
     points, faces = box()
     line = [*points, tuple((a + b) / 2 for a, b in zip(points[0], points[1]))]
-    for formula in durso.PRINTED:
+    for formula in durso.FORMULAS:
         assert np.all(durso.tensor(line, [*faces, (0, 8, 1)], formula) == durso.tensor(points, faces, formula))
 
 
