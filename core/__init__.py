@@ -7,7 +7,7 @@ formula is in the module that names it here; where the paper is wrong, that modu
 
 What everything is made of
     moments, affine             raw moments about a point; their sums, shifts and affine images, with error bounds
-    mass, measurement           mass, center, inertia, radii of gyration; what is told of one measured object
+    mass, measurement           mass, center, inertia, radii of gyration; all results of one measured object
     vectors, precise, rotation  products, exact sums, quaternions
     quadrature, decimal         Gauss's rules; float32 as the decimals that were typed
 

@@ -67,7 +67,7 @@ class Rows:
 
 
 def numbers(count: int, each: bool, exact: bool) -> int:
-    """How many numbers the scratch holds for a face of `count` corners; each: as of `_Calls`."""
+    """How many numbers the scratch holds for a face of `count` corners; each: as for `_Calls`."""
     fans = count - 2
     return 6 * count + 2 * fans + max(3 * count - 3 + 6 * (fans if each else 1), 16) + (9 * fans if exact else 0)
 

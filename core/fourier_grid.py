@@ -12,8 +12,8 @@ found at frequencies of all sizes, by the closed form. Only where a wave fits in
 shortest side, is the bound kept: there regular meshes have frequencies at which all of them would err alike. Triangles
 that would need too many points keep their closed form.
 
-The width of the spreading kernel follows from a bound of its aliasing. The error told is found by comparison with the
-closed form at other frequencies.
+The width of the spreading kernel follows from a bound of its aliasing. The reported error is found by comparison with
+the closed form at other frequencies.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ CHUNK = 1 << 14  # points that are spread between two steps
 MOST = 24  # Gauss points along a side at most
 DIRECT_COST = 6.0  # of a frequency in closed form, in cells spread
 SAMPLES = 24  # frequencies that are compared with the closed form
-SAFETY = 3.0  # an error told or allowed, by the largest difference found
+SAFETY = 3.0  # the error that is reported or allowed, by the largest difference found
 SHELLS = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)  # of the largest frequency along an axis, where they are found
 CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)  # how much larger than in their sum the errors of single triangles may be
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What one measured object is told as: the numbers, how they came about and how far they hold."""
+"""The results of measuring one object: the numbers, how they came about and how far they hold."""
 
 from __future__ import annotations
 

@@ -102,14 +102,26 @@ def _welded(points: NDArray, triangles: NDArray, face: NDArray, tolerance: float
         if not odd.any():
             return triangles, False, 0.0, edges
         along = np.stack(_ends(triangles[rows], edges.first[odd]))  # vertices along open edges
-        rows = rows[_unfinished(triangles[rows], face[rows], edges, odd)]
+        part, number = components(len(rows), *edges.links())
+        unfinished = np.zeros(number, bool)
+        unfinished[part[edges.first[odd] // 3]] = True
+        whole = ~unfinished[part]
+        if whole.any():  # what is closed by copies of its own faces alone is a piece of another part
+            single = np.zeros(len(rows), bool)
+            own = face[rows[whole]]
+            single[whole] = ~_copied(face_groups(triangles[rows[whole]], own), own)
+            unfinished |= np.bincount(part, single, minlength=number) == 0
+        rows = rows[unfinished[part]]
     vertices = _distinct(triangles[rows], len(points))
     if soup:
         along = vertices
     same = equal_positions(points[vertices])
     welded = bool(np.any(same != np.arange(len(same))))
     if welded:
-        triangles, onto = _merged(triangles, rows, vertices, vertices[same], len(points))
+        triangles = triangles.copy()
+        onto = np.arange(len(points))
+        onto[vertices] = vertices[same]
+        triangles[rows] = onto[triangles[rows]]
         along = onto[along]
         rows = rows[_proper(triangles[rows])]
     if not len(rows):
@@ -126,31 +138,11 @@ def _welded(points: NDArray, triangles: NDArray, face: NDArray, tolerance: float
         return triangles, welded, 0.0, None
     place = points[vertices].astype(np.float64)
     moved = float(np.linalg.norm(place - place[same], axis=1).max())
-    return _merged(triangles, rows, vertices, vertices[same], len(points))[0], True, moved, None
-
-
-def _unfinished(triangles: NDArray, face: NDArray, edges: Edges, odd: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(m,) which triangles belong to parts that need welding: parts with an odd edge, and those that are closed by
-    copies of their own faces alone, which are pieces of other parts."""
-    part, number = components(len(triangles), *edges.links())
-    unfinished = np.zeros(number, bool)
-    unfinished[part[edges.first[odd] // 3]] = True
-    whole = ~unfinished[part]
-    if whole.any():
-        single = np.zeros(len(triangles), bool)
-        single[whole] = ~_copied(face_groups(triangles[whole], face[whole]), face[whole])
-        unfinished |= np.bincount(part, single, minlength=number) == 0
-    return unfinished[part]
-
-
-def _merged(triangles: NDArray, rows: NDArray, vertices: NDArray, into: NDArray, count: int) -> tuple[NDArray, NDArray]:
-    """A copy of the triangles, some rows of them with `into` in place of `vertices`; and what each of `count` vertices
-    became."""
-    onto = np.arange(count)
-    onto[vertices] = into
     triangles = triangles.copy()
+    onto = np.arange(len(points))
+    onto[vertices] = vertices[same]
     triangles[rows] = onto[triangles[rows]]
-    return triangles, onto
+    return triangles, True, moved, None
 
 
 def _distinct(values: NDArray[np.integer], width: int) -> NDArray[np.intp]:
@@ -204,7 +196,7 @@ def _copies(points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, no
 
 
 def _copied(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """(m,) which triangles are of faces on the vertices of another one. group: as of `face_groups`."""
+    """(m,) which triangles are of faces on the vertices of another one. group: what `face_groups` gives."""
     copied = np.zeros(int(face.max()) + 1, bool)
     copied[group[group != face]] = True
     return copied[group]

@@ -133,8 +133,8 @@ def _exponent(reach: float) -> int:
 
 @dataclass(frozen=True, eq=False)
 class _Task:
-    """Some faces, (m, 3) or (m, 4), of a piece of the body. size: how many of them make a block. half_ulp: (3,) as of
-    its points."""
+    """Some faces, (m, 3) or (m, 4), of a piece of the body. size: how many of them make a block. half_ulp: (3,) that
+    of its points."""
 
     points: NDArray
     faces: NDArray

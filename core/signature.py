@@ -83,7 +83,7 @@ class Likeness:
     mirrored: bool | None
 
     def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
-        """0 for a copy; also for one of another size, and for a mirror image, where that shall not matter. Where it
+        """0 for a copy; also for one of another size, and for a mirror image, where that does not matter. Where it
         does, a difference of size or hand counts as much as one of shape, but never for more than ALIKE."""
         size, hand = (ALIKE * tanh(abs(value) / ALIKE) for value in (log(self.scale), self.hand))
         return hypot(self.shape, 0.0 if any_size else size, 0.0 if any_hand else hand)

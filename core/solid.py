@@ -3,7 +3,7 @@
 """What kind of body a surface is, what had to be mended to measure it, and its moments.
 
 A mesh whose own edges prove it closed is measured as it stands. Any other is mended on a copy, one decision after the
-other, and each decision is told: equal positions are welded, then, along open edges only, positions that differ by
+other, and each decision is reported: equal positions are welded, then, along open edges only, positions that differ by
 rounding; copies of faces that keep edges from closing are left out; faces that run against the rest of their part are
 turned; gaps without area (T-junctions) close; other rims are capped. Then the shells are compared: a shell that is
 inside out and in no other's material is turned. What is still not closed is measured as a signed sum about the
@@ -132,16 +132,17 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
         body = mend(surface, tolerance, size)
     compared = _compared(body, tolerance, error) if body.number > 1 else None
     turn = np.zeros(body.number, bool) if compared is None else compared.turned
+    turn_each = turn
     measured = _to_measure(surface, body, turn, np.ones(1, bool) if compared is None else compared.solid, proven)
     volume, area = own if measured is surface else polyhedron.solid_and_area(measured, threads, shell)
     if body.changed:  # caps are no part of the area, and left out faces are
         area = own[1]
     if compared is None:
         solid = bool(abs(volume.total) > _noise(size, area.total, body.caps.any(), error))
-        told = turn | (solid and volume.total < 0.0 and not body.open.any())  # what is open has no inside
+        turn = turn | (solid and volume.total < 0.0 and not body.open.any())  # what is open has no inside
         caps = body.caps.sum(axis=0) * solid
     else:
-        solid, told = bool(compared.solid.any()), turn
+        solid = bool(compared.solid.any())
         caps = body.caps[compared.solid].sum(axis=0)
     cap_share = float(caps[2] / area.total) if area.total > 0.0 else 0.0
     open_parts = bool(body.open.any())
@@ -151,7 +152,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     if inside_out:
         volume = replace(volume, raw=-volume.raw)
         measured = replace(measured, quads=measured.quads[:, [0, 3, 2, 1]], triangles=measured.triangles[:, ::-1])
-    flipped, inverted = _turned_faces(body, told)
+    flipped, inverted = _turned_faces(body, turn)
     impossible = solid and not _possible(volume, surface, size)
     if open_parts or not solid or impossible:
         method = "open"
@@ -179,7 +180,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
         faults=Faults(**faults, flipped_faces=flipped, degenerate_faces=flatness.without_area))
 
     def parts() -> Components:
-        return _parts(measured, body, compared, turn ^ inside_out, proven)
+        return _parts(measured, body, compared, turn_each ^ inside_out, proven)
 
     return SolidMeasure(volume=volume, area=area, health=health, method=method, warnings=tuple(notes),
                         mended=measured, components=parts)
@@ -204,7 +205,7 @@ def _possible(volume: Moments, surface: Surface, size: float) -> bool:
     its second central moments are those of a positive mass. Where a surface intersects itself, they need not be."""
     total = volume.raw[0]
     if not total > 0.0:
-        return True  # an open surface's sum, which is told as such
+        return True  # an open surface's sum, which is reported as such
     mean = volume.raw[1:4] / total
     second = volume.raw[SECOND] / total - np.outer(mean, mean)
     scale = np.trace(second)

@@ -18,7 +18,7 @@ ORDERS = ("XYZ", "YZX", "ZXY", "XZY", "YXZ", "ZYX")
 
 
 def directions(order: str) -> NDArray[np.float64]:
-    """(3, 3) rotation: the world directions that principal axes 1, 2, 3 shall have, as columns."""
+    """(3, 3) rotation: the world directions that principal axes 1, 2, 3 are to have, as columns."""
     frame = np.eye(3)[:, ["XYZ".index(letter) for letter in order]]
     if np.linalg.det(frame) < 0.0:
         frame[:, 2] = -frame[:, 2]

@@ -24,8 +24,8 @@ from .read import Reading, Unreadable, read_object, shows_flat_region
 
 @dataclass(frozen=True)
 class ObjectTransform:
-    """An object's transform under way, in SI units. factor: the thickness of a shell, else 1. warnings: as of a
-    measurement."""
+    """An object's transform under way, in SI units. factor: the thickness of a shell, else 1. warnings: as in
+    `Measurement`."""
 
     name: str
     transform: BodyTransform

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measuring objects: read, hand to the core, say what came out.
+"""Measuring objects: read them, hand them to the core, report what came out.
 
 `measure_object` is the one way from an object to its numbers; the button, the snapping operators and the command line
 all go through it.
@@ -48,7 +48,7 @@ class MeasureOptions:
 
     kind: "solid", "shell" or "wire"; density: kg/m³, of a wire kg/m; mass: kg; thickness: m; overlap: "signed" or
     "union"; wall: of a shell, "thin", "inward", "outward" or "centered"; unit_scale: metres per Blender unit, else the
-    scene's. order: of the moments that the measurement shall hold; None for what mass properties need. surface: those
+    scene's. order: of the moments that the measurement is to hold; None for what mass properties need. surface: those
     of the area too. pose: the principal frame follows the body's shape to sixth order however many faces it has.
     compare: whether what needs no display mesh is compared with it.
     """

@@ -8,10 +8,8 @@ from collections.abc import Iterator
 
 import bpy
 
-from ..core.measurement import Measurement
 from . import selection
-from .measure import measure_object
-from .read import Unreadable
+from .measure import Measurement, Unreadable, measure_object
 from .results import refuse
 from .staleness import settle
 from .stepwise import Stepwise

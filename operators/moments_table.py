@@ -34,7 +34,7 @@ NO_WIRE = (
 )
 SHOWN = 4  # the highest order whose moments a panel shows one by one
 KEPT = 16  # objects
-NOISE = 1e-12  # of the largest moment of a degree: told as 0
+NOISE = 1e-12  # of the largest moment of a degree: shown as 0
 POWERS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 

@@ -59,7 +59,7 @@ INDIFFERENT = {
 
 @dataclass
 class Plan:
-    """What one object shall become.
+    """What one object is to become.
 
     target: (4, 4) the wanted matrix_world. size: of the body, in Blender units. move_only: the axes
         are kept to the bit.
@@ -267,7 +267,7 @@ def _exact_change(plan: Plan, was: Matrix4) -> Matrix4:
 
 
 def location_tolerance(obj: Object, size: float) -> float:
-    """How near to a point an origin can be told to be: some float32 steps of every location on
+    """How near to a point an origin can be known to be: some float32 steps of every location on
     the way to the world.
     """
     reach = max(np.abs(world(one)[:3, 3]).max() for one in lineage(obj))

@@ -5,7 +5,7 @@ what was stored.
 
 Directions of nearly equal moments are not fixed by a body whose coordinates are float32: measured
 again they turn, by about rounding over the gap between the moments. Whether axes are principal is
-therefore told from the tensor, which must be diagonal in them to rounding, not from the angle
+therefore decided by the tensor, which must be diagonal in them to rounding, not from the angle
 between two measured frames.
 """
 

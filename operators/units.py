@@ -102,11 +102,11 @@ class Units:
 
     def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
         """SI values of one quantity, all in the unit that suits the largest of them. size: of the body that they belong
-        to; what is rounding beside it is told as 0."""
+        to; what is rounding beside it is shown as 0."""
         largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
         noise = max(1e-12 * largest, 1e-7 * size)
         factor, name = self.unit(quantity, largest)
-        # Beside a largest value, what is left of a cancelled one is noise: 1e-17 kg·m² is told as 0.
+        # Beside a largest value, what is left of a cancelled one is noise: 1e-17 kg·m² is shown as 0.
         return [
             "{:s} {:s}".format(
                 number(0.0 if abs(value) < noise else value / factor), name

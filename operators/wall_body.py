@@ -148,7 +148,7 @@ def _oriented(surface: Surface, solid: SolidMeasure, notes: list[str]) -> Surfac
 
 
 def _below(length: float) -> float:
-    """The length rounded down to four digits, so that what is told works."""
+    """The length rounded down to four digits, so that the length that is named works."""
     if not isfinite(length):
         return inf
     unit = 10.0 ** (floor(log10(length)) - 3)

@@ -4,7 +4,7 @@
 thickness, and a change of the setting stores their values at once.
 
 Only where nothing else has changed since: geometry and transform must be those of the stored numbers. Otherwise the
-numbers stay, and are told to be out of date.
+numbers stay, and are reported as out of date.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ VERDICTS = {
 }
 AXES = ("X", "Y", "Z")
 NUMBERS = ("1", "2", "3")
-EQUAL = 1e-6  # moments closer than this, relatively, are told as equal
+EQUAL = 1e-6  # moments closer than this, relatively, are shown as equal
 BOUNDS = (("Rounding, at Most", None), ("Coordinates Stored as Float32, at Most", "input"))
 ESTIMATED = "Quadrature and Rounding, Estimated"
 BOUNDED = {

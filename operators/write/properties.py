@@ -51,7 +51,7 @@ ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
 @dataclass(frozen=True, eq=False)
 class Stored:
     """What an object carries, SI. body: in the object frame, or where `in_world` has put it.
-    error_bound: as of a Measurement."""
+    error_bound: as in `Measurement`."""
 
     density: float
     volume: float

@@ -3,7 +3,7 @@
 """A report that a person reads, in the order that CAD dialogs use: verdict, mass, volume, center,
 principal axes, tensor.
 
-It is made from a document (`record.document`) alone, so that whatever is told in JSON can be told
+It is made from a document (`record.document`) alone, so that whatever JSON says can be said
 in words, and from the results that are stored on objects by way of a document too. What a document
 lacks is left out.
 """
@@ -45,9 +45,7 @@ FINDINGS = {
 }
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
 DIGITS = 7  # as many as float32 coordinates carry
-NOISE = (
-    2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; told as 0
-)
+NOISE = 2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; shown as 0
 INDENT = "  "
 WIDTH = 22
 

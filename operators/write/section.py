@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A stored section: one group of ID properties, `body_section`, on the object it was measured of, and told as text.
+"""A stored section: one group of ID properties, `body_section`, on the object it was measured of, and its text report.
 
 SI units, world axes. Beside what a `core.section.Section` holds: what was measured, the warnings, a fingerprint.
 """
