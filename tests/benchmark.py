@@ -24,6 +24,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 
@@ -67,6 +68,12 @@ def torus(n: int, m: int, noise: float, lopsided: bool = False) -> tuple[np.ndar
     i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
     corners = [(i, j), ((i + 1) % n, j), ((i + 1) % n, (j + 1) % m), (i, (j + 1) % m)]
     return points, np.stack([(a * m + b).ravel() for a, b in corners], axis=1).astype(np.int32)
+
+
+def halves(quads: np.ndarray, paired: bool) -> np.ndarray:
+    """Quads as triangles, their halves one after the other (paired), or all first halves before all second ones."""
+    both = quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]
+    return np.stack(both, axis=1).reshape(-1, 3) if paired else np.concatenate(both)
 
 
 def measure_arrays(points: np.ndarray, triangles: np.ndarray, threads: int = 1) -> MassProperties:
@@ -126,12 +133,13 @@ def table(title: str, times: dict[str, list[float]], against: list[str], per: in
         print("    {:<40s}{:>10.1f}{:>10.1f}{:>15s}{:s}".format(name, median * 1e3, least * 1e3, each, ratios))
 
 
-def optional(name: str):
+def optional(name: str) -> ModuleType | None:
     """A module, or None where it is not installed."""
     return importlib.import_module(name) if importlib.util.find_spec(name) else None
 
 
 def arrays(side: int, rounds: int) -> None:
+    """A million triangles or so in arrays, of three kinds."""
     plain, lopsided = torus(side, side, 0.05), torus(side, side, 0.05, lopsided=True)
     compare("triangulated quads, noisy torus", *plain, True, rounds)
     compare("triangulated quads, lopsided body", *lopsided, True, rounds)
@@ -141,8 +149,7 @@ def arrays(side: int, rounds: int) -> None:
 def compare(title: str, points: np.ndarray, quads: np.ndarray, paired: bool, rounds: int) -> None:
     """A body in arrays, its quads cut into triangles that follow each other in pairs or do not."""
     trimesh, igl = optional("trimesh"), optional("igl")
-    halves = quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]
-    triangles = np.stack(halves, axis=1).reshape(-1, 3) if paired else np.concatenate(halves)
+    triangles = halves(quads, paired)
     indices = triangles.astype(np.int64)
     ours = {"ours with frame, 1 thread": lambda: measure_arrays(points, triangles),
             "ours with frame, 2 threads": lambda: measure_arrays(points, triangles, 2)}
@@ -162,7 +169,7 @@ def compare(title: str, points: np.ndarray, quads: np.ndarray, paired: bool, rou
 def walls_and_derivatives(side: int, rounds: int) -> None:
     """What a wall and the derivatives cost beside a solid, and a new thickness beside measuring again."""
     points, quads = torus(side, side, 0.0, lopsided=True)
-    surface = Surface(points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
+    surface = Surface(points, halves(quads, paired=False))
     swept, center = sweep(surface), np.zeros(3)
     rows = {"solid to third order": lambda: solid_and_area(surface),
             "wall as polynomials": lambda: sweep(surface),
@@ -174,8 +181,9 @@ def walls_and_derivatives(side: int, rounds: int) -> None:
 
 
 def memory(side: int) -> None:
+    """What measuring takes beside the arrays that it is given."""
     points, quads = torus(side, side, 0.05)
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    triangles = halves(quads, paired=False)
     print("\nextra memory, {:,} triangles (16 bytes a triangle + 8 MB are {:.1f} MB)".format(
         len(triangles), (16 * len(triangles) + 8e6) / 1e6))
     for threads in (1, 2):
@@ -187,8 +195,9 @@ def memory(side: int) -> None:
 
 
 def latency(rounds: int) -> None:
+    """What measuring a small body takes."""
     points, quads = torus(10, 15, 0.05)
-    triangles = np.stack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
+    triangles = halves(quads, paired=True)
     rows = {"ours: moments": lambda: solid_moments(Surface(points, triangles)),
             "ours: with frame": lambda: measure_arrays(points, triangles)}
     if trimesh := optional("trimesh"):
@@ -206,9 +215,8 @@ EXPLICIT = {4: 18, 6: 40}  # times as fast as the explicit formula that each ord
 def orders(quick: bool) -> None:
     """Moments to high orders on the same mesh, as multiples of the kernel for low ones and of the explicit formula."""
     points, quads = torus(400, 300, 0.05)
-    halves = quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]
-    for title, faces in (("triangulated quads", np.stack(halves, axis=1).reshape(-1, 3)),
-                         ("loose triangles", np.concatenate(halves))):
+    for title, faces in (("triangulated quads", halves(quads, paired=True)),
+                         ("loose triangles", halves(quads, paired=False))):
         print("\nmoments to order N of {:s}, ns a triangle, medians of interleaved runs".format(title))
         print("    {:>4s}{:>10s}{:>10s}{:>11s}{:>10s}{:>14s}{:>11s}{:>16s}".format(
             "N", "order 3", "volume", "multiple", "at most", "with surface", "2 threads", "explicit/ours"))
@@ -299,6 +307,7 @@ def read_floor(mesh) -> Surface:
 
 
 def blender(side: int, rounds: int) -> None:
+    """An evaluated mesh: reading, measuring, the full verdict, and Blender's own volume."""
     import bmesh
     import bpy
     from body_moments.operators.measure import MeasureOptions, measure_object
@@ -337,6 +346,7 @@ def blender(side: int, rounds: int) -> None:
 
 
 def instances(count: int, rounds: int) -> None:
+    """Many instances of one mesh, scattered by geometry nodes."""
     import bpy
     from body_moments.operators.measure import MeasureOptions, measure_object
     from body_moments.operators.read.mesh import mesh_surface
@@ -545,7 +555,7 @@ def fourier(quick: bool) -> None:
     """The Fourier transform on one thread: closed form on lists and grids, a large grid to a tolerance, and BornAgain's
     form factor of a tetrahedron where that is installed."""
     points, quads = torus(32, 16, 0.0)
-    surface, rng = Surface(points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])), np.random.default_rng(0)
+    surface, rng = Surface(points, halves(quads, paired=False)), np.random.default_rng(0)
     faces, count = len(surface.triangles), 12
     print("\nFourier transform of {:,} triangles, 1 thread, ns a face and frequency".format(faces))
     for size in (1.0, 10.0, 100.0, 1000.0):
@@ -558,7 +568,7 @@ def fourier(quick: bool) -> None:
         print("    |q| L = {:<6g}    list {:>5.0f}    grid {:>5.0f}".format(
             size, min(times["list"]) / 500 / faces * 1e9, min(times["grid"]) / half / faces * 1e9))
     points, quads = torus(160, 64, 0.0)
-    surface = Surface(points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
+    surface = Surface(points, halves(quads, paired=False))
     volume, grid = solid_moments(surface).total, Grid(64, 16.0 * np.pi / 1.4)
     start = time.perf_counter()
     found = finished(GridTransform(surface, grid, "volume", 1e-7 * volume))

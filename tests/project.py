@@ -26,6 +26,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -110,7 +111,7 @@ def probe(command: list, version: str) -> str | None:
     return executable if done.returncode == 0 and found == version else None
 
 
-def candidates(version: str):
+def candidates(version: str) -> Iterator[list]:
     """Commands that may be a Python of that version, the surest first."""
     yield [sys.executable]
     for name in (f"python{version}", "python3", "python"):
@@ -195,7 +196,7 @@ def any_blender() -> str:
 class Runner:
     """Runs commands side by side, shows their lines as they come, and ends what does not end."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.processes: set[subprocess.Popen] = set()
         self.lock = threading.Lock()
 
@@ -284,6 +285,7 @@ def run_tests(runner: Runner, python: Path, version: str, group: str, extra: lis
 
 
 def test(options: argparse.Namespace) -> int:
+    """Pass the tests: both Blenders side by side, then the window's alone, then the style."""
     groups = options.only or GROUPS
     extra = [*options.pytest, *(["-k", options.k] if options.k else [])]
     runner, outcomes, left_out = Runner(), [], []
@@ -326,6 +328,7 @@ def test(options: argparse.Namespace) -> int:
 
 
 def demo(options: argparse.Namespace) -> int:
+    """Measure a real body in .blend: its report, its record and a picture."""
     out = ROOT / "demo"
     out.mkdir(exist_ok=True)
     body, record, picture = out / "bracket.blend", out / "measure.json", out / "picture.png"

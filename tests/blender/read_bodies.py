@@ -44,6 +44,16 @@ def activate(obj):
     obj.select_set(True)
 
 
+def drag_a_corner(obj):
+    """Edit Mode, with the mesh's first vertex moved to (-7, -1, -1)."""
+    activate(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[0].co = (-7.0, -1.0, -1.0)
+    bmesh.update_edit_mesh(obj.data)
+
+
 def depsgraph():
     return bpy.context.evaluated_depsgraph_get()
 

@@ -443,6 +443,8 @@ def test_the_menus_set_the_material_that_the_layout_points_at():
         assert buttons and {entry[1] for entry in buttons} == {wanted}
         if target:
             assert {entry[2].target for entry in buttons} == {"Steel"}
+
+
 def test_a_nurbs_surface_says_what_its_display_mesh_would_have_given_and_follows_edits():
     bpy.ops.surface.primitive_nurbs_surface_sphere_add()
     assert ("operator", "object.body_moments_live") in [entry[:2] for entry in drawn()]

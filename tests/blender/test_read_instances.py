@@ -9,13 +9,13 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-import bmesh  # noqa: E402
 from body_moments.operators.read import Unreadable, measurable_objects, read_object  # noqa: E402
 
 from tests.blender.read_bodies import (  # noqa: E402
     collection,
     cube,
     depsgraph,
+    drag_a_corner,
     join,
     layer_of,
     link,
@@ -273,12 +273,7 @@ def test_an_instanced_object_in_edit_mode_is_read_as_it_is_edited():
     members = collection("Members")
     source = cube("Source", members)
     instancer = empty("Instancer", members)
-    bpy.context.view_layer.objects.active = source
-    bpy.ops.object.mode_set(mode="EDIT")
-    bm = bmesh.from_edit_mesh(source.data)
-    bm.verts.ensure_lookup_table()
-    bm.verts[0].co = (-7.0, -1.0, -1.0)
-    bmesh.update_edit_mesh(source.data)
+    drag_a_corner(source)
     (part,) = read_object(instancer, depsgraph()).parts
     assert part.surface.points[0].tolist() == [-7.0, -1.0, -1.0]
 

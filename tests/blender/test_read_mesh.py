@@ -18,6 +18,7 @@ from tests.blender.read_bodies import (  # noqa: E402
     bmesh_triangles,
     cube,
     depsgraph,
+    drag_a_corner,
     link,
     loop_triangles,
     mesh,
@@ -178,12 +179,7 @@ def test_edit_mode_reads_the_modifiers_that_act_there():
     obj.modifiers.new("Array", "ARRAY").count = 3
     idle = obj.modifiers.new("Idle", "SUBSURF")
     idle.show_in_editmode = False
-    activate(obj)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.verts[0].co = (-7.0, -1.0, -1.0)
-    bmesh.update_edit_mesh(obj.data)
+    drag_a_corner(obj)
     reading = read_object(obj, depsgraph())
     (part,) = reading.parts
     assert len(part.surface.quads) == 18
@@ -195,11 +191,6 @@ def test_edit_mode_reads_the_modifiers_that_act_there():
 def test_another_user_of_a_mesh_in_edit_mode_reads_the_same_edits():
     obj = cube()
     other = link("Other", obj.data)
-    activate(obj)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.verts[0].co = (-7.0, -1.0, -1.0)
-    bmesh.update_edit_mesh(obj.data)
+    drag_a_corner(obj)
     surface = read_object(other, depsgraph()).parts[0].surface
     assert surface.points[0].tolist() == [-7.0, -1.0, -1.0]

@@ -29,7 +29,6 @@ def random_patch(rng, spaces, weights=None):
     return Patch(spaces, rng.integers(-8, 9, (*shape, 3)) / 8.0, weights)
 
 
-
 def z_flux_difference(patch, exponents):
     """What the flux of the cone from the origin over the rim adds to the z-flux of the patch: the radial flux is the
     patch's alone, and both are one for a closed body, so the rim's cones are measured exactly as patches too."""
