@@ -90,25 +90,15 @@ class Run:
                 chosen, errors = _chosen(self.options.object)
                 errors.extend(_missing_links())
                 for label, obj in chosen:
-                    order = self.options.order
                     try:
-                        try:
-                            one, more = self._measure(obj, wanted)
-                        except Unreadable as refusal:
-                            if order is None:
-                                raise
-                            # What has no moments of that order may have a mass.
-                            one, more = self._measure(obj, replace(wanted, order=None, surface=False))
-                            errors.append(_error(label, "It has no such moments: " + refusal.reason))
-                            order = None
-                        surface = one.area_moments if self.options.surface_moments and order is not None else None
-                        told = replace(one, name=label, warnings=one.warnings + note)
-                        objects.append(record.record(told, self.options.frame, order, surface, more))
-                        measured.append((label, obj, one))
+                        one, told = self._recorded(label, obj, wanted, note, errors)
                     except Unreadable as refusal:
                         errors.append(_error(label, refusal.reason))
                     except Exception as error:
                         errors.append(self._fault(label, error))
+                    else:
+                        objects.append(told)
+                        measured.append((label, obj, one))
                 if self.options.object is None:  # else whoever named them knows what they count
                     doubtful = doubts([obj for _, obj, _ in measured], bpy.context.view_layer)
                 if self.options.fourier:
@@ -130,6 +120,24 @@ class Run:
             blender=".".join(map(str, bpy.app.version)),
             frame=self.options.frame,
         )
+
+    def _recorded(self, label: str, obj: bpy.types.Object, wanted: MeasureOptions, notes: tuple[str, ...],
+                  errors: list[dict[str, Any]]) -> tuple[Measurement, dict[str, Any]]:
+        """An object's measurement and its record. What has no moments of the order that was asked for may have a mass:
+        then the record goes without them, and an error is added that says so.
+        """
+        order = self.options.order
+        try:
+            one, more = self._measure(obj, wanted)
+        except Unreadable as refusal:
+            if order is None:
+                raise
+            one, more = self._measure(obj, replace(wanted, order=None, surface=False))
+            errors.append(_error(label, "It has no such moments: " + refusal.reason))
+            order = None
+        surface = one.area_moments if self.options.surface_moments and order is not None else None
+        told = replace(one, name=label, warnings=one.warnings + notes)
+        return one, record.record(told, self.options.frame, order, surface, more)
 
     def _array(self, path: str) -> tuple[list, list, list]:
         """The records, measurements and errors of a scan or an array, which is one body, called like
