@@ -61,12 +61,12 @@ def _npz_header(path: Path, name: str) -> tuple[int, ...]:
     return shape
 
 
-def read_raw(path: str | Path, shape: Sequence[int], dtype: str, big_endian: bool = False, skip: int = 0) -> Scan:
-    """Samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of TYPES; skip: bytes before them."""
+def read_raw(path: str | Path, shape: Sequence[int], dtype: str, big_endian: bool = False) -> Scan:
+    """Samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of TYPES."""
     if dtype not in TYPES:
         raise ValueError("The type “{:s}” is none of {:s}.".format(dtype, ", ".join(TYPES)))
     kind = np.dtype(dtype).newbyteorder(">" if big_endian else "<")
-    return Scan(mapped(Path(path), kind, shape_of(shape), skip), np.eye(4))
+    return Scan(mapped(Path(path), kind, shape_of(shape), 0), np.eye(4))
 
 
 def read_named_raw(path: Path) -> Scan:

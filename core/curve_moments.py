@@ -36,9 +36,9 @@ def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
     return low + (high - low) / 2.0
 
 
-def length_moments(curves: Sequence[Curve], order: int = 3, about: NDArray | None = None) -> Moments:
-    """∫ x^p y^q z^r ds along the curves; `error` is an estimate. about: (3,), by default the middle of their box."""
-    about = curves_center(curves) if about is None else np.asarray(about, np.float64)
+def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
+    """∫ x^p y^q z^r ds along the curves, about the middle of their box; `error` is an estimate."""
+    about = curves_center(curves)
     reach, degree = _reach(curves, about), monomials(order).sum(axis=1)
 
     def length(place: NDArray, velocity: NDArray) -> NDArray:

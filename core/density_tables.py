@@ -78,16 +78,13 @@ class Axis:
         """The largest |t - center| in any support."""
         return float(np.abs(self.knots[[0, -1]] - center).max())
 
-    def table(self, degree: int, center: float = 0.0, start: int = 0, stop: int | None = None) -> NDArray[np.float64]:
-        """(degree + 1, stop - start) ∫ (t - center)^l B_i(t) dt.
+    def table(self, degree: int, center: float = 0.0) -> NDArray[np.float64]:
+        """(degree + 1, count) ∫ (t - center)^l B_i(t) dt.
 
         Each entry is off by at most `roundings` units of ∫ B_i times the l-th power of the largest |t - center| in
         the support.
         """
-        stop = self.count if stop is None else stop
-        if not 0 <= start < stop <= self.count:
-            raise ValueError("There are no coefficients {:d} to {:d} among {:d}.".format(start, stop, self.count))
-        knots = self.knots[start:stop + self.order] - center
+        knots = self.knots - center
         if self.domain is None:
             return full_supports(knots, self.order, degree)
         return cut_supports(knots, self.order, degree, self.domain[0] - center, self.domain[1] - center)

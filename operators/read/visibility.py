@@ -54,7 +54,7 @@ def shows_flat_region(obj) -> bool:
                 or any(modifier.show_viewport for modifier in obj.modifiers))
 
 
-def measurable_objects(view_layer, selected_only: bool = False) -> list:
+def measurable_objects(view_layer) -> list:
     """The measurable objects of a view layer by name, hidden ones included: reading them tells what
     can be done.
 
@@ -68,8 +68,6 @@ def measurable_objects(view_layer, selected_only: bool = False) -> list:
     objects = [
         obj for obj in view_layer.objects if measurable(obj) and not instanced_by_parent(obj)
     ]
-    if selected_only:
-        objects = [obj for obj in objects if obj.select_get(view_layer=view_layer)]
     mothers = {family[0] for family in metaball_families(view_layer)}
     objects = [obj for obj in objects if obj.type != "META" or obj in mothers]
     hidden = {obj for obj in objects if not obj.visible_get(view_layer=view_layer)}

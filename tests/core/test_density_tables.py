@@ -116,11 +116,6 @@ def test_a_uniform_function_has_variance_k_twelfths(order):
     assert table == pytest.approx([g, 0.0, g * k * g**2 / 12, 0.0, g * g**4 * k * (5 * k - 2) / 240], rel=1e-14)
 
 
-def test_a_part_of_the_table_is_that_part():
-    axis = Axis(np.array(random_knots(3, 5)), 3).clipped()
-    assert np.array_equal(axis.table(2, 1.0, 2, 5), axis.table(2, 1.0)[:, 2:5])
-
-
 @pytest.mark.parametrize("knots, order, domain, text", [
     ([0.0, 1.0], 2, None, "at least 3 knots"),
     ([0.0, 2.0, 1.0], 1, None, "ascending"),
