@@ -24,8 +24,8 @@ BLOCK = 1 << 15  # triangles at a time
 
 def negative_place(density: Polynomial, points: NDArray, triangles: NDArray, solid: bool
                    ) -> tuple[tuple[float, NDArray] | None, bool]:
-    """A value below zero and its place, (3,), in the body or on its surface, None where none was found; and whether it
-    stays open then if there is one.
+    """A value below zero and its place, (3,), in the body or on its surface, None where none was found; and whether
+    there may be one although none was found.
 
     points: (n, 3) in the density's coordinates. triangles: (m, 3). solid: the inside counts too.
     """

@@ -96,7 +96,7 @@ def relate(points: NDArray[np.floating], shells: Shells, ask: NDArray[np.bool_],
 def pierced(points: NDArray[np.floating], triangles: NDArray[np.integer], shell: NDArray[np.intp],
             pairs: NDArray[np.integer], vertex: NDArray[np.integer], tolerance: float) -> bool:
     """Whether surfaces go through each other, or through themselves, by more than the tolerance, as far as is found
-    within bounds of time. Triangles that share a vertex are taken for neighbours, which do not.
+    within bounds of time. Triangles that share a vertex are neighbours and do not count.
 
     triangles: (m, 3), shell: (m,) the surface that each belongs to, ascending; pairs: (k, 2) of surfaces; vertex: (n,)
     which vertex a point is.

@@ -113,7 +113,7 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
 
 
 def flaws(points: NDArray, edges: NDArray, error: float = 0.0) -> Flaws:
-    """What of the edges leaves it open which side is inside. Outlines may touch, at corners and along edges.
+    """What makes it unclear which side of the edges is inside. Outlines may touch, at corners and along edges.
 
     error: how far the points may be from where they were meant; what overlaps by no more touches.
     """

@@ -225,9 +225,10 @@ class _Prisms:
         return sums
 
     def bounds(self, slide: NDArray, lift: NDArray, stored: float) -> NDArray[np.float64]:
-        """(3, 7) sums over the prisms: of the sizes of J, three coefficients and four of no use; of what moving the
-        directions by slide[0], (m,), along the normals by lift[0], changes J by, three, and of the sizes of J times
-        that move of x, four; the same where directions move by slide[1] and lift[1] and points by `stored`."""
+        """(3, 7) coefficients in s, summed over the prisms. First row: the sizes of J, three; the other four are zero.
+        Second row: by how much J changes where directions move by slide[0], (m,), and by lift[0] along the normals,
+        three; and the sizes of J times the move of x, four. Third row: the same where directions move by slide[1] and
+        lift[1], and points by `stored`."""
         sizes, rows = self._sizes(), [np.zeros((7, len(self.double)))]
         rows[0][:3] = sizes
         long, turned, far = self.long, self.turned, self.far

@@ -13,7 +13,7 @@ from ..core.measurement import Measurement
 from ..core.scans import placed, read_scan
 from .grid_body import density_body
 from .grid_options import GridOptions
-from .measure import MeasureOptions, to_order, told
+from .measure import MeasureOptions, as_measurement, to_order
 from .read import Reading, Unreadable
 from .weigh import Weighed
 
@@ -49,7 +49,7 @@ def measure_array(path: str, name: str, array: ArrayOptions, options: MeasureOpt
         reading = Reading(name, "ARRAY", np.eye(4), np.eye(3), np.zeros(3))
         used = replace(options, kind="solid", density=None, thickness=0.0, overlap="signed", wall="thin")
         weighed = Weighed(body.mass, "samples")
-        return to_order(told(None, reading, body, used, 1.0, weighed, repr(grid.key)), body, used)
+        return to_order(as_measurement(None, reading, body, used, 1.0, weighed, repr(grid.key)), body, used)
     except (ValueError, OSError) as error:
         reason = error.strerror + "." if isinstance(error, OSError) and error.strerror else str(error)
         raise Unreadable(name, reason) from error

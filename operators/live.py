@@ -26,7 +26,7 @@ from ..core.moments import Moments
 from .body import Body
 from .density import density_field
 from .fingerprint import settings_hash
-from .measure import MeasureOptions, measure_object, resolved, told
+from .measure import MeasureOptions, as_measurement, measure_object, resolved
 from .read import Unreadable, read_patches
 
 LONGEST_WAIT = 2.0  # s between two measurements of a body that takes long
@@ -132,7 +132,7 @@ def _measured(obj: Object, depsgraph: Depsgraph) -> Measurement:
     found = Body(body.volume, Moments(np.array([body.area]), body.volume.about, "area"), measure.health,
                  "NURBS " + measure.method, (*part.splines.notes, *measure.warnings), refined=lambda: body.volume,
                  estimated=True)
-    return told(obj, reading, found, options, unit)
+    return as_measurement(obj, reading, found, options, unit)
 
 
 @persistent

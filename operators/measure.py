@@ -92,13 +92,13 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
         density = None if given or options.kind == "wire" else density_field(obj.body_moments)
         lines = _lines(obj, depsgraph, unit, options) if density is None else None
         if lines is not None:
-            return to_order(told(obj, *lines, options, unit), lines[1], options), lines[1]
+            return to_order(as_measurement(obj, *lines, options, unit), lines[1], options), lines[1]
         reading = read_object(obj, depsgraph, materials=density is not None and density.kind == "materials",
                               attribute=density.attribute if density is not None and shell else None)
         if reading.has_patches and density is None:
             body = nurbs_body(reading, unit, wall=options.wall if shell else None, thickness=options.thickness,
                               union=options.overlap == "union", threads=options.threads, compare=options.compare)
-            return to_order(told(obj, reading, body, options, unit), body, options), body
+            return to_order(as_measurement(obj, reading, body, options, unit), body, options), body
         if reading.has_patches:
             reading.warnings.append("A density that is not one value needs polygons: the display mesh of its surface "
                                     "was measured, as fine as the viewport's resolution.")
@@ -118,7 +118,7 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
         walls = find_walls(reading, body, options.wall) if shell and options.wall != "thin" else None
         if walls is not None:
             body = walls.body(options.thickness)
-        measurement = told(obj, reading, body, options, unit, weighed)
+        measurement = as_measurement(obj, reading, body, options, unit, weighed)
         if walls is not None:
             wall_slider.keep(obj, reading, walls, measurement, unit)
         return to_order(measurement, body, options), body
@@ -156,7 +156,7 @@ def _measure_grid(obj: bpy.types.Object, volume: VolumeReading, grid: GridOption
     options = resolved(replace(options, kind="solid"), obj, unit)
     body = grid_body(volume, grid, unit, options.threads)
     weighed = None if body.mass is None else Weighed(body.mass, "grid “{:s}”".format(volume.grid))
-    return to_order(told(obj, volume, body, options, unit, weighed, key), body, options), body
+    return to_order(as_measurement(obj, volume, body, options, unit, weighed, key), body, options), body
 
 
 def _filled(obj: bpy.types.Object, body: Body, shell: bool, depsgraph: bpy.types.Depsgraph, unit: float
@@ -227,9 +227,9 @@ def _require_volume(body: Body, options: MeasureOptions) -> Moments:
     return volume
 
 
-def told(obj: bpy.types.Object | None, reading: Reading | VolumeReading, body: Body, options: MeasureOptions,
-         unit: float, weighed: Weighed | None = None, key: str | None = None) -> Measurement:
-    """The body as a measurement. obj: None for what is in a file only. options: resolved. key: in place of
+def as_measurement(obj: bpy.types.Object | None, reading: Reading | VolumeReading, body: Body, options: MeasureOptions,
+                   unit: float, weighed: Weighed | None = None, key: str | None = None) -> Measurement:
+    """The results of measuring a body. obj: None for what is in a file only. options: resolved. key: in place of
     `density_key`. ValueError where it has no mass."""
     shell = options.kind == "shell"
     wire = options.kind == "wire"

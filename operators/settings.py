@@ -311,7 +311,7 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
 
 
 def keep(settings: PropertyGroup, options, scene: Scene) -> None:
-    """Make those options (`measure.MeasureOptions`, SI) the object's settings that are not None."""
+    """Make the options (`measure.MeasureOptions`, SI) that are not None the object's settings."""
     for name in ("kind", "overlap"):
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name).upper())

@@ -63,7 +63,7 @@ def folds(obj: Object) -> bool:
 def changed(settings: PropertyGroup, context: Context) -> None:
     """What a change of the wall or its thickness does to the stored numbers."""
     from . import staleness
-    from .measure import MeasureOptions, resolved, told
+    from .measure import MeasureOptions, as_measurement, resolved
 
     obj = settings.id_data
     kept = _current(obj)
@@ -76,7 +76,7 @@ def changed(settings: PropertyGroup, context: Context) -> None:
     options = resolved(MeasureOptions(), obj, kept.unit)
     try:
         body = _on_side(kept, obj).body(options.thickness, looked=False)
-        measurement = told(obj, kept.reading, body, options, kept.unit)
+        measurement = as_measurement(obj, kept.reading, body, options, kept.unit)
     except ValueError:  # the panel says how thick it may be
         return
     properties.store(obj, measurement)
