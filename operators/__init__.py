@@ -7,66 +7,18 @@ registering any.
 """
 
 from contextlib import ExitStack
+from importlib import import_module
 from types import ModuleType
 
+# Everything that is registered, in this order: modules with `register`, or with CLASSES only.
+PARTS = ("settings", "staleness", "live", "presets", "measure_selected", "section", "select_faults", "clear",
+         "clipboard", "moments_table", "origin", "principal_axes", "align", "empty", "cursor", "orientation",
+         "rigid_body", "sculpt_balance", "fourier", "match_pose", "find_similar", "find_symmetry",
+         "import_scan", "batch")
 
-def _parts() -> tuple[ModuleType, ...]:
-    """Everything that is registered, in this order: modules with `register`, or with CLASSES
-    only.
-    """
-    from . import (
-        align,
-        batch,
-        clear,
-        clipboard,
-        cursor,
-        empty,
-        find_similar,
-        find_symmetry,
-        fourier,
-        import_scan,
-        live,
-        match_pose,
-        measure_selected,
-        moments_table,
-        orientation,
-        origin,
-        presets,
-        principal_axes,
-        rigid_body,
-        sculpt_balance,
-        section,
-        select_faults,
-        settings,
-        staleness,
-    )
 
-    return (
-        settings,
-        staleness,
-        live,
-        presets,
-        measure_selected,
-        section,
-        select_faults,
-        clear,
-        clipboard,
-        moments_table,
-        origin,
-        principal_axes,
-        align,
-        empty,
-        cursor,
-        orientation,
-        rigid_body,
-        sculpt_balance,
-        fourier,
-        match_pose,
-        find_similar,
-        find_symmetry,
-        import_scan,
-        batch,
-    )
+def _parts() -> list[ModuleType]:
+    return [import_module("." + name, __name__) for name in PARTS]
 
 
 def register() -> None:

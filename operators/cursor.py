@@ -11,7 +11,7 @@ from ..core.decimal import decimal
 from ..core.mass import combined
 from . import selection, snapping
 from .channels import Refused
-from .measure import MeasureOptions, measure_object
+from .measure import measure_object
 
 
 class VIEW3D_OT_body_moments_cursor_to_center(Operator):
@@ -37,7 +37,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
         bodies = []
 
         def add(obj: Object) -> bool:
-            measurement = measure_object(obj, depsgraph, MeasureOptions())
+            measurement = measure_object(obj, depsgraph)
             if measurement.method.endswith("open"):
                 raise Refused(
                     "it is open and cannot be capped, so that its center is not its own; close "

@@ -9,6 +9,7 @@ from bpy.types import Context, Object, Operator
 from mathutils import Matrix
 
 from . import selection, snapping
+from .channels import world
 
 OF = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
 
@@ -75,7 +76,7 @@ def _place(empty: Object, body: snapping.Body, parent: Object | None) -> bool:
     """Move the empty to the body's frame; whether it was elsewhere."""
     frame = np.eye(4)
     frame[:3, :3], frame[:3, 3] = body.axes, body.center
-    now = np.array(empty.matrix_world, np.float64)
+    now = world(empty)
     close = (
         np.abs(now[:3, 3] - body.center).max()
         <= 1e-6 * body.size + 1e-6 * np.abs(body.center).max()
@@ -85,8 +86,7 @@ def _place(empty: Object, body: snapping.Body, parent: Object | None) -> bool:
     empty.parent = parent
     if parent is not None:
         empty.parent_type = "OBJECT"
-        inverse = np.linalg.inv(np.array(parent.matrix_world, np.float64))
-        empty.matrix_parent_inverse = Matrix(inverse)
+        empty.matrix_parent_inverse = Matrix(np.linalg.inv(world(parent)))
     empty.empty_display_size = body.size
     empty.matrix_world = Matrix(frame)
     return True

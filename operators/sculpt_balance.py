@@ -26,7 +26,7 @@ from ..core.measurement import Measurement
 from ..core.surface import Surface
 from . import selection, snapping, staleness
 from .channels import FLOAT32, Refused
-from .measure import MeasureOptions, measure_object
+from .measure import measure_object
 from .read import Part, read_object
 from .units import Units
 
@@ -274,7 +274,7 @@ def _check(obj: Object) -> None:
 
 def _measured(context: Context, obj: Object) -> Measurement:
     """The object as it is always measured; Refused where its center cannot be derived by its vertices."""
-    found = measure_object(obj, context.evaluated_depsgraph_get(), MeasureOptions())
+    found = measure_object(obj, context.evaluated_depsgraph_get())
     if found.mass_moments[0].of == "mass":
         raise Refused("its density is not the same everywhere; balance it with one density")
     if found.kind == "solid" and (found.method != "exact" or found.health.welded):

@@ -13,7 +13,7 @@ from bpy.types import Context, Object, Operator
 
 from . import selection, snapping, staleness
 from .channels import Refused
-from .measure import MeasureOptions, measure_object
+from .measure import measure_object
 from .write import properties
 
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
@@ -108,7 +108,7 @@ def _measure(context: Context, obj: Object) -> dict[str, np.ndarray]:
             "its modifiers make another mesh of it, whose faults are not in the mesh to be "
             "edited; apply or hide {:s} first".format(", ".join(changing))
         )
-    measurement = measure_object(obj, context.evaluated_depsgraph_get(), MeasureOptions())
+    measurement = measure_object(obj, context.evaluated_depsgraph_get())
     properties.store(obj, measurement)
     faults = measurement.health.faults
     arrays = {
