@@ -27,7 +27,7 @@ TOLERANCE = 1e-7  # of the volume or the area, then
 
 
 class BodyTransform:
-    """A transform of surfaces at their places under way: `steps` does the work, `result` tells the outcome.
+    """The transform of surfaces at their places: `steps` does the work, `result` gives the outcome.
 
     parts: surfaces with their (k, 4, 4) maps. q: (M, 3) wave vectors or a Grid. of: "volume" or "area".
     total: the body's volume or area, to which `TOLERANCE` refers.
@@ -48,7 +48,7 @@ class BodyTransform:
         self.spectrum: Spectrum | None = None
 
     def steps(self) -> Iterator[float]:
-        """Do the work, and tell after each share of it how much is done, from 0 to 1. ValueError as `Transform`."""
+        """Do the work. Yields after each part of it the fraction done, from 0 to 1. ValueError as `Transform`."""
         done, everything = 0, sum(self.weights)
         for weight, (surface, offsets) in zip(self.weights, self.jobs):
             if self.tolerance is None:

@@ -46,7 +46,7 @@ CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)  # how much larger than in their sum t
 class GridTransform(Transform):
     """As `Transform`, on a grid and to a tolerance, in the unit of the values.
 
-    The outcome is "approximate", or exact where that costs less. ValueError, also, where double precision does not
+    The outcome is "approximate", or exact where that costs less. ValueError also where double precision does not
     reach the tolerance.
     """
 
@@ -133,7 +133,7 @@ class GridTransform(Transform):
         return sum(corner[..., None] * share for corner, share in zip(corners, shares)), normals(*corners), weights
 
     def steps(self) -> Iterator[float]:
-        """Do the work, and tell after each share of it how much is done, from 0 to 1."""
+        """Do the work. Yields after each part of it the fraction done, from 0 to 1."""
         yield from self._share()
         direct = len(self.direct.triangles) * len(self.sums) * DIRECT_COST
         total = direct + self.width**3 * sum(len(rows) * len(triangle_rule(n)[1]) for n, rows in self.fine)

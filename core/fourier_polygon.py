@@ -29,8 +29,8 @@ TERMS = 10  # of sinc(t) - 1 for t up to 1
 def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
     """F(q) = ∫ exp(-i q·x) dA over polygons at wave vectors (M, 2).
 
-    loops: outlines (n, 2), counter-clockwise; holes clockwise. Where they overlap, they count as often, with their
-    sign. Raises ValueError for loops and wave vectors that are not rows of two finite numbers.
+    loops: outlines (n, 2), counter-clockwise; holes clockwise. Where they overlap, each one counts, with its sign.
+    Raises ValueError for loops and wave vectors that are not rows of two finite numbers.
     """
     q = wave_vectors(q, 2)
     corners = [np.asarray(loop, np.float64) for loop in loops]
@@ -72,7 +72,7 @@ def _transformed(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) ->
 
 
 def _sinc_less(t: NDArray) -> NDArray[np.float64]:
-    """sin(t) / t - 1, right to its own last digits."""
+    """sin(t) / t - 1, accurate to its last digits."""
     square = np.minimum(t * t, 1.0)
     total = np.zeros_like(t)
     for k in range(TERMS, 0, -1):

@@ -46,8 +46,8 @@ def both_signs(half: NDArray) -> NDArray[np.complex128]:
 
 
 def coupled(a: NDArray, b: NDArray, c: NDArray) -> float:
-    """The scalar that three multiplets have: Σ (l l' l''; m m' m'') a_m b_m' c_m''. It changes its sign in a mirror
-    where l + l' + l'' is odd."""
+    """The scalar made of three multiplets: Σ (l l' l''; m m' m'') a_m b_m' c_m''. A reflection changes its sign where
+    l + l' + l'' is odd."""
     l, k, n = ((len(one) - 1) // 2 for one in (a, b, c))
     value = np.einsum("ijk,i,j,k->", _three_j(l, k, n), a, b, c)
     return float(value.imag if (l + k + n) % 2 else value.real)

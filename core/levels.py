@@ -295,7 +295,7 @@ def sizes(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64
 
 def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
     """Row by row, x^α of one degree from those of the degree below, perhaps in their place: those without x from the
-    last ones. do: what does it, or will do it."""
+    last ones. do: calls a function with these arguments, or notes the call for later."""
     rows = rows_of(degree - 1)
     do(np.multiply, old[rows - degree:rows], vector[1], powers[rows:rows + degree])
     do(np.multiply, old[rows - 1], vector[2], powers[rows + degree])

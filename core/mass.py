@@ -85,7 +85,8 @@ def combined(bodies: Sequence[tuple[Moments, float]], prefer: NDArray | None = N
 
 
 def _bounds(moments: Moments, density: float, delta: NDArray, rounded: bool) -> dict[str, float]:
-    """First-order propagation with the divisor at its smallest: bounds of what moments off by `delta` change."""
+    """Bounds of the change when the moments are off by `delta`: propagated to first order, with the divisor at its
+    smallest."""
     total = moments.raw[0]
     if not total > 2.0 * delta[0]:  # then nothing bounds a quotient
         return {"mass": float(abs(density) * delta[0]), "center": float("inf"), "inertia": float("inf")}

@@ -124,7 +124,8 @@ class Moments:
         return replace(map_sum(replace(self, of="mass"), matrix[None], np.zeros(3)), of=self.of)
 
     def normalized(self, by: str = "size") -> Moments:
-        """The central moments without unit, of degree n, about (0, 0, 0): the same wherever the body is, however large.
+        """The central moments without unit, of degree n, about (0, 0, 0): the same wherever the body is and however
+        large.
 
         by: "size", μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas: those of the body scaled to a volume, or area,
         of 1. "gyration", μ / (m R^n) with R² = ∫ r² dm / m: those of the body scaled to a radius of gyration and a mass

@@ -63,7 +63,7 @@ def overlapping_boxes(low: NDArray, high: NDArray, margin: float, most: int) -> 
 
 
 def relate(points: NDArray[np.floating], shells: Shells, ask: NDArray[np.bool_], tolerance: float) -> Relations:
-    """How the shells with `ask`, all closed and none of them flat, lie to each other.
+    """How the shells selected by `ask`, all closed and none of them flat, lie relative to each other.
 
     tolerance: (length) what counts as touching.
     """
@@ -161,8 +161,8 @@ def _parents(relations: Relations, number: int) -> NDArray[np.intp]:
 
 def _locate(points: NDArray, shells: Shells, tree: Tree, small: NDArray, large: NDArray, tolerance: float
             ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
-    """For each pair: whether some point under the smaller shell's skin is within the larger shell, whether some is
-    without, and whether neither could be found out."""
+    """For each pair: whether some point under the smaller shell's skin is inside the larger shell, whether some is
+    outside, and whether neither could be decided."""
     most, least, together = SAMPLES
     size = shells.start[small + 1] - shells.start[small]
     number = np.clip(together // len(small), least, most)

@@ -122,7 +122,7 @@ def offset_directions(points: NDArray[np.float64], triangles: NDArray[np.integer
 
 def _slid(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
     """The vectors, made even by conjugate gradients in the directions that the projections `free`, (n, 3, 3), leave.
-    Vertices of a rim stay. Whatever comes of it is as good a wall: an early end folds sooner, no more."""
+    Vertices of a rim stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller thickness."""
     edges = find_edges(triangles)
     rims = edges.rims()
     free[triangles.ravel()[rims]] = free[np.roll(triangles, -1, axis=1).ravel()[rims]] = 0.0

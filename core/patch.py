@@ -43,7 +43,7 @@ class Patch:
         return replace(self, points=self.points @ np.asarray(matrix)[:3, :3].T + np.asarray(matrix)[:3, 3])
 
     def turned(self) -> Patch:
-        """The same surface with its other side out."""
+        """The same surface facing the other way."""
         return Patch(self.spaces[::-1], self.points.swapaxes(0, 1), None if self.weights is None else self.weights.T)
 
     def grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:

@@ -172,7 +172,7 @@ class _Job:
                 for starts, arrays, step in whole for i in range(0, len(arrays[0]), step)]
 
     def sums(self, blocks: list[_Block]) -> list[Found]:
-        """What the blocks add, in their order, whichever thread has had them."""
+        """What the blocks add, in their order, whichever thread computed them."""
         queue = iter(enumerate(blocks))
         threads = min(self.threads, len(blocks))
         if threads == 1:

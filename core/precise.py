@@ -32,7 +32,7 @@ def _halves(a: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    """(3, k) (b-a) x (c-a) for corners (3, k), each component right to about u of its own size however thin the
+    """(3, k) (b-a) x (c-a) for corners (3, k), each component to a relative accuracy of about u, however thin the
     triangle."""
     (u, ul), (v, vl) = two_sum(b, -a), two_sum(c, -a)
     rows = []
@@ -44,7 +44,7 @@ def normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
 
 
 def wave(q: NDArray, x: NDArray) -> NDArray[np.complex128]:
-    """(m,) exp(-i q·x) for q (m, n) and x (n,), right to a few u however large the phase."""
+    """(m,) exp(-i q·x) for q (m, n) and x (n,), accurate to a few u, however large the phase."""
     total, rest = two_product(q[:, 0], x[0])
     for axis in range(1, q.shape[1]):
         product, low = two_product(q[:, axis], x[axis])

@@ -166,7 +166,7 @@ class _Total:
         self.pending.append(part)
 
     def settle(self) -> None:
-        """Add up the bounds of what is pending: rarely, for much at once."""
+        """Add up the bounds of the pending blocks: many at once, which is faster."""
         if self.pending:
             self.sizes = self.sizes + sizes(self.order, self.weights, self.pending)
             self.pending = []
@@ -198,7 +198,7 @@ class _Stream:
         return self._moments(total, "volume"), self._moments(total, "area") if self.area else None
 
     def _parts(self, tasks: Iterator[_Task]) -> Iterator[tuple[int, list[Sums]]]:
-        """The results of `_run` in the order of the tasks, whoever finishes first; a few are under way at a time."""
+        """The results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
         if self.threads == 1:
             yield from map(self._run, tasks)
             return
@@ -267,7 +267,7 @@ class _Stream:
     @staticmethod
     def _blocks(task: _Task) -> Iterator[tuple[Sequence[NDArray], int]]:
         """The corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles; and
-        how many there are in a block that is full. Each block is looked at by itself, lest it be another one with other
+        how many there are in a block that is full. Each block is judged by itself, so that it does not depend on its
         neighbours."""
         for start in range(0, len(task.faces), task.size):
             faces = task.faces[start:start + task.size]

@@ -174,8 +174,8 @@ def region(plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray,
 
 
 def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0) -> Section:
-    """The properties of the region left of directed edges over (n, 3) points near the plane. Whether that is one region
-    `polygon.flaws` tells.
+    """The properties of the region left of directed edges over (n, 3) points near the plane. `polygon.flaws` tells
+    whether that is one region.
 
     error: how far storing the points as float32 may have moved each of them.
     ValueError where the edges enclose no area, or do not close.
@@ -212,7 +212,7 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
 def _moved(points: NDArray, edges: NDArray, about: NDArray, step: float) -> NDArray[np.float64]:
     """(6,) what the moments to second order may change by where every point moves by `step` along each axis.
 
-    An edge sweeps over at most its length times the way, between where it was and where it is.
+    Between its old and its new place an edge sweeps over at most its length times the distance it moves.
     """
     a, b = (points[edges[:, i]] - about for i in (0, 1))
     way = step * np.sqrt(2.0)

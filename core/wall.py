@@ -89,7 +89,7 @@ class Sweep:
         return Moments(raw, self.about, "volume", error, np.minimum(self.input @ both, moved))
 
     def meets_itself(self, inward: float, outward: float) -> bool:
-        """Whether the two sides of the wall go through each other, or one that has moved through itself, as far as is
+        """Whether the two sides of the wall go through each other, or a moved side through itself, as far as is
         found within bounds of time."""
         count = len(self.points)
         points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
@@ -100,7 +100,7 @@ class Sweep:
         return pierced(points, triangles, shell, np.array(pairs), np.tile(np.arange(count), 2), tolerance)
 
     def without_surface(self) -> Sweep:
-        """The same without what is as large as the mesh."""
+        """The same without the arrays that are as large as the mesh."""
         return replace(self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0])
 
     def fold(self, side: str) -> NDArray[np.float64]:

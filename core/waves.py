@@ -66,7 +66,7 @@ class Grid:
 
 
 def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
-    """(M, dimension) wave vectors of a user's. ValueError where they are none."""
+    """(M, dimension) wave vectors from a user. ValueError where they are none."""
     q = np.asarray(q)
     if q.dtype.kind not in "fiu" or q.ndim != 2 or q.shape[1] != dimension:
         raise ValueError("Wave vectors are rows of {:d} real numbers; this array has the shape {:s} and the type {:s}."

@@ -47,7 +47,7 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
 
 
 def loss(raw: NDArray, order: int) -> float:
-    """An estimate of the error of the descriptors that raw moments right to a few roundings give: what changes when
+    """An estimate of the error of the descriptors that raw moments accurate to a few roundings give: what changes when
     each moment is moved by such an amount, at random but always the same."""
     moved = raw * (1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)))
     before, after = (descriptors(zernike_moments(one, order)) for one in (raw, moved))

@@ -61,7 +61,7 @@ def fixed_to(obj: bpy.types.Object) -> str:
 
 
 def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
-    """The same of a Volume object. density: as for `GridOptions.of`."""
+    """What decides the density of a Volume object. density: as for `GridOptions.of`."""
     grid = GridOptions.of(obj.body_moments, density)
     return "" if grid.solid else repr(grid.key)
 

@@ -24,8 +24,8 @@ from .read import Reading, Unreadable, read_object, shows_flat_region
 
 @dataclass(frozen=True)
 class ObjectTransform:
-    """An object's transform under way, in SI units. factor: the thickness of a shell, else 1. warnings: as in
-    `Measurement`."""
+    """An object's transform, in SI units: `steps` does the work, `result` gives the outcome. factor: the thickness of
+    a shell, else 1. warnings: as in `Measurement`."""
 
     name: str
     transform: BodyTransform
@@ -33,7 +33,7 @@ class ObjectTransform:
     warnings: tuple[str, ...]
 
     def steps(self) -> Iterator[float]:
-        """Do the work, and tell how much of it is done. Raises `Unreadable`."""
+        """Do the work. Yields the fraction done. Raises `Unreadable`."""
         try:
             yield from self.transform.steps()
         except ValueError as error:

@@ -215,7 +215,7 @@ class _GroupedMesh:
 
 def _balance(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, wanted: _Wanted, unit: float
              ) -> tuple[str, list[str]]:
-    """Carry it out, or leave all as it was; what to tell."""
+    """Carry it out, or leave all as it was. Returns what to report."""
     _check(obj)
     part = _read(context, obj, mesh)
     before = _measured(context, obj)
@@ -273,7 +273,7 @@ def _check(obj: Object) -> None:
 
 
 def _measured(context: Context, obj: Object) -> Measurement:
-    """The object as it is always measured; Refused where its center cannot be derived by its vertices."""
+    """The object as it is always measured; Refused where its center cannot be differentiated by its vertices."""
     found = measure_object(obj, context.evaluated_depsgraph_get())
     if found.mass_moments[0].of == "mass":
         raise Refused("its density is not the same everywhere; balance it with one density")

@@ -95,7 +95,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 
 
 def _measure(context: Context, obj: Object) -> dict[str, np.ndarray]:
-    """Measure and store; the faults by kind, kinds without any left out."""
+    """Measure and store. Returns the faults by kind, without the kinds that have none."""
     if not obj.is_editable or not obj.data.is_editable:
         raise Refused("it is linked from another file; make it and its data local first")
     changing = [

@@ -72,7 +72,7 @@ def progress(count: float) -> Iterator[Callable[[], None]]:
 
 
 def one_line(sentences: Iterable[str]) -> str:
-    """Sentences of a report, whether or not they bring their period, one after the other."""
+    """Sentences of a report, whether or not they end with a period, one after the other."""
     *before, last = sentences
     return "".join(sentence.removesuffix(".") + ". " for sentence in before) + last
 
@@ -125,7 +125,7 @@ def one_by_one(
     refusals: tuple[type[Exception], ...],
     failures: list[tuple[str, str]],
 ) -> Iterator[int]:
-    """Run `action` on one object at a step, which tells how many are done. (name, reason) of those
+    """Run `action` on one object per step. Yields how many are done. (name, reason) of those
     that it refused are added to `failures`.
     """
     for done, obj in enumerate(objects, 1):

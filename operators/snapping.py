@@ -75,7 +75,7 @@ class Body:
                     and (self.own or (along > -0.5).all()))
 
     def _has_own(self, frame: NDArray) -> bool:
-        """Whether the axes of equal moments lie as the shape asks: a cube's sides along any of its
+        """Whether the axes of equal moments lie as the shape requires: a cube's sides along any of its
         own axes."""
         cosines = (frame.T @ self.axes)[:, self.own]
         wanted = np.eye(3)[:, self.own] if self.unique else np.round(cosines)
@@ -137,8 +137,8 @@ def reframe_selected(
     move_only: bool,
     strict: bool = False,
 ) -> set[str]:
-    """Give each selected object the matrix that `wanted` tells for it, while nothing visible moves,
-    and report it. `wanted` tells None where the object is right as it is.
+    """Give each selected object the matrix that `wanted` returns for it, while nothing visible moves, and report it.
+    `wanted` returns None where the object is right as it is.
     """
     objects = selection.selected(context)
     plans: list[reframe.Plan] = []

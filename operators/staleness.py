@@ -74,7 +74,7 @@ def mark_retold(obj: Object) -> None:
 
 @contextmanager
 def paused() -> Iterator[None]:
-    """Nothing is noted in here: for changes that leave every object's shape as it was."""
+    """No change is noted in this context: for changes that leave every object's shape as it was."""
     global _paused
     before, _paused = _paused, True
     try:

@@ -14,14 +14,14 @@ SLICE = 0.1  # seconds of work between two looks at the window's events
 
 
 class Stepwise:
-    """Of an operator, whose `_steps` is a generator that does the work and tells how much is done, and whose `_finish`
+    """Of an operator, whose `_steps` is a generator that does the work and yields how much is done, and whose `_finish`
     alone changes anything.
 
     DOING: the status text, with places for how much is done, and of how much. CANCELLED: the report after Esc.
     """
 
     def all_at_once(self, context: Context, count: float) -> set[str]:
-        """Every step, in one call of the operator. count: what the last step tells."""
+        """Every step, in one call of the operator. count: what the last step yields."""
         with selection.progress(count) as step:
             for _ in self._steps:
                 step()

@@ -69,7 +69,7 @@ class Walls:
         return min(piece.largest(self.side) for piece in self.pieces)
 
     def body(self, thickness: float, looked: bool = True) -> Body:
-        """The body with walls that thick, m. looked: whether walls that meet are looked for, which takes its time.
+        """The body with walls that thick, m. looked: whether walls that meet are looked for, which takes time.
         ValueError, with the largest thickness that works, where a wall folds over."""
         if not thickness > 0.0:
             raise ValueError("It has no thickness; set one.")
@@ -80,7 +80,7 @@ class Walls:
                        warnings=(*self.thin.warnings, *self._told(thickness, looked)))
 
     def without_surfaces(self) -> Walls:
-        """The same without what is as large as the mesh."""
+        """The same without the arrays that are as large as the mesh."""
         return replace(self, thin=replace(self.thin, solids=(), refined=None),
                        pieces=tuple(replace(piece, sweep=piece.sweep.without_surface()) for piece in self.pieces))
 

@@ -125,7 +125,7 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_of_files(parser: argparse.ArgumentParser) -> None:
-    """What files do not say of themselves."""
+    """What files do not say about themselves."""
     add = parser.add_argument
     add(
         "--unit-scale",
@@ -161,7 +161,7 @@ def _add_of_files(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_results(parser: argparse.ArgumentParser) -> None:
-    """What is told, and where it goes."""
+    """What is reported, and where it goes."""
     add = parser.add_argument
     add(
         "--frame",

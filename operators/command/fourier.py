@@ -60,7 +60,7 @@ def check(options: Namespace, parser: ArgumentParser) -> None:
 
 
 def write(obj: bpy.types.Object, options: Namespace, wanted: MeasureOptions) -> tuple[str, ...]:
-    """Transform the object and write the file; the decisions taken. Raises `Unreadable` and OSError."""
+    """Transform the object and write the file. Returns the decisions taken. Raises `Unreadable` and OSError."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
     under_way = object_transform(obj, depsgraph, wanted, options.waves, frame=options.frame)
     for _ in under_way.steps():

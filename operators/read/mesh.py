@@ -77,8 +77,8 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
 
 
 def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
-    """What `read` gives for a mesh in Edit Mode as its BMesh is now, with edits that Blender has not
-    been told of.
+    """What `read` gives for a mesh in Edit Mode as its BMesh is now, with edits that the mesh itself does not have
+    yet.
 
     A BMesh gives its elements one by one only, 5 s for a million faces; the copy into a mesh that
     lives for this call costs a fortieth of that and leaves the edit mesh as it is.

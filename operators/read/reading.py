@@ -19,7 +19,7 @@ FLAT = 4.0 * float(np.finfo(np.float32).eps)
 
 
 class Unreadable(Exception):
-    """The object cannot be read rightly.
+    """The object cannot be read correctly.
 
     name: the object's. reason: one sentence or two, without the name, that say why and what to do
     about it.

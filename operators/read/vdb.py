@@ -41,8 +41,8 @@ def openvdb() -> ModuleType | None:
 class VdbGrid:
     """A grid of a .vdb file.
 
-    low, shape: (3,) the box of its active voxels, in voxels. background: what all others hold. level_set: whether it
-    says of itself to be one. to_object: (4, 4) from voxels. ValueError where it cannot be measured.
+    low, shape: (3,) the box of its active voxels, in voxels. background: what all others hold. level_set: whether the
+    file calls it one. to_object: (4, 4) from voxels. ValueError where it cannot be measured.
     """
 
     def __init__(self, path: str, name: str) -> None:

@@ -36,7 +36,7 @@ class VolumeReading:
     """One grid, and where it stands.
 
     name, type, matrix, rotation, location, warnings: as in `Reading`.
-    grid: its name. level_set: whether it says to be one. to_object: (4, 4) float64 from voxels to the object.
+    grid: its name. level_set: whether it is marked as one. to_object: (4, 4) float64 from voxels to the object.
     shape: (3,) of the box that holds its voxels; low: (3,) where that begins. background: what is in no voxel.
     blocks: yields what is there, (offset in the box, array). polygons: gives the surface of a level set.
     """

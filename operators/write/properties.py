@@ -125,7 +125,7 @@ def clear(obj: bpy.types.Object) -> bool:
 
 
 def follow(obj: bpy.types.Object) -> None:
-    """Has the drivers evaluated that read what was stored, and nothing else: no modifier of the object again."""
+    """Makes Blender evaluate the drivers that read what was stored, but none of the object's modifiers."""
     obj.update_tag(refresh={"TIME"})
 
 
