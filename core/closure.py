@@ -96,12 +96,11 @@ def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
     free = wide.copy()
     free[left] = free[right] = False
     loops = []
-    ahead = forward ^ turned[owner]
-    for rows, complete in _loops(points, np.flatnonzero(free), ahead, tolerance):
+    for rows, complete in _loops(points, np.flatnonzero(free), forward ^ turned[owner], tolerance):
         if not complete:
             broken[component[owner[rows]]] = True
             continue
-        loops.append(_capped([sides[k] for k in rows], points[rows], ahead[rows], tolerance))
+        loops.append(_capped([sides[k] for k in rows], points[rows], (forward ^ turned[owner])[rows], tolerance))
     return Closure(component, number, turned, tuple(loops), int(free.sum()), crowded, int(against.sum()),
                    float((gap * length[left]).sum()), broken)
 
@@ -124,7 +123,7 @@ def _matched(sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tol
         near = np.abs(keys[start:start + BLOCK, None] - keys[None]).max(axis=2) <= 2.0 * tolerance
         for i, j in np.argwhere(near) + (start, 0):
             if i < j:
-                found += _coinciding(points[wide[i]], points[wide[j]], wide[i], wide[j], tolerance)
+                found += _apart(points[wide[i]], points[wide[j]], wide[i], wide[j], tolerance)
     taken = {side for _, i, j, _ in found for side in (i, j)}
     loose = [i for i in wide if i not in taken]
     for a, i in enumerate(loose):  # the same curve by other parameters
@@ -143,10 +142,7 @@ def _matched(sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tol
     return left.astype(np.intp), right.astype(np.intp), same.astype(bool), gap, len(crowded)
 
 
-def _coinciding(one: NDArray, other: NDArray, i: int, j: int, tolerance: float
-                ) -> list[tuple[float, int, int, bool]]:
-    """Whether two sides coincide parameter by parameter: how far they are apart, their numbers i and j, and whether
-    their curves run the same way; nothing where they do not."""
+def _apart(one: NDArray, other: NDArray, i: int, j: int, tolerance: float) -> list[tuple[float, int, int, bool]]:
     for same, row in ((False, other[::-1]), (True, other)):
         gap = float(np.linalg.norm(one - row, axis=1).max())
         if gap <= tolerance:
@@ -156,7 +152,7 @@ def _coinciding(one: NDArray, other: NDArray, i: int, j: int, tolerance: float
 
 def _astride(one: Curve, other: Curve, at_one: NDArray, at_other: NDArray, i: int, j: int, tolerance: float
              ) -> list[tuple[float, int, int, bool]]:
-    """As `_coinciding`, whatever the parameters are: every point of each curve must be on the other one."""
+    """Whether two curves coincide whatever their parameters are: every point of each is on the other one."""
     gaps, ways = [], []
     for curve, samples, points in ((other, at_other, at_one), (one, at_one, at_other)):
         gap, way = _nearest(curve, samples, points)

@@ -52,20 +52,18 @@ class FollowedBody:
 
     def follow(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
         """Measure the patches as they are now; whether what was decided before still holds."""
-        if self._follows and self._same_spaces(patches) and self._followed(patches, stored):
-            return True
-        self._decide(patches, stored)
-        return False
-
-    def _followed(self, patches: Sequence[Patch], stored: float) -> bool:
-        """Measure the patches by what was decided before, and tell whether that could be done; if not, `_decide` must
-        be called next."""
-        closure = close_patches(patches, max(TOLERANCE * patches_size(patches), 4.0 * stored))
+        if not self._follows or not self._same_spaces(patches):
+            self._decide(patches, stored)
+            return False
+        tolerance = max(TOLERANCE * patches_size(patches), 4.0 * stored)
+        closure = close_patches(patches, tolerance)
         if not _alike(closure, self.measure.closure):
+            self._decide(patches, stored)
             return False
         self._fluxes = [self._flux(k, patch) for k, patch in enumerate(patches)]
         volume = self._sum(closure)
         if not volume.total > 0.0:
+            self._decide(patches, stored)
             return False
         # The bounds are those of when all was decided: an estimate for what has moved since.
         self.volume = replace(volume, error=self.measure.volume.error + self._off, input=self.measure.volume.input)
