@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .moments import SECOND, Moments, U, monomial_count, sum_moments
 from .pose import PrincipalFrame, principal_frame
@@ -58,6 +58,11 @@ class MassProperties:
             principal=replace(frame, moments=principal),
             error=_bounds(moments, density, moments.error, rounded=True),
             input=_bounds(moments, density, moments.input, rounded=False))
+
+    def inertia_about(self, point: ArrayLike) -> NDArray[np.float64]:
+        """(3, 3) the tensor about another point, by the parallel-axis theorem."""
+        arm = np.asarray(point, np.float64) - self.center
+        return self.inertia + self.mass * (arm @ arm * IDENTITY - np.outer(arm, arm))
 
     def as_moments(self) -> Moments:
         """Its mass moments about the center; the third ones are not known any more and left zero."""

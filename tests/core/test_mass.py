@@ -36,6 +36,13 @@ def test_density_scales_mass_and_inertia_and_leaves_the_center():
     assert heavy.error["inertia"] == pytest.approx(7850 * light.error["inertia"])
 
 
+def test_the_parallel_axis_theorem_holds():
+    body = MassProperties.from_moments(box((0, 0, 0), (1, 2, 3)), 2.0)
+    # About its corner: I_xx = m (b² + c²) / 3, I_xy = -m a b / 4.
+    assert np.allclose(body.inertia_about((0, 0, 0)),
+                       12 * np.array([[13 / 3, -2 / 4, -3 / 4], [-2 / 4, 10 / 3, -6 / 4], [-3 / 4, -6 / 4, 5 / 3]]))
+
+
 def test_a_frame_turns_center_tensor_and_axes_together():
     rotation = np.array([[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]])
     body = MassProperties.from_moments(L_PRISM)
