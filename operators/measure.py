@@ -223,7 +223,7 @@ def _require_volume(body: Body, options: MeasureOptions) -> Moments:
     volume = body.area * options.thickness if shell and body.wall is None else body.wall or body.volume
     if not volume.total > 0.0:
         raise ValueError("It has no thickness; set one." if shell and body.area.total > 0.0 else
-                         "Its faces enclose no volume; measure it as a shell, or close it.")
+                         "Its faces enclose no volume; measure it as a shell, a flat one as a section, or close it.")
     return volume
 
 

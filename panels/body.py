@@ -13,6 +13,7 @@ import numpy as np
 from bpy.types import Context, Object, Panel, UILayout
 
 from ..operators import live, results, staleness, wall_slider
+from ..operators.read.visibility import GEOMETRY_TYPES
 from ..operators.units import SI_UNITS, Units
 from ..operators.write import properties
 from . import grid, materials, rows
@@ -57,7 +58,8 @@ class BodyPanel:
         units = Units.of(scene.unit_settings)
         found = results.of_object(obj, scene)
         _verdict(layout, context, obj, measured=found is not None)
-        _material(layout, context, obj)
+        if obj.type in GEOMETRY_TYPES or obj.instance_collection is not None:
+            _material(layout, context, obj)
         row = layout.row(align=True)
         row.scale_y = 1.4
         row.operator("object.body_moments_measure", icon="PHYSICS")
@@ -88,7 +90,8 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
     column = layout.column(align=True)
     refusal = results.refusal(obj)
     if refusal or not measured:
-        column.label(text="Not Measured", icon="CANCEL" if refusal else "RADIOBUT_OFF")
+        text = "Not Measured Again" if measured else "Not Measured"
+        column.label(text=text, icon="CANCEL" if refusal else "RADIOBUT_OFF")
     if refusal:
         rows.sentence(column, context, refusal, icon="BLANK1")
     if not measured:

@@ -75,6 +75,10 @@ def _found(layout: UILayout, context: Context) -> None:
         column.label(text=search.looked_at, icon="FILE")
     if not search.found:
         column.label(text="Nothing to compare with", icon="INFO")
+    else:
+        row = column.row()
+        row.alignment = "RIGHT"
+        row.label(text="Verdict, Distance")
     for one in search.found[:SHOWN]:
         row = column.row(align=True)
         if search.looked_at:
@@ -84,7 +88,7 @@ def _found(layout: UILayout, context: Context) -> None:
         cell = row.row(align=True)
         cell.alignment = "RIGHT"
         size = " ×{:.4g}".format(one.scale) if one.verdict.startswith("scaled") else ""
-        cell.label(text="{:s}{:s}, {:.1e}".format(one.verdict.title(), size, one.distance))
+        cell.label(text="{:s}{:s}, {:.2g}".format(one.verdict.title(), size, one.distance))
 
 
 class VIEW3D_PT_body_moments_shape(ShapePanel, Panel):

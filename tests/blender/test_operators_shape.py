@@ -374,7 +374,7 @@ def test_the_panel_shows_what_was_found(panel):
     text = labels(record)
     assert "Symmetry C5v" in text and "5-Fold" in text and text.count("Mirror") == 5
     assert "Similar to Wanted" in text and any(line.startswith("Mirror Image") for line in text)
-    assert any(line.startswith("Scaled Copy ×2") for line in text)
+    assert "Verdict, Distance" in text and any(line.startswith("Scaled Copy ×2, 0.") for line in text)
     names = {entry[2].name for entry in record if entry[0] == "operator" and hasattr(entry[2], "name")}
     assert names == {"Copy", "Image", "Big", "Other"}
 

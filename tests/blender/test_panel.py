@@ -114,6 +114,23 @@ def test_why_an_object_could_not_be_measured_is_shown_until_it_is():
     assert "Exact, Closed Surface" in labels(drawn())
 
 
+def test_a_refusal_beside_stored_numbers_does_not_deny_them():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "-1"
+    bpy.ops.object.body_moments_measure()
+    found = labels(drawn())
+    assert "Not Measured Again" in found and "Not Measured" not in found and "Exact, Closed Surface" in found
+
+
+def test_a_flat_solid_is_told_of_walls_and_sections():
+    flat = bpy.data.meshes.new("Flat")
+    flat.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    add(flat)
+    bpy.ops.object.body_moments_measure()
+    assert "a flat one as a section" in " ".join(labels(drawn()))
+
+
 def test_every_kind_of_object_can_be_active():
     for kind in ("CAMERA", "EMPTY", "LIGHT", "ARMATURE"):
         data = {
@@ -123,7 +140,19 @@ def test_every_kind_of_object_can_be_active():
             "EMPTY": lambda: None,
         }[kind]()
         add(data, kind)
-        drawn()
+        record = drawn()
+        assert not [entry for entry in record if entry[0] == "prop" and entry[1] in ("density", "mass_from", "overlap")]
+        assert [entry for entry in record if entry[0] == "operator" and entry[1] == "object.body_moments_measure"]
+
+
+def test_an_object_that_its_kind_would_make_a_body_shows_its_kind():
+    curve = bpy.data.curves.new("Path", "CURVE")
+    curve.splines.new("POLY").points.add(1)
+    add(curve)
+    assert ("prop", "kind") in drawn()
+    empty = add(None, "Instancer")
+    empty.instance_type, empty.instance_collection = "COLLECTION", bpy.data.collections.new("Parts")
+    assert ("prop", "kind") in drawn()
 
 
 def test_the_order_is_that_of_cad_dialogs():
