@@ -290,6 +290,8 @@ def _bounds(layout: UILayout, obj: Object, units: Units, found: properties.Store
         column.label(text=ESTIMATED if bound is None and properties.is_estimated(obj) else heading)
         values = found.error_bound if bound is None else found.error_bound[bound]
         for name, (label, quantity) in BOUNDED.items():
+            if name in ("volume", "area") and not sizes[name]:
+                continue  # a wire has neither, a grid of densities no surface
             rows.texts(column, label, units.bound(quantity, values[name], sizes[name]), repr(values[name]),
                        SI_UNITS[quantity])
 
@@ -346,8 +348,10 @@ def _totals(layout: UILayout, context: Context, units: Units) -> None:
     column = body.column(align=True)
     if total.body is not None:
         rows.value(column, units, "Mass", "mass", total.body.mass)
-    rows.value(column, units, "Volume", "volume", total.volume)
-    rows.value(column, units, "Area", "area", total.area)
+    if total.volume:
+        rows.value(column, units, "Volume", "volume", total.volume)
+    if total.area:
+        rows.value(column, units, "Area", "area", total.area)
     if total.body is None:
         return
     column = body.column(align=True)

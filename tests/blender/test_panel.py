@@ -155,6 +155,18 @@ def test_an_object_that_its_kind_would_make_a_body_shows_its_kind():
     assert ("prop", "kind") in drawn()
 
 
+def test_a_wire_shows_no_volume_and_no_area_anywhere():
+    curve = bpy.data.curves.new("Path", "CURVE")
+    curve.splines.new("POLY").points.add(1)
+    curve.splines[0].points[1].co = (3.0, 0.0, 0.0, 1.0)
+    obj = add(curve)
+    obj.body_moments.kind = "WIRE"
+    bpy.ops.object.body_moments_measure()
+    found = labels(drawn())
+    assert "3 m" in found and found.count("Center") == 2 and found.count("Mass") == 2
+    assert not {"Volume", "Area"} & set(found)
+
+
 def test_the_order_is_that_of_cad_dialogs():
     add(mesh_body())
     bpy.ops.object.body_moments_measure()
