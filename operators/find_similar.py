@@ -94,7 +94,7 @@ class _Find:
             entry, likeness = rows[0]
             parts.append("nearest is {:s}, at {:.2e}".format(
                 entry.name, likeness.distance(self.scaled, self.mirrored)))
-        self.report({"WARNING"} if failures else {"INFO"}, "; ".join(parts + selection.listed(failures)))
+        self.report({"WARNING"} if failures else {"INFO"}, selection.in_a_row(parts + selection.listed(failures)))
         return {"FINISHED"}
 
 

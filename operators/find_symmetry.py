@@ -108,7 +108,8 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
                 for obj, measurement, found, _ in self._found]
         selection.redraw(context)
         if self._failures or not told:
-            return selection.summarise(self, len(told), len(self._objects), "Looked at {count}", self._failures, told)
+            text = "Looked at {count}" if self._objects else "Nothing selected can be measured"
+            return selection.summarise(self, len(told), len(self._objects), text, self._failures, told)
         self.report({"INFO"}, "; ".join(selection.listed(told)))
         return {"FINISHED"}
 

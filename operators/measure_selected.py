@@ -88,7 +88,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
         elif warned:
             parts.append("{:d} with warnings".format(warned))
         parts += selection.listed(self._failed)
-        self.report({"WARNING"} if self._failed or warned else {"INFO"}, "; ".join(parts))
+        self.report({"WARNING"} if self._failed or warned else {"INFO"}, selection.in_a_row(parts))
 
 
 def _chosen(context: bpy.types.Context) -> list[bpy.types.Object]:

@@ -112,7 +112,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
             one.format(obj.name) for obj, *_ in found]
         if warned and len(found) > 1:
             told.append("{:d} with warnings".format(warned))
-        self.report({"WARNING"} if failed or warned else {"INFO"}, "; ".join(told + selection.listed(failed)))
+        self.report({"WARNING"} if failed or warned else {"INFO"}, selection.in_a_row(told + selection.listed(failed)))
         return {"FINISHED"} if found else {"CANCELLED"}
 
 

@@ -77,6 +77,11 @@ def one_line(sentences: Iterable[str]) -> str:
     return "".join(sentence.removesuffix(".") + ". " for sentence in before) + last
 
 
+def in_a_row(clauses: Sequence[str]) -> str:
+    """Clauses of a report with semicolons between them, whether or not they bring their period."""
+    return "; ".join([clause.removesuffix(".") for clause in clauses[:-1]] + list(clauses[-1:]))
+
+
 def listed(texts: Iterable[str], most: int = LISTED) -> list[str]:
     """The first ones, and how many more there are."""
     texts = list(texts)
@@ -105,7 +110,7 @@ def summarise(
     if done or not failures:
         sentences.append(text.replace("{count}", counted(done), 1))  # names in it may have braces too
     if failures:
-        told = "; ".join(listed("{:s}: {:s}".format(*failure) for failure in failures))
+        told = in_a_row(listed("{:s}: {:s}".format(*failure) for failure in failures))
         sentences.append(
             "{:d} of {:s} left unchanged. {:s}".format(len(failures), counted(total), told)
         )

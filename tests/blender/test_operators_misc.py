@@ -319,7 +319,7 @@ def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():
     assert texts == ["5 kg·m²", "0 kg·m²"]
 
 
-@pytest.mark.parametrize("operator", ["measure", "measure_section", "find_similar"])
+@pytest.mark.parametrize("operator", ["measure", "measure_section", "find_similar", "origin_to_center"])
 def test_a_report_of_many_failures_names_the_first_and_counts_the_others(operator, capfd):
     bodies = [add(mesh_body(), "Good")]
     bodies += [add(bpy.data.meshes.new("Nothing"), "Bad {:d}".format(i)) for i in range(6)]
@@ -328,7 +328,13 @@ def test_a_report_of_many_failures_names_the_first_and_counts_the_others(operato
     told = capfd.readouterr().out
     failed = 7 if operator == "measure_section" else 6
     assert told.count("It has no geometry") + told.count("It is not flat") == 3
-    assert "and {:d} more".format(failed - 3) in told
+    assert "and {:d} more".format(failed - 3) in told and ".;" not in told
+
+
+def test_where_no_object_can_have_a_symmetry_it_is_told(capfd):
+    add(None, "Empty")
+    assert bpy.ops.object.body_moments_find_symmetry() == {"CANCELLED"}
+    assert "Nothing selected can be measured" in capfd.readouterr().out
 
 
 def test_sentences_of_a_report_have_one_period_each():
