@@ -16,6 +16,7 @@ PNNL = (
 )
 NIST = 'NIST, Tables of X-Ray Mass Attenuation Coefficients (NISTIR 5632), table 2, "{:s}"'
 INGEO = "NatureWorks, Ingeo Biopolymer 3D850 technical data sheet (ASTM D1505)"
+CURA = 'UltiMaker, material profiles of Cura (fdm_materials), "{:s}"'
 CRC = (
     "CRC Handbook of Chemistry and Physics, 97th ed. (2016), section 15, Density of Various "
     'Solids, "{:s}"'
@@ -85,6 +86,14 @@ MATERIALS: tuple[Material, ...] = (
         ("PVDF (Kynar)", 1790.0, "Kynar"),
     ),
     Material("PLA", "Plastics", 1240.0, INGEO),
+    *_of(
+        "Plastics",
+        CURA,
+        ("ABS", 1100.0, "Generic ABS"),
+        ("ASA", 1070.0, "Generic ASA"),
+        ("PETG", 1270.0, "Generic PETG"),
+        ("TPU 95A", 1220.0, "Generic TPU 95A"),
+    ),
     *_of(
         "Rubber and Foam",
         PNNL,
