@@ -110,12 +110,12 @@ def _fast(stream: Iterable[Surface], order: int, area: bool, threads: int, progr
         if progress is not None:
             progress(done)
     if volume is None:
-        volume, shell = _nothing(order, "volume"), _nothing(order, "area")
+        volume, shell = _nothing(order, "volume", about), _nothing(order, "area", about)
     return volume.truncated(order), shell.truncated(order) if area else None
 
 
-def _nothing(order: int, of: str) -> Moments:
-    return Moments(np.zeros(monomial_count(order)), np.zeros(3), of)
+def _nothing(order: int, of: str, about: NDArray | None) -> Moments:
+    return Moments(np.zeros(monomial_count(order)), np.zeros(3) if about is None else about, of)
 
 
 @lru_cache
@@ -194,7 +194,8 @@ class _Stream:
                 self.progress(total.faces)
         total.settle()
         if not total.faces:
-            return _nothing(self.order, "volume"), _nothing(self.order, "area") if self.area else None
+            empty = [_nothing(self.order, of, self.center) for of in ("volume", "area")]
+            return empty[0], empty[1] if self.area else None
         return self._moments(total, "volume"), self._moments(total, "area") if self.area else None
 
     def _parts(self, tasks: Iterator[_Task]) -> Iterator[tuple[int, list[Sums]]]:

@@ -123,7 +123,7 @@ def test_box_with_one_face_subdivided_has_the_same_moments(path):
 
 def test_a_surface_takes_whole_numbers_of_every_kind_and_refuses_what_is_none():
     points, triangles = exact.box((0, 0, 0), (2, 3, 5)), exact.fan(exact.BOX_QUADS)
-    for kind in (np.uint8, np.int16, np.uint32, np.int64, np.uint64):
+    for kind in (np.uint8, np.int16, np.uint32, np.int64, np.uint64, ">i4", "<i8", ">u2"):
         assert_exact(Surface.from_triangles(np.array(points, int), np.array(triangles, kind)),
                      exact.box_moments((0, 0, 0), (2, 3, 5)))
     wrong = [(np.array(points)[:, :2], triangles), (points, exact.BOX_QUADS), (points, np.array(triangles, float)),

@@ -226,6 +226,8 @@ def test_nothing_has_moments_of_zero():
         for nothing in (Surface(np.zeros((0, 3))), [], iter(())):
             volume, area = moments_to_order(nothing, order, area=True)
             assert not volume.raw.any() and len(area.raw) == monomial_count(order)
+        for moments in moments_to_order([], order, area=True, about=(1.0, 2.0, 3.0)):
+            assert np.array_equal(moments.about, (1.0, 2.0, 3.0))
 
 
 @pytest.mark.parametrize("order", [2, 5])
