@@ -32,6 +32,7 @@ from .weld import equal_positions
 ORDER = 3
 POWERS = ORDER + 3  # coefficients in s: degrees 0 to 5
 TOUCHING = 1e-6  # of the size: nearer sides touch
+UNKNOWN = 0.01  # of the area: where more of it faces nobody knows which way, there is no wall
 ROUNDED = 20.0  # u: what rounds a Jacobian, relative to the product of the lengths in it
 INNER, OUTER = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
 NODES = np.concatenate([np.full((3, 3), outer) + (inner - outer) * np.eye(3) for inner, outer in zip(INNER, OUTER)])
@@ -123,8 +124,8 @@ def share(side: str, thickness: float) -> tuple[float, float]:
 def sweep(surface: Surface) -> Sweep:
     """The walls of a surface, closed or open, whose faces agree which side is outward.
 
-    Points at exactly the same place are one. ValueError, with what to do, where faces disagree or more than two meet
-    in an edge.
+    Points at exactly the same place are one. ValueError, with what to do, where faces disagree, more than two meet in
+    an edge, or float32 has lost which way they face.
     """
     points, triangles = _joined(surface)
     stored = float(np.linalg.norm(surface.coordinate_error))
@@ -134,15 +135,22 @@ def sweep(surface: Surface) -> Sweep:
     vectors = directions.vectors
     reach = np.abs(points - about).max(axis=0) * (1.0 + 4.0 * U), np.abs(vectors).max(axis=0)
     sums, bounds, swept, tested = np.zeros((20, POWERS)), np.zeros((3, 7)), np.zeros(4), []
-    for part in blocks(triangles):
+    for part, known in zip(blocks(triangles), blocks(directions.solid)):
         prisms = _Prisms(points[part], about, vectors[part])
         sums += prisms.sums()
         slide, lift = directions.slide[:, part].max(axis=2), directions.lift[:, part].max(axis=2)
+        if stored:
+            lift[1] += np.where(known, 0.0, 1.0 + prisms.far)  # it should have moved by one
         bounds += prisms.bounds(slide, lift, stored)
         swept += prisms.swept(slide[1], lift[1], stored)
         tested.append(prisms.jacobians())
     jacobian, doubt, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
     solid = directions.solid
+    lost = float(double[~solid].sum()) / (float(double.sum()) or 1.0)
+    if stored and lost > UNKNOWN:
+        raise ValueError(
+            "{:.0f} % of its area is in faces so small, for how far they are from the object's origin, that float32 "
+            "has lost which way they face. Model it nearer to its origin, or set Wall to Thin.".format(100.0 * lost))
     rest = np.flatnonzero(solid)
     outward, inward = (first_fold(jacobian[:, :, solid] * signs[:, None, None], doubt[:, solid])
                        for signs in (np.array([1.0, 1.0, 1.0]), np.array([1.0, -1.0, 1.0])))

@@ -108,7 +108,8 @@ class Walls:
                          "{:.3g} to {:.3g} times as thick there.".format(least, most))
         ignored = sum(piece.sweep.ignored for piece in self.pieces)
         if ignored:
-            notes.append("{:d} of its faces have no area, and moved along with their neighbours.".format(ignored))
+            notes.append("{:d} of its faces have too little area to face anywhere, and moved along with their "
+                         "neighbours.".format(ignored))
         if not looked:
             notes.append("Whether walls run into each other at this thickness was not looked for; Measure does.")
         elif any(piece.meets_itself(self.side, thickness) for piece in self.pieces):

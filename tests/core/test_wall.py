@@ -376,3 +376,27 @@ def test_needles_alone_are_swept_without_a_direction():
     found = sweep(bodies.surface((points, np.array([[0, 1, 2]]))))
     assert found.ignored == 1 and found.outward == np.inf
     assert found.moments(0.0, 1.0).total == 0.0
+
+
+FAR = 1000.0 * np.array([0.3, 0.7, 0.61])
+
+
+@pytest.mark.parametrize(("part", "share"), [
+    (bodies.moved(bodies.sphere(2), offset=10.0 * FAR), "65 %"),
+    (bodies.moved(bodies.box((0, 0, 0), (1, 1, 0.01)), offset=FAR), "2 %"),
+    (bodies.moved(bodies.sphere(1), 0.05 * np.eye(3), FAR), "100 %")], ids=["ball", "plate", "small"])
+def test_faces_of_which_float32_has_lost_the_direction_make_no_wall(part, share):
+    """Their share of the wall was left out, and they were not asked when it folds over."""
+    with pytest.raises(ValueError, match=share):
+        sweep(bodies.surface(part, np.float32))
+    assert sweep(bodies.surface(part)).ignored == 0
+
+
+def test_what_a_few_faces_without_a_direction_lack_is_in_the_bound():
+    part = bodies.moved(bodies.box((0, 0, 0), (1, 1, 0.001)), offset=FAR)
+    found = sweep(bodies.surface(part, np.float32))
+    assert found.ignored == 8
+    for s in (1e-6, 1e-5):
+        truth = (1 + 2 * s) ** 2 * (0.001 + 2 * s) - 0.001
+        body = found.moments(0.0, s)
+        assert body.total < 0.9985 * truth and abs(body.total - truth) <= body.input[0] < 0.01 * truth
