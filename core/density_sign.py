@@ -18,6 +18,7 @@ from .polynomial import Polynomial
 
 NEGLIGIBLE = 1e-6  # of the largest density: float32 coordinates make as much
 GRID = 9  # points along each side of the box that are tried
+STEPS = np.array(list(product((np.arange(GRID) + 0.5) / GRID, repeat=3)))
 TRIED = 24  # points that are located in the body
 BLOCK = 1 << 15  # triangles at a time
 
@@ -34,24 +35,27 @@ def negative_place(density: Polynomial, points: NDArray, triangles: NDArray, sol
     if density.degree > 1:
         tried = np.concatenate([tried, points[triangles].mean(axis=1)])
     values = density(tried)
+    low, high = points[used].min(axis=0), points[used].max(axis=0)
+    grid = low + STEPS * (high - low) if solid and density.degree > 1 else tried[:0]
+    inner = density(grid)
+
+    def inside(i: int) -> bool:
+        return abs(winding(points, triangles, grid[i])) > 0.5
+
     largest = float(np.abs(values).max())
     least = int(np.argmin(values))
+    if values[least] < 0.0:  # at the surface, where the density of all of it may be next to nothing
+        most = next(filter(inside, np.argsort(-inner)[:TRIED].tolist()), None)
+        largest = largest if most is None else max(largest, inner[most])
     if values[least] < -NEGLIGIBLE * largest:
         return (values[least], tried[least]), False
     if density.degree <= 1:
         return None, False
-    low, high = points[used].min(axis=0), points[used].max(axis=0)
     if density.lower_bound(low, high) >= -NEGLIGIBLE * largest:
         return None, False
-    if solid:
-        steps = (np.arange(GRID) + 0.5) / GRID
-        grid = low + np.array(list(product(steps, repeat=3))) * (high - low)
-        values = density(grid)
-        worst = np.argsort(values)[:TRIED]
-        for i in worst[values[worst] < -NEGLIGIBLE * largest].tolist():
-            if abs(winding(points, triangles, grid[i])) > 0.5:
-                return (values[i], grid[i]), False
-    return None, True
+    worst = np.argsort(inner)[:TRIED]
+    found = next(filter(inside, worst[inner[worst] < -NEGLIGIBLE * largest].tolist()), None)
+    return (None, True) if found is None else ((inner[found], grid[found]), False)
 
 
 def winding(points: NDArray, triangles: NDArray, place: ArrayLike) -> float:

@@ -3,6 +3,7 @@
 """Densities that are not one number: materials, polynomials and vertex attributes, from settings to what is told."""
 
 import json
+import math
 
 import bpy
 import numpy as np
@@ -442,6 +443,18 @@ def test_a_density_that_only_may_be_negative_is_said_and_one_that_touches_zero_i
     found = measure(by_polynomial(ring, "(x - 0.9993)**2 + (y - 0.9131)**2 + (z - 0.0717)**2 - 0.0001"))
     assert any("may become negative" in one for one in found.warnings)
     assert not measure(by_polynomial(ring, "500*z")).warnings
+
+
+@pytest.mark.parametrize(("segments", "size"), [(128, 1.0), (16, 0.001)])
+def test_a_density_that_falls_to_zero_at_the_surface_is_not_called_negative_for_what_float32_leaves(segments, size):
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=segments, ring_count=segments // 2, scale=(size, size, size))
+    ball = bpy.context.object
+    text = "1000*(1 - (x**2 + y**2 + z**2)/{:g}**2)"
+    found = measure(by_polynomial(ball, text.format(size)))
+    assert found.mass_properties.mass == pytest.approx(8 / 15 * math.pi * 1000 * size**3, rel=0.01)
+    assert any("may become negative" in one for one in found.warnings)
+    with pytest.raises(Unreadable, match="becomes negative"):
+        measure(by_polynomial(ball, text.format(0.99999 * size)))
 
 
 def test_a_polynomial_that_cannot_be_read_is_refused_with_the_offending_part():
