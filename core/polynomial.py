@@ -104,14 +104,14 @@ class Polynomial:
         slack = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
         for axis in range(3):
             net = np.moveaxis(np.tensordot(_to_bernstein(self.degree), net, (1, axis)), 0, axis)
-        boxes = [(float(net.min()), 0, 0, net)]  # a heap: the least bound first; the number settles ties
+        boxes = [(float(net.min()), 0, net)]  # a heap: the least bound first; the number settles ties
         for number in range(1, 2 * HALVINGS, 2):
-            least, _, depth, net = boxes[0]
+            least, _, net = boxes[0]
             if least >= -slack or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values
                 break
             heapq.heappop(boxes)
-            for i, half in enumerate(_halves(net, depth % 3)):
-                heapq.heappush(boxes, (float(half.min()), number + i, depth + 1, half))
+            for i, half in enumerate(_halves(net, _most_bent(net))):
+                heapq.heappush(boxes, (float(half.min()), number + i, half))
         return boxes[0][0] - slack
 
 
@@ -250,6 +250,11 @@ def _shifted(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dict[
 def _to_bernstein(degree: int) -> NDArray[np.float64]:
     """(n+1, n+1) from the coefficients of t^j to those of the Bernstein polynomials on [0, 1]."""
     return np.array([[math.comb(i, j) / math.comb(degree, j) for j in range(degree + 1)] for i in range(degree + 1)])
+
+
+def _most_bent(net: NDArray) -> int:
+    """The axis along which the second differences are largest: it is they by which the net is off the polynomial."""
+    return int(np.argmax([np.abs(np.diff(net, 2, axis)).max(initial=0.0) for axis in range(3)]))
 
 
 def _halves(net: NDArray, axis: int) -> tuple[NDArray, NDArray]:

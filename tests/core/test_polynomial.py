@@ -108,6 +108,14 @@ def test_what_is_positive_is_proven_so(text):
     assert parse(text).lower_bound((-1, -1, -1), (1, 1, 1)) > 0.0
 
 
+@pytest.mark.parametrize("text", [
+    "z**2", "(x - 0.3)**2*(x + 0.7)**2", "(1 - z**2)**2", "(x*y)**2", "(x - 0.4)**2 + 100*z**4", "(x**2 + y**2)*z**2",
+    "(x - 0.4)**2*(y - 0.2)**2*(z + 0.1)**2"])
+def test_what_touches_zero_on_planes_and_lines_is_told_from_what_is_negative(text):
+    """Halved along each axis in turn, a thousandth of the largest value was left in doubt."""
+    assert 0.0 > parse(text).lower_bound((-1.1, -1.2, -1.3), (1, 1.25, 1.5)) > -2e-7
+
+
 def test_what_is_negative_somewhere_is_never_proven_positive():
     assert parse("x**2 - 1e-6").lower_bound((-1, -1, -1), (1, 1, 1)) < 0.0
     assert parse("1 - x**17").lower_bound((0, 0, 0), (1.001, 0, 0)) < 0.0
