@@ -66,43 +66,52 @@ def balance(surface: Surface, movable: NDArray[np.integer], target: NDArray, *, 
     start = problem.at(problem.start)
     if start is None:
         raise ValueError("It has no {:s}.".format("area" if shell else "volume that its faces enclose"))
-    before, residual, gradient = start
+    before, _, gradient = start
     pull = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
     pull *= (willing[used] / area[used])[:, None]
-    if not _strong(np.einsum("rnk,snk->rs", pull, gradient[:, movable])):
+    if not _strong(_slope(pull, np.zeros(len(across)), gradient[:, movable], np.inf)):
         raise ValueError("The vertices that may move cannot bring the center there, however far they go; select more.")
-    points, center, multiplier, cut = problem.start, before, np.zeros(len(across)), False
-    for _ in range(STEPS):
-        far = np.linalg.norm(residual)
-        if far <= problem.tolerance:
-            break
-        slope = _slope(pull, multiplier, gradient[:, movable], limit)
-        if not _strong(slope):
-            raise ValueError(_short(far, cut, limit))
-        change, share = np.linalg.solve(slope, residual), 1.0
-        for _ in range(HALVINGS):
-            trial = multiplier + share * change
-            moves, cut = _moves(pull, trial, limit)
-            moved = problem.start.copy()
-            moved[movable] += moves
-            found = problem.at(moved)
-            if found is not None and np.linalg.norm(found[1]) <= (1.0 - 0.1 * share) * far:
-                break
-            share /= 2.0
-        else:
-            if far > 16.0 * problem.tolerance:
-                raise ValueError(_short(far, cut, limit))
-            break
-        points, multiplier, (center, residual, gradient) = moved, trial, found
-    else:
-        raise ValueError(_short(far, cut, limit))
+    points, center, far = _reached(problem, start, pull, movable, np.inf)
+    left = far
+    if limit < np.inf and (far or np.linalg.norm(points - problem.start, axis=1).max() > limit):
+        points, center, left = _reached(problem, start, pull, movable, limit)
+    if left:
+        raise ValueError(_short(far, np.inf) if far else _short(left, limit))
     problem.check(points, movable)
     return Balanced(points, before, center)
 
 
-def _short(far: float, cut: bool, limit: float) -> str:
+def _reached(problem: _Problem, start: tuple[NDArray, NDArray, NDArray], pull: NDArray, movable: NDArray, limit: float
+             ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+    """(n, 3) and (3,) the points and the center, and how far it stays from its target, 0 where it comes there. start:
+    as of `_Problem.at`."""
+    points, (center, residual, gradient) = problem.start, start
+    multiplier = np.zeros(len(pull))
+    slope = _slope(pull, multiplier, gradient[:, movable], limit)
+    for _ in range(STEPS):
+        far = np.linalg.norm(residual)
+        if far <= problem.tolerance:
+            return points, center, 0.0
+        change, share = np.linalg.solve(slope, residual), 1.0
+        for _ in range(HALVINGS):
+            trial = multiplier + share * change
+            moved = problem.start.copy()
+            moved[movable] += _moves(pull, trial, limit)
+            found = problem.at(moved)
+            if found is not None and np.linalg.norm(found[1]) <= (1.0 - 0.1 * share) * far:
+                slope = _slope(pull, trial, found[2][:, movable], limit)
+                if _strong(slope) or np.linalg.norm(found[1]) <= problem.tolerance:
+                    break  # else too many are at the limit to go on from there
+            share /= 2.0
+        else:
+            return points, center, far if far > 16.0 * problem.tolerance else 0.0
+        points, multiplier, (center, residual, gradient) = moved, trial, found
+    return points, center, far
+
+
+def _short(far: float, limit: float) -> str:
     """Why the center stays `far` from its target."""
-    if cut:
+    if limit < np.inf:
         return ("With moves of at most {:.3g} m per vertex the center stays {:.2g} m short; allow more, or select more "
                 "vertices.".format(limit, far))
     return ("Moving these vertices leaves the center {:.2g} m short; select more of them, or choose a nearer point."
@@ -115,13 +124,13 @@ def _strong(system: NDArray) -> bool:
     return bool(np.isfinite(strength).all() and strength[-1] > POWERLESS * strength[0])
 
 
-def _moves(pull: NDArray, multiplier: NDArray, limit: float) -> tuple[NDArray[np.float64], bool]:
-    """(k, 3) the moves of the (r, k, 3) pulls times the (r,) multiplier, and whether the limit cut one."""
+def _moves(pull: NDArray, multiplier: NDArray, limit: float) -> NDArray[np.float64]:
+    """(k, 3) the moves of the (r, k, 3) pulls times the (r,) multiplier, cut to the limit."""
     moves = np.einsum("rnk,r->nk", pull, multiplier)
     length = np.linalg.norm(moves, axis=1)
     if not (length > limit).any():
-        return moves, False
-    return moves * (limit / np.maximum(length, limit))[:, None], True
+        return moves
+    return moves * (limit / np.maximum(length, limit))[:, None]
 
 
 def _slope(pull: NDArray, multiplier: NDArray, gradient: NDArray, limit: float) -> NDArray[np.float64]:

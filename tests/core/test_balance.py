@@ -90,6 +90,26 @@ def test_a_limit_holds_for_every_vertex_and_the_point_is_reached_still(shell):
     assert cost[0] < cost[1] < 1.5 * cost[0]
 
 
+@pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.parametrize("spare", [1.001, 1.05, 1.5])
+def test_a_limit_that_the_least_moves_keep_changes_nothing(shell, count, spare):
+    """Newton's steps that went past it found no way back: what could be reached was refused."""
+    part = bodies.moved(bodies.sphere(1), bodies.rotation(3) @ np.diag([1.0, 2.0, 0.5]))
+    random = np.random.default_rng(count)
+    for _ in range(8):
+        movable = random.choice(len(part[0]), count, replace=False)
+        points = part[0].copy()
+        points[movable] += random.normal(size=3) * 0.05
+        target = center(points, part[1], shell)
+        try:
+            free = balance(bodies.surface(part), movable, target, across=HORIZONTAL, shell=shell)
+        except ValueError:
+            continue
+        most = np.linalg.norm(free.points - part[0], axis=1).max()
+        held = balance(bodies.surface(part), movable, target, across=HORIZONTAL, limit=spare * most, shell=shell)
+        assert np.array_equal(held.points, free.points)
+
+
 def test_a_limit_that_is_too_small_is_said():
     part = bodies.sphere(3)
     with pytest.raises(ValueError, match="at most 0.001 m"):
@@ -109,6 +129,8 @@ def test_a_point_that_is_too_far_is_refused():
     part = bodies.sphere(2)
     with pytest.raises(ValueError, match="turn|nearer"):
         balance(bodies.surface(part), upper(part, 0.9), (5.0, 0.0, 0.0), across=HORIZONTAL)
+    with pytest.raises(ValueError, match="nearer"):  # a limit that is not what stands against it is not blamed
+        balance(bodies.surface(part), upper(part, 0.5), (0.0, 0.0, -0.5), limit=4.0, shell=True)
 
 
 def test_one_vertex_cannot_move_the_center_every_way():
