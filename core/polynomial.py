@@ -44,9 +44,11 @@ class Polynomial:
     @classmethod
     def from_coefficients(cls, coefficients: ArrayLike) -> Polynomial:
         """From the coefficients of 1, x, y, z, x², xy, xz, y², yz, z², … in this order, as many as there are; taken
-        exactly."""
-        values = [Fraction(value) for value in np.asarray(coefficients, float).tolist()]
-        return cls(_from_list(values))
+        exactly. ValueError where one is not finite, or there are too many."""
+        values = np.asarray(coefficients, float).tolist()
+        if not all(map(math.isfinite, values)):
+            raise ValueError("The coefficients of a polynomial are finite numbers.")
+        return cls(_from_list(list(map(Fraction, values))))
 
     @property
     def degree(self) -> int:

@@ -40,6 +40,7 @@ FEWEST = 4608  # faces in a block; of rows less than half its buffer of 8192 lon
 BATCH = 8  # blocks that are handed to a thread at once
 USUAL = 8  # powers of two up to which coordinates are left as they are
 RANGE = 1000.0  # powers of two beyond which a moment is no number
+TOO_LARGE = "It is too large for moments of order {:d} to be numbers. Scale it down."
 
 
 def moments_to_order(body: Surface | Iterable[Surface | NDArray], order: int, *, area: bool = False, threads: int = 1,
@@ -96,22 +97,24 @@ def _middle_of(surfaces: list[Surface]) -> NDArray[np.float64] | None:
 def _fast(stream: Iterable[Surface], order: int, area: bool, threads: int, progress: Callable[[int], None] | None,
           about: NDArray | None) -> tuple[Moments, Moments | None]:
     """By the kernel for low orders, piece by piece."""
-    volume = shell = None
+    total: list[Moments] = []
     done, exact = 0, order == FAST
     for surface in stream:
         if not len(surface.triangles) + len(surface.quads):
             continue
         if about is None:
             about = _middle_of([surface])
-        one, other = solid_and_area(surface, threads, area, exact=exact, about=about)
-        volume = one if volume is None else volume + one
-        shell = other if shell is None else shell + other
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = solid_and_area(surface, threads, area, exact=exact, about=about)
+            found = [moments.truncated(order) for moments in found]
+            total = [one + other for one, other in zip(total, found)] if total else found
         done += len(surface.triangles) + len(surface.quads)
         if progress is not None:
             progress(done)
-    if volume is None:
-        volume, shell = _nothing(order, "volume", about), _nothing(order, "area", about)
-    return volume.truncated(order), shell.truncated(order) if area else None
+    total = total or [_nothing(order, of, about) for of in ("volume", "area")]
+    if not all(np.isfinite(moments.error).all() for moments in total):
+        raise ValueError(TOO_LARGE.format(order))
+    return total[0], total[1] if area else None
 
 
 def _nothing(order: int, of: str, about: NDArray | None) -> Moments:
@@ -252,8 +255,7 @@ class _Stream:
             raise ValueError("A piece of the body reaches much farther than the first. Give a point of the body, and "
                              "how far it reaches from there.")
         if (max(beyond, 0) + self.exponent) * (self.order + 3) > RANGE:
-            raise ValueError("It is too large for moments of order {:d} to be numbers. Scale it down."
-                             .format(self.order))
+            raise ValueError(TOO_LARGE.format(self.order))
 
     def _run(self, task: _Task) -> tuple[int, list[Sums]]:
         """One task, in whatever thread: how many faces it has, and what each of its blocks adds."""

@@ -97,12 +97,16 @@ def _measure(points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLi
         raise ValueError("the boundary of a body in n dimensions is made of simplices of n corners")
     if simplices.size and not (simplices.min() >= 0 and simplices.max() < len(points)):
         raise ValueError("a simplex names a point that is not there")
+    if order < 0:
+        raise ValueError("the order of moments is 0 or more")
     indices = multi_indices(dimension, order)
     used = points[simplices.ravel()] if simplices.size else np.zeros((1, dimension))
     low, high = used.min(axis=0), used.max(axis=0)
     if not all(map(isfinite, [*low, *high])):
         raise ValueError("the coordinates are not all finite")
     about = low / 2.0 + high / 2.0 if about is None else np.asarray(about, np.float64)
+    if about.shape != (dimension,) or not np.isfinite(about).all():
+        raise ValueError("the point that moments are about has as many finite coordinates as the space dimensions")
     reach = float(np.maximum(np.abs(high - about), np.abs(low - about)).max())
     exponent = int(np.frexp(reach)[1]) if reach else 0  # the body is brought to size 1, which rounds nothing
 

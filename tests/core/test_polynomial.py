@@ -89,6 +89,9 @@ def test_coefficients_come_back():
     assert np.array_equal(Polynomial.from_coefficients(values).coefficients(), values)
     assert Polynomial.from_coefficients(values).degree == 3
     assert parse("0").degree == 0 and np.array_equal(parse("0").coefficients(), [0.0])
+    for value in (np.nan, np.inf):
+        with pytest.raises(ValueError, match="are finite numbers"):
+            Polynomial.from_coefficients([1.0, value])
 
 
 @settings(deadline=None)

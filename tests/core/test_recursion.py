@@ -255,6 +255,17 @@ def test_what_leaves_the_range_of_numbers_is_refused():
         moments_to_order(iter([triangles[:1] * 1e-30, triangles]), 20)
 
 
+@pytest.mark.filterwarnings("error")
+def test_what_leaves_it_at_low_orders_is_refused_too_and_what_stays_is_told():
+    points, quads = grid_torus()
+    triangles = points[quads[:, :3]] * 1e60
+    whole = moments_to_order(iter([triangles, triangles]), 1)[0]
+    assert whole.total == pytest.approx(2e180 * moments_to_order([points[quads[:, :3]]], 1)[0].total, rel=1e-12)
+    for order in (3, 4):
+        with pytest.raises(ValueError, match="too large"):
+            moments_to_order(iter([triangles, triangles]), order)
+
+
 def test_a_stream_is_never_in_memory_as_a_whole():
     """A torus of 250,000 triangles, made in strips; as arrays it would take 18 MB."""
     n, m, strip = 500, 250, 25

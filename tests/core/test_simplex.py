@@ -195,5 +195,13 @@ def test_bad_input_is_refused(points, simplices, words):
         enclosed_moments(points, simplices, 2)
 
 
+@pytest.mark.parametrize(("order", "about", "words"), [
+    (-1, None, "0 or more"), (2, (0.0, 0.0), "as many"), (2, (0.0, np.nan, 0.0), "finite")])
+def test_what_is_asked_for_is_looked_at_too(order, about, words):
+    points, facets, _ = cube(3)
+    with pytest.raises(ValueError, match=words):
+        enclosed_moments(points, facets, order, about)
+
+
 def test_nothing_encloses_nothing():
     assert not enclosed_moments(np.zeros((0, 3)), np.zeros((0, 3), int), 2).raw.any()
