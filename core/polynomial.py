@@ -27,6 +27,7 @@ from .moments import U
 
 HIGHEST = 17  # mass moments to order 3 then need those of the body to order 20
 LONGEST = 4096  # bits of a number, and characters of a text
+LARGEST = 664  # powers of two to which numbers may be large, or small: 1e200
 BLOCK = 1 << 15  # points that are evaluated together
 HALVINGS = 600  # boxes that are looked at for a bound
 Exponents = tuple[int, int, int]
@@ -227,8 +228,8 @@ def _constant(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> Fr
 
 def _checked(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> dict[Exponents, Fraction]:
     for value in terms.values():
-        if (max(value.numerator.bit_length(), value.denominator.bit_length()) > LONGEST
-                or not 1e-200 < abs(value) < 1e200):
+        above, below = value.numerator.bit_length(), value.denominator.bit_length()
+        if max(above, below) > LONGEST or abs(above - below) > LARGEST:
             raise ValueError("“{:s}” holds numbers that are too large or too small.".format(_part(node, text)))
     return terms
 
