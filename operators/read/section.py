@@ -17,12 +17,14 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.graded import own_axes
 from ...core.surface import Surface
 from .mesh import from_edit_mesh, mesh_surface
 from .objects import placed, read_object
-from .reading import Unreadable
+from .reading import Reading, Unreadable
 
 SECTION_TYPES = {"MESH", "CURVE", "FONT"}
+ZERO = 1e-17  # a scale that `decompose()` takes for zero
 
 
 @dataclass
@@ -32,7 +34,8 @@ class SectionReading:
     what: of what object or part, in words. points: (n, 3). triangles: (m, 3), facing as drawn, and faces: (m,) the face
     of each; for outlines fans that tell the plane, with loops: the points of each closed outline, in order.
     facing: (3,) where the plane has to look, None where the triangles tell. error: how far float32 storage may have
-    moved a point. drawn: the area that Blender fills, of outlines in a plane. rotation, location: the object frame.
+    moved a point. drawn: the area that Blender fills, of outlines in a plane. rotation, location: the object frame, or
+    where a zero scale leaves `decompose()` without a rotation, the right-angled axes that are left.
     """
 
     name: str
@@ -66,7 +69,12 @@ def read_section(obj, depsgraph) -> SectionReading:
     surface = reading.joined()
     return SectionReading(
         obj.name, "All Faces", surface.points, surface.triangles, surface.triangle_faces,
-        float(np.linalg.norm(surface.coordinate_error)), reading.rotation, reading.location, warnings=warnings)
+        float(np.linalg.norm(surface.coordinate_error)), _axes(reading), reading.location, warnings=warnings)
+
+
+def _axes(reading: Reading) -> NDArray[np.float64]:
+    shortest = np.sqrt((reading.matrix[:3, :3] ** 2).sum(axis=0)).min()
+    return own_axes(reading.matrix[None])[0][0] if shortest < ZERO else reading.rotation
 
 
 def _selected_faces(obj, depsgraph) -> SectionReading:
@@ -91,7 +99,7 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     count = int(np.count_nonzero(chosen))
     return SectionReading(
         obj.name, "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count), surface.points, triangles,
-        surface.triangle_faces[inside], float(np.linalg.norm(surface.coordinate_error)), place.rotation,
+        surface.triangle_faces[inside], float(np.linalg.norm(surface.coordinate_error)), _axes(place),
         place.location, warnings=warnings)
 
 
@@ -127,7 +135,7 @@ def _outlines(obj, depsgraph) -> SectionReading:
     _require_finite(obj, surface.points)
     return SectionReading(
         obj.name, "Text" if obj.type == "FONT" else "Curve", surface.points, triangles, faces,
-        float(np.linalg.norm(surface.coordinate_error)), place.rotation, place.location, loops, facing,
+        float(np.linalg.norm(surface.coordinate_error)), _axes(place), place.location, loops, facing,
         drawn, warnings)
 
 

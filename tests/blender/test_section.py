@@ -113,6 +113,15 @@ def test_scale_also_uneven_and_mirroring_is_measured(data, scale):
     assert section.second[:2] == pytest.approx((I_X * a * b**3, I_Y * b * a**3), rel=1e-13)
 
 
+@pytest.mark.parametrize("data", [lambda: flat_mesh(I_BEAM), lambda: curve_of(I_BEAM)])
+@pytest.mark.parametrize("height", [1.0, 0.0, 1e-30])
+def test_an_object_that_a_zero_scale_has_flattened_keeps_its_own_axes(data, height):
+    """`decompose()` has no rotation for it, and Blender's answer is no axis of the object."""
+    section, _, _ = section_of(add(data(), rotation=(0.3, 0.4, 0.5), scale=(1, 1, height)))
+    assert section.second == pytest.approx((I_X, I_Y, 0.0), rel=1e-6, abs=1e-6 * I_X)
+    assert section.plane.named == "X"
+
+
 def test_a_sheared_object_is_measured_as_it_is_seen():
     parent = add(None, "Parent", scale=(2, 1, 1))
     obj = add(flat_mesh(square(0, 0, 2)), rotation=(0, 0, math.pi / 4))
