@@ -25,6 +25,7 @@ from .weld import equal_positions
 
 FLAT = 1e-5  # of a region's size: points farther off their plane are not planar; an area is off by the square of this
 EQUAL = 1e-6  # principal moments closer than this, relatively, are equal
+UNSURE = 1e-3  # of the larger one: what is more is not taken for noise
 ENDS = 2.0 * np.sqrt(2.0)  # an edge grows by this where both ends move by 1 along each axis
 ALONG = 0.05  # the least share of an axis that must lie in the plane to name the plane's x axis
 
@@ -82,12 +83,17 @@ class Section:
     def free(self) -> bool:
         """Whether every axis through the centroid is a principal one."""
         first, second = self.principal
-        return first - second <= EQUAL * first + 2.0 * (self.error["second"] + self.input["second"])
+        return first - second <= EQUAL * first + 2.0 * self._noise
 
     @property
     def angle(self) -> float:
         """Radians from x towards y to axis 1; 0 where every axis is one."""
-        return 0.0 if self.free else principal_angle(self.second, self.error["second"] + self.input["second"])
+        return 0.0 if self.free else principal_angle(self.second, self._noise)
+
+    @property
+    def _noise(self) -> float:
+        """What tells nothing of the axes. Where bounds are wide the moments are those of axes all the same."""
+        return min(self.error["second"] + self.input["second"], UNSURE * self.principal[0])
 
     @property
     def polar(self) -> float:

@@ -166,6 +166,17 @@ def test_float32_coordinates_move_a_section_by_no_more_than_is_told():
         assert abs(moved.perimeter - section.perimeter) <= section.input["perimeter"]
 
 
+@pytest.mark.parametrize("error", [0.0, 0.05, 0.2, 1.0])
+def test_wide_bounds_do_not_make_every_axis_of_an_angle_a_principal_one(error):
+    """I_1 was told with the distance of the corner from another axis, where float32 might have moved much."""
+    points, loops = shape([(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)])
+    section = measure_section(LEVEL, lifted(points), nested(points, loops), error=error)
+    assert not section.free
+    assert math.tan(2.0 * section.angle) == pytest.approx(1.5 / -2.0) and section.angle > 0.0
+    across = (points - section.centroid) @ [-math.sin(section.angle), math.cos(section.angle)]
+    assert section.moduli[2] == pytest.approx(section.principal[0] / np.abs(across).max())
+
+
 SQUARE = (lifted(np.array(rectangle(0, 0, 1, 1), float)), np.array([[0, 1, 2], [0, 2, 3]]))
 
 
