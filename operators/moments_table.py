@@ -11,7 +11,7 @@ from __future__ import annotations
 import csv
 import io
 from collections import OrderedDict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import bpy
@@ -192,7 +192,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
             self.report({"WARNING"}, NO_WIRE.format(obj.name))
             return {"CANCELLED"}
         area = one.area_moments.truncated(options.order)
-        volume = area * one.thickness if one.volume_moments is None else one.volume_moments.truncated(options.order)
+        volume = (one.volume_moments or replace(area * one.thickness, of="volume")).truncated(options.order)
         key = (matrix_hash(obj), settings_hash(obj, scene), staleness.geometry_changes(obj))
         _kept.pop(obj.session_uid, None)
         _kept[obj.session_uid] = Computed(obj.name, volume, area, one.rotation, one.location, key)

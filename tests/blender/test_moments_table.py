@@ -149,7 +149,15 @@ def test_a_shell_shows_its_thin_volume(box):
     box.body_moments.kind, box.body_moments.thickness = "SHELL", 0.01
     compute(5)
     assert rows()[0, 0, 0][0] == pytest.approx(0.22, rel=1e-6)
+    settings(moments_about="NORMALIZED")
+    of_volume = {powers: value for powers, (value, *_) in rows().items()}
     settings(moments_of="SURFACE")
+    of_area = {powers: value for powers, (value, *_) in rows().items()}
+    for powers, value in of_volume.items():  # μ / V^(1 + n/3) of V = 0.22, μ / A^(1 + n/2) of A = 22
+        n = sum(powers)
+        scale = 0.01 * 22.0 ** (1 + n / 2) / 0.22 ** (1 + n / 3)
+        assert value == pytest.approx(of_area[powers] * scale, rel=1e-6, abs=1e-9 * scale)
+    settings(moments_about="ORIGIN")
     assert rows()[0, 0, 0][0] == pytest.approx(22.0, rel=1e-6)
 
 
