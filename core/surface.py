@@ -107,7 +107,8 @@ class Surface:
 
 def all_there(indices: NDArray[np.integer], count: int) -> bool:
     """Whether all indices are in 0 to count - 1."""
-    unsigned = indices.view(np.dtype("u{:d}".format(indices.itemsize)))  # in which a negative index is a large one
+    # In which a negative index is a large one.
+    unsigned = indices.view("{:s}u{:d}".format(indices.dtype.str[0].replace("|", "="), indices.itemsize))
     return not indices.size or bool(unsigned.max() < count)
 
 
