@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from .precise import normals
 from .shell_tree import spread_bits
-from .surface import Surface
+from .surface import Surface, all_there
 from .waves import GridWaves, ListWaves
 
 BLOCK = 128  # triangles
@@ -46,12 +46,12 @@ class Faces:
     """
 
     def __init__(self, surface: Surface):
-        triangles = surface.all_triangles()[0]
         points = np.asarray(surface.points)
+        if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
+            raise ValueError("A face names a vertex that does not exist.")
+        triangles = surface.all_triangles()[0]
         if not len(triangles):
             raise ValueError("It has no faces. Give it faces, or choose an object that has some.")
-        if triangles.min() < 0 or triangles.max() >= len(points):
-            raise ValueError("A face names a vertex that does not exist.")
         used = np.zeros(len(points), bool)
         used[triangles] = True
         corners = points[used].astype(np.float64)

@@ -304,3 +304,11 @@ def test_it_is_no_worse_than_libformfactor(truth):
         ours = np.abs(solid_transform(bodies.surface(part), -q).values - true).max()
         peer = np.abs([complex(body.formfactorAtBottom(bornagain.C3(*row))) for row in q.tolist()] - true).max()
         assert ours <= max(peer, 1e-15 * bodies.volume(part))
+
+
+def test_quads_that_name_no_point_are_refused():
+    for index in (8, -1, 2 ** 40):
+        quads = bodies.SIDES.astype(np.int64)
+        quads[3, 2] = index
+        with pytest.raises(ValueError, match="does not exist"):
+            surface_transform(Surface(bodies.CORNERS, quads=quads), np.ones((1, 3)))
