@@ -45,7 +45,10 @@ class Polynomial:
     def from_coefficients(cls, coefficients: ArrayLike) -> Polynomial:
         """From the coefficients of 1, x, y, z, x², xy, xz, y², yz, z², … in this order, as many as there are; taken
         exactly."""
-        values = [Fraction(value) for value in np.asarray(coefficients, float).tolist()]
+        coefficients = np.asarray(coefficients, float)
+        if not np.isfinite(coefficients).all():
+            raise ValueError("The coefficients of a polynomial are finite numbers.")
+        values = [Fraction(value) for value in coefficients.tolist()]
         return cls(_from_list(values))
 
     @property
