@@ -54,12 +54,13 @@ class Frames:
     """frames: (k, 3, 3) rotations whose columns are the axes, all of them alike to the body. values, noise: (n,) the
     normalized central moments of third to the highest order in each of them, and what of them is noise.
     round_about: the directions that no moment fixes: none (), those around one axis of the frames (that axis,), or
-    all (0, 1, 2)."""
+    all (0, 1, 2). tilt: an estimate of the angle by which noise may have turned them."""
 
     frames: NDArray[np.float64]
     values: NDArray[np.float64]
     noise: NDArray[np.float64]
     round_about: tuple[int, ...]
+    tilt: float
 
 
 def canonical_frames(moments: Moments, spread: Spread, starts: NDArray) -> Frames:
@@ -71,9 +72,9 @@ def canonical_frames(moments: Moments, spread: Spread, starts: NDArray) -> Frame
         raise ValueError("It is too small or too large for moments of order {:d} to be numbers. Scale it."
                          .format(central.order))
     central = replace(central, raw=central.raw / total, error=central.error / total, of="mass")
-    frames, round_about = _candidates(central, spread, starts)
+    frames, round_about, tilt = _candidates(central, spread, starts)
     values, noise = _written(central, spread, frames)
-    return Frames(*_largest(frames, values, noise), round_about)
+    return Frames(*_largest(frames, values, noise), round_about, tilt)
 
 
 def distinct(arrays: NDArray, within: float) -> NDArray[np.float64]:
@@ -88,35 +89,37 @@ def inverted(moments: Moments) -> Moments:
     return replace(moments, raw=moments.raw * sign)
 
 
-def _candidates(central: Moments, spread: Spread, starts: NDArray) -> tuple[NDArray, tuple[int, ...]]:
+def _candidates(central: Moments, spread: Spread, starts: NDArray) -> tuple[NDArray, tuple[int, ...], float]:
+    """The frames, and `round_about` and `tilt` of them."""
     if not spread.free:
-        return starts, ()
+        return starts, (), spread.tilt
     if len(spread.free) == 2:
         axis = 3 - sum(spread.free)
         starts = starts[np.unique(starts[:, :, axis] @ spread.axes[:, axis] > 0.0, return_index=True)[1]]
-        frames, found = _around(central, spread, starts, axis)
-        return frames, () if found else (axis,)
+        frames, found, turn = _around(central, spread, starts, axis)
+        return frames, () if found else (axis,), spread.tilt + turn
     for clear in (CLEAR, 0.0):
         for degree in range(3, central.order + 1):
-            directions, sign = _extreme_directions(central, spread, degree, clear)
+            directions, sign, tilt = _extreme_directions(central, spread, degree, clear)
             if not len(directions):
                 continue
             bases = np.array([_completed(direction) for direction in directions])
-            frames, found = _around(central, spread, bases, 2, sign if degree == 4 else -1.0)
-            return frames, () if found else (2,)
-    return spread.axes[None], (0, 1, 2)
+            frames, found, turn = _around(central, spread, bases, 2, sign if degree == 4 else -1.0)
+            return frames, () if found else (2,), tilt + turn
+    return spread.axes[None], (0, 1, 2), 0.0
 
 
 def _around(central: Moments, spread: Spread, bases: NDArray, axis: int,
-            fourfold: float = -1.0) -> tuple[NDArray, bool]:
-    """The bases turned about that axis of theirs as the first clear harmonic asks, and whether there is one.
+            fourfold: float = -1.0) -> tuple[NDArray, bool, float]:
+    """The bases turned about that axis of theirs as the first clear harmonic asks, whether there is one, and the angle
+    by which noise may have turned it.
 
     fourfold: the sign that a harmonic with m = 4 gets; others get a positive one. E[cos 4φ] is negative for a square
     whose sides lie along the axes.
     """
     found = _clear_harmonic(central, spread, bases, axis)
     if found is None:
-        return bases, False
+        return bases, False, 0.0
     m, c, least = found
     c = fourfold * c if m == 4 else c
     angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
@@ -126,9 +129,9 @@ def _around(central: Moments, spread: Spread, bases: NDArray, axis: int,
     frames = np.repeat(bases[:, None], m, axis=1)
     frames[..., first], frames[..., second] = cos * a + sin * b, cos * b - sin * a
     # Of several directions, those about which it is the same.
-    noise = min(2.0 * spread.noise / NOISE * least, SHARE * np.abs(c).max())
-    alike = np.abs(c) > np.abs(c).max() - noise
-    return frames[alike].reshape(-1, 3, 3), True
+    noise, largest = spread.noise / NOISE * least, np.abs(c).max()
+    alike = np.abs(c) > largest - min(2.0 * noise, SHARE * largest)
+    return frames[alike].reshape(-1, 3, 3), True, noise / (m * largest)
 
 
 def _clear_harmonic(central: Moments, spread: Spread, bases: NDArray, axis: int
@@ -164,30 +167,32 @@ def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.comple
     return tensor
 
 
-def _extreme_directions(central: Moments, spread: Spread, degree: int, clear: float) -> tuple[NDArray, float]:
-    """(k, 3) the directions u of the largest E[(u·x)^degree], or of the least if they are fewer, and 1 or -1 for which
-    it is; of a circle of them its poles. None (0, 3) where the moment is the same in all directions."""
+def _extreme_directions(central: Moments, spread: Spread, degree: int, clear: float) -> tuple[NDArray, float, float]:
+    """(k, 3) the directions u of the largest E[(u·x)^degree], or of the least if they are fewer, 1 or -1 for which it
+    is, and the angle by which noise may have turned them; of a circle of them its poles. None (0, 3) where the moment
+    is the same in all directions."""
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _units(central, spread, degree)[1].max()
     least = max(2.0 * _units(central, replace(spread, noise=NOISE), degree)[1].max(), clear)
     span = np.ptp(_contracted(tensor, degree, _sphere()))
     if span <= least / 2.0:
-        return np.empty((0, 3)), 1.0
+        return np.empty((0, 3)), 1.0, 0.0
     found = []
     for sign in (1.0, -1.0) if degree % 2 == 0 else (1.0,):
         within = min(noise, SHARE * span)
         points = _climbed(sign * tensor, degree, span, within)
         height = _contracted(sign * tensor, degree, points)
         if height.max() - _contracted(sign * tensor, degree, _sphere()).min() <= least:
-            return np.empty((0, 3)), sign
+            return np.empty((0, 3)), sign, 0.0
         top = points[height > height.max() - within]
         found.append((distinct(top, 1e-2), sign))
     directions, sign = min(found, key=lambda pair: len(pair[0]))
+    tilt = noise / span
     if len(directions) <= RING:
-        return directions, sign
+        return directions, sign, tilt
     values, vectors = np.linalg.eigh(directions.T @ directions / len(directions))
     pole = vectors[:, 0] if values[1] - values[0] > values[2] - values[1] else vectors[:, 2]
-    return (np.array([pole, -pole]) if values[2] - values[0] > 0.1 else np.empty((0, 3))), sign
+    return (np.array([pole, -pole]) if values[2] - values[0] > 0.1 else np.empty((0, 3))), sign, tilt
 
 
 def _climbed(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:

@@ -151,7 +151,8 @@ def _about(coefficients: NDArray | Blocks, axes: tuple[Axis, ...], order: int, v
     total, size = np.zeros((2, order + 1, order + 1, order + 1))
     blocks, longest = 0, 0
     for part, block in _pieces(coefficients):
-        block = np.asarray(block, np.float64)
+        with np.errstate(invalid="ignore"):  # of NaN that signal
+            block = np.asarray(block, np.float64)
         if value is not None:
             block = value(block)
         factors = [table[:, first:first + length] for table, first, length in zip(tables, part, block.shape)]

@@ -34,7 +34,8 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
     `error` estimates the rounding, from the sizes of all terms; cutting and integrating add nothing else.
     """
     triangles = np.asarray(triangles, np.float64).reshape(-1, 3, 3)
-    densities = np.asarray(densities, np.float64)
+    with np.errstate(invalid="ignore"):  # of NaN that signal
+        densities = np.asarray(densities, np.float64)
     if not np.isfinite(densities).all():
         raise ValueError("The density has values that are not finite, or too large to be summed.")
     shape = np.array(densities.shape)

@@ -165,8 +165,9 @@ class Transform:
         square = (q * q).sum(axis=0)
         nothing = square <= NOTHING ** 2
         values = 1j * sums / np.where(nothing, 1.0, square)
-        volume = self.volume.mapped(np.block([[np.eye(3), -self.faces.center[:, None]], [np.zeros(3), 1.0]]))
-        raw = volume.raw / self.faces.scale ** np.array([3, 4, 4, 4] + [1] * 16)
+        volume = self.volume.truncated(1).mapped(
+            np.block([[np.eye(3), -self.faces.center[:, None]], [np.zeros(3), 1.0]]))
+        raw = volume.raw / self.faces.scale ** np.array([3, 4, 4, 4])
         about = volume.about / self.faces.scale
         values[nothing] = raw[0] - 1j * (q[:, nothing].T @ (raw[1:4] + raw[0] * about))
         return values

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from math import hypot
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -42,11 +43,16 @@ class MassProperties:
                      higher: Callable[[], Moments] | None = None) -> MassProperties:
         """From moments to order 3 of a body with constant density.
 
-        prefer, refine, higher: as for `principal_frame`. ValueError where the body has no mass.
+        prefer, refine, higher: as for `principal_frame`. ValueError where the body has no mass, or a density that is
+        none.
         """
+        if moments.order < 3:
+            raise ValueError("Mass properties need moments to third order; these go to {:d}.".format(moments.order))
+        if not 0.0 <= density < np.inf:
+            raise ValueError("A density is a finite number that is not negative; this one is {!r}.".format(density))
         total = moments.raw[0]
         if not total > moments.error[0]:
-            raise ValueError("The body has no volume.")
+            raise ValueError("The body has no volume, or none that rounding leaves sure.")
         frame = principal_frame(moments, prefer, refine, higher)
         shift = moments.raw[1:4] / total
         second = density * (moments.raw[SECOND] - total * (shift[:, None] * shift))
@@ -97,13 +103,13 @@ def _bounds(moments: Moments, density: float, delta: NDArray, rounded: bool) -> 
         return {"mass": float(abs(density) * delta[0]), "center": float("inf"), "inertia": float("inf")}
     least = total - delta[0]
     first, shift = np.abs(moments.raw[1:4]), np.abs(moments.raw[1:4]) / total
-    center = np.linalg.norm((delta[1:4] + shift * delta[0]) / least)
+    center = hypot(*((delta[1:4] + shift * delta[0]) / least).tolist())
     cross = delta[1:4, None] * shift
     second = delta[SECOND] + (cross + cross.T) * (total / least) + shift[:, None] * shift * delta[0]
-    second = second + delta[1:4, None] * delta[1:4] / least
+    second = second + delta[1:4, None] * (delta[1:4] / least)
     if rounded:
-        center += 2.0 * U * np.linalg.norm(np.abs(moments.about) + 2.0 * shift)
+        center += 2.0 * U * hypot(*(np.abs(moments.about) + 2.0 * shift).tolist())
         second = second + 6.0 * U * (np.abs(moments.raw[SECOND]) + first[:, None] * shift)
-    inertia = np.linalg.norm(second.trace() * IDENTITY + second)
+    inertia = hypot(*(second.trace() * IDENTITY + second).ravel().tolist())  # squares of tiny ones would vanish
     return {"mass": float(abs(density) * (delta[0] + (U * total if rounded else 0.0))), "center": float(center),
             "inertia": float(abs(density) * inertia)}

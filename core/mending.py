@@ -31,7 +31,8 @@ class Mended:
     face: (t,) the mesh face of each, -1 for caps. turned: (t,) which were reversed. shell: (t,), 0 to number - 1.
     open: (number,) shells that cannot be closed. caps: (number, 3) of each shell how many flat caps and curved caps it
     has, and their area. changed: whether the triangles, apart from their direction, are not simply the input's.
-    counts: entries of `Health`. faults: entries of `Faults`. notes: what was decided, as sentences."""
+    moved: (length) how far welding has moved a vertex at most. counts: entries of `Health`. faults: entries of
+    `Faults`. notes: what was decided, as sentences."""
 
     points: NDArray[np.floating]
     triangles: NDArray[np.integer]
@@ -42,6 +43,7 @@ class Mended:
     open: NDArray[np.bool_]
     caps: NDArray[np.float64]
     changed: bool = False
+    moved: float = 0.0
     counts: dict = field(default_factory=dict)
     faults: dict = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
@@ -73,7 +75,8 @@ def mend(surface: Surface, tolerance: float, size: float) -> Mended:
                 edges = find_edges(triangles[rows])
     triangles, given, face = triangles[rows], given[rows], face[rows]
     body = Mended(points, triangles, face, np.zeros(len(rows), bool), np.zeros(len(rows), np.intp), 0,
-                  np.zeros(0, bool), np.zeros((0, 3)), changed=moved > 0.0 or len(copies[1]) > 0, notes=notes)
+                  np.zeros(0, bool), np.zeros((0, 3)), changed=moved > 0.0 or len(copies[1]) > 0, moved=moved,
+                  notes=notes)
     body.counts = {"welded": welded, "duplicate_faces": len(copies[0]), "non_manifold_edges": crowded, "closed": False,
                    "components": 0}
     body.faults = {"duplicate_faces": copies[0], "non_manifold_edges": named}

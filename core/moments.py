@@ -104,6 +104,8 @@ class Moments:
         point = np.asarray(point, np.float64)
         if np.array_equal(point, self.about):
             return self
+        if point.shape != (3,) or not np.isfinite(point).all():
+            raise ValueError("The point that moments are about has three finite coordinates.")
         offset = self.about - point
         away = np.abs(offset)
         raw, error, moved, size = shift(np.array([self.raw, self.error, self.input, np.abs(self.raw) + self.error]),
@@ -167,7 +169,7 @@ class Moments:
         Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity
         only: ValueError otherwise; what a float32 rotation lacks of a similarity goes into `input`.
         """
-        matrix = np.asarray(matrix, np.float64)
+        matrix = _checked(np.asarray(matrix, np.float64)[None])[0]
         return map_sum(self, matrix[None], matrix[:3, :3] @ self.about + matrix[:3, 3])
 
 
@@ -198,7 +200,7 @@ def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None)
 
     matrices: (k, 4, 4), as for `Moments.mapped`. about: (3,), by default the mean of the images of `moments.about`.
     """
-    linear, places = maps_last(matrices)
+    linear, places = maps_last(_checked(np.asarray(matrices, np.float64)))
     point = moments.about[:, None]
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + places
     about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
@@ -222,6 +224,13 @@ def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None)
         error += bounds[0]
         extra += bounds[1]
     return Moments(raw, about, moments.of, error, extra)
+
+
+def _checked(matrices: NDArray) -> NDArray[np.float64]:
+    """The maps. ValueError where they are none."""
+    if matrices.ndim != 3 or matrices.shape[1:] != (4, 4) or not len(matrices) or not np.isfinite(matrices).all():
+        raise ValueError("Moments are mapped by one or more (4, 4) matrices of finite numbers.")
+    return matrices
 
 
 def _one(moments: Moments, linear: NDArray, offset: NDArray, slack: NDArray, weight: NDArray,

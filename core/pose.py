@@ -16,7 +16,7 @@ whatever their faces, have one pose.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -28,6 +28,7 @@ from .moments import SECOND, THIRD, Moments
 
 EQUAL = 1e-6  # moments closer than this, relatively, are equal
 RANKED = 1e-4  # scores closer than this, relatively, are equally clear
+AS_NEAR, LEAST_CLEAR = 1e-6, 0.1  # traces closer than the one are equal whatever the noise, than the other never
 # For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.
 PARTNERS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
 ITSELF = np.arange(3)[:, None]
@@ -83,7 +84,8 @@ def principal_frame(moments: Moments, prefer: NDArray | None = None, refine: Cal
     if not free and len(fixed.frames) == 1:
         axes = fixed.frames[0]
     elif higher is None:
-        axes, note = _nearest([settled(frame, free, prefer) for frame in fixed.frames], prefer), NOTES[symmetry]
+        settled_frames = [settled(frame, free, prefer) for frame in fixed.frames]
+        axes, note = _nearest(settled_frames, prefer, fixed.spread.tilt), NOTES[symmetry]
     else:
         alike = canonical_frames(higher(), fixed.spread, fixed.frames)
         axes, free = chosen_frame(alike, prefer), free_axes(alike)
@@ -101,7 +103,7 @@ def frames_alike(moments: Moments, noise: float = NOISE) -> Frames:
 
 def chosen_frame(alike: Frames, prefer: NDArray) -> NDArray[np.float64]:
     """Of the frames in which a body is the same, the one nearest to the axes that are preferred."""
-    return _nearest([settled(frame, free_axes(alike), prefer) for frame in alike.frames], prefer)
+    return _nearest([settled(frame, free_axes(alike), prefer) for frame in alike.frames], prefer, alike.tilt)
 
 
 def free_axes(alike: Frames) -> tuple[int, ...]:
@@ -168,13 +170,17 @@ def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float
     gaps = np.array([spread[0] - spread[1], spread[1] - spread[2]])
     doubtful = 2.0 * step * size[:2] + rounding
     equal = gaps <= looser * EQUAL * spread[:2] + doubtful
-    tilt = float(np.max(np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))))
+    tilts = np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))  # of axes 1 and 2, and of 2 and 3
     symmetry = ("isotropic" if equal.all() else "oblate" if equal[0] else "prolate" if equal[1] else "asymmetric")
 
     free = EQUAL_AXES[symmetry]
     noise = looser * NOISE + 4.0 * step / np.minimum(size[:, None], size[PARTNERS])
     real = size * np.sqrt(scale)
     skew, doubt = _third_scores(moments, shift, real, axes)
+    # Two axes that noise may have turned about the third one mix what the body has along them.
+    (one, two), both = tilts, 0.0 if equal.all() else float(doubtful.max() / gaps.sum())
+    turned = np.array([[0.0, one, both], [one, 0.0, two], [both, two, 0.0]])
+    noise += 3.0 * (turned * (np.abs(skew) + doubt).max(axis=1)).sum(axis=1)[:, None]
     scores, fixed = np.zeros(3), [i for i in range(3) if i not in free]
     if fixed:
         third = skew, doubt
@@ -182,7 +188,7 @@ def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float
             third = _third_scores(refine(), shift, real, axes)
         scores[fixed] = [_score(*rows) for rows in zip(*(rows[fixed].tolist() for rows in (*third, noise)))]
     inertia = (spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total)
-    extents = Spread(axes, real, free, step * np.sqrt(scale), tilt, looser * NOISE)
+    extents = Spread(axes, real, free, step * np.sqrt(scale), float(tilts.max()), looser * NOISE)
     return _Fixed(inertia, extents, symmetry, _allowed(axes, scores), skew[:, 0], noise[:, 0] + doubt[:, 0])
 
 
@@ -250,15 +256,23 @@ def settled(frame: NDArray, free: tuple[int, ...], prefer: NDArray) -> NDArray[n
     return turned
 
 
-def _nearest(candidates: list[NDArray], prefer: NDArray) -> NDArray[np.float64]:
+def _nearest(candidates: Sequence[NDArray], prefer: NDArray, tilt: float) -> NDArray[np.float64]:
     """The frame with the smallest turn from the preferred one. Where several are as near, the one whose axes, in
-    order, point along rather than against their preferred axes, so that noise cannot flip it."""
-    local = [prefer.T @ frame for frame in candidates]
-    best = max(np.trace(frame) for frame in local)
-    near = [i for i, frame in enumerate(local) if np.trace(frame) > best - 1e-6]
+    order, point along rather than against their preferred axes, so that noise cannot flip it.
+
+    tilt: the angle by which noise may have turned the candidates.
+    """
+    local = prefer.T @ np.array(candidates)
+    equal = AS_NEAR + min(4.0 * tilt, LEAST_CLEAR)
+    turns = np.trace(local, axis1=1, axis2=2)
+    near = np.flatnonzero(turns > turns.max() - equal)
 
     def along(i: int) -> list[bool]:
-        columns = np.abs(local[i]) > np.abs(local[i]).max(axis=0) - 1e-6
+        columns = np.abs(local[i]) > np.abs(local[i]).max(axis=0) - equal
         return [bool(local[i][np.argmax(columns[:, axis]), axis] > 0.0) for axis in range(3)]
 
-    return candidates[max(near, key=along)] + 0.0  # no negative zeros
+    ways = [along(i) for i in near]
+    near = near[[way == max(ways) for way in ways]]
+    for entry in local.reshape(-1, 9).T:  # what is left may still be several frames, in an order of no meaning
+        near = near[entry[near] > entry[near].max() - equal]
+    return candidates[near[0]] + 0.0  # no negative zeros

@@ -101,7 +101,7 @@ class Tree:
         low, high = np.empty((2, 3, len(ids)))
         code = np.zeros(len(ids), np.int64)
         corner = (shells.low - self.origin).T
-        scale = 1023.0 / np.maximum((shells.high - shells.low).max(axis=1), np.finfo(float).tiny)
+        scale = 1023.0 / np.maximum((shells.high - shells.low).max(axis=1), 1023.0 * np.finfo(float).tiny)
         for begin in range(0, len(ids), BLOCK):
             rows = slice(begin, begin + BLOCK)
             index = ids[rows].T.astype(np.intp, order="C")
@@ -272,8 +272,9 @@ def _pierce_leaves(tree: Tree, pair: NDArray, a: NDArray, b: NDArray, tolerance:
 
 
 def _piercing(corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance: float) -> NDArray[np.intp]:
-    """Which of the triangles `corner` have an edge that goes through their partner in `plane`, both (3, k, 3), ending
-    more than the tolerance away from its plane and passing more than that away from its edges."""
+    """Which of the triangles `corner` have an edge that goes through their partner in `plane`, both (3, k, 3), passing
+    more than the tolerance away from its edges, and further than that to both sides while it is over the partner. (The
+    plane of a sliver is not known far from it.)"""
     normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
     length = np.linalg.norm(normal, axis=1)[:, None]
     normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)
@@ -284,13 +285,18 @@ def _piercing(corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance
     for i in range(3):
         p, q, rise, fall = corner[i], corner[i - 1], height[i], height[i - 1]
         crosses = (np.minimum(rise, fall) < -tolerance) & (np.maximum(rise, fall) > tolerance)
-        where = p + (q - p) * (rise / np.where(crosses, rise - fall, 1.0))[:, None]
-        within = np.where(crosses, np.inf, -np.inf)
+        share = rise / np.where(crosses, rise - fall, 1.0)
+        within, first, last = np.where(crosses, np.inf, -np.inf), np.zeros(len(at)), np.ones(len(at))
         for k in range(3):
             edge = plane[k] - plane[k - 1]
-            across = np.einsum("ij,ij->i", np.cross(normal, edge), where - plane[k])
-            within = np.minimum(within, across / np.linalg.norm(edge, axis=1))
-        depth = np.maximum(depth, within)
+            inward = np.cross(normal, edge) / np.linalg.norm(edge, axis=1)[:, None]
+            begin, end = (np.einsum("ij,ij->i", inward, point - plane[k]) for point in (p, q))
+            within = np.minimum(within, begin + share * (end - begin))
+            leaves = begin / np.where(begin != end, begin - end, 1.0)
+            first = np.where(begin < 0.0, np.maximum(first, leaves), first)
+            last = np.where(end < 0.0, np.minimum(last, leaves), last)
+        over = [np.abs(rise + part * (fall - rise)) for part in (first, last)]  # of what is over the partner, both ends
+        depth = np.maximum(depth, np.minimum.reduce([within, *over]))
     return at[depth > tolerance]
 
 

@@ -30,7 +30,7 @@ from .surface import Surface, all_there
 from .topology import closed_sides, components, mesh_faces
 from .weld import TOLERANCE
 
-LARGEST = 1e50  # a length whose sixth power is still a number
+LARGEST, SMALLEST = 1e50, 1e-60  # lengths whose sixth, and whose fifth, power is still a number
 NO_VOLUME = 1e-7  # of diagonal times area: what capping a flat sheet of float32 points leaves
 ROUNDING = 1e-14  # the same for a closed one
 SPREAD = 1e-6  # of the volume: below, nobody needs to know
@@ -100,7 +100,8 @@ class SolidMeasure:
     """volume: Moments to order 3, about the body's reference point. area: Moments of the input's faces, without caps.
     method: "exact", "capped", "reoriented" or "open". warnings: one sentence for each decision taken.
 
-    Of a body that is flat the volume's moments are zero; of an open one they depend on the reference point.
+    Of a body that is flat the volume's moments are zero; of an open one they depend on the reference point. Where
+    vertices were welded across gaps, `input` bounds what that may have changed too.
     mended: the surface whose signed sum `volume` is. components: gives the same by closed part.
     """
 
@@ -138,7 +139,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     if body.changed:  # caps are no part of the area, and left out faces are
         area = own[1]
     if compared is None:
-        solid = bool(abs(volume.total) > _noise(size, area.total, body.caps.any(), error))
+        solid = bool(abs(volume.total) > max(_noise(size, area.total, body.caps.any(), error), volume.error[0]))
         turn = turn | (solid and volume.total < 0.0 and not body.open.any())  # what is open has no inside
         caps = body.caps.sum(axis=0) * solid
     else:
@@ -208,13 +209,12 @@ def _possible(volume: Moments, surface: Surface, size: float) -> bool:
         return True  # an open surface's sum, which is reported as such
     mean = volume.raw[1:4] / total
     second = volume.raw[SECOND] / total - np.outer(mean, mean)
-    scale = np.trace(second)
     rounding = 8.0 * (volume.error[SECOND].max() / total + np.finfo(float).eps * np.abs(second).max())
     slack = 1e-6 * size + volume.error[1:4].max() / total
     center = volume.center
     low, high = surface.box
     inside = bool((low - slack <= center).all() and (center <= high + slack).all())
-    return bool(inside and scale > 0.0 and np.linalg.eigvalsh(second)[0] >= -rounding)
+    return bool(inside and np.linalg.eigvalsh(second)[0] >= -rounding)
 
 
 def _used(surface: Surface) -> tuple[Surface, NDArray[np.intp] | None, float]:
@@ -251,6 +251,8 @@ def _used(surface: Surface) -> tuple[Surface, NDArray[np.intp] | None, float]:
                 .format(len(astray), listed(astray if vertices is None else vertices[astray])))
     if not max(size, float(np.abs([low, high]).max())) < LARGEST:
         raise ValueError("It is too large for its moments to be numbers. Scale it down.")
+    if 0.0 < size < SMALLEST:
+        raise ValueError("It is too small for its moments to be numbers. Scale it up.")
     return surface, vertices, size
 
 
@@ -316,7 +318,8 @@ def _to_measure(surface: Surface, body: Mended, turn: NDArray[np.bool_], solid: 
         triangles[rows] = triangles[rows][:, ::-1]
         return replace(surface, quads=quads, triangles=triangles)
     triangles = np.where(turn[body.shell][:, None], body.triangles[:, ::-1], body.triangles)
-    return Surface(body.points, triangles if kept.all() else triangles[kept], moved=surface.moved)
+    moved = surface.coordinate_error + body.moved if body.moved else surface.moved
+    return Surface(body.points, triangles if kept.all() else triangles[kept], moved=moved)
 
 
 def _parts(measured: Surface, body: Mended, compared: _Compared | None, turn: NDArray[np.bool_], proven: bool

@@ -18,14 +18,14 @@ for each edge of a block.
 from __future__ import annotations
 
 from copy import copy
-from math import factorial
+from math import factorial, hypot
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .precise import normals
 from .shell_tree import spread_bits
-from .surface import Surface
+from .surface import Surface, all_there
 from .waves import GridWaves, ListWaves
 
 BLOCK = 128  # triangles
@@ -35,6 +35,7 @@ SERIES = 3.0  # the largest |q| diameter for which all of a block is left to the
 SPLIT = 1.0  # Σ d² below which a pair is
 CELLS = 1023  # along an axis, to sort triangles in space
 TINY = 1e-300
+LARGEST, SMALLEST = 1e50, 1e-60  # lengths as of a solid that can be measured
 
 
 class Faces:
@@ -46,12 +47,12 @@ class Faces:
     """
 
     def __init__(self, surface: Surface):
-        triangles = surface.all_triangles()[0]
         points = np.asarray(surface.points)
+        if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
+            raise ValueError("A face names a vertex that does not exist.")
+        triangles = surface.all_triangles()[0]
         if not len(triangles):
             raise ValueError("It has no faces. Give it faces, or choose an object that has some.")
-        if triangles.min() < 0 or triangles.max() >= len(points):
-            raise ValueError("A face names a vertex that does not exist.")
         used = np.zeros(len(points), bool)
         used[triangles] = True
         corners = points[used].astype(np.float64)
@@ -62,7 +63,11 @@ class Faces:
         if points.dtype == np.float32:
             center = center.astype(np.float32).astype(np.float64)  # then subtracting it is exact
         self.center = center
-        reach = np.linalg.norm(np.maximum(high - center, center - low))
+        reach = hypot(*np.maximum(high - center, center - low).tolist())
+        if not reach < LARGEST:
+            raise ValueError("It is too large for its transform to be a number. Scale it down.")
+        if 0.0 < reach < SMALLEST:
+            raise ValueError("It is too small for its transform to be a number. Scale it up.")
         exponent = int(np.ceil(np.log2(reach))) if reach > 0.0 else 0
         self.scale = float(np.ldexp(1.0, exponent))
         self.points = np.ascontiguousarray(np.ldexp(points.astype(np.float64) - center, -exponent))

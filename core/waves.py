@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+LARGEST = 1e100  # frequency, whose square is still a number whatever the body's size
+
 # Both fill arrays of shape (wave vectors of some rows, k); the last argument is overwritten.
 Dot = Callable[[slice, NDArray, NDArray], None]  # with q·v
 Wave = Callable[[slice, NDArray, NDArray, NDArray], None]  # with cos(q·x) and sin(q·x)
@@ -33,8 +35,8 @@ class Grid:
     def __post_init__(self) -> None:
         if self.count < 2:
             raise ValueError("A grid needs at least two frequencies along each axis.")
-        if not 0.0 < self.largest < np.inf:
-            raise ValueError("The largest frequency of a grid must be a positive number.")
+        if not 0.0 < self.largest <= LARGEST:
+            raise ValueError("The largest frequency of a grid must be a positive number up to 1e100.")
 
     @property
     def half(self) -> int:
@@ -74,6 +76,8 @@ def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
     q = q.astype(np.float64)
     if not np.isfinite(q).all():
         raise ValueError("Some wave vectors are not finite.")
+    if np.abs(q).max(initial=0.0) > LARGEST:
+        raise ValueError("Some wave vectors are too large: their components may be up to 1e100.")
     return q
 
 

@@ -207,3 +207,9 @@ def test_values_are_mapped_before_they_are_summed():
     values = np.arange(27.0).reshape(3, 3, 3)
     found = grid_moments(values, values.shape, np.eye(4), value=lambda block: np.interp(block, [5, 10], [0, 100]))
     assert found.total == pytest.approx(np.interp(values, [5, 10], [0, 100]).sum())
+
+
+def test_samples_that_signal_that_they_are_no_numbers_are_refused_without_a_warning():
+    samples = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)  # what a damaged file may hold
+    with pytest.raises(ValueError, match="finite"):
+        grid_moments(samples, samples.shape, np.eye(4))

@@ -304,3 +304,31 @@ def test_it_is_no_worse_than_libformfactor(truth):
         ours = np.abs(solid_transform(bodies.surface(part), -q).values - true).max()
         peer = np.abs([complex(body.formfactorAtBottom(bornagain.C3(*row))) for row in q.tolist()] - true).max()
         assert ours <= max(peer, 1e-15 * bodies.volume(part))
+
+
+def test_quads_that_name_no_point_are_refused():
+    for index in (8, -1, 2 ** 40):
+        quads = bodies.SIDES.astype(np.int64)
+        quads[3, 2] = index
+        with pytest.raises(ValueError, match="does not exist"):
+            surface_transform(Surface(bodies.CORNERS, quads=quads), np.ones((1, 3)))
+
+
+@pytest.mark.parametrize("scale", [1e-59, 1e-40, 1e40, 1e49])
+def test_bodies_of_any_size_have_a_transform_at_rest_and_at_their_own_frequencies(scale):
+    body = Surface.from_triangles(bodies.box()[0] * scale, bodies.box()[1])
+    values = solid_transform(body, np.array([[0.0, 0.0, 0.0], [1.0 / scale, 0.0, 0.0]])).values / scale ** 3
+    np.testing.assert_allclose(values, [1.0, np.sin(1.0) - 1j * (1.0 - np.cos(1.0))], rtol=1e-13)
+
+
+def test_what_no_number_can_tell_is_refused():
+    points, triangles = bodies.box()
+    for scale, reason in ((1e-200, "too small"), (1e-120, "too small"), (1e60, "too large"), (1e200, "too large")):
+        with pytest.raises(ValueError, match=reason):
+            solid_transform(Surface.from_triangles(points * scale, triangles), np.zeros((1, 3)))
+    with pytest.raises(ValueError, match="too large"):
+        solid_transform(Surface.from_triangles(points, triangles), np.full((1, 3), 1.7e308))
+    with pytest.raises(ValueError, match="positive number"):
+        Grid(8, 1e200)
+    found = solid_transform(Surface.from_triangles(points, triangles), np.full((1, 3), 1e100))
+    assert abs(found.values[0]) <= found.error[0] < 1e-13

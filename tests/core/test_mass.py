@@ -8,6 +8,10 @@ import numpy as np
 import pytest
 from body_moments.core.mass import MassProperties, combined
 from body_moments.core.moments import Moments, monomials, sum_moments
+from body_moments.core.solid import measure_solid
+from body_moments.core.surface import Surface
+
+from tests.core import exact
 
 
 def box(low, high):
@@ -86,22 +90,45 @@ def test_a_lamina_keeps_the_triangle_inequality_to_the_last_digit_whatever_its_d
 def test_the_bounds_hold_against_rationals_for_perturbed_moments():
     rng = np.random.default_rng(0)
     low, high = (0.5, -1.0, 2.0), (1.5, 1.0, 4.0)
-    exact = [Fraction(1)] * 20
+    truth = [Fraction(1)] * 20
     for k, row in enumerate(monomials(3).tolist()):
         for i, n in enumerate(row):
-            exact[k] *= (Fraction(high[i]) ** (n + 1) - Fraction(low[i]) ** (n + 1)) / (n + 1)
-    mass = exact[0]
-    center = [x / mass for x in exact[1:4]]
+            truth[k] *= (Fraction(high[i]) ** (n + 1) - Fraction(low[i]) ** (n + 1)) / (n + 1)
+    mass = truth[0]
+    center = [x / mass for x in truth[1:4]]
     second = {(0, 0): 4, (0, 1): 5, (0, 2): 6, (1, 1): 7, (1, 2): 8, (2, 2): 9}
-    central = {key: exact[k] - center[key[0]] * center[key[1]] * mass for key, k in second.items()}
+    central = {key: truth[k] - center[key[0]] * center[key[1]] * mass for key, k in second.items()}
     inertia = {(i, j): (sum(central[k, k] for k in range(3)) - central[i, i]) if i == j else -central[i, j]
                for i, j in central}
     for _ in range(200):
-        delta = np.array([float(x) for x in exact]) * rng.uniform(0, 1e-6, 20)
+        delta = np.array([float(x) for x in truth]) * rng.uniform(0, 1e-6, 20)
         off = delta * rng.uniform(-1, 1, 20)
         body = MassProperties.from_moments(
-            Moments(np.array([float(x) for x in exact]) + off, np.zeros(3), error=np.abs(delta)))
+            Moments(np.array([float(x) for x in truth]) + off, np.zeros(3), error=np.abs(delta)))
         assert abs(body.mass - float(mass)) <= body.error["mass"]
         assert np.linalg.norm(body.center - [float(x) for x in center]) <= body.error["center"]
         assert all(abs(body.inertia[key] - float(value)) <= body.error["inertia"] for key, value in inertia.items())
         assert body.error["inertia"] < 1e-3 * np.trace(body.inertia)
+
+
+@pytest.mark.parametrize("exponent", [-190, -100, 100, 160])
+def test_the_bounds_hold_at_any_size(exponent):
+    """Squares of inertias of tiny bodies vanish, and those of huge ones are no numbers."""
+    points = np.ldexp(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]) + np.array([0.3, 0.7, 0.1]), exponent)
+    triangles = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    body = MassProperties.from_moments(measure_solid(Surface.from_triangles(points, triangles)).volume)
+    raw = exact.volume_moments(points, triangles)
+    center = [x / raw[0] for x in raw[1:4]]
+    product, moment = raw[5] - raw[0] * center[0] * center[1], raw[7] + raw[9] - raw[0] * (center[1]**2 + center[2]**2)
+    assert 0.0 < body.error["inertia"] < 1e-12 * body.inertia[0, 0]
+    assert abs(Fraction(body.inertia[0, 0]) - moment) <= Fraction(body.error["inertia"])
+    assert abs(Fraction(body.inertia[0, 1]) + product) <= Fraction(body.error["inertia"])
+    assert all(abs(Fraction(a) - b) <= Fraction(body.error["center"]) for a, b in zip(body.center.tolist(), center))
+
+
+def test_too_low_an_order_and_a_density_that_is_none_are_refused():
+    with pytest.raises(ValueError, match="third order; these go to 2"):
+        MassProperties.from_moments(box((0, 0, 0), (1, 1, 1)).truncated(2))
+    for density in (-1.0, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="density"):
+            MassProperties.from_moments(box((0, 0, 0), (1, 1, 1)), density)

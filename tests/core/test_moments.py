@@ -266,3 +266,19 @@ def test_different_measures_do_not_add():
 @pytest.mark.parametrize("order", range(6))
 def test_the_order_follows_from_the_number_of_moments(order):
     assert Moments(np.zeros(monomial_count(order)), np.zeros(3)).order == order
+
+
+@pytest.mark.parametrize("matrix", [np.eye(3), np.full((4, 4), np.nan), np.eye(4)[None], np.zeros((0, 4, 4))])
+def test_maps_that_are_none_are_refused(matrix):
+    body = Moments(np.ones(20), np.zeros(3))
+    with pytest.raises(ValueError, match="matrices"):
+        body.mapped(matrix)
+    if matrix.ndim < 3 or not len(matrix):
+        with pytest.raises(ValueError, match="matrices"):
+            map_sum(body, matrix)
+
+
+@pytest.mark.parametrize("point", [(1, 2), (1, 2, np.nan), (np.inf, 0, 0)])
+def test_points_that_are_none_are_refused(point):
+    with pytest.raises(ValueError, match="finite coordinates"):
+        Moments(np.ones(20), np.zeros(3)).shifted(point)

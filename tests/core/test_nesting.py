@@ -7,6 +7,8 @@ import pytest
 from body_moments.core import nesting, shell_tree
 from body_moments.core.nesting import decide, overlapping_boxes, relate
 from body_moments.core.shell_tree import Tree, sort_shells
+from body_moments.core.solid import measure_solid
+from body_moments.core.surface import Surface
 
 from tests.core.bodies import box, inverted, joined, moved, rotation, sphere, torus
 
@@ -160,3 +162,38 @@ def test_shells_in_shells_are_turned_where_no_material_surrounds_them(signs, tur
     found = decide(shells, relate(points, shells, ask, TOUCH), ask)
     for flags, expected in zip(found, (turned, nested, cavities)):
         assert "".join("x" if flag else "-" for flag in flags[np.argsort(order)]) == expected
+
+
+@pytest.mark.parametrize("turn", range(6))
+def test_caps_in_one_plane_do_not_pierce_each_other_however_thin_their_triangles(turn):
+    """A pipe without end faces: the caps of its outer and inner walls lie in the same planes, to float32."""
+    count = np.array([1000, 12])
+    outer, inner = (np.arange(n) for n in count)
+    loops = []
+    for k, r, sense in ((outer, 0.7 + 0.3 * np.sin(3.7 * outer**2), 1.0),
+                        (inner, np.where(inner % 2, 0.075, 0.15), -1.0)):
+        angle = 2.0 * np.pi * k / len(k)
+        loops.append(np.stack([r * np.cos(angle), sense * r * np.sin(angle)], axis=1))
+    walls, area = [], 0.0
+    for loop in loops:
+        n, i = len(loop), np.arange(len(loop))
+        area += np.cross(np.c_[loop, i * 0], np.c_[np.roll(loop, -1, axis=0), i * 0])[:, 2].sum() / 2.0
+        j = np.roll(i, -1)
+        walls.append((np.concatenate([np.c_[loop, i * 0.0], np.c_[loop, i * 0.0 + 1.0]]),
+                      np.concatenate([np.stack([i, j, n + j], axis=1), np.stack([i, n + j, n + i], axis=1)])))
+    points, triangles = moved(joined(*walls), rotation(turn), (0.3, 0.3, 0.3))
+    body = measure_solid(Surface(points.astype(np.float32), triangles))
+    assert (body.method, body.health.cavities, body.health.overlapping_components) == ("capped", 1, 0)
+    assert body.volume.total == pytest.approx(area, rel=1e-6)
+
+
+def test_boxes_that_share_a_thin_slice_still_go_through_each_other():
+    for depth in (1e-5, 1e-3):
+        assert relation(box(), moved(box(), offset=(1.0 - depth, 0.5, 0.5)))[1] == {(0, 1)}
+
+
+def test_a_part_without_extent_beside_others_is_no_trouble():
+    """Its box has no size by which to order what is in it."""
+    points, triangles = joined(OUTER, INNER, (np.zeros((3, 3)), np.array([[0, 1, 2]])))
+    shells = sort_shells(points, triangles, np.repeat([0, 1, 2], [12, 12, 1]), 3)
+    assert len(Tree(points, shells, np.ones(3, bool)).ids) == 25

@@ -134,3 +134,9 @@ def test_the_highest_degree_works():
     polynomial = parse("(1 + x + y + z)**{:d}".format(HIGHEST))
     assert polynomial([[1, 1, 1]])[0] == pytest.approx(4.0**HIGHEST, rel=1e-13)
     assert polynomial.shifted((0.5, 0.25, -1.0))([[0.5, 0.75, 2.0]])[0] == pytest.approx(4.0**HIGHEST, rel=1e-13)
+
+
+def test_coefficients_that_are_not_finite_are_refused():
+    for value in (float("inf"), float("nan")):
+        with pytest.raises(ValueError, match="finite"):
+            Polynomial.from_coefficients([1.0, value])

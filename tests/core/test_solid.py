@@ -550,3 +550,38 @@ def test_a_body_of_any_size_is_as_possible_as_another(exponent):
     one, other = (measure_solid(Surface(np.ldexp(points, k), quads=quads)) for k in (0, exponent))
     assert one.method == other.method == "exact"
     assert other.volume.total == pytest.approx(np.ldexp(one.volume.total, 3 * exponent), rel=1e-14)
+
+
+def test_a_body_whose_moments_would_vanish_is_refused_as_one_whose_moments_overflow_is():
+    for scale, remedy in ((1e-61, "Scale it up"), (1e51, "Scale it down")):
+        with pytest.raises(ValueError, match=remedy):
+            verdict((CUBE[0] * scale, CUBE[1]))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_welding_may_have_changed_is_bounded(seed):
+    """Which of several vertices the others are welded onto depends on their order only."""
+    rng = np.random.default_rng(seed)
+    points, triangles = soup(moved(sphere(2), rotation(seed), (1, 2, 3)))
+    points = points + rng.uniform(-3e-7, 3e-7, points.shape)
+    order = rng.permutation(len(points))
+    one, other = verdict((points, triangles)), verdict((points[order], np.argsort(order)[triangles]))
+    assert one.method == other.method == "exact"
+    assert 1e-12 < abs(one.volume.total - other.volume.total) < one.volume.input[0] < 1e-4 * one.volume.total
+    assert verdict(soup(sphere(2))).volume.input[0] == 0.0
+
+
+def test_a_tiny_body_beside_a_large_sheet_does_not_intersect_itself():
+    """Its center is not known there, and its second moments may come out negative."""
+    sheet = grid(2)[0] * [1e8, 1e8, 1.0], grid(2)[1]
+    for seed in range(10):
+        part = moved(CUBE, 0.3 * rotation(seed), (3e7, 1e7, 0.4))
+        assert not any("intersects" in warning for warning in verdict(joined(part, sheet)).warnings)
+
+
+@pytest.mark.parametrize("kind", [">i4", ">i8", "<u2", ">u2", "i1"])
+def test_indices_in_any_byte_order_name_their_points(kind):
+    body = measure_solid(Surface.from_triangles(CUBE[0].astype(">f4"), CUBE[1].astype(kind)))
+    assert body.method == "exact" and body.volume.total == 1.0
+    with pytest.raises(ValueError, match="not there"):
+        Surface.from_triangles(CUBE[0], CUBE[1].astype(kind) + np.array(1, kind))
