@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from .caps import find_loops, join_sides
 from .surface import Surface, normals
-from .topology import Edges, components, find_edges, orientation, shells
+from .topology import Edges, components, find_edges, named_edges, orientation, shells
 from .weld import equal_positions, face_groups, near_positions, vertex_tolerance
 
 LISTED = 8  # numbers of faces that a sentence names
@@ -30,7 +30,8 @@ class Mended:
     """points: (n, 3) in the input's type; triangles: (t, 3), all faces running as measured, caps last.
     face: (t,) the mesh face of each, -1 for caps. turned: (t,) which were reversed. shell: (t,), 0 to number - 1.
     open: (number,) shells that cannot be closed. caps: (number, 3) of each shell how many flat caps and curved caps it
-    has, and their area. changed: whether the triangles, apart from their direction, are not simply the input's.
+    has, and their area. changed: whether the triangles, apart from their direction and from caps, are not simply the
+    input's.
     counts: entries of `Health`. faults: entries of `Faults`. notes: what was decided, as sentences."""
 
     points: NDArray[np.floating]
@@ -56,7 +57,7 @@ def mend(surface: Surface, tolerance: float, size: float) -> Mended:
     given, face = surface.all_triangles()
     given, face = given.astype(np.intp), np.asarray(face, np.intp)
     notes: list[str] = []
-    triangles, welded, moved, edges = _welded(points, given, face, tolerance)
+    triangles, welded, moved, edges = _welded(surface, given, face, tolerance)
     if moved > 0.0:
         notes.append("Vertices along open edges were welded to others, up to {:.1g} of the body's size away."
                      .format(moved / size))
@@ -88,16 +89,18 @@ def _proper(triangles: NDArray) -> NDArray[np.bool_]:
     return (a != b) & (b != c) & (c != a)
 
 
-def _welded(points: NDArray, triangles: NDArray, face: NDArray, tolerance: float
+def _welded(surface: Surface, triangles: NDArray, face: NDArray, tolerance: float
             ) -> tuple[NDArray, bool, float, Edges | None]:
-    """The triangles over welded vertices, whether any were, how far one had to move, and the edges of the triangles
-    that are still proper, where they are known."""
+    """The surface's triangles over welded vertices, whether any were, how far one had to move, and the edges of the
+    triangles that are still proper, where they are known."""
+    points = surface.points
     rows = np.flatnonzero(_proper(triangles))
     if not len(rows):
         return triangles, False, 0.0, None
-    soup = len(triangles) * 3 == len(points)
+    soup, all_rows, edges = len(triangles) * 3 == len(points), True, None
     if not soup:
-        edges = find_edges(triangles[rows])
+        edges = named_edges(surface, triangles) if len(rows) == len(triangles) else None
+        edges = edges or find_edges(triangles[rows])
         odd = edges.count % 2 == 1
         if not odd.any():
             return triangles, False, 0.0, edges
@@ -111,7 +114,7 @@ def _welded(points: NDArray, triangles: NDArray, face: NDArray, tolerance: float
             own = face[rows[whole]]
             single[whole] = ~_copied(face_groups(triangles[rows[whole]], own), own)
             unfinished |= np.bincount(part, single, minlength=number) == 0
-        rows = rows[unfinished[part]]
+        rows, all_rows = rows[unfinished[part]], bool(unfinished.all())
     vertices = _distinct(triangles[rows], len(points))
     if soup:
         along = vertices
@@ -129,13 +132,13 @@ def _welded(points: NDArray, triangles: NDArray, face: NDArray, tolerance: float
     if welded:
         edges = find_edges(triangles[rows])
         if not np.any(edges.count % 2):
-            return triangles, welded, 0.0, edges if soup else None
+            return triangles, welded, 0.0, edges if all_rows else None
 
     vertices = _distinct(along, len(points))
     reach = vertex_tolerance(points, triangles[rows], vertices, tolerance)
     same = near_positions(points[vertices], reach)
     if np.array_equal(same, np.arange(len(same))):
-        return triangles, welded, 0.0, None
+        return triangles, welded, 0.0, edges if all_rows or not welded else None
     place = points[vertices].astype(np.float64)
     moved = float(np.linalg.norm(place - place[same], axis=1).max())
     triangles = triangles.copy()
@@ -339,7 +342,6 @@ def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> None:
     body.face = np.concatenate([body.face, np.full(len(caps), -1)])
     body.turned = np.concatenate([body.turned, np.zeros(len(caps), bool)])
     body.shell = np.concatenate([body.shell, body.shell[owner]])
-    body.changed |= len(caps) > 0
 
 
 def _capped(body: Mended, owner: NDArray, start: NDArray, stop: NDArray, tolerance: float

@@ -4,6 +4,7 @@
 
 import json
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -35,6 +36,7 @@ from tests.core.bodies import (
     with_flipped,
     without,
 )
+from tests.core.exact import volume_moments
 from tests.core.test_polyhedron import grid_torus
 
 CUBE = box()
@@ -550,3 +552,30 @@ def test_a_body_of_any_size_is_as_possible_as_another(exponent):
     one, other = (measure_solid(Surface(np.ldexp(points, k), quads=quads)) for k in (0, exponent))
     assert one.method == other.method == "exact"
     assert other.volume.total == pytest.approx(np.ldexp(one.volume.total, 3 * exponent), rel=1e-14)
+
+
+@pytest.mark.parametrize("shell", [False, True])
+def test_the_area_has_what_is_flat_and_encloses_nothing(shell):
+    points, quads = ring(12, 8)
+    area = measure_solid(mesh(points, quads.tolist()), shell=shell).area
+    sheet = np.array([[9.0, 0, 0], [11.0, 0, 0], [11.0, 3.0, 0], [9.0, 3.0, 0]])
+    both = [*quads.tolist(), *(np.array([[0, 1, 2, 3], [3, 2, 1, 0]]) + len(points)).tolist()]  # its two sides
+    result = measure_solid(mesh(np.concatenate([points, sheet]), both), shell=shell)
+    assert result.method == "exact" and "One part is flat and adds no volume." in result.warnings
+    assert result.area.total == pytest.approx(area.total + 12.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_caps_are_added_to_what_was_measured(dtype):
+    rng = np.random.default_rng(5)
+    points, quads = ring(30, 20)
+    points = points + rng.normal(0.0, 0.01, points.shape) + [20.0, -7.0, 3.0]
+    surface = mesh(points, quads[rng.random(len(quads)) > 0.05].tolist(), dtype)
+    quick, slow = measure_solid(surface), measure_solid(replace(surface, corner_edges=None))
+    assert quick.method == slow.method == "capped" and quick.warnings == slow.warnings
+    assert quick.health.as_record() == slow.health.as_record()
+    np.testing.assert_array_equal(quick.volume.raw, slow.volume.raw)
+    exact = volume_moments(quick.mended.points, quick.mended.triangles, quick.volume.about)
+    assert all(abs(Fraction(float(raw)) - truth) <= Fraction(float(error))
+               for raw, truth, error in zip(quick.volume.raw, exact, quick.volume.error))
+    assert quick.volume.error[0] <= 1e-12 * quick.volume.total
