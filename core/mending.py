@@ -237,16 +237,17 @@ def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:
     body.open, body.caps = np.zeros(number, bool), np.zeros((number, 3))
     body.open[shell[twisted]] = True
 
+    settled, gaps = _close(body, edges, gap, tolerance)
     rim = edges.first[(edges.count == 1) & ~filled]
+    rim = rim[~settled[rim]]
     body.counts |= {
         "boundary_edges": len(rim), "inconsistent_edges": int(np.count_nonzero(against)), "components": number}
     body.faults |= {
         "boundary_edges": _named(given, rim),
         "inconsistent_edges": _named(given, np.concatenate([one[against], other[against]]))}
-    if len(gap.sides):
+    if gaps:
         body.notes.append("Edges meet in {:d} {:s} whose vertices do not: without area, and counted as closed."
-                          .format(gap.number, "gap" if gap.number == 1 else "gaps"))
-    _close(body, edges, gap, tolerance)
+                          .format(gaps, "gap" if gaps == 1 else "gaps"))
     if body.open.any():
         body.notes.append(
             ("It cannot be closed" if number == 1 else "{:d} of its {:d} parts cannot be closed".format(
@@ -307,17 +308,24 @@ def _ends(triangles: NDArray, sides: NDArray) -> tuple[NDArray, NDArray]:
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
 
 
-def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> None:
-    """Tell the shells that cannot be closed; fill the gaps and cap the rims of the others."""
+def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> tuple[NDArray[np.bool_], int]:
+    """Tell the shells that cannot be closed; fill the gaps and cap the rims of the others. Returns (3m,) the sides that
+    `_spikes` found to be closed, and how many gaps there are."""
     if np.any(edges.count > 2) and body.number > 1:
         # Shells that meet in an edge are judged one by one, each with vertices of its own.
         key, own = np.unique(body.shell.repeat(3) * len(body.points) + body.triangles.ravel(), return_inverse=True)
         edges = find_edges(own.reshape(-1, 3))
-    torn = (edges.balance(body.turned) != 0) & (edges.count > 1)
-    body.open[body.shell[edges.first[torn] // 3]] = True
+    balance = edges.balance(body.turned)
+    torn = np.zeros(body.number, bool)
+    torn[body.shell[edges.first[(balance != 0) & (edges.count > 1)] // 3]] = True
+    spikes = _spikes(body, edges, balance, torn & ~body.open, tolerance)
+    body.open |= torn & ~spikes.shells
+    settled = np.zeros(3 * len(body.triangles), bool)
+    settled[spikes.sides] = True
+    gaps = spikes.number + len(np.unique(gap.loop[~settled[gap.sides]]))
 
     rim = edges.rims()
-    rim = rim[~body.open[body.shell[rim // 3]]]
+    rim = rim[~body.open[body.shell[rim // 3]] & ~settled[rim]]
     loop = np.full(3 * len(body.triangles), -1)
     loop[gap.sides] = gap.loop
     loop = loop[rim]
@@ -327,8 +335,8 @@ def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> None:
     apex = np.empty(gap.number, np.intp)
     filled = loop >= 0
     apex[loop[filled][::-1]] = start[filled][::-1]
-    caps = [np.stack([stop[filled], start[filled], apex[loop[filled]]], axis=1)]
-    owner = [rim[filled] // 3]
+    caps = [np.stack([stop[filled], start[filled], apex[loop[filled]]], axis=1), spikes.caps]
+    owner = [rim[filled] // 3, spikes.sides // 3]
     if not filled.all():
         triangles, side = _capped(body, rim[~filled] // 3, start[~filled], stop[~filled], tolerance)
         caps.append(triangles)
@@ -342,6 +350,43 @@ def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> None:
     body.face = np.concatenate([body.face, np.full(len(caps), -1)])
     body.turned = np.concatenate([body.turned, np.zeros(len(caps), bool)])
     body.shell = np.concatenate([body.shell, body.shell[owner]])
+    return settled, gaps
+
+
+@dataclass(frozen=True, eq=False)
+class _Spikes:
+    """shells: (number,) those that close after all. sides, caps: a side on each edge that they leave over, and the
+    triangle that closes it. number: of gaps."""
+
+    shells: NDArray[np.bool_]
+    sides: NDArray[np.intp]
+    caps: NDArray[np.intp]
+    number: int
+
+
+def _spikes(body: Mended, edges: Edges, balance: NDArray[np.float64], torn: NDArray[np.bool_], tolerance: float
+            ) -> _Spikes:
+    """Shells with edges of three faces or more that close nevertheless, as all that they leave over are loops without
+    area: letters whose outline turns back on itself. torn: (number,) the shells to look at. balance: of the edges."""
+    edge = np.flatnonzero((balance != 0) & torn[body.shell[edges.first // 3]])
+    edge = np.repeat(edge, np.abs(balance[edge]).astype(np.intp))
+    side = edges.first[edge]
+    if not len(side):
+        return _Spikes(torn, side, np.empty((0, 3), np.intp), 0)
+    start, stop = _ends(body.triangles, side)
+    against = edges.upward[side] != (balance[edge] > 0.0)
+    start, stop = np.where(against, stop, start), np.where(against, start, stop)
+    begin, end = body.points[start].astype(np.float64), body.points[stop].astype(np.float64)
+    shell = body.shell[side // 3]
+    meet = [shell * len(body.points) + vertex for vertex in (start, stop)]
+    loops = find_loops(begin, end, join_sides(begin, end, *meet, directed=True))
+    torn = torn.copy()
+    torn[shell[(~loops.complete | loops.wide(tolerance))[loops.of_side]]] = False
+    apex = np.empty(len(loops.perimeter), np.intp)
+    apex[loops.of_side[::-1]] = start[::-1]
+    caps = np.stack([stop, start, apex[loops.of_side]], axis=1)
+    kept = torn[shell]
+    return _Spikes(torn, side[kept], caps[kept], len(np.unique(loops.of_side[kept])))
 
 
 def _capped(body: Mended, owner: NDArray, start: NDArray, stop: NDArray, tolerance: float

@@ -579,3 +579,39 @@ def test_caps_are_added_to_what_was_measured(dtype):
     assert all(abs(Fraction(float(raw)) - truth) <= Fraction(float(error))
                for raw, truth, error in zip(quick.volume.raw, exact, quick.volume.error))
     assert quick.volume.error[0] <= 1e-12 * quick.volume.total
+
+
+OUTLINE = np.array([[-2, 0], [0, -1], [0, 1], [0, 0], [2, 0], [1, 3]], float)  # runs past its fourth point and back
+REGION = np.array([[0, 1, 3], [3, 2, 0], [2, 3, 4], [4, 5, 2], [0, 2, 5]])
+
+
+def letter(outline, height=0.5):
+    """An extruded outline as Blender makes it of a glyph: walls along the outline, caps over the region."""
+    count = len(outline)
+    points = np.concatenate([np.c_[outline, np.zeros(count)], np.c_[outline, np.full(count, height)]])
+    i = np.arange(count)
+    j = (i + 1) % count
+    walls = np.concatenate([np.stack([i, j, j + count], axis=1), np.stack([i, j + count, i + count], axis=1)])
+    return points, np.concatenate([REGION[:, ::-1], REGION + count, walls])
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_an_outline_that_turns_back_on_itself_closes(apart):
+    part = letter(OUTLINE)
+    if apart:  # walls with vertices of their own, welded at the same places
+        points, triangles = part
+        part = np.concatenate([points, points]), np.concatenate([triangles[:10], triangles[10:] + len(points)])
+    for offset in (0.0, 4096.0):
+        result = measure_solid(surface(moved(part, offset=(offset, offset, 0.0))))
+        assert result.method == "exact" and result.health.closed and result.health.boundary_edges == 0
+        assert result.health.non_manifold_edges == 2
+        assert result.warnings == (
+            "Edges meet in 2 gaps whose vertices do not: without area, and counted as closed.",)
+        exact = volume_moments(result.mended.points, result.mended.triangles, result.volume.about)
+        assert abs(result.volume.total - 3.5) <= result.volume.error[0] and exact[0] == Fraction(7, 2)
+    wide = OUTLINE.copy()
+    wide[1, 0] = 0.5  # what is left over has an area
+    assert measure_solid(surface(letter(wide))).method == "open"
+    beside = joined(letter(OUTLINE), moved(letter(wide), offset=(9, 0, 0)))
+    result = measure_solid(surface(beside))
+    assert result.method == "open" and "1 of its 2 parts cannot be closed" in " ".join(result.warnings)
