@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from .caps import find_loops, join_sides
 from .surface import Surface, normals
-from .topology import Edges, components, find_edges, orientation, shells
+from .topology import Edges, components, find_edges, named_edges, orientation, shells
 from .weld import equal_positions, face_groups, near_positions, vertex_tolerance
 
 LISTED = 8  # numbers of faces that a sentence names
@@ -30,8 +30,8 @@ class Mended:
     """points: (n, 3) in the input's type; triangles: (t, 3), all faces running as measured, caps last.
     face: (t,) the mesh face of each, -1 for caps. turned: (t,) which were reversed. shell: (t,), 0 to number - 1.
     open: (number,) shells that cannot be closed. caps: (number, 3) of each shell how many flat caps and curved caps it
-    has, and their area. changed: whether the triangles, apart from their direction, are not simply the input's.
-    moved: (length) how far welding has moved a vertex at most. counts: entries of `Health`. faults: entries of
+    has, and their area. changed: whether the triangles, apart from their direction and from caps, are not simply the
+    input's. moved: (length) how far welding has moved a vertex at most. counts: entries of `Health`. faults: entries of
     `Faults`. notes: what was decided, as sentences."""
 
     points: NDArray[np.floating]
@@ -58,7 +58,7 @@ def mend(surface: Surface, tolerance: float, size: float) -> Mended:
     given, face = surface.all_triangles()
     given, face = given.astype(np.intp), np.asarray(face, np.intp)
     notes: list[str] = []
-    triangles, welded, moved, edges = _welded(points, given, face, tolerance)
+    triangles, welded, moved, edges = _welded(surface, given, face, tolerance)
     if moved > 0.0:
         notes.append("Vertices along open edges were welded to others, up to {:.1g} of the body's size away."
                      .format(moved / size))
@@ -91,16 +91,18 @@ def _proper(triangles: NDArray) -> NDArray[np.bool_]:
     return (a != b) & (b != c) & (c != a)
 
 
-def _welded(points: NDArray, triangles: NDArray, face: NDArray, tolerance: float
+def _welded(surface: Surface, triangles: NDArray, face: NDArray, tolerance: float
             ) -> tuple[NDArray, bool, float, Edges | None]:
-    """The triangles over welded vertices, whether any were, how far one had to move, and the edges of the triangles
-    that are still proper, where they are known."""
+    """The surface's triangles over welded vertices, whether any were, how far one had to move, and the edges of the
+    triangles that are still proper, where they are known."""
+    points = surface.points
     rows = np.flatnonzero(_proper(triangles))
     if not len(rows):
         return triangles, False, 0.0, None
-    soup = len(triangles) * 3 == len(points)
+    soup, all_rows, edges = len(triangles) * 3 == len(points), True, None
     if not soup:
-        edges = find_edges(triangles[rows])
+        edges = named_edges(surface, triangles) if len(rows) == len(triangles) else None
+        edges = edges or find_edges(triangles[rows])
         odd = edges.count % 2 == 1
         if not odd.any():
             return triangles, False, 0.0, edges
@@ -114,7 +116,7 @@ def _welded(points: NDArray, triangles: NDArray, face: NDArray, tolerance: float
             own = face[rows[whole]]
             single[whole] = ~_copied(face_groups(triangles[rows[whole]], own), own)
             unfinished |= np.bincount(part, single, minlength=number) == 0
-        rows = rows[unfinished[part]]
+        rows, all_rows = rows[unfinished[part]], bool(unfinished.all())
     vertices = _distinct(triangles[rows], len(points))
     if soup:
         along = vertices
@@ -132,13 +134,13 @@ def _welded(points: NDArray, triangles: NDArray, face: NDArray, tolerance: float
     if welded:
         edges = find_edges(triangles[rows])
         if not np.any(edges.count % 2):
-            return triangles, welded, 0.0, edges if soup else None
+            return triangles, welded, 0.0, edges if all_rows else None
 
     vertices = _distinct(along, len(points))
     reach = vertex_tolerance(points, triangles[rows], vertices, tolerance)
     same = near_positions(points[vertices], reach)
     if np.array_equal(same, np.arange(len(same))):
-        return triangles, welded, 0.0, None
+        return triangles, welded, 0.0, edges if all_rows or not welded else None
     place = points[vertices].astype(np.float64)
     moved = float(np.linalg.norm(place - place[same], axis=1).max())
     triangles = triangles.copy()
@@ -237,16 +239,17 @@ def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:
     body.open, body.caps = np.zeros(number, bool), np.zeros((number, 3))
     body.open[shell[twisted]] = True
 
+    settled, gaps = _close(body, edges, gap, tolerance)
     rim = edges.first[(edges.count == 1) & ~filled]
+    rim = rim[~settled[rim]]
     body.counts |= {
         "boundary_edges": len(rim), "inconsistent_edges": int(np.count_nonzero(against)), "components": number}
     body.faults |= {
         "boundary_edges": _named(given, rim),
         "inconsistent_edges": _named(given, np.concatenate([one[against], other[against]]))}
-    if len(gap.sides):
+    if gaps:
         body.notes.append("Edges meet in {:d} {:s} whose vertices do not: without area, and counted as closed."
-                          .format(gap.number, "gap" if gap.number == 1 else "gaps"))
-    _close(body, edges, gap, tolerance)
+                          .format(gaps, "gap" if gaps == 1 else "gaps"))
     if body.open.any():
         body.notes.append(
             ("It cannot be closed" if number == 1 else "{:d} of its {:d} parts cannot be closed".format(
@@ -307,17 +310,24 @@ def _ends(triangles: NDArray, sides: NDArray) -> tuple[NDArray, NDArray]:
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
 
 
-def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> None:
-    """Tell the shells that cannot be closed; fill the gaps and cap the rims of the others."""
+def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> tuple[NDArray[np.bool_], int]:
+    """Tell the shells that cannot be closed; fill the gaps and cap the rims of the others. Returns (3m,) the sides that
+    `_spikes` found to be closed, and how many gaps there are."""
     if np.any(edges.count > 2) and body.number > 1:
         # Shells that meet in an edge are judged one by one, each with vertices of its own.
         key, own = np.unique(body.shell.repeat(3) * len(body.points) + body.triangles.ravel(), return_inverse=True)
         edges = find_edges(own.reshape(-1, 3))
-    torn = (edges.balance(body.turned) != 0) & (edges.count > 1)
-    body.open[body.shell[edges.first[torn] // 3]] = True
+    balance = edges.balance(body.turned)
+    torn = np.zeros(body.number, bool)
+    torn[body.shell[edges.first[(balance != 0) & (edges.count > 1)] // 3]] = True
+    spikes = _spikes(body, edges, balance, torn & ~body.open, tolerance)
+    body.open |= torn & ~spikes.shells
+    settled = np.zeros(3 * len(body.triangles), bool)
+    settled[spikes.sides] = True
+    gaps = spikes.number + len(np.unique(gap.loop[~settled[gap.sides]]))
 
     rim = edges.rims()
-    rim = rim[~body.open[body.shell[rim // 3]]]
+    rim = rim[~body.open[body.shell[rim // 3]] & ~settled[rim]]
     loop = np.full(3 * len(body.triangles), -1)
     loop[gap.sides] = gap.loop
     loop = loop[rim]
@@ -327,8 +337,8 @@ def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> None:
     apex = np.empty(gap.number, np.intp)
     filled = loop >= 0
     apex[loop[filled][::-1]] = start[filled][::-1]
-    caps = [np.stack([stop[filled], start[filled], apex[loop[filled]]], axis=1)]
-    owner = [rim[filled] // 3]
+    caps = [np.stack([stop[filled], start[filled], apex[loop[filled]]], axis=1), spikes.caps]
+    owner = [rim[filled] // 3, spikes.sides // 3]
     if not filled.all():
         triangles, side = _capped(body, rim[~filled] // 3, start[~filled], stop[~filled], tolerance)
         caps.append(triangles)
@@ -342,7 +352,43 @@ def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> None:
     body.face = np.concatenate([body.face, np.full(len(caps), -1)])
     body.turned = np.concatenate([body.turned, np.zeros(len(caps), bool)])
     body.shell = np.concatenate([body.shell, body.shell[owner]])
-    body.changed |= len(caps) > 0
+    return settled, gaps
+
+
+@dataclass(frozen=True, eq=False)
+class _Spikes:
+    """shells: (number,) those that close after all. sides, caps: a side on each edge that they leave over, and the
+    triangle that closes it. number: of gaps."""
+
+    shells: NDArray[np.bool_]
+    sides: NDArray[np.intp]
+    caps: NDArray[np.intp]
+    number: int
+
+
+def _spikes(body: Mended, edges: Edges, balance: NDArray[np.float64], torn: NDArray[np.bool_], tolerance: float
+            ) -> _Spikes:
+    """Shells with edges of three faces or more that close nevertheless, as all that they leave over are loops without
+    area: letters whose outline turns back on itself. torn: (number,) the shells to look at. balance: of the edges."""
+    edge = np.flatnonzero((balance != 0) & torn[body.shell[edges.first // 3]])
+    edge = np.repeat(edge, np.abs(balance[edge]).astype(np.intp))
+    side = edges.first[edge]
+    if not len(side):
+        return _Spikes(torn, side, np.empty((0, 3), np.intp), 0)
+    start, stop = _ends(body.triangles, side)
+    against = edges.upward[side] != (balance[edge] > 0.0)
+    start, stop = np.where(against, stop, start), np.where(against, start, stop)
+    begin, end = body.points[start].astype(np.float64), body.points[stop].astype(np.float64)
+    shell = body.shell[side // 3]
+    meet = [shell * len(body.points) + vertex for vertex in (start, stop)]
+    loops = find_loops(begin, end, join_sides(begin, end, *meet, directed=True))
+    torn = torn.copy()
+    torn[shell[(~loops.complete | loops.wide(tolerance))[loops.of_side]]] = False
+    apex = np.empty(len(loops.perimeter), np.intp)
+    apex[loops.of_side[::-1]] = start[::-1]
+    caps = np.stack([stop, start, apex[loops.of_side]], axis=1)
+    kept = torn[shell]
+    return _Spikes(torn, side[kept], caps[kept], len(np.unique(loops.of_side[kept])))
 
 
 def _capped(body: Mended, owner: NDArray, start: NDArray, stop: NDArray, tolerance: float

@@ -60,8 +60,8 @@ def moments_to_order(body: Surface | Iterable[Surface | NDArray], order: int, *,
     holds. ValueError where coordinates are not finite, a face names no vertex, or a moment would be beyond the range of
     numbers.
     """
-    if order < 0:
-        raise ValueError("The order of moments is 0 or more.")
+    if not isinstance(order, (int, np.integer)) or order < 0:
+        raise ValueError("The order of moments is a whole number, 0 or more.")
     if about is not None:
         about = np.array(about, np.float64)
         if about.shape != (3,) or not np.isfinite(about).all():

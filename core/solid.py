@@ -23,7 +23,7 @@ from . import polyhedron
 from .components import Components
 from .flatness import Flatness, Witness
 from .mending import Mended, counted, listed, mend
-from .moments import SECOND, Moments
+from .moments import SECOND, Moments, sum_moments
 from .nesting import cut_from, decide, relate
 from .shell_tree import sort_shells
 from .surface import Surface, all_there
@@ -135,9 +135,13 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     turn = np.zeros(body.number, bool) if compared is None else compared.turned
     turn_each = turn
     measured = _to_measure(surface, body, turn, np.ones(1, bool) if compared is None else compared.solid, proven)
-    volume, area = own if measured is surface else polyhedron.solid_and_area(measured, threads, shell)
-    if body.changed:  # caps are no part of the area, and left out faces are
-        area = own[1]
+    volume, area = own  # the area is the input's: without caps, with what was left out and with flat parts
+    if measured is not surface:
+        caps = _caps_alone(surface, body, turn, measured)
+        about = None if caps is None else volume.about
+        volume = polyhedron.solid_and_area(caps or measured, threads, about=about)[0]
+        if caps is not None:
+            volume = sum_moments([own[0], volume])
     if compared is None:
         solid = bool(abs(volume.total) > max(_noise(size, area.total, body.caps.any(), error), volume.error[0]))
         turn = turn | (solid and volume.total < 0.0 and not body.open.any())  # what is open has no inside
@@ -308,7 +312,7 @@ def _to_measure(surface: Surface, body: Mended, turn: NDArray[np.bool_], solid: 
     """The surface whose signed sum is the body's."""
     turned = body.turned ^ turn[body.shell]
     kept = (body.open | solid)[body.shell]  # of flat parts only rounding would count
-    if not body.changed and not turned.any() and (kept.all() or not kept.any()):
+    if not (body.changed or turned.any() or (body.face < 0).any()) and (kept.all() or not kept.any()):
         return surface
     if proven:
         quads, triangles = surface.quads.copy(), surface.triangles.copy()
@@ -317,9 +321,20 @@ def _to_measure(surface: Surface, body: Mended, turn: NDArray[np.bool_], solid: 
         rows = turned[2 * len(quads):]
         triangles[rows] = triangles[rows][:, ::-1]
         return replace(surface, quads=quads, triangles=triangles)
-    triangles = np.where(turn[body.shell][:, None], body.triangles[:, ::-1], body.triangles)
+    triangles = body.triangles
+    if turn.any():
+        triangles = np.where(turn[body.shell][:, None], triangles[:, ::-1], triangles)
     moved = surface.coordinate_error + body.moved if body.moved else surface.moved
     return Surface(body.points, triangles if kept.all() else triangles[kept], moved=moved)
+
+
+def _caps_alone(surface: Surface, body: Mended, turn: NDArray[np.bool_], measured: Surface) -> Surface | None:
+    """The caps, where they are all by which `measured` differs from `surface`."""
+    caps = body.face < 0
+    if (body.changed or not caps.any() or len(measured.triangles) < len(body.triangles) or body.turned.any()
+            or turn.any()):
+        return None
+    return replace(measured, triangles=measured.triangles[caps])
 
 
 def _parts(measured: Surface, body: Mended, compared: _Compared | None, turn: NDArray[np.bool_], proven: bool

@@ -44,6 +44,13 @@ class Surface:
     corner_edges: NDArray[np.integer] | None = None
     moved: NDArray[np.float64] | None = None
 
+    def __post_init__(self) -> None:
+        for name in ("triangles", "quads", "triangle_faces", "quad_faces", "corner_vertices", "corner_edges"):
+            indices = getattr(self, name)
+            if indices is not None and indices.dtype not in (np.int32, np.int64):
+                # Numbers of faces, edges and vertices are added to others, which must neither overflow nor round.
+                object.__setattr__(self, name, indices.astype(np.int64))
+
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(3,) and (3,) the least and the largest coordinates of the points, used or not; NaN where one of them is."""

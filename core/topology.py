@@ -39,8 +39,8 @@ def closed_sides(surface: Surface) -> NDArray[np.int32] | None:
     if sides_at is None:
         return None
     count = int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1  # in which a negative edge is a large one
-    if 2 * count > np.iinfo(edges.dtype).max:
-        return None
+    if count > 2 * len(corners) or 2 * count > np.iinfo(edges.dtype).max:
+        return None  # most of them without faces, or too many for their type: the table would cost more than a search
     sides = np.full(2 * count, -1, np.int32)
     for start in range(0, len(corners), BLOCK):
         faces, upward = sides_at(start)
@@ -205,13 +205,66 @@ class Edges:
 
 def find_edges(triangles: NDArray[np.integer]) -> Edges:
     """The edges of (m, 3) triangles with three different vertices each, m at least 1."""
-    start = triangles.astype(np.int64).ravel()
-    stop = triangles[:, [1, 2, 0]].astype(np.int64).ravel()
+    start, stop = _ends(triangles.astype(np.int64, copy=False))
     low, high = np.minimum(start, stop), np.maximum(start, stop)
     first = first_equal(low * (int(high.max()) + 1) + high)
     begins = first == np.arange(len(first))
     of_side = (np.cumsum(begins) - 1)[first]
     return Edges(of_side=of_side, upward=start < stop, first=np.flatnonzero(begins), count=np.bincount(of_side))
+
+
+def _ends(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """(3m,) and (3m,) the vertices from which and to which the sides run."""
+    stop = np.empty_like(triangles, order="C")
+    stop[:, :2], stop[:, 2] = triangles[:, 1:], triangles[:, 0]
+    return triangles.ravel(), stop.ravel()
+
+
+def named_edges(surface: Surface, triangles: NDArray[np.integer]) -> Edges | None:
+    """As `find_edges`, without a search, from the edges that a mesh names at its corners; each quad's diagonal is one
+    more. None where there are none or not of all triangles, or they do not fit the vertices.
+
+    triangles: all of the surface, as `all_triangles` cuts them, with three different vertices each.
+    """
+    own, quads = len(surface.triangles), surface.quads
+    corners, edges = surface.corner_vertices, surface.corner_edges
+    if corners is None or edges is None or not len(corners) == len(edges) == 3 * own + 4 * len(quads):
+        return None
+    if own and len(quads) and (surface.triangle_faces is None or surface.quad_faces is None):
+        return None
+    edges = edges.astype(np.intp, copy=False)
+    quad_faces, triangle_faces = mesh_faces(surface)
+    sizes = np.zeros(own + len(quads), np.intp)
+    if not len(sizes) > max(quad_faces.max(initial=0), triangle_faces.max(initial=0)):
+        return None
+    sizes[quad_faces], sizes[triangle_faces] = 4, 3
+    count = int(edges.max()) + 1
+    if sizes.sum() != len(corners) or edges.min() < 0 or count > 2 * len(corners):
+        return None
+    begins = np.cumsum(sizes) - sizes
+    diagonal = count + np.arange(len(quads))
+    flipped = triangles[own::2, 0] != quads[:, 0]
+    around = edges[begins[quad_faces][:, None] + (np.arange(4) + flipped[:, None]) % 4]
+    named = edges if surface.triangle_faces is None and not len(quads) else np.concatenate([
+        edges[begins[triangle_faces][:, None] + np.arange(3)].ravel(),
+        np.column_stack([around[:, 0], around[:, 1], diagonal, diagonal, around[:, 2], around[:, 3]]).ravel()])
+    start, stop = _ends(triangles)
+    first = np.full(count + len(quads), -1)
+    first[named[::-1]] = np.arange(len(named) - 1, -1, -1)  # of equal indices the last is kept
+    begins = np.zeros(len(named), bool)
+    begins[first[first >= 0]] = True
+    of_side = (np.cumsum(begins) - 1)[first[named]]
+    first = np.flatnonzero(begins)
+    found = Edges(of_side=of_side, upward=start < stop, first=first, count=np.bincount(of_side))
+    width = int(triangles.max()) + 1
+    ends = np.minimum(start, stop).astype(np.int64) * width + np.maximum(start, stop)
+    if not np.array_equal(ends[first][of_side], ends):
+        return None
+    # A mesh may name an edge twice, and each would pass for a rim.
+    at_rim = np.zeros(width, bool)
+    at_rim[start[found.rims()]] = at_rim[stop[found.rims()]] = True
+    doubtful = ends[first[at_rim[start[first]] & at_rim[stop[first]]]]
+    return found if len(np.unique(doubtful)) == len(doubtful) else None
 
 
 def orientation(count: int, a: NDArray[np.integer], b: NDArray[np.integer], against: NDArray[np.bool_],

@@ -48,8 +48,7 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
     """Each part measured once in its own coordinates, and mapped to wherever it stands."""
     volumes, areas, healths, methods, warnings, parts = [], [], [], [], [], []
     if not shell and reading.places > 1 and places_meet(reading):
-        if sum((len(part.surface.triangles) + 2 * len(part.surface.quads)) * len(part.matrices)
-               for part in reading.parts) <= COMPARED:
+        if sum(_triangles(part.surface) * len(part.matrices) for part in reading.parts) <= COMPARED:
             return _as_one(reading, unit, threads)
         warnings.append(NOT_COMPARED.format(reading.places))
     for part in reading.parts:
@@ -101,7 +100,8 @@ def _to_order(solids: list[tuple[SolidMeasure, NDArray]], surfaces: list[Surface
     surface, in one pass with the area where mending has neither added nor left out a face."""
     volumes, areas = [], []
     for (solid, matrices), surface in zip(solids, surfaces):
-        same = solid.method in ("exact", "reoriented") and not solid.health.duplicate_faces
+        same = (solid.method in ("exact", "reoriented") and not solid.health.duplicate_faces
+                and _triangles(solid.mended) == _triangles(surface))  # else flat parts are left out
         volume, faces = moments_to_order(solid.mended, order, area=area and same, threads=threads,
                                          about=solid.volume.about)  # of an open surface they depend on it
         volumes.append(map_sum(volume, matrices))
@@ -109,6 +109,10 @@ def _to_order(solids: list[tuple[SolidMeasure, NDArray]], surfaces: list[Surface
             measured = lambda other: moments_to_order(other, order, area=True, threads=threads)[1]  # noqa: E731
             areas.extend(mapped_areas(surface, faces or measured(surface), matrices, measured))
     return sum_moments(volumes), sum_moments(areas) if area else None
+
+
+def _triangles(surface: Surface) -> int:
+    return len(surface.triangles) + 2 * len(surface.quads)
 
 
 def _as_one(reading: Reading, unit: float, threads: int) -> Body:

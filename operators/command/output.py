@@ -10,6 +10,7 @@ entries that call this are the last thing their process does.
 
 from __future__ import annotations
 
+import io
 import os
 import stat
 import sys
@@ -21,19 +22,31 @@ from ..write.whole_file import whole_file
 def claim_stdout() -> int:
     """A descriptor of the standard output, which nothing else in this process reaches any more; -1 where it is closed.
     """
+    silent = not _is_open(2)
     try:
         channel = os.dup(1)
     except OSError:
         channel = -1
     else:
         sys.stdout.flush()
-    try:
-        os.dup2(2, 1)
-    except OSError:  # there is no standard error
-        silence = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(silence, 1)
-        os.close(silence)
+    if silent:  # its number is free, and whatever is opened next would be written to as the standard error
+        if channel == 2:
+            channel = os.dup(channel)
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        if nowhere != 2:
+            os.dup2(nowhere, 2)
+            os.close(nowhere)
+        sys.stderr = sys.stderr or io.StringIO()
+    os.dup2(2, 1)
     return channel
+
+
+def _is_open(descriptor: int) -> bool:
+    try:
+        os.fstat(descriptor)
+    except OSError:
+        return False
+    return True
 
 
 def write(text: str, path: Path | None, channel: int) -> None:

@@ -14,7 +14,14 @@ from .curves import is_round
 from .deformation import spline_modifiers
 from .instances import Gathered, shows_itself, visible_objects
 from .splines import weightless
-from .visibility import edit_modifiers, hidden_reason, instanced_by_parent, measurable, metaball_families
+from .visibility import (
+    blends_keys,
+    edit_modifiers,
+    hidden_reason,
+    instanced_by_parent,
+    measurable,
+    metaball_families,
+)
 
 POLYGONS = (
     "{:s} measured as the polygons that Blender draws, as fine as the viewport's resolution; twice as fine, they come "
@@ -159,8 +166,12 @@ def _mode(obj) -> Iterator[str]:
             yield "Read in Edit Mode, with the modifiers that act there: {:s}.".format(
                 _names(acting)
             )
+        elif blends_keys(obj):
+            yield "Read in Edit Mode, with its shape keys."
         else:
             yield "Read from the mesh being edited."
+        if obj.mode == "EDIT" and obj.active_shape_key and not blends_keys(obj):
+            yield "The shape key “{:s}” is edited, and was read alone.".format(obj.active_shape_key.name)
         idle = [
             modifier
             for modifier in obj.modifiers

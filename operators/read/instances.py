@@ -26,7 +26,7 @@ from ...core.surface import Surface
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
 from .reading import Painted, Part, SplineReading, Unreadable, float64_matrix
 from .splines import spline_reading
-from .visibility import GEOMETRY_TYPES, edit_modifiers, evaluated_geometry
+from .visibility import GEOMETRY_TYPES, blends_keys, edit_modifiers, evaluated_geometry
 
 # Blender stops here too (MAX_DUPLI_RECUR).
 DEEPEST = 8
@@ -259,8 +259,8 @@ class Gathered:
         return Painted(slots, faces, vertices)
 
     def _edited(self, evaluated) -> tuple[Surface, Painted]:
-        """The surface of an object whose mesh is in Edit Mode, with the modifiers that act there."""
-        if not edit_modifiers(evaluated.original):
+        """The surface of an object whose mesh is in Edit Mode, with what acts there."""
+        if not edit_modifiers(evaluated.original) and not blends_keys(evaluated.original):
             return from_edit_mesh(evaluated.original.data, lambda copy: self._read(copy, evaluated))
         # The evaluated mesh may be a BMesh in disguise, which only to_mesh() turns into arrays.
         read = self._read(evaluated.to_mesh(), evaluated)

@@ -35,7 +35,6 @@ def read_object(
     """
     obj = obj.original
     require_kind(obj)
-    _require_readable_mode(obj)
     reading = placed(obj, depsgraph)
     gathered = Gathered(obj.evaluated_get(depsgraph), depsgraph, materials, attribute, edges)
     gathered.gather()
@@ -101,13 +100,6 @@ def placed(obj, depsgraph) -> Reading:
         rotation=rotation_matrix(rotation),
         location=np.array(location[:], np.float64),
     )
-
-
-def _require_readable_mode(obj) -> None:
-    if obj.mode == "SCULPT" and obj.use_dynamic_topology_sculpting:
-        raise Unreadable(
-            obj.name, "Dynamic topology keeps its sculpted mesh to itself; leave Sculpt Mode first."
-        )
 
 
 def _require_finite(name: str, surface: Surface) -> None:

@@ -124,13 +124,28 @@ def evaluated_geometry(obj, depsgraph, reader):
     Raises Unreadable in the name of `reader`, the object for which `obj` is read, where Blender has
     not evaluated `obj` in full.
     """
-    try:
-        return obj.evaluated_get(depsgraph).evaluated_geometry()
-    except (TypeError, RuntimeError):
-        reason = hidden_reason(obj, depsgraph) or NOT_EVALUATED
-        if obj != reader:
-            reason = "It instances “{:s}”, which cannot be read: {:s}".format(obj.name, reason)
-        raise Unreadable(reader.name, reason) from None
+    reason = _sculpted(obj)
+    if not reason:
+        try:
+            return obj.evaluated_get(depsgraph).evaluated_geometry()
+        except (TypeError, RuntimeError):
+            reason = hidden_reason(obj, depsgraph) or NOT_EVALUATED
+    if obj != reader:
+        reason = "It instances “{:s}”, which cannot be read: {:s}".format(obj.name, reason)
+    raise Unreadable(reader.name, reason)
+
+
+def _sculpted(obj) -> str | None:
+    """Why what the viewport shows of an object in Sculpt Mode is not its evaluated mesh, with the remedy; None where
+    it is."""
+    if obj.mode != "SCULPT":
+        return None
+    if obj.use_dynamic_topology_sculpting:
+        return "Dynamic topology keeps its sculpted mesh to itself; leave Sculpt Mode first."
+    for modifier in obj.modifiers:
+        if modifier.type == "MULTIRES" and modifier.show_viewport and modifier.sculpt_levels:
+            return "“{:s}” keeps its sculpted levels to itself; leave Sculpt Mode first.".format(modifier.name)
+    return None
 
 
 def hidden_reason(obj, depsgraph) -> str | None:
@@ -179,6 +194,11 @@ def edit_modifiers(obj) -> list:
         for modifier in obj.modifiers
         if modifier.show_viewport and modifier.show_in_editmode
     ]
+
+
+def blends_keys(obj) -> bool:
+    """Whether Edit Mode shows the object's mesh with all of its shape keys, not the one alone that is edited."""
+    return obj.data.shape_keys is not None and obj.use_shape_key_edit_mode
 
 
 def _has_nodes(obj) -> bool:

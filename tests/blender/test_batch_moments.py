@@ -92,6 +92,25 @@ def test_high_orders_of_a_mended_body_are_those_of_the_body_and_its_own_faces():
     assert surface[0, 0, 1] == pytest.approx(-4.0, rel=1e-12)
 
 
+@pytest.mark.parametrize("kind", ["solid", "shell"])
+def test_a_flat_part_adds_its_area_to_every_order(kind):
+    box = files.add_box(center=(0, 0, 0), size=(2, 2, 2))
+    bm = bmesh.new()
+    bm.from_mesh(box.data)
+    *rim, middle = (bm.verts.new(place) for place in ((3, -1, 0), (4, -1, 0), (4, 1, 0), (3, 1, 0), (3.5, 0, 0)))
+    bm.faces.new(rim)
+    for one, other in zip(rim, rim[1:] + rim[:1]):  # the other side of the sheet
+        bm.faces.new((other, one, middle))
+    bm.to_mesh(box.data)
+    bm.free()
+    volume, surface = moments_of("--kind", kind, "--thickness", "1", "--order", "4")
+    assert measured("--kind", kind, "--thickness", "1")["area"] == pytest.approx(28.0, rel=1e-13)
+    assert surface[0, 0, 0] == pytest.approx(28.0, rel=1e-13)
+    assert surface[1, 0, 0] == pytest.approx(2 * 2 * 3.5, rel=1e-13)
+    assert surface[4, 0, 0] == pytest.approx(4 * 4 / 5 + 2 * 4 + 2 * 2 * (4**5 - 3**5) / 5, rel=1e-13)
+    assert volume[0, 0, 0] == pytest.approx(8.0 if kind == "solid" else 28.0, rel=1e-13)
+
+
 def test_high_orders_of_united_shells_count_what_they_share_once():
     box = files.add_box(center=(0, 0, 0), size=(1, 1, 1))
     other = box.data.copy()

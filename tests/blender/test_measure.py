@@ -350,3 +350,19 @@ def test_a_library_override_is_refused_because_it_would_lose_its_results(tmp_pat
     with pytest.raises(RuntimeError, match="make it local"):
         properties.store(override, measure(override))
     assert not properties.is_stored(override)
+
+
+@pytest.mark.parametrize("bevel", [0.0, 0.01])
+def test_every_letter_is_closed(bevel):
+    text = bpy.data.curves.new("Text", "FONT")
+    text.extrude, text.bevel_depth = 0.1, bevel
+    text.body = "ABCDEFGHIJKLMNOPQRSTUVWXYZ\nabcdefghijlmnopqrstuvwxyz\n0123456789&@%é"  # k's bevels overlap
+    obj = bpy.data.objects.new("Text", text)
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.update()
+    found = measure(obj)
+    assert found.method == "exact" and found.health.closed
+    if not bevel:
+        mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+        front = sum(face.area for face in mesh.polygons if face.center.z > 0.0999)
+        assert found.volume == pytest.approx(0.2 * front, rel=1e-6)

@@ -590,6 +590,47 @@ def test_dynamic_topology_is_refused_as_its_mesh_cannot_be_seen():
     assert "leave Sculpt Mode" in refused(obj)
 
 
+@pytest.mark.parametrize("instanced", [False, True])
+def test_multires_levels_that_sculpting_shows_are_refused_as_they_cannot_be_seen(instanced):
+    obj = cube("Sculpted")
+    activate(obj)
+    modifier = obj.modifiers.new("Levels", "MULTIRES")
+    bpy.ops.object.multires_subdivide(modifier="Levels")
+    whole = read(obj).parts[0].surface.box
+    asked = obj
+    if instanced:
+        asked = link("Instancer", None)
+        asked.instance_type, asked.instance_collection = "COLLECTION", bpy.data.collections.new("Made")
+        asked.instance_collection.objects.link(obj)
+    bpy.ops.object.mode_set(mode="SCULPT")
+    assert "“Levels” keeps its sculpted levels to itself; leave Sculpt Mode first." in refused(asked)
+    modifier.sculpt_levels = 0
+    assert np.array_equal(read(asked).parts[0].surface.box, [[-1.0] * 3, [1.0] * 3])
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert np.array_equal(read(asked).parts[0].surface.box, whole)
+
+
+@pytest.mark.parametrize("blended, edited, half, said", [
+    (False, 0, 1.0, "The shape key “Basis” is edited, and was read alone."),
+    (False, 1, 2.0, "The shape key “Big” is edited, and was read alone."),
+    (True, 0, 1.5, "Read in Edit Mode, with its shape keys."),
+    (True, 1, 1.5, "Read in Edit Mode, with its shape keys."),
+])
+def test_edit_mode_reads_the_shape_keys_that_it_shows(blended, edited, half, said):
+    obj = cube()
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Big")
+    for point in key.data:
+        point.co *= 2.0
+    key.value = 0.5
+    obj.active_shape_key_index, obj.use_shape_key_edit_mode = edited, blended
+    activate(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    reading = read(obj)
+    assert reading.parts[0].surface.box[1].tolist() == [half] * 3
+    assert said in reading.warnings
+
+
 def test_a_curve_in_edit_mode_is_read():
     obj = bevelled()
     bpy.ops.object.mode_set(mode="EDIT")

@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core import blocks, polyhedron
-from body_moments.core.surface import Surface, flipped_quads
+from body_moments.core.surface import Surface, flipped_quads, joined
 
 from tests.core import exact
 
@@ -320,6 +320,18 @@ def test_indices_that_name_no_point_are_refused(index):
         polyhedron.solid_moments(Surface(points, quads=quads))
     with pytest.raises(ValueError, match="vertex"):
         polyhedron.solid_moments(Surface(points, quads[:, :3]))
+
+
+@pytest.mark.parametrize("other", [np.int32, np.uint8, np.uint64])
+@pytest.mark.parametrize("kind", [np.uint8, np.int16, np.uint32, np.uint64])
+def test_triangles_and_quads_may_be_of_different_types(kind, other):
+    triangles = np.array(exact.fan(exact.BOX_QUADS[:1]), kind)
+    quads = np.array(exact.BOX_QUADS[1:], other)
+    points = np.array(exact.box((0, 0, 0), (2, 3, 5)), float)
+    body = Surface(points, triangles, quads)
+    assert_exact(body, exact.box_moments((0, 0, 0), (2, 3, 5)))
+    both = joined([body] * 40)  # 320 vertices, more than 8 bits can name
+    assert polyhedron.solid_moments(both).total == 40 * 30
 
 
 @pytest.mark.parametrize("index_type", [np.int32, np.int64, np.uint32])

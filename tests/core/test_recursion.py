@@ -242,8 +242,9 @@ def test_what_cannot_be_measured_is_refused(order):
     for about in ((0.0, 1.0), (0.0, np.nan, 0.0)):
         with pytest.raises(ValueError, match="three finite"):
             moments_to_order(Surface(points, quads=quads), order, about=about)
-    with pytest.raises(ValueError, match="order"):
-        moments_to_order(Surface(points, quads=quads), -1)
+    for wrong in (-1, 2.5, 2.0, "3", None):
+        with pytest.raises(ValueError, match="whole number"):
+            moments_to_order(Surface(points, quads=quads), wrong)
 
 
 def test_what_leaves_the_range_of_numbers_is_refused():

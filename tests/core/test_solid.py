@@ -4,6 +4,7 @@
 
 import json
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -35,6 +36,7 @@ from tests.core.bodies import (
     with_flipped,
     without,
 )
+from tests.core.exact import volume_moments
 from tests.core.test_polyhedron import grid_torus
 
 CUBE = box()
@@ -585,3 +587,66 @@ def test_indices_in_any_byte_order_name_their_points(kind):
     assert body.method == "exact" and body.volume.total == 1.0
     with pytest.raises(ValueError, match="not there"):
         Surface.from_triangles(CUBE[0], CUBE[1].astype(kind) + np.array(1, kind))
+
+
+@pytest.mark.parametrize("shell", [False, True])
+def test_the_area_has_what_is_flat_and_encloses_nothing(shell):
+    points, quads = ring(12, 8)
+    area = measure_solid(mesh(points, quads.tolist()), shell=shell).area
+    sheet = np.array([[9.0, 0, 0], [11.0, 0, 0], [11.0, 3.0, 0], [9.0, 3.0, 0]])
+    both = [*quads.tolist(), *(np.array([[0, 1, 2, 3], [3, 2, 1, 0]]) + len(points)).tolist()]  # its two sides
+    result = measure_solid(mesh(np.concatenate([points, sheet]), both), shell=shell)
+    assert result.method == "exact" and "One part is flat and adds no volume." in result.warnings
+    assert result.area.total == pytest.approx(area.total + 12.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_caps_are_added_to_what_was_measured(dtype):
+    rng = np.random.default_rng(5)
+    points, quads = ring(30, 20)
+    points = points + rng.normal(0.0, 0.01, points.shape) + [20.0, -7.0, 3.0]
+    surface = mesh(points, quads[rng.random(len(quads)) > 0.05].tolist(), dtype)
+    quick, slow = measure_solid(surface), measure_solid(replace(surface, corner_edges=None))
+    assert quick.method == slow.method == "capped" and quick.warnings == slow.warnings
+    assert quick.health.as_record() == slow.health.as_record()
+    np.testing.assert_array_equal(quick.volume.raw, slow.volume.raw)
+    exact = volume_moments(quick.mended.points, quick.mended.triangles, quick.volume.about)
+    assert all(abs(Fraction(float(raw)) - truth) <= Fraction(float(error))
+               for raw, truth, error in zip(quick.volume.raw, exact, quick.volume.error))
+    assert quick.volume.error[0] <= 1e-12 * quick.volume.total
+
+
+OUTLINE = np.array([[-2, 0], [0, -1], [0, 1], [0, 0], [2, 0], [1, 3]], float)  # runs past its fourth point and back
+REGION = np.array([[0, 1, 3], [3, 2, 0], [2, 3, 4], [4, 5, 2], [0, 2, 5]])
+
+
+def letter(outline, height=0.5):
+    """An extruded outline as Blender makes it of a glyph: walls along the outline, caps over the region."""
+    count = len(outline)
+    points = np.concatenate([np.c_[outline, np.zeros(count)], np.c_[outline, np.full(count, height)]])
+    i = np.arange(count)
+    j = (i + 1) % count
+    walls = np.concatenate([np.stack([i, j, j + count], axis=1), np.stack([i, j + count, i + count], axis=1)])
+    return points, np.concatenate([REGION[:, ::-1], REGION + count, walls])
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_an_outline_that_turns_back_on_itself_closes(apart):
+    part = letter(OUTLINE)
+    if apart:  # walls with vertices of their own, welded at the same places
+        points, triangles = part
+        part = np.concatenate([points, points]), np.concatenate([triangles[:10], triangles[10:] + len(points)])
+    for offset in (0.0, 4096.0):
+        result = measure_solid(surface(moved(part, offset=(offset, offset, 0.0))))
+        assert result.method == "exact" and result.health.closed and result.health.boundary_edges == 0
+        assert result.health.non_manifold_edges == 2
+        assert result.warnings == (
+            "Edges meet in 2 gaps whose vertices do not: without area, and counted as closed.",)
+        exact = volume_moments(result.mended.points, result.mended.triangles, result.volume.about)
+        assert abs(result.volume.total - 3.5) <= result.volume.error[0] and exact[0] == Fraction(7, 2)
+    wide = OUTLINE.copy()
+    wide[1, 0] = 0.5  # what is left over has an area
+    assert measure_solid(surface(letter(wide))).method == "open"
+    beside = joined(letter(OUTLINE), moved(letter(wide), offset=(9, 0, 0)))
+    result = measure_solid(surface(beside))
+    assert result.method == "open" and "1 of its 2 parts cannot be closed" in " ".join(result.warnings)

@@ -6,8 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core.surface import Surface
-from body_moments.core.topology import closed_sides, components, find_edges, first_equal, orientation, shells
+from body_moments.core.surface import Surface, flipped_quads
+from body_moments.core.topology import (
+    closed_sides,
+    components,
+    find_edges,
+    first_equal,
+    named_edges,
+    orientation,
+    shells,
+)
 from body_moments.core.weld import equal_positions, face_groups, near_positions
 
 from tests.core.bodies import CORNERS, SIDES, box, joined, mesh, moebius, ring, soup, sphere, welded
@@ -195,14 +203,54 @@ def test_faces_on_the_same_vertices_share_a_group_however_they_are_cut_and_turne
     np.testing.assert_array_equal(face_groups(triangles, faces), [0, 0, 0, 0, 2, 2, 4])
 
 
-@pytest.mark.parametrize("type_", [np.int8, np.int16, np.int32, np.uint32])
-def test_edges_that_no_mesh_has_or_too_many_for_their_type_prove_nothing(type_):
+@pytest.mark.parametrize("type_", [np.int8, np.int16, np.int32, np.uint32, np.uint64])
+def test_edges_that_no_mesh_has_prove_nothing_and_those_of_every_type_do(type_):
     points, quads = grid_torus(8, 6)
     corners = quads.ravel()
     ends = np.sort(np.stack([corners, np.roll(quads, -1, axis=1).ravel()], axis=1), axis=1)
     edges = np.unique(ends, axis=0, return_inverse=True)[1].ravel().astype(type_)
     surface = Surface(points, quads=quads, corner_vertices=corners, corner_edges=edges)
-    sides = closed_sides(surface)
-    assert (sides is None) == (type_ is np.int8)  # in which twice 96 is no number
-    if type_ is not np.uint32:
-        assert closed_sides(replace(surface, corner_edges=edges - edges.max() - type_(1))) is None
+    assert closed_sides(surface) is not None
+    assert closed_sides(replace(surface, corner_edges=edges - edges.max() - type_(1))) is None
+
+
+def opened(rng, cut):
+    """A crumpled ring of quads with holes, a share `cut` of its faces as two triangles, as a reader makes it."""
+    points, quads = ring(14, 9)
+    faces = [tuple(face) for face in quads.tolist() if rng.random() > 0.1]
+    halves = [[quad] if rng.random() >= cut else [quad[:3], (*quad[2:], quad[0])] for quad in faces]
+    return mesh(points + rng.normal(0.0, 0.1, points.shape), [face for pair in halves for face in pair])
+
+
+@pytest.mark.parametrize("cut", [0.0, 0.4, 1.0])
+def test_edges_that_a_mesh_names_are_those_that_are_found(cut):
+    surface = opened(np.random.default_rng(11), cut)
+    flipped = flipped_quads(surface.points, surface.quads)
+    assert cut == 1.0 or 0 < flipped.sum() < len(flipped)
+    if cut in (0.0, 1.0):  # one kind alone, as a reader makes it
+        surface = replace(surface, triangle_faces=None, quad_faces=None)
+    triangles = surface.all_triangles()[0]
+    named, found = named_edges(surface, triangles), find_edges(triangles)
+    assert len(found.rims()) > 10
+    for key in ("of_side", "upward", "first", "count"):
+        np.testing.assert_array_equal(getattr(named, key), getattr(found, key))
+
+
+def test_names_of_edges_that_do_not_fit_the_vertices_are_not_used():
+    surface = opened(np.random.default_rng(3), 0.5)
+    triangles, edges = surface.all_triangles()[0], surface.corner_edges
+    inner = np.flatnonzero(np.bincount(edges) == 2)[0]
+    twice = edges.copy()
+    twice[np.flatnonzero(edges == inner)[0]] = edges.max() + 1  # one edge by two names
+    wrong = [np.roll(edges, 1), edges * 0, edges - 1, twice, edges[:-1], edges.astype(np.uint64) - np.uint64(1)]
+    for other in wrong:
+        assert named_edges(replace(surface, corner_edges=other), triangles) is None
+    assert named_edges(replace(surface, corner_edges=edges.astype(np.uint64)), triangles) is not None
+    prism = mesh(*polygons())
+    assert named_edges(prism, prism.all_triangles()[0]) is None
+
+
+def polygons():
+    """A prism over a pentagon, without one of its sides."""
+    points = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (2, 0), (3, 1), (1, 2), (0, 1))]
+    return points, [(4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *((i, i + 1, i + 6, i + 5) for i in range(4))]
