@@ -6,7 +6,9 @@ from math import prod
 
 import numpy as np
 import pytest
+from body_moments.core import closure
 from body_moments.core.bspline import Space, clamped
+from body_moments.core.curve import Curve
 from body_moments.core.moments import monomials
 from body_moments.core.patch import Patch
 from body_moments.core.patch_solid import measure_patches, measure_sheet
@@ -226,3 +228,35 @@ def test_a_flat_part_beside_a_body_is_left_out_and_said():
 def test_all_points_in_one_place_are_refused():
     with pytest.raises(ValueError, match="one place"):
         measure_patches([Patch((clamped(2), clamped(2)), np.ones((2, 2, 3)))])
+
+
+def test_knots_that_may_tear_a_patch_are_refused():
+    """Two strips of one patch, apart: their inner sides are no sides of the patch, and would not be seen to be open."""
+    space = Space((0.0, 0.0, 1.0, 1.0, 2.0, 2.0), 2, 4)
+    with pytest.raises(ValueError, match="torn"):
+        Patch((space, clamped(2)), np.random.default_rng(0).uniform(-1.0, 1.0, (4, 2, 3)))
+    with pytest.raises(ValueError, match="torn"):
+        Curve(space, np.zeros((4, 3)))
+    assert not Space((0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0), 3, 5).is_torn
+
+
+def test_only_sides_between_the_same_ends_are_compared_point_by_point(monkeypatch):
+    """Of 400 loose patches none: comparing each side with all others took minutes."""
+    asked = []
+    monkeypatch.setattr(closure, "_astride", lambda *sides: asked.append(sides) or [])
+    points = np.random.default_rng(0).uniform(0.0, 0.5, (4, 4, 3)) + np.stack(
+        np.meshgrid(np.arange(4.0), np.arange(4.0), [0.0], indexing="ij"), axis=-1)[:, :, 0]
+    patch = Patch((clamped(4), clamped(4)), points)
+    found = measure_patches([patch.mapped(shift) for shift in shifts(20, 3.5)], order=0)
+    assert not asked
+    assert (found.method, found.health.components, found.health.boundary_edges) == ("capped", 400, 1600)
+    one = measure_patches([patch], order=0)
+    assert found.volume.total == pytest.approx(400.0 * one.volume.total, rel=1e-12)
+
+
+def shifts(each, step):
+    for i in range(each):
+        for j in range(each):
+            matrix = np.eye(4)
+            matrix[:2, 3] = step * i, step * j
+            yield matrix
