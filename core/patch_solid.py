@@ -57,26 +57,43 @@ def measure_patches(patches: Sequence[Patch], *, order: int = 3, area_order: int
     size = patches_size(patches)
     if not size > 0.0:
         raise ValueError("All of its control points are in one place. Give it an extent.")
-    tolerance = max(TOLERANCE * size, 4.0 * stored)
-    closure = close_patches(patches, tolerance)
-    facing = [patch.turned() if turn else patch for patch, turn in zip(patches, closure.turned)]
     about = patches_center(patches)
+    closure = close_patches(patches, max(TOLERANCE * size, 4.0 * stored))
     area, settled = area_moments(patches, area_order, about)
-    notes = [] if settled else ["The estimate of its area's error is above what was asked for."]
+    notes = () if settled else ("The estimate of its area's error is above what was asked for.",)
+    parts = parts_of(patches, closure)
+    measured = [volume_moments(part, order, about) for part in parts]
+    return judged(patches, closure, parts, measured, area, area_slope(patches), stored, notes)
 
-    parts = [[patch for patch, own in zip(facing, closure.component) if own == k] for k in range(closure.number)]
+
+def parts_of(patches: Sequence[Patch], closure: Closure) -> list[list[Patch]]:
+    """The patches of each component, facing the same way, with the caps of its holes."""
+    parts: list[list[Patch]] = [[] for _ in range(closure.number)]
+    for patch, turn, own in zip(patches, closure.turned, closure.component):
+        parts[own].append(patch.turned() if turn else patch)
+    for loop in closure.loops:
+        parts[closure.component[loop.patch]] += loop.caps
+    return parts
+
+
+def judged(patches: Sequence[Patch], closure: Closure, parts: Sequence[list[Patch]],
+           measured: Sequence[tuple[Moments, bool]], area: Moments, slope: float, stored: float,
+           notes: Sequence[str] = ()) -> PatchMeasure:
+    """What the moments of parts, as they face, come to, and what is said about it.
+
+    measured: of each of `parts_of`, as `volume_moments` gives them. area: of all patches; slope: as `area_slope` gives
+    it. notes: further sentences.
+    """
+    size, notes = patches_size(patches), list(notes)
     caps = np.zeros((closure.number, 3))
     for loop in closure.loops:
-        own = closure.component[loop.patch]
-        parts[own] += loop.caps
         if not loop.slim:
-            caps[own] += (loop.flat, not loop.flat, loop.area)
-    measured = [volume_moments(part, order, about) for part in parts]
+            caps[closure.component[loop.patch]] += (loop.flat, not loop.flat, loop.area)
     capped = caps.any(axis=1)
     noise = np.where(capped, NO_VOLUME * size + 4.0 * stored, ROUNDING * size) * area.total
     total = np.array([moments.total for moments, _ in measured])
     solid = ~closure.broken & (np.abs(total) > noise)
-    turn, compared = _compared(parts, total, solid, tolerance)
+    turn, compared = _compared(parts, total, solid, max(TOLERANCE * size, 4.0 * stored))
     kept = solid if solid.any() else closure.broken
     volumes = [moments * (-1.0 if flip else 1.0) for (moments, _), flip, keep in zip(measured, turn, kept) if keep]
     if not all(fine for (_, fine), keep in zip(measured, kept) if keep):
@@ -89,7 +106,7 @@ def measure_patches(patches: Sequence[Patch], *, order: int = 3, area_order: int
     # caps move with their rims
     skin = area.total + sum(loop.area for loop in closure.loops)
     volume = replace(volume, input=_moved(volume, stored, closure.gap, skin, reach))
-    area = replace(area, input=_moved(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
+    area = replace(area, input=_moved(area, stored, 0.0, slope + area.total / reach, reach))
     mixed = _mixed(closure)
     notes = [*_told(closure, mixed, turn, caps[solid], area.total, solid, size), *compared["notes"], *notes]
     share = float(caps[solid, 2].sum() / area.total) if area.total > 0.0 else 0.0
