@@ -80,7 +80,13 @@ class Closure:
 
 
 def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
-    """Find out how patches close. tolerance: the distance within which points are the same."""
+    """Find out how patches close. tolerance: the distance within which points are the same.
+
+    ValueError where knots may tear one: what gapes within a patch is no side of it.
+    """
+    if any(space.is_torn for patch in patches for space in patch.spaces):
+        raise ValueError("One of its patches has an inner knot that is repeated as often as its order, so that it may "
+                         "be torn there. Make two patches of it, split at that knot.")
     sides = [Side(i, patch.side(axis, end), forward) for i, patch in enumerate(patches) for axis, end, forward in SIDES]
     count = max([SAMPLES] + [2 * len(side.curve.space.spans) + 1 for side in sides])
     points = np.array([side.curve.combined(_evenly(side.curve.space, count)) for side in sides])
@@ -172,7 +178,8 @@ def _near(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.int
 
 def _apart(points: NDArray, left: NDArray, right: NDArray, tolerance: float
            ) -> Iterator[tuple[float, int, int, bool]]:
-    """Which pairs of sides agree parameter by parameter: how far they are apart, both, whether they run the same way."""
+    """Which pairs of sides agree parameter by parameter: how far they are apart, which, whether they run the same way.
+    """
     for start in range(0, len(left), BLOCK):
         i, j = left[start:start + BLOCK], right[start:start + BLOCK]
         against, along = (np.linalg.norm(points[i] - other, axis=2).max(axis=1)

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,17 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 from .bspline import Space
 
 
-def checked_points(spaces: Sequence[Space], points: ArrayLike, weights: ArrayLike | None
+def checked_points(points: ArrayLike, weights: ArrayLike | None, shape: tuple[int, ...]
                    ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Control points (*counts, 3) and weights (*counts), float64; weights that are all the same are none. They are
-    copies that cannot be written to: what has been found out about them stays true.
+    """Control points (*shape, 3) and weights (*shape), float64; weights that are all the same are none. They are copies
+    that cannot be written to: what has been found out about them stays true.
 
-    ValueError for another shape, what is not finite, weights that are not positive, and knots that tear it.
+    ValueError for another shape, what is not finite, and weights that are not positive.
     """
-    shape = tuple(space.count for space in spaces)
-    if any(space.is_torn for space in spaces):
-        raise ValueError("An inner knot is repeated as often as the order, so that it may be torn there. Make it of "
-                         "several, split at that knot.")
     points = _own(points)
     if points.shape != (*shape, 3):
         raise ValueError("Its function space needs control points of the shape {}.".format((*shape, 3)))
@@ -55,7 +50,7 @@ class Curve:
     weights: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
-        points, weights = checked_points((self.space,), self.points, self.weights)
+        points, weights = checked_points(self.points, self.weights, (self.space.count,))
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "weights", weights)
 

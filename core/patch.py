@@ -27,7 +27,7 @@ class Patch:
     weights: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
-        points, weights = checked_points(self.spaces, self.points, self.weights)
+        points, weights = checked_points(self.points, self.weights, (self.spaces[0].count, self.spaces[1].count))
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "weights", weights)
 

@@ -17,14 +17,15 @@ from numpy.typing import NDArray
 
 from .closure import Closure, close_patches
 from .moments import Moments, monomials, sum_moments
-from .nesting import decide, relate
+from .nesting import Relations, decide, relate
 from .patch import Patch
 from .patch_moments import area_moments, area_slope, control_box, patches_center, sheet_moments, volume_moments
-from .shell_tree import sort_shells
+from .shell_tree import Shells, sort_shells
 from .solid import NO_VOLUME, ROUNDING, Health
 from .weld import TOLERANCE
 
-EACH = 8  # samples of a span, for comparing parts
+EACH, FINE = 8, 48  # samples of a span, for comparing parts, and where those cross
+MOST_TRIANGLES = 1_000_000  # compared where samples cross
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,22 +157,18 @@ def _compared(parts: list[list[Patch]], total: NDArray, solid: NDArray[np.bool_]
     turned = solid & (total < 0.0)
     if len(parts) == 1 or not solid.any():
         return turned, {"counts": {}, "notes": []}
-    points, triangles, shell = [], [], []
-    count = 0
-    for number, part in enumerate(parts):
-        for patch in part:
-            grid = patch.samples(EACH)
-            corners = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2]) + count
-            a, b, c, d = (corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:])
-            faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
-            points.append(grid.reshape(-1, 3))
-            triangles.append(faces)
-            shell.append(np.full(len(faces), number))
-            count += len(points[-1])
-    points, triangles, shell = np.concatenate(points), np.concatenate(triangles), np.concatenate(shell)
-    shells = sort_shells(points, triangles, shell, len(parts))
+    shells, relations = _related(parts, solid, EACH, tolerance)
     shells = replace(shells, volume=total)
-    relations = relate(points, shells, solid, tolerance)
+    shared = np.unique(relations.crossing)
+    spans = sum(len(patch.spaces[0].spans) * len(patch.spaces[1].spans) for k in shared for patch in parts[k])
+    each = min(FINE, int(np.sqrt(MOST_TRIANGLES / (2.0 * max(spans, 1)))))
+    if len(shared) and each > EACH:  # what samples cross may be but near
+        nearer = _related([parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance)[1]
+        crossed, inside, crossing = (np.sort(pairs, axis=1) @ (len(parts), 1) for pairs in (
+            relations.crossing, shared[nearer.inside], shared[nearer.crossing]))
+        relations = Relations(
+            np.concatenate([relations.inside, shared[nearer.inside][np.isin(inside, crossed)]]),
+            relations.crossing[np.isin(crossed, crossing)], relations.unchecked)
     turned, nested, cavities = decide(shells, relations, solid)
     crossing = len(np.unique(relations.crossing))
     notes = []
@@ -180,8 +177,40 @@ def _compared(parts: list[list[Patch]], total: NDArray, solid: NDArray[np.bool_]
                      "cavity.".format(int(nested.sum())))
     if crossing:
         notes.append("{:d} of its parts overlap, so that what they share counts twice.".format(crossing))
+    if relations.unchecked:
+        notes.append("Whether {:d} pairs of its parts overlap was not checked, as it would have taken too long."
+                     .format(relations.unchecked))
     return turned, {"counts": {"nested_components": int(nested.sum()), "cavities": int(cavities.sum()),
                                "overlapping_components": crossing}, "notes": notes}
+
+
+def _related(parts: Sequence[Sequence[Patch]], solid: NDArray[np.bool_], each: int, tolerance: float
+             ) -> tuple[Shells, Relations]:
+    """How parts lie to each other, by samples of their patches: `each` to a span. Those that are nearer than what lies
+    between the samples and the patches do not cross where `each` is not the coarsest."""
+    points, triangles, shell = [], [], []
+    count, off = 0, 0.0
+    for number, part in enumerate(parts):
+        for patch in part:
+            grid = patch.samples(each)
+            corners = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2]) + count
+            a, b, c, d = (corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:])
+            faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
+            points.append(grid.reshape(-1, 3))
+            triangles.append(faces)
+            shell.append(np.full(len(faces), number))
+            count += len(points[-1])
+            off = max(off, _sagitta(grid, each) + _sagitta(grid.swapaxes(0, 1), each))
+    points, triangles, shell = np.concatenate(points), np.concatenate(triangles), np.concatenate(shell)
+    shells = sort_shells(points, triangles, shell, len(parts))
+    return shells, relate(points, shells, solid, tolerance if each == EACH else max(tolerance, 2.0 * off))
+
+
+def _sagitta(grid: NDArray, each: int) -> float:
+    """How far a surface may be from the chords between its samples along the first axis, bends at knots left out."""
+    bend = np.linalg.norm(np.diff(grid, 2, axis=0), axis=2) / 8.0
+    bend[each - 1::each] = 0.0
+    return float(bend.max())
 
 
 def _mixed(closure: Closure) -> int:

@@ -28,7 +28,8 @@ def plane_region(curves: Sequence[Curve]) -> tuple[list[Curve], NDArray[np.float
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)
     tolerance = 4.0 * (TOLERANCE * size + 2.0 ** -23 * float(np.abs(center).max()))
     loops = [curve.samples(EACH) for curve in curves]
-    if any(np.linalg.norm(loop[0] - loop[-1]) > tolerance for loop in loops):
+    if any(np.linalg.norm(loop[0] - loop[-1]) > tolerance for loop in loops) or any(
+            curve.space.is_torn for curve in curves):
         raise ValueError("One of its curves is not closed, so that it bounds nothing. Close it, or measure a wire.")
     points = np.concatenate([curve.points for curve in curves]) - center
     _, _, axes = np.linalg.svd(points, full_matrices=False)

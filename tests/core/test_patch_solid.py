@@ -12,6 +12,7 @@ from body_moments.core.curve import Curve
 from body_moments.core.moments import monomials
 from body_moments.core.patch import Patch
 from body_moments.core.patch_solid import measure_patches, measure_sheet
+from body_moments.core.plane_region import plane_region
 
 from tests.core.exact_splines import sphere, torus, tube
 
@@ -173,6 +174,25 @@ def test_a_cavity_is_subtracted_and_a_nested_ball_counted_twice():
     assert abs(nested.volume.total / (BALL * 1.125) - 1.0) <= 1e-14
 
 
+@pytest.mark.parametrize("gap", [0.02, 0.005, 1e-4])
+def test_a_cavity_near_the_surface_is_one_whatever_their_samples_cross(gap):
+    turn, _ = np.linalg.qr(np.random.default_rng(0).standard_normal((3, 3)))
+    inner = np.eye(4)
+    inner[:3, :3] = turn * np.sign(np.linalg.det(turn)) * (1.0 - gap)
+    hollow = measure_patches([sphere(), sphere().mapped(inner).turned()])
+    assert (hollow.method, hollow.warnings, hollow.health.cavities) == ("exact", (), 1)
+    assert abs(hollow.volume.total / (BALL * (1.0 - (1.0 - gap) ** 3)) - 1.0) <= 1e-11
+
+
+@pytest.mark.parametrize("apart, crossing", [(0.0, 2), (1.0, 2), (1.999, 2), (2.001, 0)])
+def test_balls_that_overlap_are_told_however_little(apart, crossing):
+    move = np.eye(4)
+    move[0, 3] = apart
+    found = measure_patches([sphere(), sphere().mapped(move)])
+    assert found.health.overlapping_components == crossing
+    assert bool(found.warnings) == (crossing > 0)
+
+
 def test_a_flat_patch_encloses_nothing_and_says_so():
     found = measure_patches([flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], (3, 3))])
     assert found.method == "open" and abs(found.volume.total) <= 1e-15
@@ -234,9 +254,9 @@ def test_knots_that_may_tear_a_patch_are_refused():
     """Two strips of one patch, apart: their inner sides are no sides of the patch, and would not be seen to be open."""
     space = Space((0.0, 0.0, 1.0, 1.0, 2.0, 2.0), 2, 4)
     with pytest.raises(ValueError, match="torn"):
-        Patch((space, clamped(2)), np.random.default_rng(0).uniform(-1.0, 1.0, (4, 2, 3)))
-    with pytest.raises(ValueError, match="torn"):
-        Curve(space, np.zeros((4, 3)))
+        measure_patches([Patch((space, clamped(2)), np.random.default_rng(0).uniform(-1.0, 1.0, (4, 2, 3)))])
+    with pytest.raises(ValueError, match="not closed"):
+        plane_region([Curve(space, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 0, 0)])])
     assert not Space((0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0), 3, 5).is_torn
 
 
