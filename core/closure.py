@@ -194,7 +194,7 @@ def _astride(one: Curve, other: Curve, at_one: NDArray, at_other: NDArray, i: in
     """Whether two curves coincide whatever their parameters are: every point of each is on the other one."""
     gaps, ways = [], []
     for curve, samples, points in ((other, at_other, at_one), (one, at_one, at_other)):
-        gap, way = _nearest(curve, samples, points)
+        gap, way = _nearest(curve, samples, points, tolerance)
         gaps.append(gap)
         ways.append(way)
         if gap > tolerance:
@@ -202,18 +202,20 @@ def _astride(one: Curve, other: Curve, at_one: NDArray, at_other: NDArray, i: in
     return [(max(gaps), int(i), int(j), bool(ways[0] > 0.0))]
 
 
-def _nearest(curve: Curve, samples: NDArray, points: NDArray) -> tuple[float, float]:
+def _nearest(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) -> tuple[float, float]:
     """How far the farthest of some points is from a curve, and whether the points run along (+) or against (-) it."""
     low, high = curve.space.domain
     steps = low + (high - low) * np.linspace(0.0, 1.0, len(samples))
+    closed = np.linalg.norm(samples[-1] - samples[0]) <= 2.0 * tolerance
     t = steps[np.argmin(((points[:, None] - samples[None]) ** 2).sum(axis=2), axis=1)]
     for _ in range(12):
         slope = curve.velocity(t)
         square = (slope ** 2).sum(axis=1)
         step = ((points - curve.at(t)) * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0)
-        t = np.clip(t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0]), low, high)
+        t = t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0])
+        t = low + (t - low) % (high - low) if closed else np.clip(t, low, high)
     gap = float(np.linalg.norm(points - curve.at(t), axis=1).max())
-    return gap, float((np.diff(points, axis=0) * curve.velocity((t[1:] + t[:-1]) / 2.0)).sum())
+    return gap, float((np.diff(points, axis=0) * curve.velocity(t[:-1])).sum())
 
 
 def _turned(count: int, left: NDArray, right: NDArray, against: NDArray) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:

@@ -127,6 +127,23 @@ def test_sides_coincide_whatever_their_parameters_are():
     assert abs(found.volume.total - 6.0) <= 1e-13
 
 
+@pytest.mark.parametrize("turn", [0.0, 0.3, 1.0, np.pi / 4.0, 3.0])
+def test_round_sides_coincide_wherever_they_begin(turn):
+    """A tube with lids in the form of cones, which begin and end elsewhere around it."""
+    wall = tube()
+    out = np.array([wall.points[:, k, :2] for k in range(2)])
+    c, s = np.cos(turn), np.sin(turn)
+    lids = []
+    for end, top in ((0, -2.0), (1, 2.0)):
+        around = np.concatenate([out[end] @ [[c, s], [-s, c]], np.full((8, 1), wall.points[0, end, 2])], axis=1)
+        lids.append(Patch(wall.spaces, np.stack([around, np.broadcast_to([0.0, 0.0, top], (8, 3))], axis=1),
+                          wall.weights))
+    found = measure_patches([wall, lids[0].turned(), lids[1]])
+    assert (found.method, found.warnings, found.health.components) == ("exact", (), 1)
+    assert abs(found.volume.total / (2.0 * np.pi + 2.0 * np.pi / 3.0) - 1.0) <= 1e-13
+    assert measure_patches([wall, *lids]).health.inconsistent_edges == 1
+
+
 def test_patches_that_face_against_the_rest_are_turned_and_counted():
     patches = box()
     patches[1], patches[4] = patches[1].turned(), patches[4].turned()
