@@ -85,6 +85,15 @@ def test_the_region_of_a_bezier_circle_is_that_of_its_curve(dimensions):
     assert disc.mass_properties.inertia[0, 1] == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.parametrize("far", [1e4, 1e6])
+def test_the_region_of_an_object_far_away_is_the_same(far):
+    obj = circle("bezier")
+    obj.body_moments.kind = "SHELL"
+    near = measured(obj).area
+    obj.location = (far, far, 0.0)
+    assert measured(obj).area == pytest.approx(near, rel=1e-9)
+
+
 def test_moments_of_higher_order_of_a_region_are_exact_too():
     obj = circle()
     obj.body_moments.kind = "SHELL"

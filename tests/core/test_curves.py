@@ -98,6 +98,17 @@ def test_holes_are_left_out_and_islands_in_them_are_not():
         assert abs(normal @ turn[:, 2]) == pytest.approx(1.0, abs=1e-12)
 
 
+@pytest.mark.parametrize("far", [0.0, 1e3, 1e6, 1e8])
+def test_a_region_far_away_is_one_as_long_as_its_points_are_known(far):
+    rings = [ring(radius, (far, -far, 0.0)) for radius in (1.0, 0.5)]
+    curves, normal = plane_region(rings)
+    moments = plane_moments(curves, normal)
+    assert abs(moments.total / (0.75 * np.pi) - 1.0) <= 1e-14 + 1e-15 * far
+    if far == 1e8:
+        with pytest.raises(ValueError, match="too small"):
+            plane_region(rings, 2.0**-24 * far)
+
+
 def test_a_reversed_curve_is_the_same_run_backwards():
     for curve in (ring(), Curve(clamped(4, (0.25,)), np.random.default_rng(0).uniform(-1, 1, (5, 3)))):
         assert np.abs(curve.samples(5)[::-1] - curve.reversed().samples(5)).max() <= 1e-14
