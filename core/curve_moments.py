@@ -106,7 +106,8 @@ def _integrated(curves: Sequence[Curve], density: Callable, largest: float, orde
             differ = np.where(unit > 0.0, np.abs(fine - coarse) / np.where(unit > 0.0, unit, 1.0), 0.0).max(axis=1)
             if kinks:
                 differ += _turning(net)
-            good = (differ <= tolerance * np.maximum(size, share) * largest) | (depth >= DEEPEST)
+            # What is no number, of moments beyond its range, is not halved.
+            good = ~(differ > tolerance * np.maximum(size, share) * largest) | (depth >= DEEPEST)
             values += fine[good].sum(axis=0)
             estimate += float(differ[good].sum())
             whole += float(size[good].sum())

@@ -101,6 +101,13 @@ def test_moments_of_higher_order_of_a_region_are_exact_too():
     assert found.area_moments.shifted(np.zeros(3))[6, 0, 0] == pytest.approx(5.0 * np.pi / 64.0, rel=1e-7)
 
 
+def test_moments_of_a_region_beyond_the_range_of_numbers_are_refused():
+    obj = circle()
+    obj.body_moments.kind, obj.scale = "SHELL", (1e12, 1e12, 1e12)
+    with pytest.raises(Unreadable, match="too large"):
+        measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=30))
+
+
 def test_a_ring_has_its_hole():
     obj = circle()
     obj.data.dimensions, obj.data.fill_mode = "2D", "BOTH"
