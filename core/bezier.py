@@ -58,7 +58,7 @@ class Cells:
         """Each as four."""
         rows = self.net.swapaxes(1, 2)
         quarters = [np.matmul(np.matmul(one, rows), other.T)
-                    for one in _halves(rows.shape[2]) for other in _halves(rows.shape[3])]
+                    for one in halves(rows.shape[2]) for other in halves(rows.shape[3])]
         home = self.home if self.home.shape[1] == 1 else np.tile(self.home, 4)
         return Cells(np.concatenate(quarters, axis=1).swapaxes(1, 2), home, self.steady, self.reach).at_home()
 
@@ -176,7 +176,7 @@ def bernstein(order: int, rule: tuple[int, ...], most: int = 1, ends: bool = Fal
 
 
 @lru_cache
-def _halves(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def halves(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """What takes the control points of a Bézier curve to those of its halves: de Casteljau's scheme."""
     first = np.eye(order)
     for row in range(1, order):

@@ -51,6 +51,14 @@ class Space:
         return self.knots[self.order - 1], self.knots[self.functions]
 
     @cached_property
+    def is_torn(self) -> bool:
+        """Whether curves may jump: where a knot within the domain is repeated as often as the order says."""
+        knots = np.asarray(self.knots)
+        first = knots[:len(knots) - self.order + 1]
+        low, high = self.domain
+        return bool(((first == knots[self.order - 1:]) & (first > low) & (first < high)).any())
+
+    @cached_property
     def spans(self) -> NDArray[np.int64]:
         """(s,) the j of every interval knots[j] < knots[j + 1] in the domain."""
         knots = np.asarray(self.knots)

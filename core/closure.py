@@ -14,7 +14,7 @@ curve's, so that caps are patches as all others.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -22,13 +22,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .bspline import Space, clamped
+from .caps import ramp
 from .curve import Curve
+from .nesting import overlapping_boxes
 from .patch import Patch
 from .patch_moments import vector_area
 from .topology import components
 
 SAMPLES = 33  # points at least by which sides are compared
-BLOCK = 256  # sides compared with all others at a time
+BLOCK = 4096  # pairs of sides compared at a time
+PIECE = 1 << 20  # pairs of sides looked at together
+MOST_PAIRS = 100_000  # of closed sides, compared point by point
 SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held, end, run forward), counter-clockwise
 
 
@@ -76,7 +80,13 @@ class Closure:
 
 
 def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
-    """Find out how patches close. tolerance: the distance within which points are the same."""
+    """Find out how patches close. tolerance: the distance within which points are the same.
+
+    ValueError where knots may tear one: what gapes within a patch is no side of it.
+    """
+    if any(space.is_torn for patch in patches for space in patch.spaces):
+        raise ValueError("One of its patches has an inner knot that is repeated as often as its order, so that it may "
+                         "be torn there. Make two patches of it, split at that knot.")
     sides = [Side(i, patch.side(axis, end), forward) for i, patch in enumerate(patches) for axis, end, forward in SIDES]
     count = max([SAMPLES] + [2 * len(side.curve.space.spans) + 1 for side in sides])
     points = np.array([side.curve.combined(_evenly(side.curve.space, count)) for side in sides])
@@ -117,20 +127,20 @@ def _matched(sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tol
     """Pairs of sides that coincide: (k,) and (k,), whether their curves run the same way, how far they are apart, and
     the number of sides that would fit more than one other."""
     middle = points.shape[1] // 2
-    keys = np.concatenate([points[:, 0] + points[:, -1], 2.0 * points[:, middle]], axis=1)[wide]
-    found = []
-    for start in range(0, len(wide), BLOCK):
-        near = np.abs(keys[start:start + BLOCK, None] - keys[None]).max(axis=2) <= 2.0 * tolerance
-        for i, j in np.argwhere(near) + (start, 0):
-            if i < j:
-                found += _apart(points[wide[i]], points[wide[j]], wide[i], wide[j], tolerance)
-    taken = {side for _, i, j, _ in found for side in (i, j)}
-    loose = [i for i in wide if i not in taken]
-    for a, i in enumerate(loose):  # the same curve by other parameters
-        for j in loose[a + 1:]:
-            if np.all(points[i].min(axis=0) <= points[j].max(axis=0) + tolerance) and \
-                    np.all(points[j].min(axis=0) <= points[i].max(axis=0) + tolerance):
-                found += _astride(sides[i].curve, sides[j].curve, points[i], points[j], i, j, tolerance)
+    rows = points[wide]
+    first, last = rows[:, 0], rows[:, -1]
+    pairs = _near(np.concatenate([first + last, 2.0 * rows[:, middle]], axis=1), 2.0 * tolerance)
+    found = list(_apart(points, *(wide[k] for k in pairs), tolerance))
+    loose = np.ones(len(points), bool)
+    loose[[side for _, i, j, _ in found for side in (i, j)]] = False
+    # The same curve by other parameters: between the same ends, or without ends.
+    ring = np.linalg.norm(last - first, axis=1) <= 2.0 * tolerance
+    arcs, rings = np.flatnonzero(loose[wide] & ~ring), np.flatnonzero(loose[wide] & ring)
+    ends = _near(np.concatenate([first + last, np.abs(first - last)], axis=1)[arcs], 2.0 * tolerance)
+    boxes = overlapping_boxes(rows[rings].min(axis=1), rows[rings].max(axis=1), -tolerance, MOST_PAIRS)[:2]
+    candidates = np.concatenate([arcs[np.stack(ends)], np.sort(rings[np.stack(boxes)], axis=0)], axis=1)
+    for i, j in wide[candidates.T].tolist():
+        found += _astride(sides[i].curve, sides[j].curve, points[i], points[j], i, j, tolerance)
     pairs, used, crowded = [], set(), set()
     for gap, i, j, same in sorted(found):
         if i in used or j in used:
@@ -142,12 +152,41 @@ def _matched(sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tol
     return left.astype(np.intp), right.astype(np.intp), same.astype(bool), gap, len(crowded)
 
 
-def _apart(one: NDArray, other: NDArray, i: int, j: int, tolerance: float) -> list[tuple[float, int, int, bool]]:
-    for same, row in ((False, other[::-1]), (True, other)):
-        gap = float(np.linalg.norm(one - row, axis=1).max())
-        if gap <= tolerance:
-            return [(gap, int(i), int(j), same)]
-    return []
+def _near(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Pairs of rows i < j of (n, d) that differ by no more than a limit in any column: their projections on a line that
+    is parallel to nothing are neighbours."""
+    if not len(keys):
+        return np.empty(0, np.intp), np.empty(0, np.intp)
+    keys = keys - keys[0]
+    slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
+    line = (keys * slope).sum(axis=1)
+    order = np.argsort(line, kind="stable")
+    line = line[order]
+    count = np.searchsorted(line, line + (limit * slope.sum() + 1e-12 * np.abs(line).max()), side="right")
+    count -= np.arange(1, len(line) + 1)
+    total, begin, found = np.cumsum(count), 0, []
+    while begin < len(line):
+        end = max(int(np.searchsorted(total, (total[begin - 1] if begin else 0) + PIECE)), begin + 1)
+        rows = np.repeat(np.arange(begin, end), count[begin:end])
+        if len(rows):
+            i, j = order[rows], order[rows + 1 + ramp(count[begin:end])]
+            near = (np.abs(keys[i] - keys[j]) <= limit).all(axis=1)
+            found.append(np.sort([i[near], j[near]], axis=0))
+        begin = end
+    return tuple(np.concatenate([np.empty((2, 0), np.intp), *found], axis=1))
+
+
+def _apart(points: NDArray, left: NDArray, right: NDArray, tolerance: float
+           ) -> Iterator[tuple[float, int, int, bool]]:
+    """Which pairs of sides agree parameter by parameter: how far they are apart, which, whether they run the same way.
+    """
+    for start in range(0, len(left), BLOCK):
+        i, j = left[start:start + BLOCK], right[start:start + BLOCK]
+        against, along = (np.linalg.norm(points[i] - other, axis=2).max(axis=1)
+                          for other in (points[j][:, ::-1], points[j]))
+        for same, gap, fits in ((False, against, against <= tolerance),
+                                (True, along, (along <= tolerance) & (against > tolerance))):
+            yield from zip(gap[fits].tolist(), i[fits].tolist(), j[fits].tolist(), [same] * int(fits.sum()))
 
 
 def _astride(one: Curve, other: Curve, at_one: NDArray, at_other: NDArray, i: int, j: int, tolerance: float
@@ -155,7 +194,7 @@ def _astride(one: Curve, other: Curve, at_one: NDArray, at_other: NDArray, i: in
     """Whether two curves coincide whatever their parameters are: every point of each is on the other one."""
     gaps, ways = [], []
     for curve, samples, points in ((other, at_other, at_one), (one, at_one, at_other)):
-        gap, way = _nearest(curve, samples, points)
+        gap, way = _nearest(curve, samples, points, tolerance)
         gaps.append(gap)
         ways.append(way)
         if gap > tolerance:
@@ -163,18 +202,20 @@ def _astride(one: Curve, other: Curve, at_one: NDArray, at_other: NDArray, i: in
     return [(max(gaps), int(i), int(j), bool(ways[0] > 0.0))]
 
 
-def _nearest(curve: Curve, samples: NDArray, points: NDArray) -> tuple[float, float]:
+def _nearest(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) -> tuple[float, float]:
     """How far the farthest of some points is from a curve, and whether the points run along (+) or against (-) it."""
     low, high = curve.space.domain
     steps = low + (high - low) * np.linspace(0.0, 1.0, len(samples))
+    closed = np.linalg.norm(samples[-1] - samples[0]) <= 2.0 * tolerance
     t = steps[np.argmin(((points[:, None] - samples[None]) ** 2).sum(axis=2), axis=1)]
     for _ in range(12):
         slope = curve.velocity(t)
         square = (slope ** 2).sum(axis=1)
         step = ((points - curve.at(t)) * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0)
-        t = np.clip(t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0]), low, high)
+        t = t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0])
+        t = low + (t - low) % (high - low) if closed else np.clip(t, low, high)
     gap = float(np.linalg.norm(points - curve.at(t), axis=1).max())
-    return gap, float((np.diff(points, axis=0) * curve.velocity((t[1:] + t[:-1]) / 2.0)).sum())
+    return gap, float((np.diff(points, axis=0) * curve.velocity(t[:-1])).sum())
 
 
 def _turned(count: int, left: NDArray, right: NDArray, against: NDArray) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
@@ -201,20 +242,27 @@ def _turned(count: int, left: NDArray, right: NDArray, against: NDArray) -> tupl
 def _loops(points: NDArray, free: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
            ) -> list[tuple[list[int], bool]]:
     """Open sides in turn, each set with whether it ends where it began."""
-    start = {int(k): points[k, 0 if forward[k] else -1] for k in free}
-    end = {int(k): points[k, -1 if forward[k] else 0] for k in free}
-    found = []
-    while start:
-        first, origin = next(iter(start.items()))
-        del start[first]
-        rows = [first]
-        while np.linalg.norm(end[rows[-1]] - origin) > 2.0 * tolerance:
-            onward = [k for k, place in start.items() if np.linalg.norm(place - end[rows[-1]]) <= 2.0 * tolerance]
-            if not onward:
+    ahead = forward[free]
+    begin, end = (points[free, np.where(ahead, one, other)] for one, other in ((0, -1), (-1, 0)))
+    i, j = _near(np.concatenate([begin, end]), 2.0 * tolerance)
+    count = len(free)
+    i, j = np.concatenate([i, j]), np.concatenate([j, i])  # both ways
+    meet = (i >= count) & (j < count)
+    i, j = i[meet] - count, j[meet]
+    close = np.linalg.norm(end[i] - begin[j], axis=1) <= 2.0 * tolerance
+    onward: list[list[int]] = [[] for _ in range(count)]
+    for one, other in sorted(zip(i[close].tolist(), j[close].tolist())):
+        onward[one].append(other)
+    found, used = [], np.zeros(count, bool)
+    for first in range(count):
+        rows = [] if used[first] else [first]
+        while rows:
+            used[rows[-1]] = True
+            after = [k for k in onward[rows[-1]] if not used[k]]
+            if first in onward[rows[-1]] or not after:
+                found.append((free[rows].tolist(), first in onward[rows[-1]]))
                 break
-            rows.append(onward[0])
-            del start[onward[0]]
-        found.append((rows, bool(np.linalg.norm(end[rows[-1]] - origin) <= 2.0 * tolerance)))
+            rows.append(after[0])
     return found
 
 

@@ -8,7 +8,9 @@ A region's moments are those of the flux through its boundary, by Green's theore
 
 whose integrand is a polynomial of degree (n + 2) d - 1 where the curve is one of degree d: exact by Gauss's rule. Where
 it is rational, and for the length's square root, rules are compared as in `patch_moments`, and the difference is
-reported as an estimate.
+reported as an estimate. A length has a kink where its curve turns back, which two rules may miss alike. The tangents of
+a Bézier curve lie in the cone of its control polygon's edges (Floater 1992), so that such places are found and halved
+until they are too short to matter.
 """
 
 from __future__ import annotations
@@ -19,14 +21,14 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
+from .bezier import bernstein, halves
 from .curve import Curve
 from .moments import Moments, U, monomials
 from .patch_moments import ROUNDING, TOLERANCE
-from .quadrature import gauss_and_ends
 
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # points; each is compared with the one before
-DEEPEST = 26  # times that a piece is halved: one that turns back is as short as rounding then
+DEEPEST = 60  # times that a piece is halved
 
 
 def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
@@ -44,7 +46,7 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
     def length(place: NDArray, velocity: NDArray) -> NDArray:
         return np.sqrt((velocity ** 2).sum(axis=0))
 
-    values, estimate, size = _integrated(curves, length, 1.0, order, about, reach, LENGTH_TOLERANCE)
+    values, estimate, size = _integrated(curves, length, 1.0, order, about, reach, LENGTH_TOLERANCE, kinks=True)
     scale = size * reach ** degree.astype(np.float64)
     return Moments(values, about, "length", estimate * reach ** degree.astype(np.float64) + ROUNDING * U * 8 * scale)
 
@@ -67,7 +69,7 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
     exact = [curve for curve in curves if curve.weights is None]
     for curve in exact:
         points = ceil((order + 2) * (curve.space.order - 1) / 2)
-        rows, length, _ = _pieces(curve, curve.space.intervals, curve.space.spans, max(points, 1), flux, order, about)
+        rows, length = _summed(*_pieces(curve, about), max(points, 1), flux, order)
         values, size = values + rows.sum(axis=0), size + length.sum()
     rational = [curve for curve in curves if curve.weights is not None]
     if rational:
@@ -83,55 +85,77 @@ def _reach(curves: Sequence[Curve], about: NDArray) -> float:
 
 
 def _integrated(curves: Sequence[Curve], density: Callable, largest: float, order: int, about: NDArray, reach: float,
-                tolerance: float) -> tuple[NDArray, float, float]:
+                tolerance: float, kinks: bool = False) -> tuple[NDArray, float, float]:
     """The integral of density times monomials, the estimate of its truncation by unit of reach to the degree, and the
-    curves' length. largest: what the density is at most, for each unit of length."""
+    curves' length. largest: what the density is at most, for each unit of length. kinks: whether it has some where a
+    curve turns back.
+
+    A piece is settled when two rules agree to the tolerance of its own length, or of its share of the curve's.
+    """
     degree = monomials(order).sum(axis=1)
     unit = reach ** degree.astype(np.float64)
     values, estimate, whole = np.zeros(len(degree)), 0.0, 0.0
     for curve in curves:
-        bounds, spans, coarse, rule, depth = curve.space.intervals, curve.space.spans, None, 0, 0
-        while len(bounds):
+        net, home = _pieces(curve, about)
+        coarse, rule, depth, share = None, 0, 0, 0.0
+        while len(net):
             if coarse is None:
-                coarse, *_ = _pieces(curve, bounds, spans, RULES[rule], density, order, about)
-            fine, size, unseen = _pieces(curve, bounds, spans, RULES[rule + 1], density, order, about)
+                coarse, _ = _summed(net, home, RULES[rule], density, order)
+            fine, size = _summed(net, home, RULES[rule + 1], density, order)
+            share = share or float(size.mean())
             differ = np.where(unit > 0.0, np.abs(fine - coarse) / np.where(unit > 0.0, unit, 1.0), 0.0).max(axis=1)
-            differ += unseen * largest
-            good = (differ <= tolerance * size * largest) | (depth >= DEEPEST)
+            if kinks:
+                differ += _turning(net)
+            # What is no number, of moments beyond its range, is not halved.
+            good = ~(differ > tolerance * np.maximum(size, share) * largest) | (depth >= DEEPEST)
             values += fine[good].sum(axis=0)
             estimate += float(differ[good].sum())
             whole += float(size[good].sum())
-            bounds, spans, coarse = bounds[~good], spans[~good], fine[~good]
-            rule += 1
+            net, home, coarse, rule = net[~good], home[~good], fine[~good], rule + 1
             if rule + 1 == len(RULES):
-                middle = bounds.mean(axis=1)
-                bounds = np.stack([bounds[:, 0], middle, middle, bounds[:, 1]], axis=1).reshape(-1, 2)
-                spans, coarse, rule, depth = np.repeat(spans, 2), None, 0, depth + 1
+                net = np.concatenate([np.einsum("ij,cjd->cid", half, net) for half in halves(net.shape[1])])
+                net, home = _at_home(net, np.tile(home, (2, 1)))
+                coarse, rule, depth = None, 0, depth + 1
     return values, estimate, whole
 
 
-def _pieces(curve: Curve, bounds: NDArray, spans: NDArray, points: int, density: Callable, order: int,
-            about: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """(c, K) the contributions of pieces of a curve, bounds (c, 2) each within its span, (c,) their lengths, and (c,)
-    those of their ends that turn back before the first or after the last point, where no rule would see it."""
-    nodes, weights = gauss_and_ends(points)
-    size = (bounds[:, 1] - bounds[:, 0])[:, None]
-    values, slopes = curve.space.derivatives(spans[:, None], bounds[:, :1] + size * nodes, 1)
-    controls = curve.space.controls(spans)
-    home = curve.points[controls[:, :1]]
-    net = (curve.points[controls] - home)
+def _pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The Bézier curves that a curve consists of: their control points (c, order, 3), or (c, order, 4) those times
+    their weights, and the weights, about home (c, 3), itself about the point."""
+    space, origin = curve.space, curve.points[0]
+    net = curve.points - origin
     if curve.weights is not None:
-        net = np.concatenate([net * curve.weights[controls][..., None], curve.weights[controls][..., None]], axis=2)
-    place, velocity = (np.einsum("cmk,ckd->dcm", table, net) for table in (values, slopes))
-    if curve.weights is not None:
+        net = np.concatenate([net * curve.weights[:, None], curve.weights[:, None]], axis=1)
+    net = np.einsum("sij,sjd->sid", space.blossoms, net[space.acting])
+    return _at_home(net, np.tile(origin - about, (len(net), 1)))
+
+
+def _at_home(net: NDArray, home: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The same about their own first control points."""
+    rational = net.shape[2] == 4
+    first = net[:, :1, :3] / net[:, :1, 3:] if rational else net[:, :1]
+    places = net[..., :3] - (first * net[..., 3:] if rational else first)
+    return np.concatenate([places, net[..., 3:]], axis=2), home + first[:, 0]
+
+
+def _turning(net: NDArray) -> NDArray[np.float64]:
+    """(c,) the most that the lengths of pieces can be where they may turn back, 0 of others."""
+    edges = np.diff(net[..., :3] / net[..., 3:] if net.shape[2] == 4 else net, axis=1)
+    ahead = np.einsum("ckd,cd->ck", edges, edges.sum(axis=1)).min(axis=1) >= 0.0
+    return np.where(ahead, 0.0, np.sqrt((edges ** 2).sum(axis=2)).sum(axis=1))
+
+
+def _summed(net: NDArray, home: NDArray, points: int, density: Callable, order: int
+            ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(c, K) the contributions of pieces of a curve by a Gauss rule, and (c,) their lengths."""
+    tables, weights = bernstein(net.shape[1], (points,))
+    place, velocity = np.einsum("jnk,ckd->jdcn", tables, net)
+    if len(place) == 4:
         bottom = place[3]
         velocity = (velocity[:3] - place[:3] / bottom * velocity[3]) / bottom
         place = place[:3] / bottom
-    place = place + (home - about).transpose(2, 0, 1)
-    element = density(place, velocity) * (size * weights)
+    place = place + home.T[:, :, None]
+    element = density(place, velocity) * weights[:, 0]
     columns = [(element * place[0] ** p * place[1] ** q * place[2] ** r).sum(axis=1)
                for p, q, r in monomials(order).tolist()]
-    speed = np.sqrt((velocity ** 2).sum(axis=0))
-    unseen = sum(np.where((velocity[..., a] * velocity[..., b]).sum(axis=0) < 0.0, speed[:, a] + speed[:, b], 0.0)
-                 for a, b in ((0, 1), (-1, -2)))
-    return np.stack(columns, axis=1), (speed * size * weights).sum(axis=1), unseen * nodes[1] * size[:, 0]
+    return np.stack(columns, axis=1), (np.sqrt((velocity ** 2).sum(axis=0)) * weights[:, 0]).sum(axis=1)

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A body of patches that is measured again and again while its control points move.
 
-What measuring decided (which patches face which way, which rims are capped) is kept as long as its patches close in the
-same manner; then only the moments follow, from tables (`reevaluation`), and where few control points have moved only
-the spans that they act on. The tables' rule for rational patches is fixed and has no estimate of its own: how far it is
-off depends on the weights, so it is compared with what measuring found, and other weights are measured anew.
+All is decided anew each time as measuring does: which patches face which way, which rims are capped. Only the moments
+follow, from tables (`reevaluation`), and where few control points have moved only the spans that they act on. The
+tables' rule for rational patches is fixed and has no estimate of its own: how far it is off depends on the weights, so
+it is compared with what measuring found, and other weights are measured anew. So is a body that has gone far from the
+point about which its moments are taken.
 """
 
 from __future__ import annotations
@@ -14,12 +15,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .closure import Closure, close_patches
 from .moments import Moments, monomials, sum_moments
 from .patch import Patch
-from .patch_moments import volume_moments
-from .patch_solid import PatchMeasure, measure_patches, patches_size
+from .patch_moments import area_slope, patches_center, volume_moments
+from .patch_solid import PatchMeasure, judged, measure_patches, parts_of, patches_size
 from .reevaluation import Evaluator
 from .weld import TOLERANCE
 
@@ -29,55 +31,64 @@ GROWS = 8.0  # by how much moved control points may let the rule's error grow: a
 
 
 class FollowedBody:
-    """The body that patches bound. measure: as it was when all was decided. volume: its Moments to order 3 as it is,
-    their bounds those of when all was decided. area: of the patches, an approximation."""
+    """The body that patches bound. measure: what it is now; its volume has moments to order 3. Of a body that has
+    followed the bounds are estimates, and the area is an approximation."""
 
     def __init__(self, patches: Sequence[Patch], stored: float = 0.0):
-        self._decide(patches, stored)
+        self._measure_anew(patches, stored)
 
-    def _decide(self, patches: Sequence[Patch], stored: float) -> None:
+    def _measure_anew(self, patches: Sequence[Patch], stored: float) -> None:
         self.measure: PatchMeasure = measure_patches(patches, stored=stored)
-        self.volume, self.area = self.measure.volume, self.measure.area.total
+        volume, area = self.measure.volume, self.measure.area
+        self._slope = area_slope(patches)
         self._patches = list(patches)
-        self._evaluators = [Evaluator(patch, 3, self.volume.about) for patch in patches]
+        self._evaluators = [Evaluator(patch, 3, volume.about) for patch in patches]
         self._fluxes = [evaluator.moments(patch.points, patch.weights)
                         for evaluator, patch in zip(self._evaluators, patches)]
-        self._off = np.zeros_like(self.volume.raw)
+        largest = self._largest(patches, area.total)
+        self._error, self._area_error = volume.error / largest, area.error[:1] / area.total
         self._follows = self.measure.method != "open"
         if self._follows and any(patch.weights is not None for patch in patches):
-            largest = patches_size(patches) ** (monomials(3).sum(axis=1) + 1.0) * self.area
+            tables = self._judged(patches, self.measure.closure, stored).volume
             # The worst of all moments stands for each: of a symmetric body one may be right by chance.
-            off = float((np.abs(self._sum(self.measure.closure).raw - self.volume.raw) / largest).max())
-            self._off, self._follows = GROWS * off * largest, off <= COARSE
+            off = float((np.abs(tables.raw - volume.raw) / largest).max())
+            self._error, self._follows = self._error + GROWS * off, off <= COARSE
+
+    def _largest(self, patches: Sequence[Patch], area: float) -> NDArray[np.float64]:
+        """(K,) what a moment of the body could be at most."""
+        reach = max(float(np.sqrt(((patch.points - self.measure.volume.about) ** 2).sum(axis=2).max()))
+                    for patch in patches)
+        return area * reach ** (monomials(3).sum(axis=1) + 1.0)
 
     def follow(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
-        """Measure the patches as they are now; whether what was decided before still holds."""
-        if not self._follows or not self._same_spaces(patches):
-            self._decide(patches, stored)
-            return False
-        tolerance = max(TOLERANCE * patches_size(patches), 4.0 * stored)
-        closure = close_patches(patches, tolerance)
-        if not _alike(closure, self.measure.closure):
-            self._decide(patches, stored)
+        """Measure the patches as they are now; whether tables were enough for that."""
+        size, about = patches_size(patches), self.measure.volume.about
+        if not (self._follows and self._same_spaces(patches)
+                and np.linalg.norm(patches_center(patches) - about) <= size):
+            self._measure_anew(patches, stored)
             return False
         self._fluxes = [self._flux(k, patch) for k, patch in enumerate(patches)]
-        volume = self._sum(closure)
-        if not volume.total > 0.0:
-            self._decide(patches, stored)
-            return False
-        # The bounds are those of when all was decided: an estimate for what has moved since.
-        self.volume = replace(volume, error=self.measure.volume.error + self._off, input=self.measure.volume.input)
-        self.area = sum(evaluator.area for evaluator in self._evaluators)
         self._patches = list(patches)
+        measure = self._judged(patches, close_patches(patches, max(TOLERANCE * size, 4.0 * stored)), stored)
+        if measure.method == "open":
+            self._measure_anew(patches, stored)
+            return False
+        self.measure = measure
         return True
 
-    def _sum(self, closure: Closure) -> Moments:
-        """What the patches' fluxes and the caps of their holes add up to."""
-        parts = [flux * float(sign) for flux, sign in zip(self._fluxes, self.measure.signs)]
+    def _judged(self, patches: Sequence[Patch], closure: Closure, stored: float) -> PatchMeasure:
+        """As `measure_patches`, by the patches' fluxes."""
+        about = self.measure.volume.about
+        total = sum(evaluator.area for evaluator in self._evaluators)
+        area = Moments(np.array([total]), about, "area", self._area_error * total)
+        fluxes: list[list[Moments]] = [[] for _ in range(closure.number)]
+        for flux, turn, own in zip(self._fluxes, closure.turned, closure.component):
+            fluxes[own].append(flux * -1.0 if turn else flux)
         for loop in closure.loops:
-            sign = self.measure.signs[loop.patch] * (-1.0 if closure.turned[loop.patch] else 1.0)
-            parts.append(volume_moments(loop.caps, 3, self.volume.about)[0] * float(sign))
-        return sum_moments(parts)
+            fluxes[closure.component[loop.patch]].append(volume_moments(loop.caps, 3, about)[0])
+        measure = judged(patches, closure, parts_of(patches, closure), [(sum_moments(own), True) for own in fluxes],
+                         area, self._slope, stored)
+        return replace(measure, volume=replace(measure.volume, error=self._error * self._largest(patches, total)))
 
     def _same_spaces(self, patches: Sequence[Patch]) -> bool:
         """Whether their function spaces are the same, those of rational patches being made by their weights too."""
@@ -92,15 +103,7 @@ class FollowedBody:
         if not len(rows):
             return self._fluxes[k]
         if len(rows) > FEW:
-            return self._evaluators[k].moments(patch.points, patch.weights)
+            return self._evaluators[k].moments(patch.points)
         for i, j in rows:
-            weight = 1.0 if patch.weights is None else float(patch.weights[i, j])
-            found = self._evaluators[k].move(int(i), int(j), patch.points[i, j], weight)
+            found = self._evaluators[k].move(int(i), int(j), patch.points[i, j])
         return found
-
-
-def _alike(one: Closure, other: Closure) -> bool:
-    """Whether patches close in the same manner."""
-    return (np.array_equal(one.component, other.component) and np.array_equal(one.turned, other.turned)
-            and np.array_equal(one.broken, other.broken)
-            and [(loop.patch, loop.slim) for loop in one.loops] == [(loop.patch, loop.slim) for loop in other.loops])

@@ -9,7 +9,7 @@ run the other way round their two directions: with v as s and u as t both agree.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -71,4 +71,10 @@ class Patch:
 
     def samples(self, each: int) -> NDArray[np.float64]:
         """A grid of points, each + 1 to every span and direction, ends included."""
-        return self.grid(*(space.steps(each) for space in self.spaces))
+        return self.combined(*(_sample_table(space, each) for space in self.spaces))
+
+
+@lru_cache(maxsize=64)
+def _sample_table(space: Space, each: int) -> NDArray[np.float64]:
+    """What control points weigh at equal steps in every span; not to be written to."""
+    return space.matrix(space.steps(each))

@@ -15,7 +15,7 @@ still differ by is reported, as an estimate: it is that of the coarser rule, whi
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from math import ceil
@@ -33,6 +33,7 @@ from .vectors import cross, dot
 
 TOLERANCE = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
 AREA_TOLERANCE = 1e-11
+UNSETTLED = 8.0  # times what two rules differ by that have not begun to agree, when no more points are to be spent
 FOLDED = 8.0  # times what two rules differ by: where a patch folds back, its area has kinks, and both may be off alike
 TURNED = 1e-9  # a normal that points against its neighbour by less than this is rounding
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
@@ -169,15 +170,20 @@ def area_slope(patches: Sequence[Patch]) -> float:
     return total
 
 
-def _slope_tiles(space: Space) -> Iterator[tuple[NDArray, NDArray, NDArray, NDArray]]:
-    """Values and slopes (m, k) of the control points (k,) that act in a few spans at a time, and the steps (m,)."""
+@lru_cache(maxsize=64)
+def _slope_tiles(space: Space) -> tuple[tuple[NDArray, NDArray, NDArray, NDArray], ...]:
+    """Values and slopes (m, k) of the control points (k,) that act in a few spans at a time, and the steps (m,); not to
+    be written to."""
     nodes, weights = gauss(SLOPE_POINTS)
+    tiles = []
     for start in range(0, len(space.spans), SLOPE_SPANS):
         low, high = space.intervals[start:start + SLOPE_SPANS].T
         size = (high - low)[:, None]
         places = (low[:, None] + size * nodes).ravel()
         acting = np.unique(space.controls(space.spans[start:start + SLOPE_SPANS]))
-        yield (space.matrix(places)[:, acting], space.matrix(places, 1)[:, acting], (size * weights).ravel(), acting)
+        tiles.append((space.matrix(places)[:, acting], space.matrix(places, 1)[:, acting], (size * weights).ravel(),
+                      acting))
+    return tuple(tiles)
 
 
 def _slope_of_tile(along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
@@ -293,7 +299,7 @@ def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolera
             if last or good.all():
                 settled &= not last or bool(good.all())
                 values += np.add.reduce(fine[:k], axis=1)
-                estimate += float(np.add.reduce(differ))
+                estimate += float(np.add.reduce(differ)) + (UNSETTLED - 1.0) * float(np.add.reduce(differ[~good]))
                 continue
             values += np.add.reduce(fine[:k, good], axis=1)
             estimate += float(np.add.reduce(differ[good]))

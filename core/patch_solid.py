@@ -17,14 +17,15 @@ from numpy.typing import NDArray
 
 from .closure import Closure, close_patches
 from .moments import Moments, monomials, sum_moments
-from .nesting import decide, relate
+from .nesting import Relations, decide, relate
 from .patch import Patch
 from .patch_moments import area_moments, area_slope, control_box, patches_center, sheet_moments, volume_moments
-from .shell_tree import sort_shells
+from .shell_tree import Shells, sort_shells
 from .solid import NO_VOLUME, ROUNDING, Health
 from .weld import TOLERANCE
 
-EACH = 8  # samples of a span, for comparing parts
+EACH, FINE = 8, 48  # samples of a span, for comparing parts, and where those cross
+MOST_TRIANGLES = 1_000_000  # compared where samples cross
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,26 +58,43 @@ def measure_patches(patches: Sequence[Patch], *, order: int = 3, area_order: int
     size = patches_size(patches)
     if not size > 0.0:
         raise ValueError("All of its control points are in one place. Give it an extent.")
-    tolerance = max(TOLERANCE * size, 4.0 * stored)
-    closure = close_patches(patches, tolerance)
-    facing = [patch.turned() if turn else patch for patch, turn in zip(patches, closure.turned)]
     about = patches_center(patches)
+    closure = close_patches(patches, max(TOLERANCE * size, 4.0 * stored))
     area, settled = area_moments(patches, area_order, about)
-    notes = [] if settled else ["The estimate of its area's error is above what was asked for."]
+    notes = () if settled else ("The estimate of its area's error is above what was asked for.",)
+    parts = parts_of(patches, closure)
+    measured = [volume_moments(part, order, about) for part in parts]
+    return judged(patches, closure, parts, measured, area, area_slope(patches), stored, notes)
 
-    parts = [[patch for patch, own in zip(facing, closure.component) if own == k] for k in range(closure.number)]
+
+def parts_of(patches: Sequence[Patch], closure: Closure) -> list[list[Patch]]:
+    """The patches of each component, facing the same way, with the caps of its holes."""
+    parts: list[list[Patch]] = [[] for _ in range(closure.number)]
+    for patch, turn, own in zip(patches, closure.turned, closure.component):
+        parts[own].append(patch.turned() if turn else patch)
+    for loop in closure.loops:
+        parts[closure.component[loop.patch]] += loop.caps
+    return parts
+
+
+def judged(patches: Sequence[Patch], closure: Closure, parts: Sequence[list[Patch]],
+           measured: Sequence[tuple[Moments, bool]], area: Moments, slope: float, stored: float,
+           notes: Sequence[str] = ()) -> PatchMeasure:
+    """What the moments of parts, as they face, come to, and what is said about it.
+
+    measured: of each of `parts_of`, as `volume_moments` gives them. area: of all patches; slope: as `area_slope` gives
+    it. notes: further sentences.
+    """
+    size, notes = patches_size(patches), list(notes)
     caps = np.zeros((closure.number, 3))
     for loop in closure.loops:
-        own = closure.component[loop.patch]
-        parts[own] += loop.caps
         if not loop.slim:
-            caps[own] += (loop.flat, not loop.flat, loop.area)
-    measured = [volume_moments(part, order, about) for part in parts]
+            caps[closure.component[loop.patch]] += (loop.flat, not loop.flat, loop.area)
     capped = caps.any(axis=1)
     noise = np.where(capped, NO_VOLUME * size + 4.0 * stored, ROUNDING * size) * area.total
     total = np.array([moments.total for moments, _ in measured])
     solid = ~closure.broken & (np.abs(total) > noise)
-    turn, compared = _compared(parts, total, solid, tolerance)
+    turn, compared = _compared(parts, total, solid, max(TOLERANCE * size, 4.0 * stored))
     kept = solid if solid.any() else closure.broken
     volumes = [moments * (-1.0 if flip else 1.0) for (moments, _), flip, keep in zip(measured, turn, kept) if keep]
     if not all(fine for (_, fine), keep in zip(measured, kept) if keep):
@@ -89,7 +107,7 @@ def measure_patches(patches: Sequence[Patch], *, order: int = 3, area_order: int
     # caps move with their rims
     skin = area.total + sum(loop.area for loop in closure.loops)
     volume = replace(volume, input=_moved(volume, stored, closure.gap, skin, reach))
-    area = replace(area, input=_moved(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
+    area = replace(area, input=_moved(area, stored, 0.0, slope + area.total / reach, reach))
     mixed = _mixed(closure)
     notes = [*_told(closure, mixed, turn, caps[solid], area.total, solid, size), *compared["notes"], *notes]
     share = float(caps[solid, 2].sum() / area.total) if area.total > 0.0 else 0.0
@@ -139,22 +157,18 @@ def _compared(parts: list[list[Patch]], total: NDArray, solid: NDArray[np.bool_]
     turned = solid & (total < 0.0)
     if len(parts) == 1 or not solid.any():
         return turned, {"counts": {}, "notes": []}
-    points, triangles, shell = [], [], []
-    count = 0
-    for number, part in enumerate(parts):
-        for patch in part:
-            grid = patch.samples(EACH)
-            corners = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2]) + count
-            a, b, c, d = (corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:])
-            faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
-            points.append(grid.reshape(-1, 3))
-            triangles.append(faces)
-            shell.append(np.full(len(faces), number))
-            count += len(points[-1])
-    points, triangles, shell = np.concatenate(points), np.concatenate(triangles), np.concatenate(shell)
-    shells = sort_shells(points, triangles, shell, len(parts))
+    shells, relations = _related(parts, solid, EACH, tolerance)
     shells = replace(shells, volume=total)
-    relations = relate(points, shells, solid, tolerance)
+    shared = np.unique(relations.crossing)
+    spans = sum(len(patch.spaces[0].spans) * len(patch.spaces[1].spans) for k in shared for patch in parts[k])
+    each = min(FINE, int(np.sqrt(MOST_TRIANGLES / (2.0 * max(spans, 1)))))
+    if len(shared) and each > EACH:  # what samples cross may be but near
+        nearer = _related([parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance)[1]
+        crossed, inside, crossing = (np.sort(pairs, axis=1) @ (len(parts), 1) for pairs in (
+            relations.crossing, shared[nearer.inside], shared[nearer.crossing]))
+        relations = Relations(
+            np.concatenate([relations.inside, shared[nearer.inside][np.isin(inside, crossed)]]),
+            relations.crossing[np.isin(crossed, crossing)], relations.unchecked)
     turned, nested, cavities = decide(shells, relations, solid)
     crossing = len(np.unique(relations.crossing))
     notes = []
@@ -163,8 +177,40 @@ def _compared(parts: list[list[Patch]], total: NDArray, solid: NDArray[np.bool_]
                      "cavity.".format(int(nested.sum())))
     if crossing:
         notes.append("{:d} of its parts overlap, so that what they share counts twice.".format(crossing))
+    if relations.unchecked:
+        notes.append("Whether {:d} pairs of its parts overlap was not checked, as it would have taken too long."
+                     .format(relations.unchecked))
     return turned, {"counts": {"nested_components": int(nested.sum()), "cavities": int(cavities.sum()),
                                "overlapping_components": crossing}, "notes": notes}
+
+
+def _related(parts: Sequence[Sequence[Patch]], solid: NDArray[np.bool_], each: int, tolerance: float
+             ) -> tuple[Shells, Relations]:
+    """How parts lie to each other, by samples of their patches: `each` to a span. Those that are nearer than what lies
+    between the samples and the patches do not cross where `each` is not the coarsest."""
+    points, triangles, shell = [], [], []
+    count, off = 0, 0.0
+    for number, part in enumerate(parts):
+        for patch in part:
+            grid = patch.samples(each)
+            corners = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2]) + count
+            a, b, c, d = (corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:])
+            faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
+            points.append(grid.reshape(-1, 3))
+            triangles.append(faces)
+            shell.append(np.full(len(faces), number))
+            count += len(points[-1])
+            off = max(off, _sagitta(grid, each) + _sagitta(grid.swapaxes(0, 1), each))
+    points, triangles, shell = np.concatenate(points), np.concatenate(triangles), np.concatenate(shell)
+    shells = sort_shells(points, triangles, shell, len(parts))
+    return shells, relate(points, shells, solid, tolerance if each == EACH else max(tolerance, 2.0 * off))
+
+
+def _sagitta(grid: NDArray, each: int) -> float:
+    """How far a surface may be from the chords between its samples along the first axis, bends at knots left out."""
+    bend = np.linalg.norm(np.diff(grid, 2, axis=0), axis=2) / 8.0
+    bend[each - 1::each] = 0.0
+    return float(bend.max())
 
 
 def _mixed(closure: Closure) -> int:

@@ -17,18 +17,20 @@ EACH = 16  # samples of a span
 MOST_PAIRS = 4_000_000  # of chords compared at a time
 
 
-def plane_region(curves: Sequence[Curve]) -> tuple[list[Curve], NDArray[np.float64]]:
+def plane_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], NDArray[np.float64]]:
     """The curves, outer ones counter-clockwise about the normal and holes clockwise, and the unit normal (3,).
 
+    stored: by how much storing their points may have moved them.
     Every second curve inside of others is a hole, as Blender fills them. The normal is the coordinate axis, or other
     direction, that points most along +z, then +y, then +x. ValueError, with what to do, where the curves are not
     closed, not in one plane, or cross.
     """
     center = curves_center(curves)
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)
-    tolerance = 4.0 * (TOLERANCE * size + 2.0 ** -23 * float(np.abs(center).max()))
+    tolerance = 4.0 * (TOLERANCE * size + stored + 2.0 ** -52 * float(np.abs(center).max()))
     loops = [curve.samples(EACH) for curve in curves]
-    if any(np.linalg.norm(loop[0] - loop[-1]) > tolerance for loop in loops):
+    if any(np.linalg.norm(loop[0] - loop[-1]) > tolerance for loop in loops) or any(
+            curve.space.is_torn for curve in curves):
         raise ValueError("One of its curves is not closed, so that it bounds nothing. Close it, or measure a wire.")
     points = np.concatenate([curve.points for curve in curves]) - center
     _, _, axes = np.linalg.svd(points, full_matrices=False)
@@ -40,6 +42,9 @@ def plane_region(curves: Sequence[Curve]) -> tuple[list[Curve], NDArray[np.float
     normal = normal * np.sign(normal[leading])
     frame = np.stack([axes[0], np.cross(normal, axes[0])], axis=1)
     flat = [_apart((loop[:-1] - center) @ frame, tolerance) for loop in loops]
+    if min(map(len, flat)) < 3:
+        raise ValueError("One of its curves is too small to be told from a point, as small as what its coordinates' "
+                         "rounding leaves. Delete it, move its points nearer to the origin, or measure a wire.")
     if _cross(flat, tolerance):
         raise ValueError("Its curves cross or touch, so that it is not clear what they bound. Separate "
                          "them, or measure a wire.")

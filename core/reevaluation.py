@@ -42,16 +42,22 @@ class Evaluator:
         self._divisor = monomials(order).sum(axis=1) + 3.0
         self._home = self.about
         self._net = np.zeros((*patch.points.shape[:2], 3 + self.rational))
+        if self.rational:
+            self._net[..., 3] = patch.weights
         self._sums = np.zeros((len(self._divisor) + 1, *(len(space.spans) for space in self.spaces)))
         self.area = 0.0
 
     def moments(self, points: NDArray, weights: NDArray | None = None) -> Moments:
-        """All moments for these control points (count_s, count_t, 3): the flux through the patch, about `about`."""
+        """All moments for these control points (count_s, count_t, 3): the flux through the patch, about `about`.
+
+        weights: (count_s, count_t), of a rational patch; None leaves them.
+        """
+        self._require_rational(weights)
         points = np.asarray(points, np.float64)
         self._home = points[0, 0].copy()
         net = points - self._home
         if self.rational:
-            net = homogeneous(net, np.ones(net.shape[:2]) if weights is None else np.asarray(weights))
+            net = homogeneous(net, self._net[..., 3] if weights is None else np.asarray(weights))
         self._net = net
         _, u, v = self._sums.shape
         step = max(1, MOST_CELLS // v)
@@ -59,17 +65,25 @@ class Evaluator:
             self._evaluate(slice(start, min(start + step, u)), slice(0, v))
         return self._made()
 
-    def move(self, i: int, j: int, point: NDArray, weight: float = 1.0) -> Moments:
+    def move(self, i: int, j: int, point: NDArray, weight: float | None = None) -> Moments:
         """All moments after control point (i, j) has moved: only the spans on which it acts are evaluated.
 
-        `moments` must have been called for the others.
+        weight: of a rational patch; None leaves it. `moments` must have been called for the others.
         """
+        self._require_rational(weight)
         place = np.asarray(point, np.float64) - self._home
-        self._net[i, j] = np.append(place * weight, weight) if self.rational else place
+        if self.rational:
+            weight = self._net[i, j, 3] if weight is None else weight
+            place = np.append(place * weight, weight)
+        self._net[i, j] = place
         for rows in _touched(self.spaces[0], i):
             for columns in _touched(self.spaces[1], j):
                 self._evaluate(rows, columns)
         return self._made()
+
+    def _require_rational(self, weights: NDArray | float | None) -> None:
+        if weights is not None and not self.rational:
+            raise ValueError("The patch that it was made of is polynomial. Make one of a patch with weights.")
 
     def _evaluate(self, rows: slice, columns: slice) -> None:
         home = (self._home - self.about)[None]

@@ -44,7 +44,7 @@ def region_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
     Arguments as for `wire_body`. ValueError where they bound none, with what to do.
     """
     curves, stored = _placed(curves, matrix, unit)
-    curves, normal = plane_region(curves)
+    curves, normal = plane_region(curves, stored)
     area = plane_moments(curves, normal)
     rim = length_moments(curves, 0).total
     reach = max(float(np.abs(curve.points - area.about).max()) for curve in curves)

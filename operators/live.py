@@ -22,7 +22,6 @@ from bpy.types import Context, Depsgraph, Object, Operator, Scene
 from ..core.decimal import decimal
 from ..core.following import FollowedBody
 from ..core.measurement import Measurement
-from ..core.moments import Moments
 from .body import Body
 from .density import density_field
 from .fingerprint import settings_hash
@@ -129,9 +128,8 @@ def _measured(obj: Object, depsgraph: Depsgraph) -> Measurement:
     else:
         body.follow(patches, stored)
     measure = body.measure
-    found = Body(body.volume, Moments(np.array([body.area]), body.volume.about, "area"), measure.health,
-                 "NURBS " + measure.method, (*part.splines.notes, *measure.warnings), refined=lambda: body.volume,
-                 estimated=True)
+    found = Body(measure.volume, measure.area, measure.health, "NURBS " + measure.method,
+                 (*part.splines.notes, *measure.warnings), refined=lambda: measure.volume, estimated=True)
     return as_measurement(obj, reading, found, options, unit)
 
 

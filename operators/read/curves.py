@@ -54,8 +54,8 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[str]]:
         else:
             found.append(curve)
     if left_out:
-        notes.append("{:d} of its {:d} splines are no curve and are left out: they have too few points.".format(
-            left_out, len(splines)))
+        notes.append("{:d} of its {:d} splines are no curve and are left out: they have too few points for their "
+                     "order, or for Bézier ends.".format(left_out, len(splines)))
     if not found:
         raise Unreadable(obj.name, "It has no spline that is a curve; add points to one.")
     return found, notes

@@ -70,6 +70,7 @@ class Gathered:
         self._surfaces: dict[Hashable, Surface] = {}
         self.splines: dict[Hashable, SplineReading | None] = {}
         self._painted: dict[Hashable, Painted] = {}
+        self._patches: dict[Hashable, SplineReading | None] = {}
         self._places: dict[Hashable, list[NDArray[np.float64]]] = {}
         self._path: list[object] = []
 
@@ -106,7 +107,7 @@ class Gathered:
                 self.vanished += int((~there).sum())
                 matrices = matrices[there]
             if len(matrices):
-                parts.append(Part(surface, matrices, self._painted[key], self.splines.get(key)))
+                parts.append(Part(surface, matrices, self._painted[key], self._patches.get(key)))
         return parts
 
     def _object(self, evaluated, places: NDArray) -> None:
@@ -146,6 +147,7 @@ class Gathered:
         if original.type != "MESH":
             if original.type == "SURFACE" and evaluated not in self.splines:
                 self.splines[evaluated] = spline_reading(evaluated, self.depsgraph, geometry.mesh)
+                self._patches[self._key(evaluated, evaluated)] = self.splines[evaluated]
             self._mesh(evaluated, geometry.mesh, places, evaluated)
         elif original.data.is_editmode:
             self._add(evaluated, lambda: self._edited(evaluated), places)

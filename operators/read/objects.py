@@ -18,7 +18,7 @@ from .decisions import decisions, why_empty
 from .deformation import is_deformed
 from .instances import Gathered
 from .reading import Part, Reading, Unreadable, float64_matrix
-from .splines import spline_reading
+from .splines import spline_reading, weightless
 from .visibility import NOT_EVALUATED, evaluated_geometry, hidden_reason, require_kind
 
 
@@ -42,7 +42,7 @@ def read_object(
     if not parts:
         raise Unreadable(obj.name, why_empty(obj, gathered, depsgraph))
     for part in parts:
-        _require_finite(obj.name, part.surface)
+        _require_finite(obj, part.surface)
     reading.parts, reading.warnings = parts, list(decisions(obj, gathered, depsgraph))
     return reading
 
@@ -102,13 +102,20 @@ def placed(obj, depsgraph) -> Reading:
     )
 
 
-def _require_finite(name: str, surface: Surface) -> None:
+def _require_finite(obj, surface: Surface) -> None:
     if np.isfinite(surface.box).all():
         return
     points = surface.points
     count = int((~np.isfinite(points).all(axis=1)).sum())
+    weights = weightless(obj.data.splines) if obj.type == "SURFACE" else 0
+    if weights:
+        raise Unreadable(
+            obj.name,
+            "Weights of its control points ({:d}) are not positive, so that it reaches infinity; raise them above "
+            "zero.".format(weights),
+        )
     raise Unreadable(
-        name,
+        obj.name,
         "{:d} of its {:d} vertices have coordinates that are not finite; delete them, or mend the "
         "modifier, driver or import that made them.".format(count, len(points)),
     )

@@ -85,11 +85,27 @@ def test_the_region_of_a_bezier_circle_is_that_of_its_curve(dimensions):
     assert disc.mass_properties.inertia[0, 1] == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.parametrize("far", [1e4, 1e6])
+def test_the_region_of_an_object_far_away_is_the_same(far):
+    obj = circle("bezier")
+    obj.body_moments.kind = "SHELL"
+    near = measured(obj).area
+    obj.location = (far, far, 0.0)
+    assert measured(obj).area == pytest.approx(near, rel=1e-9)
+
+
 def test_moments_of_higher_order_of_a_region_are_exact_too():
     obj = circle()
     obj.body_moments.kind = "SHELL"
     found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=6))
     assert found.area_moments.shifted(np.zeros(3))[6, 0, 0] == pytest.approx(5.0 * np.pi / 64.0, rel=1e-7)
+
+
+def test_moments_of_a_region_beyond_the_range_of_numbers_are_refused():
+    obj = circle()
+    obj.body_moments.kind, obj.scale = "SHELL", (1e12, 1e12, 1e12)
+    with pytest.raises(Unreadable, match="too large"):
+        measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=30))
 
 
 def test_a_ring_has_its_hole():

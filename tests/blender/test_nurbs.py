@@ -165,11 +165,14 @@ def test_a_wall_follows_the_scale_of_the_surface_but_keeps_its_thickness():
     assert measured(obj).volume == pytest.approx(BALL * (8.0 - 1.9**3), rel=1e-6)
 
 
-def test_a_density_that_varies_needs_polygons_and_says_so():
+@pytest.mark.parametrize("source", ["POLYNOMIAL", "MATERIALS"])
+@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
+def test_a_density_that_varies_needs_polygons_and_says_so(kind, source):
     obj = primitive("sphere")
-    obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "1000 + z"
+    obj.body_moments.kind = kind
+    obj.body_moments.density_from, obj.body_moments.density_polynomial = source, "1000 + z"
     found = measured(obj)
-    assert not found.method.startswith("NURBS") and any("polygons" in warning for warning in found.warnings)
+    assert not found.method.startswith("NURBS") and any("needs polygons" in warning for warning in found.warnings)
 
 
 def test_moments_of_higher_order_are_exact_too():
@@ -335,6 +338,14 @@ def test_weights_of_zero_leave_the_display_mesh():
     assert not found.method.startswith("NURBS") and found.warnings[0] == (
         "Display mesh instead of the surface, as fine as the viewport's resolution, as weights of its control points "
         "(1) are not positive; raise them above zero.")
+
+
+def test_weights_of_zero_that_show_no_number_are_named():
+    obj = primitive("sphere")
+    obj.data.splines[0].points[10].co[3] = 0.0
+    obj.data.update_tag()
+    with pytest.raises(Unreadable, match="^SurfSphere: Weights of its control points \\(1\\) are not positive"):
+        measured(obj)
 
 
 def test_numbers_follow_an_edit_while_live_is_on():

@@ -98,6 +98,17 @@ def test_holes_are_left_out_and_islands_in_them_are_not():
         assert abs(normal @ turn[:, 2]) == pytest.approx(1.0, abs=1e-12)
 
 
+@pytest.mark.parametrize("far", [0.0, 1e3, 1e6, 1e8])
+def test_a_region_far_away_is_one_as_long_as_its_points_are_known(far):
+    rings = [ring(radius, (far, -far, 0.0)) for radius in (1.0, 0.5)]
+    curves, normal = plane_region(rings)
+    moments = plane_moments(curves, normal)
+    assert abs(moments.total / (0.75 * np.pi) - 1.0) <= 1e-14 + 1e-15 * far
+    if far == 1e8:
+        with pytest.raises(ValueError, match="too small"):
+            plane_region(rings, 2.0**-24 * far)
+
+
 def test_a_reversed_curve_is_the_same_run_backwards():
     for curve in (ring(), Curve(clamped(4, (0.25,)), np.random.default_rng(0).uniform(-1, 1, (5, 3)))):
         assert np.abs(curve.samples(5)[::-1] - curve.reversed().samples(5)).max() <= 1e-14
@@ -120,6 +131,24 @@ def test_lengths_follow_a_similarity_and_no_other_map():
         moments.mapped(np.diag([2.0, 1.0, 1.0, 1.0]))
 
 
+@pytest.mark.parametrize("weight", [1e-6, 1e-3, 1e3, 1e5, 1e7])
+def test_heavy_and_light_weights_are_measured_to_rounding(weight):
+    """The arc of a conic, P' = 2 (w (1 - t)² (P1 - P0) + t (1 - t) (P2 - P0) + w t² (P2 - P1)) / W², in pieces that
+    grow finer towards its end."""
+    weights = ring().weights.copy()
+    weights[1] = weight
+    steps = np.concatenate([[0.0], 0.5 ** np.arange(60.0, 0.0, -1.0)])
+    nodes, parts = np.polynomial.legendre.leggauss(30)
+    size = np.diff(steps)[:, None]
+    t = steps[:-1, None] + size * (nodes + 1.0) / 2.0
+    bottom = (1 - t)**2 + 2 * weight * t * (1 - t) + t**2
+    speed = 2.0 * np.hypot(t * (1 - t) + weight * t**2, weight * (1 - t)**2 + t * (1 - t)) / bottom**2
+    exact = (speed * parts * size).sum() + 1.5 * np.pi  # its other half is as long
+    moments = length_moments([Curve(ROUND, ring().points, weights)], 0)
+    assert abs(moments.total - exact) <= 1e-12
+    assert moments.error[0] <= 1e-11
+
+
 def test_the_length_of_lines_that_turn_back_has_an_estimate_that_holds():
     """Also where they turn closer to an end than any point of a rule: against the sums of what lies between turns."""
     rng = np.random.default_rng(1)
@@ -134,3 +163,13 @@ def test_the_length_of_lines_that_turn_back_has_an_estimate_that_holds():
         places = slope.integ()(np.concatenate([[0.0], turns, [1.0]]))
         found = length_moments([line], 0)
         assert abs(found.total - np.abs(np.diff(places)).sum()) <= found.error[0] <= 1e-9
+
+
+def test_two_turns_between_the_points_of_all_rules_are_found():
+    """x' = (t - 0.5)² - h², negative for a moment: rules without a point there agree upon a wrong length."""
+    for h in (0.1, 0.01, 1e-3):
+        x = np.array([0.0, (0.25 - h * h) / 3.0, 0.0, 1.0 / 12.0 - h * h])  # of t³/3 - t²/2 + (1/4 - h²) t
+        x[2] = 2.0 * x[1] - 1.0 / 6.0
+        line = Curve(clamped(4), np.stack([x, 0.0 * x, 0.0 * x], axis=1))
+        found = length_moments([line], 0)
+        assert abs(found.total - (x[3] + 8.0 * h**3 / 3.0)) <= found.error[0] <= 1e-11

@@ -165,6 +165,19 @@ def test_the_estimate_is_never_below_the_true_error_of_random_rational_patches(s
         assert moments.error[0] <= 1e-12  # so it tells something
 
 
+def test_the_estimate_holds_where_points_were_not_enough(monkeypatch):
+    rng = np.random.default_rng(21)
+    patches = [random_rational(rng, 2.0) for _ in range(40)]
+    exact = [volume_moments([patch], 2, ORIGIN)[0] for patch in patches]
+    monkeypatch.setattr(patch_moments, "MOST_POINTS", 3000)
+    unsettled = 0
+    for patch, one in zip(patches, exact):
+        moments, settled = volume_moments([patch], 2, ORIGIN)
+        unsettled += not settled
+        assert (np.abs(moments.raw - one.raw) <= moments.error + one.error).all()
+    assert unsettled >= 20
+
+
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 4e-15])
 def test_the_estimate_holds_against_a_fixed_fine_rule(tolerance):
     rng = np.random.default_rng(8)

@@ -6,10 +6,13 @@ from math import prod
 
 import numpy as np
 import pytest
+from body_moments.core import closure
 from body_moments.core.bspline import Space, clamped
+from body_moments.core.curve import Curve
 from body_moments.core.moments import monomials
 from body_moments.core.patch import Patch
 from body_moments.core.patch_solid import measure_patches, measure_sheet
+from body_moments.core.plane_region import plane_region
 
 from tests.core.exact_splines import sphere, torus, tube
 
@@ -124,6 +127,23 @@ def test_sides_coincide_whatever_their_parameters_are():
     assert abs(found.volume.total - 6.0) <= 1e-13
 
 
+@pytest.mark.parametrize("turn", [0.0, 0.3, 1.0, np.pi / 4.0, 3.0])
+def test_round_sides_coincide_wherever_they_begin(turn):
+    """A tube with lids in the form of cones, which begin and end elsewhere around it."""
+    wall = tube()
+    out = np.array([wall.points[:, k, :2] for k in range(2)])
+    c, s = np.cos(turn), np.sin(turn)
+    lids = []
+    for end, top in ((0, -2.0), (1, 2.0)):
+        around = np.concatenate([out[end] @ [[c, s], [-s, c]], np.full((8, 1), wall.points[0, end, 2])], axis=1)
+        lids.append(Patch(wall.spaces, np.stack([around, np.broadcast_to([0.0, 0.0, top], (8, 3))], axis=1),
+                          wall.weights))
+    found = measure_patches([wall, lids[0].turned(), lids[1]])
+    assert (found.method, found.warnings, found.health.components) == ("exact", (), 1)
+    assert abs(found.volume.total / (2.0 * np.pi + 2.0 * np.pi / 3.0) - 1.0) <= 1e-13
+    assert measure_patches([wall, *lids]).health.inconsistent_edges == 1
+
+
 def test_patches_that_face_against_the_rest_are_turned_and_counted():
     patches = box()
     patches[1], patches[4] = patches[1].turned(), patches[4].turned()
@@ -169,6 +189,25 @@ def test_a_cavity_is_subtracted_and_a_nested_ball_counted_twice():
     nested = measure_patches([sphere(), small])
     assert nested.health.nested_components == 1 and "twice" in nested.warnings[0]
     assert abs(nested.volume.total / (BALL * 1.125) - 1.0) <= 1e-14
+
+
+@pytest.mark.parametrize("gap", [0.02, 0.005, 1e-4])
+def test_a_cavity_near_the_surface_is_one_whatever_their_samples_cross(gap):
+    turn, _ = np.linalg.qr(np.random.default_rng(0).standard_normal((3, 3)))
+    inner = np.eye(4)
+    inner[:3, :3] = turn * np.sign(np.linalg.det(turn)) * (1.0 - gap)
+    hollow = measure_patches([sphere(), sphere().mapped(inner).turned()])
+    assert (hollow.method, hollow.warnings, hollow.health.cavities) == ("exact", (), 1)
+    assert abs(hollow.volume.total / (BALL * (1.0 - (1.0 - gap) ** 3)) - 1.0) <= 1e-11
+
+
+@pytest.mark.parametrize("apart, crossing", [(0.0, 2), (1.0, 2), (1.999, 2), (2.001, 0)])
+def test_balls_that_overlap_are_told_however_little(apart, crossing):
+    move = np.eye(4)
+    move[0, 3] = apart
+    found = measure_patches([sphere(), sphere().mapped(move)])
+    assert found.health.overlapping_components == crossing
+    assert bool(found.warnings) == (crossing > 0)
 
 
 def test_a_flat_patch_encloses_nothing_and_says_so():
@@ -226,3 +265,35 @@ def test_a_flat_part_beside_a_body_is_left_out_and_said():
 def test_all_points_in_one_place_are_refused():
     with pytest.raises(ValueError, match="one place"):
         measure_patches([Patch((clamped(2), clamped(2)), np.ones((2, 2, 3)))])
+
+
+def test_knots_that_may_tear_a_patch_are_refused():
+    """Two strips of one patch, apart: their inner sides are no sides of the patch, and would not be seen to be open."""
+    space = Space((0.0, 0.0, 1.0, 1.0, 2.0, 2.0), 2, 4)
+    with pytest.raises(ValueError, match="torn"):
+        measure_patches([Patch((space, clamped(2)), np.random.default_rng(0).uniform(-1.0, 1.0, (4, 2, 3)))])
+    with pytest.raises(ValueError, match="not closed"):
+        plane_region([Curve(space, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 0, 0)])])
+    assert not Space((0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0), 3, 5).is_torn
+
+
+def test_only_sides_between_the_same_ends_are_compared_point_by_point(monkeypatch):
+    """Of 400 loose patches none: comparing each side with all others took minutes."""
+    asked = []
+    monkeypatch.setattr(closure, "_astride", lambda *sides: asked.append(sides) or [])
+    points = np.random.default_rng(0).uniform(0.0, 0.5, (4, 4, 3)) + np.stack(
+        np.meshgrid(np.arange(4.0), np.arange(4.0), [0.0], indexing="ij"), axis=-1)[:, :, 0]
+    patch = Patch((clamped(4), clamped(4)), points)
+    found = measure_patches([patch.mapped(shift) for shift in shifts(20, 3.5)], order=0)
+    assert not asked
+    assert (found.method, found.health.components, found.health.boundary_edges) == ("capped", 400, 1600)
+    one = measure_patches([patch], order=0)
+    assert found.volume.total == pytest.approx(400.0 * one.volume.total, rel=1e-12)
+
+
+def shifts(each, step):
+    for i in range(each):
+        for j in range(each):
+            matrix = np.eye(4)
+            matrix[:2, 3] = step * i, step * j
+            yield matrix
