@@ -339,9 +339,10 @@ def blocks(cells: Cells, rule: Rule, integrand: Integrand) -> NDArray[np.float64
 
 
 def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
-    """(K + more, ...) the density times the monomials of points (3, ...), in the order of `monomials`, and rows to be
-    filled."""
+    """(K + more, ...) the density times the monomials of points (3, ...), in the order of `monomials`, and rows of
+    zeros to be filled."""
     rows = np.empty((monomial_count(order) + more, *density.shape))
+    rows[monomial_count(order):] = 0.0
     rows[0] = density
     if order:
         np.multiply(place, density, out=rows[1:4])

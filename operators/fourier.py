@@ -14,6 +14,7 @@ from bpy.types import Context, Event, Operator
 
 from ..core.decimal import decimal
 from ..core.waves import Grid
+from .alarms import alarms
 from .fourier_body import ObjectTransform, object_transform
 from .measure import THREADS, MeasureOptions
 from .read import Unreadable, measurable
@@ -148,7 +149,7 @@ class OBJECT_OT_body_moments_fourier_run(Stepwise, _Settings, Operator):
         for area in context.screen.areas if context.screen else ():
             if area.type == "IMAGE_EDITOR":
                 area.spaces.active.image = image
-        self.report({"WARNING"} if self._work.warnings else {"INFO"}, " ".join(
+        self.report({"WARNING"} if alarms(self._work.warnings) else {"INFO"}, " ".join(
             ["Wrote {:d} frequencies to {:s}; the image {:s} shows slices of them.".format(
                 len(found.q), self._path.name, image.name), *notes]))
         return {"FINISHED"}

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import bpy
 
 from . import selection
+from .alarms import alarms
 from .measure import Measurement, Unreadable, measure_object
 from .results import refuse
 from .staleness import settle
@@ -79,7 +80,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
         return {"FINISHED"} if stored else {"CANCELLED"}
 
     def _say(self, stored: int) -> None:
-        warned = sum(bool(measurement.warnings) for _, measurement in self._found)
+        warned = sum(bool(alarms(measurement.warnings)) for _, measurement in self._found)
         tried = stored + len(self._failed)
         parts = ["Measured {:d} of {:d} objects".format(stored, tried)] if tried > 1 else []
         if tried == stored == 1:

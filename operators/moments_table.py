@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ..core.moments import Moments, monomial_count, monomials
 from . import staleness
+from .alarms import alarms
 from .clipboard import to_clipboard
 from .fingerprint import matrix_hash, settings_hash
 from .measure import THREADS, MeasureOptions, measure_object
@@ -199,7 +200,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         while len(_kept) > KEPT:
             _kept.popitem(last=False)
         told = "Computed {:d} moments of {:s}".format(len(volume.raw), obj.name)
-        self.report({"WARNING"} if one.warnings else {"INFO"}, one_line([told, *one.warnings]))
+        self.report({"WARNING"} if alarms(one.warnings) else {"INFO"}, one_line([told, *one.warnings]))
         return {"FINISHED"}
 
 

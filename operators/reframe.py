@@ -36,7 +36,7 @@ from .channels import (
 from .density import fixed_to
 from .read import Unreadable
 from .selection import lineage
-from .surroundings import SAME_SHAPE, Surroundings, referring, same_shape, shape
+from .surroundings import SAME_SHAPE, Surroundings, mapped, referring, same_shape, shape
 
 # What these do does not depend on where an object's origin is, nor on its axes.
 INDIFFERENT = {
@@ -203,10 +203,15 @@ def check_movable(obj: Object) -> None:
 
 
 def move(context: Context, plan: Plan) -> None:
-    """`reach`, or leave the object where it was."""
-    saved = Channels(plan.obj)
+    """`reach` as the body that it is, or leave the object where it was."""
+    obj, saved = plan.obj, Channels(plan.obj)
+    was, before = world(obj), shape(obj, context.evaluated_depsgraph_get())
     try:
         reach(context, plan)
+        if not same_shape(mapped(before, was, world(obj)), shape(obj, context.evaluated_depsgraph_get()), plan.size):
+            names = ", ".join(modifier.name for modifier in obj.modifiers if modifier.show_viewport)
+            raise Refused("its shape would change, because it depends on where it is through {:s}; apply that first, "
+                          "or make what it refers to its child".format(names or "what deforms or shows it"))
     except Refused:
         saved.restore()
         context.view_layer.update()

@@ -12,6 +12,7 @@ from ..core.decimal import decimal
 from ..core.polygon import flaws, nested
 from ..core.section import Section, fit_plane, measure_section, region
 from . import selection, staleness
+from .alarms import alarms
 from .clipboard import to_clipboard
 from .fingerprint import fingerprint, matrix_hash, settings_hash
 from .read import Unreadable
@@ -106,7 +107,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
         staleness.settle_marks(context, [(obj, record.fingerprint(obj)) for obj, *_ in found])
         for area in context.screen.areas if context.screen else ():
             area.tag_redraw()
-        warned = sum(bool(warnings) for *_, warnings in found)
+        warned = sum(bool(alarms(warnings)) for *_, warnings in found)
         one = "Measured the section of {:s}, with warnings" if warned else "Measured the section of {:s}"
         told = ["Measured {:d} sections".format(len(found))] if len(found) > 1 else [
             one.format(obj.name) for obj, *_ in found]

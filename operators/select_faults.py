@@ -69,7 +69,8 @@ class OBJECT_OT_body_moments_select_faults(Operator):
         return True
 
     def execute(self, context: Context) -> set[str]:
-        if context.mode == "EDIT_MESH":
+        editing = context.mode == "EDIT_MESH"
+        if editing:
             bpy.ops.object.mode_set(mode="OBJECT")
         objects = [obj for obj in context.view_layer.objects.selected if obj.type == "MESH"]
         faults: dict[Object, dict[str, np.ndarray]] = {}
@@ -83,10 +84,11 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             return True
 
         count, failures = selection.each(objects, measure, snapping.REFUSALS)
-        staleness.settle(context, measured)
         if faults:
             _show(context, faults)
-            staleness.settle(context, measured)
+        elif editing:
+            bpy.ops.object.mode_set(mode="EDIT")
+        staleness.settle(context, measured)
         text = "{count} measured, no faults" if count else ""
         told = ["{:s} has {:s}".format(obj.name, _words(found)) for obj, found in faults.items()]
         if told:

@@ -154,7 +154,11 @@ def reframe_selected(
     _, failures = selection.each(objects, plan, REFUSALS)
     with staleness.paused(), selection.progress(len(plans)) as step:
         done, refused = reframe.reframe(context, plans, step)
-    failures += [(obj.name, reason) for obj, reason in refused]
+        failures += [(obj.name, reason) for obj, reason in refused]
+        if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
+            plans.clear()
+            selection.each([one.obj for one in done], plan, REFUSALS)
+            reframe.reframe(context, plans)
     refresh(context, [plan.obj for plan in done])
     notes = ["{:s} {:s}".format(plan.obj.name, note) for plan in done for note in plan.notes]
     return selection.summarise(operator, len(done), len(objects), text, failures, notes,

@@ -260,6 +260,7 @@ def register() -> None:
 
 
 def unregister() -> None:
+    _save()  # whoever enables the add-on again has the same file
     for name, function in reversed(HANDLERS):
         getattr(bpy.app.handlers, name).remove(function)
     _load()

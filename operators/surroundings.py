@@ -15,7 +15,7 @@ from bpy.types import ID, Constraint, Depsgraph, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from .channels import FLOAT32, Refused, world
+from .channels import FLOAT32, Matrix4, Refused, world
 from .read import Unreadable, measurable, read_object
 
 # Of the size: what rounding in a chain of modifiers may move, and far less than anyone can see.
@@ -63,6 +63,12 @@ def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
         rest = np.einsum("kij,nj->kni", linear[1:], points[few]) + offset[1:, None]
         shapes.append((first, rest))
     return shapes
+
+
+def mapped(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape | None:
+    """The shape as it is where its object went with all of it. was, now: (4, 4) the object's matrices."""
+    way = now @ np.linalg.pinv(was)
+    return before and [tuple(points @ way[:3, :3].T + way[:3, 3] for points in pair) for pair in before]
 
 
 def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:

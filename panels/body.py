@@ -13,7 +13,9 @@ import numpy as np
 from bpy.types import Context, Object, Panel, UILayout
 
 from ..operators import live, results, staleness, wall_slider
+from ..operators.counted import LISTED
 from ..operators.read.visibility import GEOMETRY_TYPES
+from ..operators.selection import listed
 from ..operators.units import SI_UNITS, Units
 from ..operators.write import properties
 from . import grid, materials, rows
@@ -121,6 +123,9 @@ def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) ->
 
 def _material(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
+    if obj.override_library is not None:
+        rows.sentence(layout, context, "A library override: the file keeps none of these settings, nor results; make "
+                                       "it local first", icon="ERROR")
     if obj.type == "VOLUME" and grid.settings_rows(layout, context, obj):
         return
     column = layout.column()
@@ -338,11 +343,11 @@ def _totals(layout: UILayout, context: Context, units: Units) -> None:
     column.label(
         text="1 object" if total.count == 1 else "{:d} objects".format(total.count), icon="GROUP"
     )
-    for names, text in ((total.missing, "not measured"), (total.outdated, "out of date")):
+    for names, text in ((total.missing, "Not measured: {:s}"), (total.outdated, "Out of date: {:s}")):
         if names:
             row = column.row()
             row.alert = True
-            row.label(text="{:d} {:s}".format(len(names), text), icon="ERROR")
+            rows.sentence(row, context, text.format(", ".join(listed(names, LISTED))), icon="ERROR")
     for one in total.doubts:
         rows.sentence(column, context, one, icon="ERROR")
     column = body.column(align=True)

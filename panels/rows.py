@@ -8,13 +8,15 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 import blf
+import bpy
 import numpy as np
 from bpy.types import Context, UILayout
 
+from ..operators.alarms import alarms
 from ..operators.clipboard import OBJECT_OT_body_moments_copy_value
 from ..operators.units import SI_UNITS, Units
 
-LABEL, SHORT = 0.36, 0.2  # share of a row that its label takes, and one of few letters
+LABEL, SHORT, INDEX = 0.36, 0.2, 0.1  # share of a row that its label takes, one of few letters, and of one
 MARGIN = 96  # what tabs, borders and an icon take of the region's width, in unscaled pixels
 NARROW = 80  # no line is made narrower: longer words would stand alone, and be cut off
 
@@ -45,26 +47,35 @@ def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) ->
 
 
 def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
-    """A unit vector in one row."""
+    """A unit vector in one row, or in three where that is too narrow."""
+    told = ["{:.4f}".format(component + 0.0).replace("-0.0000", "0.0000").replace("-", "−") for component in vector]
+    if not _fits(1.0 - INDEX, *told):
+        for name, text, component in zip("xyz", told, vector):
+            texts(layout, "{:s} {:s}".format(label, name).strip(), text, repr(float(component)), "")
+        return
     row = layout.row(align=True)
-    split = row.split(factor=0.1, align=True)
+    split = row.split(factor=INDEX, align=True)
     split.label(text=label)
     cells = split.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
-    for component in vector:
+    for text in told:
         cell = cells.row(align=True)
         cell.alignment = "RIGHT"
-        cell.label(
-            text="{:.4f}".format(component + 0.0).replace("-0.0000", "0.0000").replace("-", "−")
-        )
+        cell.label(text=text)
     _copy(row, repr([float(component) for component in vector]), "")
 
 
 def texts(layout: UILayout, label: str, text: str, exact: str, unit: str) -> None:
-    """Label, text to the right, copy button."""
-    row = layout.row(align=True)
-    split = row.split(factor=LABEL if len(label) > 3 else SHORT, align=True)
-    split.label(text=label)
-    cell = split.row(align=True)
+    """Label, text to the right, copy button; the label above them where a row is too narrow for both."""
+    share = LABEL if len(label) > 3 else SHORT
+    if _fits(1.0 - share, text):
+        row = layout.row(align=True)
+        cell = row.split(factor=share, align=True)
+        cell.label(text=label)
+    else:
+        layout.label(text=label)
+        row = layout.row(align=True)
+        cell = row
+    cell = cell.row(align=True)
     cell.alignment = "RIGHT"
     cell.label(text=text)
     _copy(row, exact, unit)
@@ -98,14 +109,23 @@ def outdated(layout: UILayout, reason: str) -> None:
 
 
 def warnings(layout: UILayout, context: Context, idname: str, sentences: Sequence[str]) -> None:
-    """A sub-panel of warnings, where there are any."""
+    """A sub-panel of what was decided on the way, where there is any."""
     if not sentences:
         return
     header, body = layout.panel(idname, default_closed=False)
-    header.label(text="Warnings ({:d})".format(len(sentences)))
+    header.label(text=("Warnings ({:d})" if alarms(sentences) else "Notes ({:d})").format(len(sentences)))
     if body is not None:
         for one in sentences:
             sentence(body, context, one, icon="DOT")
+
+
+def _fits(share: float, *cells: str) -> bool:
+    """Whether texts have place beside each other in that share of a row of the region that is being drawn."""
+    if bpy.context.region is None:
+        return True
+    width, size = _width(bpy.context)
+    blf.size(0, size)
+    return len(cells) * max(blf.dimensions(0, cell)[0] + 0.2 * size for cell in cells) <= share * (width + 2.0 * size)
 
 
 def _width(context: Context) -> tuple[int, float]:

@@ -23,7 +23,7 @@ from .record import TENSOR, document, plain
 
 METHODS = {
     "grid exact": "from a grid of voxels, whose values are taken as they are",
-    "exact": "closed; the numbers are those of the surface itself",
+    "exact": "closed; nothing had to be mended",
     "reoriented": "closed after flipped faces were turned",
     "capped": "open; holes were capped",
     "open": "open and not to be capped; the numbers depend on the reference point",

@@ -113,6 +113,21 @@ def test_no_faults_stays_in_object_mode_and_says_so():
     assert obj.mode == "OBJECT" and "body_mass" in obj
 
 
+def test_no_faults_in_edit_mode_leaves_mode_and_selection_as_they_were():
+    import bmesh
+    from body_moments.operators import staleness
+
+    obj = add(mesh_body())
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bmesh.from_edit_mesh(obj.data).verts[:][2].select_set(True)
+    assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
+    assert bpy.context.mode == "EDIT_MESH" and "body_volume" in obj
+    assert [vertex.index for vertex in bmesh.from_edit_mesh(obj.data).verts if vertex.select] == [2]
+    assert staleness.reason(obj, bpy.context.scene) == ""
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
 def test_boundary_edges_and_flipped_faces_are_selected():
     mesh = mesh_body()
     obj = add(mesh)

@@ -7,7 +7,7 @@ nothing behind.
 import bpy
 import numpy as np
 import pytest
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 from tests.blender.bodies import HEIGHT, POINTS, add, measured, mesh_body, only, place, seen
 
@@ -263,6 +263,50 @@ def test_modifiers_that_live_in_local_space_are_refused_and_nothing_changes(name
     assert run(name) == {"CANCELLED"}
     assert state(obj) == before
     assert (seen(obj) == points).all()
+
+
+def test_axes_of_a_body_whose_triangles_are_others_without_its_scale_are_principal_at_once():
+    obj = add(mesh_body(), location=(3, -4, 5), rotation=(0.3, -1.2, 2.0), scale=(1, 0.5, 2.5))
+    obj.data.vertices[3].co += Vector((0.3, -0.2, 0.6))  # faces are not flat any more
+    obj.data.update()
+    assert run(AXES) == {"FINISHED"}
+    assert_axes_are_principal(obj)
+    assert run(AXES) == {"CANCELLED"}
+
+
+@pytest.mark.parametrize("name", [ALIGN, "body_moments_match_pose"])
+@pytest.mark.parametrize("kind", ["LATTICE", "ARRAY", "MIRROR"])
+def test_what_changes_its_shape_where_it_goes_is_refused_with_what_makes_it_and_nothing_changes(name, kind, capfd):
+    target = add(mesh_body(), "Target")
+    cage = add(bpy.data.lattices.new("Cage"), "Cage", rotation=(0.5, 0.4, 0.3), scale=(9, 9, 9))
+    cage.data.points[1].co_deform.x += 0.3
+    obj = add(mesh_body(), location=(1, 2, 1), rotation=(0.3, 0.2, 0.1))
+    if kind == "LATTICE":
+        obj.modifiers.new("Bent", "LATTICE").object = cage
+    elif kind == "MIRROR":
+        obj.modifiers.new("Bent", "MIRROR").mirror_object = cage
+    else:
+        array = obj.modifiers.new("Bent", "ARRAY")
+        array.use_relative_offset, array.use_object_offset, array.offset_object = False, True, cage
+    only(target, obj)
+    bpy.context.view_layer.update()
+    target.select_set(name != ALIGN)
+    before, points = state(obj), seen(obj)
+    assert run(name) == {"CANCELLED"}
+    assert state(obj) == before and (seen(obj) == points).all()
+    assert "where it is through Bent" in capfd.readouterr().out
+
+
+def test_what_is_bent_by_its_own_child_is_aligned_with_it():
+    obj = add(mesh_body(), location=(1, 2, 1), rotation=(0.3, 0.2, 0.1))
+    cage = add(bpy.data.lattices.new("Cage"), "Cage", scale=(9, 9, 9))
+    cage.data.points[1].co_deform.x += 0.3
+    cage.parent, cage.matrix_parent_inverse = obj, obj.matrix_world.inverted()
+    obj.modifiers.new("Bent", "LATTICE").object = cage
+    only(obj)
+    bpy.context.view_layer.update()
+    assert run(ALIGN) == {"FINISHED"}
+    assert run(ALIGN) == {"CANCELLED"}
 
 
 def test_a_mirror_about_another_object_is_handled():

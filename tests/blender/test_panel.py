@@ -272,7 +272,11 @@ def test_totals_have_parallel_axis_terms():
     moments = truth.principal.moments
     assert np.abs(total.body.principal.moments - moments).max() < 1e-9 * moments.max()
     found = labels(drawn())
-    assert "3 objects" in found and "1 not measured" in found
+    assert "3 objects" in found
+    assert "Not measured: Not Measured" in " ".join(found)
+    objects[1].body_moments.density = 5.0
+    bpy.context.view_layer.update()
+    assert "Out of date: 1" in " ".join(labels(drawn()))
 
 
 def test_damaged_results_are_not_shown():
@@ -298,6 +302,45 @@ def test_warnings_are_wrapped_and_complete():
     assert " ".join(lines) == sentence and len(lines) > 2
 
 
+@pytest.mark.parametrize("kind", ["FONT", "META", "CURVE"])
+def test_polygons_that_stand_for_a_curve_are_told_and_no_alarm(kind, capfd):
+    from body_moments.operators.write import report
+
+    if kind == "META":
+        bpy.ops.object.metaball_add()
+        bpy.context.object.data.render_resolution = bpy.context.object.data.resolution
+    elif kind == "FONT":
+        bpy.ops.object.text_add()
+        bpy.context.object.data.body, bpy.context.object.data.extrude = "o", 0.1
+    else:
+        bpy.ops.curve.primitive_bezier_circle_add()
+        bpy.context.object.data.bevel_depth = 0.2
+    bpy.ops.object.body_moments_measure()
+    obj = bpy.context.object
+    out = capfd.readouterr().out
+    assert "polygons that Blender draws" in obj["body_warnings"]
+    assert "Info: Measured {:s}\n".format(obj.name) in out and "Warning" not in out
+    assert any(label.startswith("Notes (") for label in labels(drawn()))
+    assert "the surface itself" not in report.report_text(bpy.context, [obj])
+
+
+def test_faces_of_a_mesh_that_are_not_flat_are_an_alarm():
+    obj = add(mesh_body())
+    obj.data.vertices[3].co.z += 0.2
+    obj.data.update()
+    bpy.ops.object.body_moments_measure()
+    assert "not flat" in obj["body_warnings"] and "Warnings (1)" in labels(drawn())
+
+
+def test_an_alarm_beside_a_plain_statement_is_one(capfd):
+    bpy.ops.curve.primitive_bezier_circle_add()
+    curve = bpy.context.object.data
+    curve.bevel_depth, curve.render_resolution_u = 0.1, 30
+    bpy.ops.object.body_moments_measure()
+    assert "Warning: Measured BézierCircle, with warnings" in capfd.readouterr().out.replace("Bezier", "Bézier")
+    assert any(label.startswith("Warnings (") for label in labels(drawn()))
+
+
 def test_sentences_fit_into_the_narrowest_sidebar():
     from body_moments.panels import rows
 
@@ -306,6 +349,31 @@ def test_sentences_fit_into_the_narrowest_sidebar():
         preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=scale), ui_styles=[style])
         context = SimpleNamespace(region=SimpleNamespace(width=184 * scale), preferences=preferences)
         assert 0 < rows._width(context)[0] <= (184 - rows.MARGIN) * scale
+
+
+def test_numbers_are_whole_in_the_narrowest_sidebar(monkeypatch):
+    from body_moments.panels import rows
+
+    def shown(width):
+        style = SimpleNamespace(widget=SimpleNamespace(points=11.0))
+        preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0), ui_styles=[style])
+        region = None if width is None else SimpleNamespace(width=width)
+        context = SimpleNamespace(region=region, preferences=preferences)
+        monkeypatch.setattr(rows, "bpy", SimpleNamespace(context=context))
+        layout, factors = Layout(), []
+        monkeypatch.setattr(Layout, "split", lambda self, factor, **_: factors.append(factor) or self._sub())
+        rows.texts(layout, "Volume", "0.182213 m³", "0.18221349", "m³")
+        rows.direction(layout, "2", (-0.0, -0.98765432, 0.1566))
+        return layout.record, factors
+
+    for width in (300, None):  # None: without a window
+        record, shared = shown(width)
+        assert labels(record) == ["Volume", "0.182213 m³", "2", "0.0000", "−0.9877", "0.1566"]
+        assert shared == [rows.LABEL, rows.INDEX]
+    record, shared = shown(184)
+    assert labels(record) == ["Volume", "0.182213 m³", "2 x", "0.0000", "2 y", "−0.9877", "2 z", "0.1566"]
+    assert shared == [rows.SHORT] * 3  # the volume has a row of its own
+    assert copied(record, "") == ["-0.0", "-0.98765432", "0.1566"]
 
 
 def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):

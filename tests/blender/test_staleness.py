@@ -5,6 +5,7 @@
 import pytest
 
 pytest.importorskip("bpy")
+import body_moments
 import bpy
 from body_moments.operators import staleness
 
@@ -71,6 +72,18 @@ def test_numbers_that_undo_brings_back_are_not_those_of_a_later_edit():
     obj = bpy.data.objects["Body"]
     assert obj["body_volume"] != first and reason(obj) == ""
     measure(obj)
+
+
+def test_numbers_of_before_an_edit_are_out_of_date_when_the_add_on_is_enabled_again():
+    obj, other = add(mesh_body()), add(mesh_body(), "Other")
+    measure(obj, other)
+    edit(obj)
+    bpy.ops.object.body_moments_find_symmetry()
+    edit(other)
+    body_moments.unregister()
+    body_moments.register()
+    assert (reason(obj), reason(other)) == ("Geometry Changed",) * 2
+    assert staleness.symmetry_reason(other) == "Geometry Changed"
 
 
 def test_measuring_does_not_make_the_symmetry_of_another_shape_hold_again():

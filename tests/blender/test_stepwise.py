@@ -123,7 +123,7 @@ def test_esc_leaves_what_was_said_of_objects_that_could_not_be_measured(monkeypa
 def test_one_object_with_warnings_is_not_counted(monkeypatch):
     monkeypatch.setattr("body_moments.operators.measure_selected.AT_ONCE", 0)
     text = bpy.data.objects.new("Text", bpy.data.curves.new("Text", "FONT"))
-    text.data.body, text.data.extrude = "o", 0.1
+    text.data.body, text.data.extrude, text.data.render_resolution_u = "o", 0.1, 30
     bpy.context.scene.collection.objects.link(text)
     only(text)
     operator, window = pressed(OBJECT_OT_body_moments_measure)

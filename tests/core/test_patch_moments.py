@@ -283,3 +283,10 @@ def closed_by_cones(patch, place=0.0):
         weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
         found.append(Patch((curve.space, clamped(2)), np.stack(ends, axis=1), weights))
     return found
+
+
+def test_nothing_is_computed_with_what_memory_held_before(monkeypatch):
+    place, density = np.ones((3, 4)), np.ones(4)
+    monkeypatch.setattr(np, "empty", lambda shape: np.full(shape, np.inf))
+    assert (patch_moments.weighted_monomials(place, density, 3, 2)[-2:] == 0.0).all()
+    assert (patch_moments.weighted_monomials(place, density, 3) == 1.0).all()
