@@ -4,7 +4,8 @@
 
 The counterpart of `solid` for surfaces that are not made of polygons, with the same verdicts: patches that face against
 the rest of their part are turned, holes are capped, parts that are inside out and in no other's material are turned,
-and what cannot be closed is measured as a signed sum and called open. Parts are compared by samples of their patches.
+and what cannot be closed is measured as a signed sum and called open. Parts are compared by samples of their patches:
+an overlap that is thinner than a hundredth of a part may be missed.
 """
 
 from __future__ import annotations

@@ -201,13 +201,14 @@ def test_a_cavity_near_the_surface_is_one_whatever_their_samples_cross(gap):
     assert abs(hollow.volume.total / (BALL * (1.0 - (1.0 - gap) ** 3)) - 1.0) <= 1e-11
 
 
-@pytest.mark.parametrize("apart, crossing", [(0.0, 2), (1.0, 2), (1.999, 2), (2.001, 0)])
-def test_balls_that_overlap_are_told_however_little(apart, crossing):
-    move = np.eye(4)
-    move[0, 3] = apart
-    found = measure_patches([sphere(), sphere().mapped(move)])
-    assert found.health.overlapping_components == crossing
-    assert bool(found.warnings) == (crossing > 0)
+@pytest.mark.parametrize("apart, crossing", [(0.0, 2), (1.0, 2), (1.98, 2), (2.001, 0)])
+def test_balls_that_overlap_by_a_hundredth_are_told_in_whatever_direction(apart, crossing):
+    for direction in [np.array([1.0, 0.0, 0.0]), *np.random.default_rng(3).normal(size=(5, 3))]:
+        move = np.eye(4)
+        move[:3, 3] = apart * direction / np.linalg.norm(direction)
+        found = measure_patches([sphere(), sphere().mapped(move)])
+        assert found.health.overlapping_components == crossing
+        assert bool(found.warnings) == (crossing > 0)
 
 
 def test_a_flat_patch_encloses_nothing_and_says_so():
