@@ -16,6 +16,8 @@ PLAIN = (
     "Read in Sculpt Mode, with the modifiers that act there",
     "Its shells were united by Blender's exact boolean",
     "Its wall was measured as real material",
+    "Its density is the grid “",
+    "It has no surface, and its area is told as 0",
 )
 
 

@@ -324,6 +324,15 @@ def test_polygons_that_stand_for_a_curve_are_told_and_no_alarm(kind, capfd):
     assert "the surface itself" not in report.report_text(bpy.context, [obj])
 
 
+def test_a_density_from_a_grid_is_told_and_no_alarm(tmp_path, capfd):
+    from tests.blender.grids import vdb_grid, volume_object
+
+    only(volume_object(tmp_path / "a.vdb", vdb_grid(np.ones((4, 4, 4), np.float32))))
+    bpy.ops.object.body_moments_measure()
+    assert "Warning" not in capfd.readouterr().out
+    assert "Notes (2)" in labels(drawn())
+
+
 def test_faces_of_a_mesh_that_are_not_flat_are_an_alarm():
     obj = add(mesh_body())
     obj.data.vertices[3].co.z += 0.2
