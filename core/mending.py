@@ -10,6 +10,7 @@ itself is touched at any step.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -49,10 +50,11 @@ class Mended:
     notes: list[str] = field(default_factory=list)
 
 
-def mend(surface: Surface, tolerance: float, size: float) -> Mended:
+def mend(surface: Surface, tolerance: float, size: float, names: Callable[[NDArray], str]) -> Mended:
     """Mend a surface.
 
     tolerance: (length) positions nearer than this are one where edges are open. size: the diagonal of the body.
+    names: what mesh faces are called in `notes`.
     """
     points = surface.points
     given, face = surface.all_triangles()
@@ -69,7 +71,7 @@ def mend(surface: Surface, tolerance: float, size: float) -> Mended:
         if edges.count.max() > 2:  # elsewhere copies of faces would have no others beside them
             sides = _crowded(edges, face[rows])
             crowded, named = len(np.unique(edges.of_side[sides])), _named(given[rows], sides)
-            copies, left_out = _copies(points, triangles[rows], face[rows], edges, notes)
+            copies, left_out = _copies(points, triangles[rows], face[rows], edges, notes, names)
             if left_out.any():
                 rows = rows[~left_out]
                 edges = find_edges(triangles[rows])
@@ -157,8 +159,8 @@ def _distinct(values: NDArray[np.integer], width: int) -> NDArray[np.intp]:
     return np.flatnonzero(present)
 
 
-def _copies(points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, notes: list[str]
-            ) -> tuple[tuple[NDArray, NDArray], NDArray[np.bool_]]:
+def _copies(points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, notes: list[str],
+            names: Callable[[NDArray], str]) -> tuple[tuple[NDArray, NDArray], NDArray[np.bool_]]:
     """The faces on the same vertices as an earlier one; those left out; and (m,) which triangles these are.
 
     A region of copied faces is reduced to one layer where an odd number of other faces meets its rim, so that one layer
@@ -192,11 +194,11 @@ def _copies(points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, no
     gone = np.unique(face[left_out])
     if len(gone):
         notes.append(counted(gone, "Face {:s} lies exactly on another one and was left out.",
-                             "{:d} faces lie exactly on others and were left out: {:s}."))
+                             "{:d} faces lie exactly on others and were left out: {:s}.", names))
     twice = np.unique(face[later & ~reduced & (agree > 0.0)])
     if len(twice):
         notes.append(counted(twice, "Face {:s} lies exactly on another one and counts twice: delete one of them.",
-                             "{:d} faces lie exactly on others and count twice: {:s}. Delete the copies."))
+                             "{:d} faces lie exactly on others and count twice: {:s}. Delete the copies.", names))
     return (np.unique(face[later]), gone), left_out
 
 
@@ -207,11 +209,9 @@ def _copied(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np
     return copied[group]
 
 
-def counted(numbers: NDArray[np.integer], one: str, many: str) -> str:
-    """A sentence about numbered things: `one` takes the number, `many` how many there are and the first few of them."""
-    if len(numbers) == 1:
-        return one.format(str(int(numbers[0])))
-    return many.format(len(numbers), listed(numbers))
+def counted(numbers: NDArray[np.integer], one: str, many: str, names: Callable[[NDArray], str]) -> str:
+    """A sentence about numbered things: `one` takes the name, `many` how many there are and the names."""
+    return one.format(names(numbers)) if len(numbers) == 1 else many.format(len(numbers), names(numbers))
 
 
 def listed(numbers: NDArray[np.integer]) -> str:
@@ -238,6 +238,7 @@ def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:
     body.turned, body.shell, body.number = turned, shell, number
     body.open, body.caps = np.zeros(number, bool), np.zeros((number, 3))
     body.open[shell[twisted]] = True
+    twists = int(np.count_nonzero(body.open))
 
     settled, gaps = _close(body, edges, gap, tolerance)
     rim = edges.first[(edges.count == 1) & ~filled]
@@ -251,11 +252,13 @@ def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:
         body.notes.append("Edges meet in {:d} {:s} whose vertices do not: without area, and counted as closed."
                           .format(gaps, "gap" if gaps == 1 else "gaps"))
     if body.open.any():
+        count = int(np.count_nonzero(body.open))
+        torn = count > twists
+        causes = ["one-sided"] * (twists > 0) + ["inner walls, or holes, where more than two faces meet"] * torn
         body.notes.append(
-            ("It cannot be closed" if number == 1 else "{:d} of its {:d} parts cannot be closed".format(
-                int(np.count_nonzero(body.open)), number))
-            + " (one-sided, or with inner walls): volume, center and inertia depend on the reference point. "
-            "Delete inner faces, or measure a shell.")
+            "{:s} cannot be closed ({:s}): volume, center and inertia depend on the reference point. {:s}.".format(
+                "It" if number == 1 else "{:d} of its {:d} parts".format(count, number), "; ".join(causes),
+                "Delete inner faces and fill holes, or measure a shell" if torn else "Measure a shell"))
 
 
 def _crowded(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.intp]:

@@ -160,8 +160,8 @@ def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float
     axes = axes * [1.0, 1.0, np.sign(np.linalg.det(axes))]
     rounding = 4.0 * moments.error[SECOND].max() / (total * scale) + 8.0 * np.finfo(float).eps
     if spread[2] < -rounding:
-        raise ValueError("It intersects itself, and parts of it count with the opposite sign, so that its moments are "
-                         "those of no body; unite its shells, or mend it.")
+        raise ValueError("It intersects itself or cannot be closed, and parts of it count with the opposite sign, so "
+                         "that its moments are those of no body; unite its shells, mend it, or measure a shell.")
     spread = np.maximum(spread, 0.0)
 
     size = np.sqrt(np.maximum(spread, 1e-30 * spread[0]))  # a lamina has no extent along an axis, and no skewness

@@ -118,10 +118,12 @@ class SolidMeasure:
         return polyhedron.third_moments_exact(self.mended, threads)
 
 
-def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) -> SolidMeasure:
+def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1,
+                  names: Callable[[NDArray], str] = listed) -> SolidMeasure:
     """The moments of the body that a surface bounds, in the surface's own coordinates and unit, and how they came.
 
     shell: the area's moments to order 3 (else order 0). threads: for the sums over faces, and for the verdict.
+    names: what mesh faces are called in `warnings`, by default the first few of their numbers.
     ValueError, with what to do, where there are no faces or a face uses a vertex that has no finite position.
     """
     surface, vertices, size = _used(surface)
@@ -130,7 +132,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     own, body, flatness = _as_it_stands(surface, shell, threads, error)
     proven = body is not None
     if not proven:
-        body = mend(surface, tolerance, size)
+        body = mend(surface, tolerance, size, names)
     compared = _compared(body, tolerance, error) if body.number > 1 else None
     turn = np.zeros(body.number, bool) if compared is None else compared.turned
     turn_each = turn
@@ -158,14 +160,15 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
         volume = replace(volume, raw=-volume.raw)
         measured = replace(measured, quads=measured.quads[:, [0, 3, 2, 1]], triangles=measured.triangles[:, ::-1])
     flipped, inverted = _turned_faces(body, turn)
-    impossible = solid and not _possible(volume, surface, size)
+    impossible = solid and not open_parts and not _possible(volume, surface, size)
     if open_parts or not solid or impossible:
         method = "open"
     elif caps.any():
         method = "capped"
     else:
         method = "reoriented" if len(flipped) or len(inverted) else "exact"
-    notes = [*body.notes, *_turned_told(body, flipped, inverted), *_capped_told(*caps[:2].astype(int), cap_share)]
+    notes = [*body.notes, *_turned_told(body, flipped, inverted, names),
+             *_capped_told(*caps[:2].astype(int), cap_share)]
     if compared is not None:
         notes += _compared_told(body, compared)
     if impossible:
@@ -367,13 +370,13 @@ def _turned_faces(body: Mended, turn: NDArray[np.bool_]) -> tuple[NDArray[np.int
     return np.unique(body.face[own][turned & ~whole[shell]]), np.flatnonzero(whole)
 
 
-def _turned_told(body: Mended, flipped: NDArray, inverted: NDArray) -> list[str]:
+def _turned_told(body: Mended, flipped: NDArray, inverted: NDArray, names: Callable[[NDArray], str]) -> list[str]:
     """Sentences about the faces and the parts that were turned."""
     notes = []
     if len(flipped):
         notes.append(counted(
             flipped, "Face {:s} is flipped and was measured as if turned. Recalculate Outside mends it.",
-            "{:d} faces are flipped and were measured as if turned: {:s}. Recalculate Outside mends them."))
+            "{:d} faces are flipped and were measured as if turned: {:s}. Recalculate Outside mends them.", names))
     if len(inverted):
         notes.append("{:s} inside out, and measured as if turned. Recalculate Outside mends that.".format(
             "It is" if body.number == 1 else "One of its parts is" if len(inverted) == 1

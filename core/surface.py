@@ -72,7 +72,9 @@ class Surface:
         if self.points.dtype != np.float32 or not len(self.points):
             return np.zeros(3)
         low, high = self.box
-        return np.spacing(np.maximum(high, -low).astype(np.float32)).astype(np.float64) / 2.0
+        # The largest float32 has the ulp of 2^127, though no number above it to tell.
+        largest = np.minimum(np.maximum(high, -low), 2.0 ** 127)
+        return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
 
     def mapped(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
         """The surface with points `linear @ x + offset` in float64. A mirroring map turns the faces' winding, so

@@ -222,6 +222,8 @@ def _require_volume(body: Body, options: MeasureOptions) -> Moments:
     shell = options.kind == "shell"
     volume = body.area * options.thickness if shell and body.wall is None else body.wall or body.volume
     if not volume.total > 0.0:
+        if body.solids and not body.area.total > 0.0:
+            raise ValueError("None of its faces has an area; move their vertices apart, or choose another object.")
         raise ValueError("It has no thickness; set one." if shell and body.area.total > 0.0 else
                          "Its faces enclose no volume; measure it as a shell, a flat one as a section, or close it.")
     return volume

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +26,9 @@ COMPARED = 200_000  # triangles up to which instances are compared with each oth
 RANKED = ("open", "capped", "reoriented", "exact")  # methods: of several, the first counts
 FLATTENED = ("A zero scale flattens it; set its scale, or its parents', to something else than zero, or measure it as "
              "a shell.")
-SOME_FLATTENED = "{:d} of its instances are flattened by a zero scale and enclose nothing."
+ALL_FLATTENED = ("A zero scale flattens all that it instances; give the instances another scale, or measure it as a "
+                 "shell.")
+MOST_NAMED = 8  # surfaces, or faces, that a sentence names
 NOT_COMPARED = ("Overlap was not looked for between its {:d} instances, and boxes around some of them overlap; what "
                 "those share counts twice.")
 
@@ -37,16 +40,42 @@ def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, thread
     there is nothing to measure.
     """
     if reading.singular and not shell:
-        raise ValueError(FLATTENED)
+        raise ValueError(flattened_reason(reading))
     body = _united(reading, unit, threads) if union and not shell else _summed(reading, unit, shell, threads)
     if reading.flattened and not shell:
-        body = replace(body, warnings=(SOME_FLATTENED.format(reading.flattened), *body.warnings))
+        body = replace(body, warnings=(some_flattened(reading.flattened), *body.warnings))
     return body
+
+
+def flattened_reason(reading: Reading) -> str:
+    """Why nothing of a singular reading encloses anything, with the remedy."""
+    return FLATTENED if reading.flat else ALL_FLATTENED
+
+
+def some_flattened(count: int) -> str:
+    """A sentence about so many instances that enclose nothing."""
+    return ("One of its instances is flattened by a zero scale and encloses nothing." if count == 1 else
+            "{:d} of its instances are flattened by a zero scale and enclose nothing.".format(count))
+
+
+def told_of_parts(parts: Iterable[tuple[str, Iterable[str]]]) -> list[str]:
+    """The sentences of several parts, as (name, sentences), each sentence once. Of a single part without a name they
+    stay as they are; else the names come before them, for “it” is a part then."""
+    parts = list(parts)
+    named: dict[str, list[str]] = {}
+    for k, (name, sentences) in enumerate(parts):
+        for sentence in sentences:
+            named.setdefault(sentence, []).append(
+                "“{:s}”".format(name) if name else "Surface {:d} of {:d}".format(k + 1, len(parts)))
+    if len(parts) == 1 and not parts[0][0]:
+        return list(named)
+    return ["{:s}: {:s}".format(", ".join(names[:MOST_NAMED] + ["…"] * (len(names) > MOST_NAMED)), sentence)
+            for sentence, names in named.items()]
 
 
 def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
     """Each part measured once in its own coordinates, and mapped to wherever it stands."""
-    volumes, areas, healths, methods, warnings, parts = [], [], [], [], [], []
+    volumes, areas, healths, methods, warnings, told, parts = [], [], [], [], [], [], []
     if not shell and reading.places > 1 and places_meet(reading):
         if sum(_triangles(part.surface) * len(part.matrices) for part in reading.parts) <= COMPARED:
             return _as_one(reading, unit, threads)
@@ -56,20 +85,27 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
         matrices = in_metres(part.matrices, unit)
         volumes.append(map_sum(solid.volume, matrices))
         measured = (lambda surface: solid_and_area(surface, threads, shell=True)[1]) if shell else None
-        areas.extend(mapped_areas(part.surface, solid.area, matrices, measured))
+        own = list(mapped_areas(part.surface, solid.area, matrices, measured))
+        areas.extend(own)
         stretch = volumes[-1].total / solid.volume.total if solid.volume.total else 0.0  # Σ |det|
-        healths.append((replace(solid.health, volume_spread=solid.health.volume_spread * stretch), len(matrices)))
+        healths.append((replace(solid.health, volume_spread=solid.health.volume_spread * stretch), len(matrices),
+                        sum(moments.total for moments in own)))
         flat = not shell and not solid.volume.raw.any()
         methods.append(None if flat else solid.method)
-        if shell and solid.health.duplicate_faces:
-            warnings.append("{:d} faces are copies of others and count with them.".format(solid.health.duplicate_faces))
-        if not shell and not flat:  # a shell is measured as it is
-            warnings.extend(w for w in solid.warnings if w not in warnings)
+        if shell:  # it is measured as it is
+            copies = solid.health.duplicate_faces
+            told.append((part.source, [] if not copies else [
+                "One face is a copy of another and counts with it." if copies == 1 else
+                "{:d} faces are copies of others and count with them.".format(copies)]))
+        else:
+            told.append((part.source, () if flat else solid.warnings))
         parts.append((solid, matrices))
+    warnings += told_of_parts(told)
     solid_methods = [method for method in methods if method]
     if solid_methods and len(solid_methods) < len(methods):
-        warnings.append("{:d} of its {:d} surfaces are flat, as a ground is that instances stand on; they add area and "
-                        "no volume.".format(methods.count(None), len(methods)))
+        count = methods.count(None)
+        warnings.append("{:d} of its {:d} surfaces {:s} flat, as a ground is that instances stand on; areas count, and "
+                        "volumes do not.".format(count, len(methods), "is" if count == 1 else "are"))
     method = min(solid_methods, key=RANKED.index, default="open")
     return _body(sum_moments(volumes), sum_moments(areas), together(healths), method, warnings, parts,
                  [part.surface for part in reading.parts], threads)
@@ -118,11 +154,23 @@ def _triangles(surface: Surface) -> int:
 def _as_one(reading: Reading, unit: float, threads: int) -> Body:
     """All parts where they stand as one surface, so that they are compared as the shells of one mesh are."""
     surface = reading.joined()
-    solid = measure_solid(surface, threads=threads)
+    solid = measure_solid(surface, threads=threads, names=partial(_named_faces, reading))
     scale = np.diag([unit, unit, unit, 1.0])
     health = replace(solid.health, volume_spread=solid.health.volume_spread * unit**3, faults=Faults())
     return _body(solid.volume.mapped(scale), solid.area.mapped(scale), health, solid.method, solid.warnings,
                  [(solid, scale[None])], [surface], threads)
+
+
+def _named_faces(reading: Reading, faces: NDArray[np.integer]) -> str:
+    """What faces of `reading.joined()` are called: their numbers in the surfaces that they are instances of."""
+    places = np.repeat(np.arange(len(reading.parts)), [len(part.matrices) for part in reading.parts])
+    counts = np.array([int(part.surface.all_triangles()[1].max(initial=-1)) + 1 for part in reading.parts])[places]
+    ends = np.cumsum(counts)
+    at = np.searchsorted(ends, faces, side="right")
+    named = np.unique(np.stack([places[at], faces - (ends - counts)[at]]), axis=1).T[:MOST_NAMED + 1].tolist()
+    sources = [part.source and "“{:s}”".format(part.source) for part in reading.parts]
+    names = ["{:d} of {:s}".format(face, sources[i] or "surface {:d}".format(i + 1)) for i, face in named[:MOST_NAMED]]
+    return ", ".join(names + ["…"] * (len(named) > MOST_NAMED))
 
 
 def places_meet(reading: Reading) -> bool:
@@ -191,17 +239,19 @@ def even_surfaces(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface
         yield surface.mapped(linear), translations(matrices[rest[own], :3, 3]), rest[own]
 
 
-def together(healths: Iterable[tuple[Health, int]]) -> Health:
-    """One verdict for all parts and their instances: counts add; faults are named where there is one part only."""
+def together(healths: Iterable[tuple[Health, int, float]]) -> Health:
+    """One verdict for all parts, each with the number of its instances and the area of all of them: counts add; faults
+    are named where there is one part only."""
     healths = list(healths)
-    first, copies = healths[0]
+    first, copies, _ = healths[0]
     if len(healths) == 1 and copies == 1:
         return first
-    total = {"faults": Faults(), "closed": all(h.closed for h, _ in healths),
-             "welded": any(h.welded for h, _ in healths),
-             "volume_spread": sum(h.volume_spread for h, _ in healths),
-             "cap_area_share": max(h.cap_area_share for h, _ in healths)}
+    area = sum(own for *_, own in healths)
+    total = {"faults": Faults(), "closed": all(h.closed for h, *_ in healths),
+             "welded": any(h.welded for h, *_ in healths),
+             "volume_spread": sum(h.volume_spread for h, *_ in healths),
+             "cap_area_share": sum(h.cap_area_share * own for h, _, own in healths) / area if area > 0.0 else 0.0}
     for field in fields(Health):
         if field.name not in total:
-            total[field.name] = sum(getattr(h, field.name) * k for h, k in healths)
+            total[field.name] = sum(getattr(h, field.name) * k for h, k, _ in healths)
     return Health(**total)

@@ -23,14 +23,15 @@ from ..core.patch_solid import PatchMeasure, measure_patches, measure_sheet
 from ..core.surface import Surface
 from .body import Body
 from .mesh_body import (
-    FLATTENED,
     NOT_COMPARED,
     RANKED,
-    SOME_FLATTENED,
+    flattened_reason,
     in_metres,
     mesh_body,
     places_meet,
+    some_flattened,
     together,
+    told_of_parts,
 )
 from .read import Part, Reading
 
@@ -48,7 +49,7 @@ def nurbs_body(reading: Reading, unit: float, *, wall: str | None, thickness: fl
     if wall is not None:
         return _shell(reading, unit, wall, thickness, threads)
     if reading.singular:
-        raise ValueError(FLATTENED)
+        raise ValueError(flattened_reason(reading))
     own, meshes = _parts(reading)
     measures = [measure_patches(part.splines.patches, area_order=3, stored=part.splines.stored) for part in own]
     if union and (reading.places > 1 or measures[0].health.components > 1):
@@ -57,15 +58,16 @@ def nurbs_body(reading: Reading, unit: float, *, wall: str | None, thickness: fl
                                        "viewport's resolution.", *body.warnings))
     rest = mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
     others = [rest] if rest else []
-    warnings = [warning for one in (*measures, *others) for warning in one.warnings]
+    warnings = told_of_parts((part.source, one.warnings) for part, one in zip(own, measures))
+    warnings += [warning for one in others for warning in one.warnings]
     if reading.flattened:
-        warnings.append(SOME_FLATTENED.format(reading.flattened))
+        warnings.append(some_flattened(reading.flattened))
     if reading.places > 1 and places_meet(reading):
         warnings.append(NOT_COMPARED.format(reading.places))
     places = [in_metres(part.matrices, unit) for part in own]
     volume = sum_moments([*map(map_sum, (one.volume for one in measures), places), *(one.volume for one in others)])
-    area = sum_moments([moments for part, one, matrices in zip(own, measures, places)
-                        for moments in _areas(part, one.area, matrices)] + [one.area for one in others])
+    areas = [sum_moments(list(_areas(part, one.area, matrices))) for part, one, matrices in zip(own, measures, places)]
+    area = sum_moments(areas + [one.area for one in others])
     display = None
     if compare:
         with suppress(ValueError):  # a display mesh that cannot be measured compares with nothing
@@ -83,8 +85,8 @@ def nurbs_body(reading: Reading, unit: float, *, wall: str | None, thickness: fl
     def pieces(sheets: bool) -> Iterator[Surface]:  # of the display mesh: what asks for them asks for polygons
         return mesh_body(reading, unit, shell=sheets, union=False, threads=threads).pieces(sheets)
 
-    health = together([(one.health, len(part.matrices)) for one, part in zip(measures, own)]
-                      + [(one.health, 1) for one in others])
+    health = together([(one.health, len(part.matrices), faces.total) for one, part, faces in zip(measures, own, areas)]
+                      + [(one.health, 1, one.area.total) for one in others])
     method = min((one.method for one in (*measures, *others)), key=RANKED.index)
     return Body(volume, area, health, _told(reading, method), tuple(dict.fromkeys(warnings)), refined=lambda: volume,
                 display_volume=display, to_order=to_order, pieces=pieces, estimated=True)
@@ -127,7 +129,8 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
     for part in own:
         matrices = in_metres(part.matrices, unit)
         measure = measure_patches(part.splines.patches, area_order=3, stored=part.splines.stored)
-        healths.append((measure.health, len(matrices)))
+        grown_by = np.cbrt(np.linalg.det(matrices[:, :3, :3])) ** 2
+        healths.append((measure.health, len(matrices), measure.area.total * float(grown_by.sum())))
         if wall == "thin":
             areas += _areas(part, measure.area, matrices)
             continue
@@ -145,7 +148,7 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
     if meshes.parts:
         body = mesh_body(meshes, unit, shell=True, union=False, threads=threads)
         areas.append(body.area)
-        healths.append((body.health, 1))
+        healths.append((body.health, 1, body.area.total))
         warnings += body.warnings
     area = sum_moments(areas)
     nothing = replace(area, raw=np.zeros_like(area.raw), error=np.zeros_like(area.raw), input=np.zeros_like(area.raw),

@@ -96,7 +96,8 @@ def decisions(obj, gathered: Gathered, depsgraph) -> Iterator[str]:
     yield from _members(gathered.collections)
     yield from _node_errors(obj)
     if gathered.vanished:
-        yield "Left out: {:d} instances scaled to zero.".format(gathered.vanished)
+        yield "Left out: {:d} {:s} scaled to zero.".format(
+            gathered.vanished, "instance" if gathered.vanished == 1 else "instances")
     if gathered.left_out:
         yield "Left out, as they have no surface: {:s}.".format(_listing(gathered.left_out))
 

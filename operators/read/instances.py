@@ -72,6 +72,7 @@ class Gathered:
         self._painted: dict[Hashable, Painted] = {}
         self._patches: dict[Hashable, SplineReading | None] = {}
         self._places: dict[Hashable, list[NDArray[np.float64]]] = {}
+        self._names: dict[Hashable, str] = {}
         self._path: list[object] = []
 
     def gather(self) -> None:
@@ -107,7 +108,7 @@ class Gathered:
                 self.vanished += int((~there).sum())
                 matrices = matrices[there]
             if len(matrices):
-                parts.append(Part(surface, matrices, self._painted[key], self._patches.get(key)))
+                parts.append(Part(surface, matrices, self._painted[key], self._patches.get(key), self._names[key]))
         return parts
 
     def _object(self, evaluated, places: NDArray) -> None:
@@ -150,7 +151,7 @@ class Gathered:
                 self._patches[self._key(evaluated, evaluated)] = self.splines[evaluated]
             self._mesh(evaluated, geometry.mesh, places, evaluated)
         elif original.data.is_editmode:
-            self._add(evaluated, lambda: self._edited(evaluated), places)
+            self._add(evaluated, lambda: self._edited(evaluated), places, evaluated)
         else:
             # Objects that share a mesh and do not modify it share its evaluated data too.
             self._mesh(evaluated.data, geometry.mesh, places, evaluated)
@@ -234,7 +235,7 @@ class Gathered:
         if mesh is not None:
             if owner is not None and owner.original.type != "MESH" and len(mesh.polygons):
                 self.drawn[owner.original] = None
-            self._add(self._key(key, owner), lambda: self._read(mesh, owner), places)
+            self._add(self._key(key, owner), lambda: self._read(mesh, owner), places, owner)
 
     def _key(self, key: Hashable, owner) -> Hashable:
         """One mesh is several surfaces where objects show it with materials of their own."""
@@ -270,10 +271,12 @@ class Gathered:
         return read
 
     def _add(
-        self, key: Hashable, read: Callable[[], tuple[Surface, Painted]], places: NDArray
+        self, key: Hashable, read: Callable[[], tuple[Surface, Painted]], places: NDArray, owner
     ) -> None:
         if key not in self._surfaces:
             self._surfaces[key], self._painted[key] = read()
+            named = owner is not None and owner.original != self.root.original
+            self._names[key] = owner.original.name if named else ""
         self._places.setdefault(key, []).append(places)
 
     def _count_surfaceless(self, geometry, count: int) -> None:

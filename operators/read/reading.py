@@ -61,6 +61,7 @@ class Part:
     matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column
     vectors.
     painted: what its faces and vertices carry, where that was asked for.
+    source: the name of the object whose surface it is; empty for the object that was read, and for what its nodes made.
     splines: where `surface` is but the display mesh of B-spline patches, those.
     """
 
@@ -68,6 +69,7 @@ class Part:
     matrices: NDArray[np.float64]
     painted: Painted | None = None
     splines: SplineReading | None = None
+    source: str = ""
 
 
 @dataclass
@@ -97,6 +99,11 @@ class Reading:
     def has_patches(self) -> bool:
         """Whether some of it are B-spline patches."""
         return any(part.splines is not None for part in self.parts)
+
+    @property
+    def flat(self) -> bool:
+        """Whether the object's own matrix flattens."""
+        return bool(flattens(self.matrix[None])[0])
 
     @property
     def flattened(self) -> int:

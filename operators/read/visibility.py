@@ -165,6 +165,7 @@ def hidden_reason(obj, depsgraph) -> str | None:
         )
     if obj.hide_viewport:
         return "It is disabled in viewports; turn on its monitor icon in the Outliner."
+    found, barred = [], set()
     for blocks, reason in (
         (
             lambda layer: layer.exclude,
@@ -182,6 +183,10 @@ def hidden_reason(obj, depsgraph) -> str | None:
         blocking = [next(filter(blocks, path), None) for path in branches]
         if all(blocking):
             return reason.format(blocking[0].collection.name)
+        found += [reason.format(layer.collection.name) for layer in blocking if layer is not None]
+        barred |= {k for k, layer in enumerate(blocking) if layer is not None}
+    if len(barred) == len(branches):
+        return found[-1]  # one for each of its collections: the mildest
     if obj.hide_get(view_layer=depsgraph.view_layer):
         return "It is hidden; turn on its eye icon in the Outliner."
     return None

@@ -258,6 +258,62 @@ def test_the_ground_that_instances_stand_on_adds_no_volume_and_takes_none():
     assert any("flat" in warning for warning in found.warnings) and not found.health.closed
 
 
+def without(shell, *faces):
+    return {**shell, "faces": [face for i, face in enumerate(shell["faces"]) if i not in faces]}
+
+
+def with_flipped(shell, *faces):
+    return {**shell, "faces": [face[::-1] if i in faces else face for i, face in enumerate(shell["faces"])]}
+
+
+def test_sentences_about_members_of_a_collection_name_them_and_their_own_faces():
+    unit = box((0, 0, 0), (1, 1, 1))
+    good, bad = add(unit, name="Good"), add(with_flipped(without(unit, 5), 2), name="Bad", location=(3, 0, 0))
+    found = measure(collection_of(good, bad))
+    assert found.method == "capped" and found.volume == pytest.approx(2.0)
+    assert found.warnings == (
+        "“Bad”: Face 2 is flipped and was measured as if turned. Recalculate Outside mends it.",
+        "“Bad”: One flat hole was capped (20 % of the area). Fill it for a closed body.")
+    good, bad = add(unit, name="Fine"), add(with_flipped(unit, 2, 4), name="Worse", location=(0.5, 0, 0))
+    found = measure(collection_of(good, bad))  # as shells of one mesh, as they overlap
+    assert found.warnings[0] == ("2 faces are flipped and were measured as if turned: 2 of “Worse”, 4 of “Worse”. "
+                                 "Recalculate Outside mends them.")
+    inverted = add(box((0, 0, 0), (1, 1, 1), turned=True), name="Inverted")
+    assert measure(collection_of(inverted)).warnings == (
+        "“Inverted”: It is inside out, and measured as if turned. Recalculate Outside mends that.",)
+
+
+def test_what_several_members_have_in_common_is_said_once_with_their_names():
+    open_box = without(box((0, 0, 0), (1, 1, 1)), 0)
+    found = measure(collection_of(*(add(open_box, name="Open {:02d}".format(i), location=(3 * i, 0, 0))
+                                    for i in range(12))))
+    names = ", ".join("“Open {:02d}”".format(i) for i in range(8))
+    assert found.warnings == (
+        names + ", …: One flat hole was capped (20 % of the area). Fill it for a closed body.",)
+
+
+@pytest.mark.parametrize("overlap", [False, True])
+def test_the_caps_share_is_that_of_the_area_of_all_members(overlap):
+    small, large = without(box((0, 0, 0), (1, 1, 1)), 0), box((0, 0, 0), (10, 10, 10))
+    found = measure(collection_of(add(small, location=(9.5 if overlap else 20, 0, 0)), add(large)))
+    assert found.method == "capped" and found.health.cap_area_share == pytest.approx(1.0 / 605.0)
+
+
+def test_instances_flattened_by_their_own_scale_are_refused_by_that():
+    member = add(box(), scale=(0, 1, 1))
+    with pytest.raises(Unreadable, match="A zero scale flattens all that it instances; give the instances another"):
+        measure(collection_of(member))
+    with pytest.raises(Unreadable, match="set its scale, or its parents', to something else"):
+        measure(add(box(), scale=(0, 1, 1)))
+
+
+def test_faces_without_area_are_not_sent_from_solid_to_shell():
+    line = {"points": [(0, 0, 0), (1, 0, 0), (2, 0, 0)], "faces": [(0, 1, 2)]}
+    for kind in ("solid", "shell"):
+        with pytest.raises(Unreadable, match="None of its faces has an area"):
+            measure(add(line), kind=kind)
+
+
 def test_a_body_that_intersects_itself_into_negative_inertia_is_refused():
     outline = [(1, -1), (1, 1), (-0.04, -0.04), (-10, -0.04), (-10, 0.04), (-0.04, 0.04)]
     points = [(x, y, z) for z in (0, 1) for x, y in outline] + [(0.3, 0, 0), (0.3, 0, 1)]

@@ -329,7 +329,7 @@ def test_instances_scaled_to_nothing_are_left_out_and_said():
     nodes(host, build)
     reading = read_object(host, depsgraph())
     assert [len(part.matrices) for part in reading.parts] == [3]
-    assert "Left out: 1 instances scaled to zero." in reading.warnings
+    assert "Left out: 1 instance scaled to zero." in reading.warnings
     assert not reading.singular
 
 

@@ -320,6 +320,18 @@ def test_an_object_in_a_collection_disabled_in_viewports_is_refused():
     assert "collection “Home” is disabled" in refused(obj)
 
 
+def test_an_object_whose_collections_are_hidden_for_different_reasons_is_said_to_be():
+    home, other = collection("Home"), collection("Other")
+    obj = doubled("Body", home)
+    other.objects.link(obj)
+    layer_of(home).exclude = layer_of(other).hide_viewport = True
+    assert any("collection “Other” is hidden" in warning for warning in read(obj).warnings)
+    layer_of(other).hide_viewport, other.hide_viewport = False, True
+    assert "collection “Other” is disabled" in refused(obj)
+    layer_of(home).exclude = False
+    assert not any("not shown" in warning for warning in read(obj).warnings)
+
+
 def test_an_object_of_another_scene_or_of_none_is_refused():
     obj = doubled("Body")
     bpy.context.scene.collection.objects.unlink(obj)

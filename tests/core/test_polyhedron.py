@@ -209,6 +209,13 @@ def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
         assert_within(moments, formula(moved, surface.triangles, moments.about), moments.error + moments.input)
 
 
+def test_the_half_ulp_of_the_largest_numbers_is_a_number():
+    largest = np.finfo(np.float32).max
+    surface = Surface(np.array([[0, 1, largest], [-largest, 3, 2.0 ** 127]], np.float32))
+    with np.errstate(all="raise"):
+        assert surface.coordinate_error.tolist() == [2.0 ** 103, 2.0 ** -23, 2.0 ** 103]
+
+
 def test_float64_points_have_no_input_bound():
     points, quads = grid_torus()
     assert not polyhedron.solid_moments(Surface(points, quads=quads)).input.any()
