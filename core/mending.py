@@ -50,17 +50,17 @@ class Mended:
     notes: list[str] = field(default_factory=list)
 
 
-def mend(surface: Surface, tolerance: float, size: float, names: Callable[[NDArray], str]) -> Mended:
+def mend(surface: Surface, tolerance: float, size: float, names: Callable[[NDArray], str], near: bool = True) -> Mended:
     """Mend a surface.
 
     tolerance: (length) positions nearer than this are one where edges are open. size: the diagonal of the body.
-    names: what mesh faces are called in `notes`.
+    names: what mesh faces are called in `notes`. near: whether positions that differ are welded at all.
     """
     points = surface.points
     given, face = surface.all_triangles()
     given, face = given.astype(np.intp), np.asarray(face, np.intp)
     notes: list[str] = []
-    triangles, welded, moved, edges = _welded(surface, given, face, tolerance)
+    triangles, welded, moved, edges = _welded(surface, given, face, tolerance if near else 0.0)
     if moved > 0.0:
         notes.append("Vertices along open edges were welded to others, up to {:.1g} of the body's size away."
                      .format(moved / size))
@@ -138,6 +138,8 @@ def _welded(surface: Surface, triangles: NDArray, face: NDArray, tolerance: floa
         if not np.any(edges.count % 2):
             return triangles, welded, 0.0, edges if all_rows else None
 
+    if tolerance == 0.0:
+        return triangles, welded, 0.0, edges if all_rows or not welded else None
     vertices = _distinct(along, len(points))
     reach = vertex_tolerance(points, triangles[rows], vertices, tolerance)
     same = near_positions(points[vertices], reach)

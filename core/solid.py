@@ -33,6 +33,7 @@ from .weld import TOLERANCE
 LARGEST, SMALLEST = 1e50, 1e-60  # lengths whose sixth, and whose fifth, power is still a number
 NO_VOLUME = 1e-7  # of diagonal times area: what capping a flat sheet of float32 points leaves
 ROUNDING = 1e-14  # the same for a closed one
+COLLAPSED = 0.1  # of the volume: where welding may change that much, what it closes is no gap left by rounding
 SPREAD = 1e-6  # of the volume: below, nobody needs to know
 NO_PAIRS = np.empty((0, 2), np.int64)
 NO_FACES = np.empty(0, np.int64)
@@ -119,20 +120,22 @@ class SolidMeasure:
 
 
 def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1,
-                  names: Callable[[NDArray], str] = listed) -> SolidMeasure:
+                  names: Callable[[NDArray], str] = listed, near: bool = True) -> SolidMeasure:
     """The moments of the body that a surface bounds, in the surface's own coordinates and unit, and how they came.
 
     shell: the area's moments to order 3 (else order 0). threads: for the sums over faces, and for the verdict.
-    names: what mesh faces are called in `warnings`, by default the first few of their numbers.
+    names: what mesh faces are called in `warnings`, by default the first few of their numbers. near: whether vertices
+    along open edges that differ by rounding are welded, unless the body is so thin that it would collapse.
     ValueError, with what to do, where there are no faces or a face uses a vertex that has no finite position.
     """
+    given = surface
     surface, vertices, size = _used(surface)
     error = float(np.linalg.norm(surface.coordinate_error))
     tolerance = max(TOLERANCE * size, 4.0 * error)
     own, body, flatness = _as_it_stands(surface, shell, threads, error)
     proven = body is not None
     if not proven:
-        body = mend(surface, tolerance, size, names)
+        body = mend(surface, tolerance, size, names, near)
     compared = _compared(body, tolerance, error) if body.number > 1 else None
     turn = np.zeros(body.number, bool) if compared is None else compared.turned
     turn_each = turn
@@ -144,6 +147,10 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1,
         volume = polyhedron.solid_and_area(caps or measured, threads, about=about)[0]
         if caps is not None:
             volume = sum_moments([own[0], volume])
+    if body.moved * area.total > COLLAPSED * abs(volume.total):
+        apart = measure_solid(given, shell=shell, threads=threads, names=names, near=False)
+        if apart.method != "open":
+            return apart
     if compared is None:
         solid = bool(abs(volume.total) > max(_noise(size, area.total, body.caps.any(), error), volume.error[0]))
         turn = turn | (solid and volume.total < 0.0 and not body.open.any())  # what is open has no inside

@@ -576,6 +576,15 @@ def test_what_welding_may_have_changed_is_bounded(seed):
     assert verdict(soup(sphere(2))).volume.input[0] == 0.0
 
 
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("faces", [(4, 5), (4, 5, 6, 7), (4,)])
+@pytest.mark.parametrize("thick", [1e-7, 1e-6, 5e-6])
+def test_an_open_foil_is_not_welded_into_a_wedge(thick, faces, dtype):
+    result = verdict(without(box((0, 0, 0), (1, 1, thick)), *faces), dtype)
+    assert result.volume.total == pytest.approx(thick, rel=1e-6) and result.method in ("capped", "exact")
+    assert result.volume.input[0] < 1e-6 and result.health.components == 1
+
+
 def test_a_tiny_body_beside_a_large_sheet_does_not_intersect_itself():
     """Its center is not known there, and its second moments may come out negative."""
     sheet = grid(2)[0] * [1e8, 1e8, 1.0], grid(2)[1]
