@@ -52,7 +52,8 @@ class MassProperties:
             raise ValueError("A density is a finite number that is not negative; this one is {!r}.".format(density))
         total = moments.raw[0]
         if not total > moments.error[0]:
-            raise ValueError("The body has no volume, or none that rounding leaves sure.")
+            raise ValueError("The body has no volume, or none that rounding leaves sure; see whether vertices lie far "
+                             "astray.")
         frame = principal_frame(moments, prefer, refine, higher)
         shift = moments.raw[1:4] / total
         second = density * (moments.raw[SECOND] - total * (shift[:, None] * shift))

@@ -187,11 +187,13 @@ def places_meet(reading: Reading) -> bool:
 def _united(reading: Reading, unit: float, threads: int) -> Body:
     """All parts where they stand as one surface, overlaps removed by Blender's exact boolean."""
     before = _summed(reading, unit, False, threads)
+    if not before.volume.total > 0.0:
+        return before
     mended = [solid.mended.mapped(matrix[:3, :3], matrix[:3, 3])
               for solid, matrices in before.solids for matrix in matrices]
     surface = union_surface(joined(mended))
-    solid = measure_solid(surface, threads=threads)
-    if solid.method == "open":
+    solid = measure_solid(surface, threads=threads) if _triangles(surface) else None
+    if solid is None or solid.method == "open":
         raise ValueError("Blender's boolean could not unite its shells; close and clean the mesh, or count each.")
     notes = ["Its shells were united by Blender's exact boolean, which rounds to 7 digits."]
     if before.method == "capped":

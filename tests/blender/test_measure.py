@@ -314,6 +314,12 @@ def test_faces_without_area_are_not_sent_from_solid_to_shell():
             measure(add(line), kind=kind)
 
 
+def test_what_encloses_nothing_is_refused_by_that_when_it_is_to_be_united():
+    sheet = {"points": [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], "faces": [(0, 1, 2, 3)]}
+    with pytest.raises(Unreadable, match="enclose no volume"):
+        measure(add(sheet), overlap="union")
+
+
 def test_a_body_that_intersects_itself_into_negative_inertia_is_refused():
     outline = [(1, -1), (1, 1), (-0.04, -0.04), (-10, -0.04), (-10, 0.04), (-0.04, 0.04)]
     points = [(x, y, z) for z in (0, 1) for x, y in outline] + [(0.3, 0, 0), (0.3, 0, 1)]
