@@ -58,16 +58,16 @@ def some_flattened(count: int) -> str:
             "{:d} of its instances are flattened by a zero scale and enclose nothing.".format(count))
 
 
-def told_of_parts(parts: Iterable[tuple[str, Iterable[str]]]) -> list[str]:
-    """The sentences of several parts, as (name, sentences), each sentence once. Of a single part without a name they
-    stay as they are; else the names come before them, for “it” is a part then."""
+def told_of_parts(parts: Iterable[tuple[str, Iterable[str]]], whole: str) -> list[str]:
+    """The sentences of several parts, as (name, sentences), each sentence once. Of a part that is all of the object
+    `whole` they stay as they are; else the names come before them, for “it” is a part then."""
     parts = list(parts)
     named: dict[str, list[str]] = {}
     for k, (name, sentences) in enumerate(parts):
         for sentence in sentences:
             named.setdefault(sentence, []).append(
                 "“{:s}”".format(name) if name else "Surface {:d} of {:d}".format(k + 1, len(parts)))
-    if len(parts) == 1 and not parts[0][0]:
+    if len(parts) == 1 and parts[0][0] in ("", whole):
         return list(named)
     return ["{:s}: {:s}".format(", ".join(names[:MOST_NAMED] + ["…"] * (len(names) > MOST_NAMED)), sentence)
             for sentence, names in named.items()]
@@ -100,7 +100,7 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
         else:
             told.append((part.source, () if flat else solid.warnings))
         parts.append((solid, matrices))
-    warnings += told_of_parts(told)
+    warnings += told_of_parts(told, reading.name)
     solid_methods = [method for method in methods if method]
     if solid_methods and len(solid_methods) < len(methods):
         count = methods.count(None)

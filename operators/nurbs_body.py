@@ -58,7 +58,7 @@ def nurbs_body(reading: Reading, unit: float, *, wall: str | None, thickness: fl
                                        "viewport's resolution.", *body.warnings))
     rest = mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
     others = [rest] if rest else []
-    warnings = told_of_parts((part.source, one.warnings) for part, one in zip(own, measures))
+    warnings = told_of_parts([(part.source, one.warnings) for part, one in zip(own, measures)], reading.name)
     warnings += [warning for one in others for warning in one.warnings]
     if reading.flattened:
         warnings.append(some_flattened(reading.flattened))

@@ -275,8 +275,7 @@ class Gathered:
     ) -> None:
         if key not in self._surfaces:
             self._surfaces[key], self._painted[key] = read()
-            named = owner is not None and owner.original != self.root.original
-            self._names[key] = owner.original.name if named else ""
+            self._names[key] = "" if owner is None else owner.original.name
         self._places.setdefault(key, []).append(places)
 
     def _count_surfaceless(self, geometry, count: int) -> None:

@@ -61,7 +61,7 @@ class Part:
     matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column
     vectors.
     painted: what its faces and vertices carry, where that was asked for.
-    source: the name of the object whose surface it is; empty for the object that was read, and for what its nodes made.
+    source: the name of the object whose surface it is, the one that was read or another; empty for what nodes made.
     splines: where `surface` is but the display mesh of B-spline patches, those.
     """
 

@@ -278,6 +278,14 @@ def test_sentences_about_members_of_a_collection_name_them_and_their_own_faces()
     found = measure(collection_of(good, bad))  # as shells of one mesh, as they overlap
     assert found.warnings[0] == ("2 faces are flipped and were measured as if turned: 2 of “Worse”, 4 of “Worse”. "
                                  "Recalculate Outside mends them.")
+    parent = add(with_flipped(box((0, 0, 5), (1, 1, 6)), 0), name="Parent")
+    child = add(box((0, 0, 0), (0.1, 0.1, 0.1)), name="Child", parent=parent)
+    parent.instance_type = "VERTS"
+    bpy.context.view_layer.update()
+    assert measure(parent).warnings[0].startswith("Face 0 of “Parent” is flipped")
+    parent.instance_type = "NONE"
+    bpy.context.view_layer.update()
+    assert measure(parent).warnings[0].startswith("Face 0 is flipped") and not measure(child).warnings
     inverted = add(box((0, 0, 0), (1, 1, 1), turned=True), name="Inverted")
     assert measure(collection_of(inverted)).warnings == (
         "“Inverted”: It is inside out, and measured as if turned. Recalculate Outside mends that.",)
