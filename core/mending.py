@@ -167,7 +167,8 @@ def _copies(points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, no
 
     A region of copied faces is reduced to one layer where an odd number of other faces meets its rim, so that one layer
     closes it. Where an even number does, both layers belong: a wall between two boxes that touch, a two-sided fin. A
-    region with no others at its rim is reduced where its layers run the same way.
+    region with no others at its rim is reduced where its layers run the same way, or where one layer is closed: a
+    two-sided body, which would cancel itself.
     """
     none = np.zeros(len(triangles), bool)
     group = face_groups(triangles, face)
@@ -190,7 +191,9 @@ def _copies(points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, no
     vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)
     agree = np.sign(np.einsum("ij,ij->i", vector[face], vector[group])) * np.linalg.norm(vector[face], axis=1)
     parallel = np.bincount(region, agree * later, minlength=number)
-    reduced = np.where(asked, votes > 0, parallel > 0)[region]
+    single = np.bincount(edges.of_side, np.repeat(copied & ~later, 3))[edge] % 2 == 1
+    closed = np.bincount(region[owner], single, minlength=number) == 0
+    reduced = np.where(asked, votes > 0, (parallel > 0) | closed)[region]
 
     left_out = later & reduced
     gone = np.unique(face[left_out])

@@ -126,6 +126,18 @@ def test_doubled_triangles_of_an_unwelded_cube_are_welded_to_it_and_count_once(t
     assert result.health.faults.duplicate_faces.tolist() == [12, 13]
 
 
+@pytest.mark.parametrize("layers", [(1, -1), (-1, 1), (1, 1, -1), (1, -1, -1, 1)])
+@pytest.mark.parametrize("apart", [False, True])
+def test_a_two_sided_body_is_the_body_and_does_not_cancel_itself(layers, apart):
+    points, triangles = CUBE
+    doubled = points, np.concatenate([triangles[:, ::way] for way in layers])
+    result = verdict(soup(doubled) if apart else doubled)
+    assert result.volume.total == pytest.approx(1.0, rel=1e-15)
+    assert result.method == ("exact" if layers[0] > 0 else "reoriented")
+    assert result.health.duplicate_faces == 12 * (len(layers) - 1) and "were left out" in result.warnings[0]
+    assert verdict((points, np.concatenate([triangles[:10], triangles[:10, ::-1]]))).method == "open"
+
+
 def test_a_doubled_region_counts_once_also_where_its_quads_are_cut_differently():
     faces = [*SIDES.tolist(), [7, 6, 4, 5], [1, 3, 7, 5]]
     result = measure_solid(mesh(FAR_CUBE[0], faces))
