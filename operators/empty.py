@@ -9,9 +9,11 @@ from bpy.types import Context, Object, Operator
 from mathutils import Matrix
 
 from . import selection, snapping
-from .channels import world
+from .channels import Channels, Refused, basis, world
 
 OF = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
+KEPT = ("parent", "parent_type", "parent_bone", "empty_display_size")
+FOLLOWS = "it follows its empty {:s}, as its child or by a constraint, and would move along; clear that first"
 
 
 class OBJECT_OT_body_moments_add_empty(Operator):
@@ -46,11 +48,11 @@ class OBJECT_OT_body_moments_add_empty(Operator):
         notes: list[str] = []
 
         def add(obj: Object) -> bool:
+            if self.parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
+                raise Refused("its scale is zero along an axis; set the scale first, or turn off Parent to Object")
             body = snapping.body_of(context, obj)
-            empty = existing.get(obj)
-            if empty is None:
-                empty = _new_empty(context, obj)
-            changed = _place(empty, body, obj if self.parent else None)
+            empty = existing.get(obj) or _new_empty(context, obj)
+            changed = _place(context, empty, body, obj if self.parent else None)
             if changed and body.note:
                 notes.append("{:s}: {:s}".format(obj.name, body.note))
             return changed
@@ -67,29 +69,56 @@ def _new_empty(context: Context, obj: Object) -> Object:
     empty.rotation_mode = "QUATERNION"
     empty[OF] = obj
     own = [collection for collection in obj.users_collection
-           if collection.library is None and collection.override_library is None]  # others take no objects
+           if collection.library is None and collection.override_library is None  # others take no objects
+           and collection in context.scene.collection.children_recursive]
     (own[0] if own else context.scene.collection).objects.link(empty)
     return empty
 
 
-def _place(empty: Object, body: snapping.Body, parent: Object | None) -> bool:
-    """Move the empty to the body's frame; whether it was elsewhere."""
+def _place(context: Context, empty: Object, body: snapping.Body, parent: Object | None) -> bool:
+    """Move the empty to the body's frame; whether it was elsewhere. Refused where it cannot be there."""
+    if _follows(body.obj, empty):
+        raise Refused(FOLLOWS.format(empty.name))
+    if _is_there(empty, body) and empty.parent == parent:
+        return False
+    saved = Channels(empty)
+    before = {name: getattr(empty, name) for name in KEPT}
+    before["matrix_parent_inverse"] = empty.matrix_parent_inverse.copy()
+    was = world(body.obj)
     frame = np.eye(4)
     frame[:3, :3], frame[:3, 3] = body.axes, body.center
-    now = world(empty)
-    close = (
-        np.abs(now[:3, 3] - body.center).max()
-        <= 1e-6 * body.size + 1e-6 * np.abs(body.center).max()
-    )
-    if close and empty.parent == parent and body.is_principal(now[:3, :3]):
-        return False
     empty.parent = parent
     if parent is not None:
         empty.parent_type = "OBJECT"
         empty.matrix_parent_inverse = Matrix(np.linalg.inv(world(parent)))
     empty.empty_display_size = body.size
     empty.matrix_world = Matrix(frame)
+    context.view_layer.update()
+    if parent is not None and not _is_there(empty, body):  # a curve also lays its children along its path
+        outer = np.linalg.solve(basis(empty).T, world(empty).T).T
+        inverse = np.array(empty.matrix_parent_inverse, np.float64) @ np.linalg.inv(outer)
+        empty.matrix_parent_inverse, empty.matrix_basis = Matrix(inverse), Matrix(frame)
+        context.view_layer.update()
+    held, follows = not _is_there(empty, body), (world(body.obj) != was).any()
+    if held or follows:
+        for name, value in before.items():
+            setattr(empty, name, value)
+        saved.restore()
+        context.view_layer.update()
+        raise Refused((FOLLOWS if follows else "a constraint holds its empty {:s}; remove that first").format(
+            empty.name))
     return True
+
+
+def _follows(obj: Object, empty: Object) -> bool:
+    return any(one == empty or any(getattr(constraint, "target", None) == empty for constraint in one.constraints)
+               for one in selection.lineage(obj))
+
+
+def _is_there(empty: Object, body: snapping.Body) -> bool:
+    now = world(empty)
+    off = np.abs(now[:3, 3] - body.center).max()
+    return bool(off <= 1e-6 * body.size + 1e-6 * np.abs(body.center).max() and body.is_principal(now[:3, :3]))
 
 
 CLASSES = (OBJECT_OT_body_moments_add_empty,)

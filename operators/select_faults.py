@@ -120,9 +120,9 @@ def _measure(context: Context, obj: Object) -> dict[str, np.ndarray]:
 
 
 def _words(found: dict[str, np.ndarray]) -> str:
-    return ", ".join(
-        "{:d} {:s}".format(len(indices), name.replace("_", " ")) for name, indices in found.items()
-    )
+    counts = {name.replace("_", " "): len(indices) for name, indices in found.items()}
+    return ", ".join("{:d} {:s}".format(count, kind.removesuffix("s") if count == 1 else kind)
+                     for kind, count in counts.items())
 
 
 def _show(context: Context, faults: dict[Object, dict[str, np.ndarray]]) -> None:

@@ -57,6 +57,76 @@ def test_the_empty_is_the_principal_frame_and_there_is_one(parent):
     assert len([one for one in bpy.data.objects if one.type == "EMPTY"]) == 1
 
 
+def test_the_empty_of_a_curve_is_at_its_center_though_curves_lay_children_along_their_path():
+    bpy.ops.curve.primitive_bezier_circle_add(location=(8, -8, 0), rotation=(0.3, 0.4, 0.5))
+    obj = bpy.context.object
+    obj.data.bevel_depth = 0.2
+    assert obj.data.use_path
+    assert bpy.ops.object.body_moments_add_empty() == {"FINISHED"}
+    empty = next(one for one in bpy.data.objects if one.type == "EMPTY")
+    bpy.context.view_layer.update()
+    assert empty.parent == obj
+    assert np.abs(place(empty)[:3, 3] - measured(obj).mass_properties.center).max() < 1e-5
+    only(obj)
+    assert bpy.ops.object.body_moments_add_empty() == {"CANCELLED"}
+
+
+@pytest.mark.parametrize("how", ["parent", "constraint"])
+def test_an_empty_that_its_object_follows_is_left_where_it_is(how, capfd):
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_add_empty(parent=False)
+    empty = next(one for one in bpy.data.objects if one.type == "EMPTY")
+    if how == "parent":
+        obj.parent = empty
+    else:
+        obj.constraints.new("CHILD_OF").target = empty
+    obj.location.x += 5.0
+    bpy.context.view_layer.update()
+    before = place(obj), place(empty)
+    for parent in (True, False):
+        assert bpy.ops.object.body_moments_add_empty(parent=parent) == {"CANCELLED"}
+        bpy.context.view_layer.update()
+        assert (place(obj) == before[0]).all() and (place(empty) == before[1]).all()
+        assert empty.parent is None
+    assert "its empty Body Principal Frame" in capfd.readouterr().out
+
+
+def test_an_empty_that_a_constraint_holds_is_not_called_placed(capfd):
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_add_empty(parent=False)
+    empty = next(one for one in bpy.data.objects if one.type == "EMPTY")
+    limit = empty.constraints.new("LIMIT_LOCATION")
+    limit.use_max_x, limit.max_x = True, 0.0
+    obj.location.x += 5.0
+    bpy.context.view_layer.update()
+    before = empty.matrix_basis.copy()
+    assert bpy.ops.object.body_moments_add_empty(parent=False) == {"CANCELLED"}
+    assert empty.matrix_basis == before
+    assert "a constraint holds its empty" in capfd.readouterr().out
+
+
+def test_no_empty_is_a_child_of_what_has_no_thickness():
+    obj = add(mesh_body(), scale=(1, 1, 0))
+    obj.body_moments.kind = "SHELL"
+    assert bpy.ops.object.body_moments_add_empty() == {"CANCELLED"}
+    assert not [one for one in bpy.data.objects if one.type == "EMPTY"]
+    assert bpy.ops.object.body_moments_add_empty(parent=False) == {"FINISHED"}
+
+
+def test_an_empty_is_added_to_the_scene_that_it_is_asked_for_in():
+    obj = add(mesh_body())
+    bpy.data.collections.new("Elsewhere").objects.link(obj)
+    bpy.context.scene.collection.objects.unlink(obj)
+    bpy.data.scenes.new("Elsewhere").collection.children.link(bpy.data.collections["Elsewhere"])
+    bpy.context.scene.collection.children.link(shown := bpy.data.collections.new("Shown"))
+    shown.objects.link(obj)
+    only(obj)
+    assert bpy.ops.object.body_moments_add_empty() == {"FINISHED"}
+    (empty,) = [one for one in bpy.data.objects if one.type == "EMPTY"]
+    assert list(empty.users_collection) == [shown]
+    assert bpy.ops.object.body_moments_add_empty() == {"CANCELLED"}
+
+
 def test_the_cursor_goes_to_the_center_of_all_selected():
     one = add(mesh_body(), "One", location=(1, 2, 3))
     other = add(mesh_body(), "Other", location=(-7, 0, 0), scale=(2, 2, 2))
@@ -128,7 +198,7 @@ def test_no_faults_in_edit_mode_leaves_mode_and_selection_as_they_were():
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_boundary_edges_and_flipped_faces_are_selected():
+def test_boundary_edges_and_flipped_faces_are_selected(capfd):
     mesh = mesh_body()
     obj = add(mesh)
     import bmesh
@@ -150,6 +220,7 @@ def test_boundary_edges_and_flipped_faces_are_selected():
     assert set(np.flatnonzero(uses == 1)) <= boundary
     assert mesh.polygons[3].select
     assert sum(face.select for face in mesh.polygons) == 1
+    assert "1 flipped face," in capfd.readouterr().out
 
 
 def test_only_faulty_objects_go_to_edit_mode():
