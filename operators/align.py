@@ -26,12 +26,14 @@ def directions(order: str) -> NDArray[np.float64]:
 
 
 class OBJECT_OT_body_moments_align_to_world(Operator):
-    """Turn the object so that its principal axes lie along the world's axes. Children turn with
-    it
-    """
+    """Turn the object so that its principal axes lie along the world's axes"""
 
     bl_idname = "object.body_moments_align_to_world"
     bl_label = "Align Object to World"
+    bl_description = (
+        "Turn the object so that its principal axes lie along the world's axes, in an order of your choice, about its "
+        "center of mass or to the world's origin. Children turn with it"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
     order: EnumProperty(

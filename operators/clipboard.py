@@ -46,12 +46,13 @@ class OBJECT_OT_body_moments_copy_value(Operator):
 
 
 class OBJECT_OT_body_moments_copy_report(Operator):
-    """Copy the stored mass properties of the selected objects, and their total, to the clipboard
-    as text in SI units
-    """
+    """Copy the stored mass properties of the selected objects"""
 
     bl_idname = "object.body_moments_copy_report"
     bl_label = "Copy Report"
+    bl_description = (
+        "Copy the stored mass properties of the selected objects, and their total, to the clipboard as text in SI units"
+    )
     bl_options = {"REGISTER"}
 
     @classmethod

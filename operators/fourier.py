@@ -47,11 +47,14 @@ class _Settings:
 
 
 class OBJECT_OT_body_moments_fourier(_Settings, Operator):
-    """Write the Fourier transform of the active object on a regular grid of frequencies to an .npz file, and show
-    slices of its magnitude as an image"""
+    """Ask for a file and a grid of frequencies, then write the Fourier transform of the active object"""
 
     bl_idname = "object.body_moments_fourier"
     bl_label = "Fourier Transform"
+    bl_description = (
+        "Write the Fourier transform of the active object on a regular grid of frequencies to an .npz file, and show "
+        "slices of its magnitude as an image"
+    )
     bl_options = {"UNDO"}
 
     filter_glob: StringProperty(default="*" + SUFFIX, options={"HIDDEN"})

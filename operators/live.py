@@ -81,11 +81,14 @@ def follow(obj: Object, depsgraph: Depsgraph) -> Live:
 
 
 class OBJECT_OT_body_moments_live(Operator):
-    """Show what the numbers are while control points are edited or animated, until the file is closed. Measure stores
-    them"""
+    """Show what the numbers are while control points are edited or animated"""
 
     bl_idname = "object.body_moments_live"
     bl_label = "Live"
+    bl_description = (
+        "Show what the numbers are while control points are edited or animated, until the file is closed. Measure "
+        "stores them"
+    )
     bl_options = {"INTERNAL"}
 
     @classmethod

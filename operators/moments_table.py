@@ -168,12 +168,14 @@ def _active(cls: type[Operator], context: Context) -> Object | None:
 
 
 class OBJECT_OT_body_moments_compute_moments(Operator):
-    """Compute all moments of the active object to the chosen order, of its volume and of its surface. Time grows with
-    the third power of the order: a million triangles take a second to order 4 and some twenty to order 20
-    """
+    """Compute all moments of the active object to the chosen order"""
 
     bl_idname = "object.body_moments_compute_moments"
     bl_label = "Compute Moments"
+    bl_description = (
+        "Compute all moments of the active object to the chosen order, of its volume and of its surface. Time grows "
+        "with the third power of the order: a million triangles take a second to order 4 and some twenty to order 20"
+    )
     bl_options = {"REGISTER"}
 
     @classmethod

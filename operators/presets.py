@@ -35,12 +35,14 @@ TABLE = [
 
 
 class OBJECT_OT_body_moments_set_material(Operator):
-    """Set the density of all selected objects to that of a material. Where their density comes from
-    their materials, it is that of faces whose material has none
-    """
+    """Set the density of all selected objects to that of a material"""
 
     bl_idname = "object.body_moments_set_material"
     bl_label = "Set Material"
+    bl_description = (
+        "Set the density of all selected objects to that of a material. Where their density comes from their "
+        "materials, it is that of faces whose material has none"
+    )
     bl_options = {"REGISTER", "UNDO"}
     bl_property = "material"
 
@@ -123,12 +125,13 @@ class MATERIAL_OT_body_moments_set_density(Operator):
 
 
 class OBJECT_OT_body_moments_copy_settings(Operator):
-    """Copy kind, material, density or mass, thickness and overlaps from the active object to all
-    other selected ones
-    """
+    """Copy the settings of the active object to all other selected ones"""
 
     bl_idname = "object.body_moments_copy_settings"
     bl_label = "Copy Settings to Selected"
+    bl_description = (
+        "Copy kind, material, density or mass, thickness and overlaps from the active object to all other selected ones"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

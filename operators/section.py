@@ -74,12 +74,14 @@ def outdated(obj: Object, scene: bpy.types.Scene, found: record.StoredSection) -
 
 
 class OBJECT_OT_body_moments_measure_section(Operator):
-    """Compute the section properties of the selected faces in Edit Mode, or of the selected flat objects, 2-D curves
-    and texts, and store them on each
-    """
+    """Compute the section properties of what is selected"""
 
     bl_idname = "object.body_moments_measure_section"
     bl_label = "Measure Section"
+    bl_description = (
+        "Compute the section properties of the selected faces in Edit Mode, or of the selected flat objects, 2-D "
+        "curves and texts, and store them on each"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

@@ -112,6 +112,7 @@ def test_every_operator_says_what_it_does(before):
             tooltip = getattr(operator, "bl_description", "") or operator.__doc__
             assert tooltip, operator.bl_idname
             assert not tooltip.endswith("."), operator.bl_idname
+            assert "\n" not in tooltip, operator.bl_idname  # Blender breaks the line there
     finally:
         body_moments.unregister()
 
