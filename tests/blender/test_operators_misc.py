@@ -223,6 +223,31 @@ def test_boundary_edges_and_flipped_faces_are_selected(capfd):
     assert "1 flipped face," in capfd.readouterr().out
 
 
+def test_undo_leads_back_from_the_faults_to_the_measurement_and_from_there_to_the_start():
+    good, bad = add(mesh_body(), "Good"), add(mesh_body(), "Bad")
+    bad.data.polygons[3].flip()
+    bad.data.update()
+    only(good, bad)
+
+    def state():
+        objects = bpy.context.view_layer.objects
+        return (bpy.context.mode, sorted(obj.name for obj in objects.selected), objects.active.name,
+                "body_volume" in bpy.data.objects["Bad"])
+
+    bpy.ops.ed.undo_push(message="start")
+    before = state()
+    assert bpy.ops.object.body_moments_select_faults("EXEC_DEFAULT", True) == {"FINISHED"}
+    after = state()
+    assert after == ("EDIT_MESH", ["Bad"], "Bad", True)
+    bpy.ops.ed.undo()
+    assert state() == ("OBJECT", *after[1:])
+    bpy.ops.ed.undo()
+    assert state() == before
+    bpy.ops.ed.redo()
+    bpy.ops.ed.redo()
+    assert state() == after
+
+
 def test_only_faulty_objects_go_to_edit_mode():
     good, bad = add(mesh_body(), "Good"), add(mesh_body(), "Bad")
     import bmesh
