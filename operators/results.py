@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import chain
 
+import bpy
 from bpy.types import Context, Object, Scene
 from mathutils import Matrix
 
@@ -20,6 +21,7 @@ from ..core.decimal import decimal
 from ..core.mass import MassProperties, combined
 from . import live, staleness
 from .counted import doubts
+from .fingerprint import settings_hash
 from .write import properties
 
 
@@ -37,7 +39,7 @@ class Total:
     doubts: tuple[str, ...]
 
 
-_refusals: dict[int, str] = {}  # session uid → reason
+_refusals: dict[int, tuple[str, str]] = {}  # session uid → reason, and the digest of the settings of then
 _total: tuple[tuple, Total] | None = None  # what the last total was computed for, and that total
 
 
@@ -45,12 +47,13 @@ def refuse(obj: Object, reason: str | None) -> None:
     """Keep, until Blender ends, why the object could not be measured; None forgets it."""
     _refusals.pop(obj.session_uid, None)
     if reason is not None:
-        _refusals[obj.session_uid] = reason
+        _refusals[obj.session_uid] = reason, settings_hash(obj, bpy.context.scene)
 
 
 def refusal(obj: Object) -> str:
-    """Why the object could not be measured when that was last tried, or nothing."""
-    return _refusals.get(obj.session_uid, "")
+    """Why the object could not be measured when that was last tried with these settings, or nothing."""
+    reason, settings = _refusals.get(obj.session_uid, ("", ""))
+    return reason if reason and settings == settings_hash(obj, bpy.context.scene) else ""
 
 
 def of_object(obj: Object, scene: Scene) -> properties.Stored | None:

@@ -105,7 +105,7 @@ class Units:
         to; what is rounding beside it is shown as 0."""
         largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
         noise = max(1e-12 * largest, 1e-7 * size)
-        factor, name = self.unit(quantity, largest)
+        factor, name = self.unit(quantity, 0.0 if largest < noise else largest)
         # Beside a largest value, what is left of a cancelled one is noise: 1e-17 kg·m² is shown as 0.
         return [
             "{:s} {:s}".format(

@@ -428,6 +428,8 @@ def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():
     assert Units("METRIC", "ADAPTIVE", "ADAPTIVE", 1.0).text("mass", 1e-9) == "0.001 mg"
     texts = Units("METRIC", "METERS", "KILOGRAMS", 1.0).texts("inertia", (5.0, 1e-17))
     assert texts == ["5 kg·m²", "0 kg·m²"]
+    adaptive = Units("METRIC", "ADAPTIVE", "ADAPTIVE", 1.0)  # noise is 0 in the unit of 0
+    assert adaptive.texts("length", (1e-16, 0.0), size=1.0) == adaptive.texts("length", (0.0, 0.0)) == ["0 m", "0 m"]
 
 
 @pytest.mark.parametrize("operator", ["measure", "measure_section", "find_similar", "origin_to_center"])

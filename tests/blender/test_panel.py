@@ -123,6 +123,18 @@ def test_a_refusal_beside_stored_numbers_does_not_deny_them():
     assert "Not Measured Again" in found and "Not Measured" not in found and "Exact, Closed Surface" in found
 
 
+def test_a_refusal_is_not_held_against_other_settings():
+    obj = add(mesh_body())
+    settings = obj.body_moments
+    settings.density_from, settings.density_polynomial = "POLYNOMIAL", "1000+"
+    bpy.ops.object.body_moments_measure()
+    assert "polynomial" in " ".join(labels(drawn()))
+    settings.density_from = "VALUE"
+    assert "Not Measured" in labels(drawn()) and "polynomial" not in " ".join(labels(drawn()))
+    settings.density_from = "POLYNOMIAL"
+    assert "polynomial" in " ".join(labels(drawn()))
+
+
 def test_a_flat_solid_is_told_of_walls_and_sections():
     flat = bpy.data.meshes.new("Flat")
     flat.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
