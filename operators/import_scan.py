@@ -87,6 +87,9 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
                                    "Blender itself")
             return {"CANCELLED"}
         path = Path(bpy.path.abspath(self.filepath))
+        if not path.name or path.is_dir():
+            self.report({"ERROR"}, "Choose a file to import")
+            return {"CANCELLED"}
         target = path.with_name(path.name[: -len(suffix(path)) or None] + ".vdb")
         try:
             scan = self._scan(path)

@@ -80,6 +80,7 @@ def refusal(path, **options):
 def test_what_cannot_be_imported_leaves_nothing(tmp_path):
     before = len(bpy.data.objects), len(bpy.data.volumes)
     assert "does not begin" in refusal(written(tmp_path / "a.nrrd", b"nonsense"))
+    assert "Choose a file" in refusal("") and "Choose a file" in refusal(tmp_path)
     assert "no scans" in refusal(written(tmp_path / "a.txt", b"nonsense"))
     good = written(tmp_path / "b.nrrd", nrrd(samples()))
     written(tmp_path / "b.vdb", b"mine")
