@@ -85,7 +85,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 
         count, failures = selection.each(objects, measure, snapping.REFUSALS)
         if faults:
-            _show(context, faults, editing)
+            _show(context, faults)
         elif editing:
             bpy.ops.object.mode_set(mode="EDIT")
         staleness.settle(context, measured)
@@ -125,8 +125,8 @@ def _words(found: dict[str, np.ndarray]) -> str:
                      for kind, count in counts.items())
 
 
-def _show(context: Context, faults: dict[Object, dict[str, np.ndarray]], editing: bool) -> None:
-    """Edit Mode on the faulty objects alone, with their faults selected. editing: it is where this began."""
+def _show(context: Context, faults: dict[Object, dict[str, np.ndarray]]) -> None:
+    """Edit Mode on the faulty objects alone, with their faults selected."""
     for obj in list(context.view_layer.objects.selected):
         if obj not in faults:
             obj.select_set(False)
@@ -134,8 +134,7 @@ def _show(context: Context, faults: dict[Object, dict[str, np.ndarray]], editing
         context.view_layer.objects.active = next(iter(faults))
     dimensions = {indices.ndim for found in faults.values() for indices in found.values()}
     context.tool_settings.mesh_select_mode = (False, 2 in dimensions, 1 in dimensions)
-    if not editing:  # an undo step of Edit Mode holds meshes only, so that the one before must hold all the rest
-        bpy.ops.ed.undo_push(message="Measure")
+    bpy.ops.ed.undo_push(message="Measure")  # the undo step of Edit Mode that follows holds meshes only
     bpy.ops.object.mode_set(mode="EDIT")
     for obj, found in faults.items():
         _select(obj, found)

@@ -223,7 +223,8 @@ def test_boundary_edges_and_flipped_faces_are_selected(capfd):
     assert "1 flipped face," in capfd.readouterr().out
 
 
-def test_undo_leads_back_from_the_faults_to_the_measurement_and_from_there_to_the_start():
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_undo_leads_back_from_the_faults_to_the_measurement_and_from_there_to_the_start(mode):
     good, bad = add(mesh_body(), "Good"), add(mesh_body(), "Bad")
     bad.data.polygons[3].flip()
     bad.data.update()
@@ -235,6 +236,8 @@ def test_undo_leads_back_from_the_faults_to_the_measurement_and_from_there_to_th
                 "body_volume" in bpy.data.objects["Bad"])
 
     bpy.ops.ed.undo_push(message="start")
+    if mode == "EDIT":
+        bpy.ops.object.mode_set("EXEC_DEFAULT", True, mode="EDIT")
     before = state()
     assert bpy.ops.object.body_moments_select_faults("EXEC_DEFAULT", True) == {"FINISHED"}
     after = state()
