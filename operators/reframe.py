@@ -200,6 +200,13 @@ def check_movable(obj: Object) -> None:
     if fixed_to(obj) == "world":
         raise Refused("its density is a polynomial of world coordinates, and does not move with it; give it in its own "
                       "coordinates first")
+    bound = [modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE" and modifier.show_viewport]
+    if obj.parent_type == "ARMATURE":
+        bound.append(obj.parent)
+    for armature in bound:  # in its rest pose it deforms nothing yet
+        if armature is not None and obj not in lineage(armature):
+            raise Refused("it is bound to the armature {:s}, which would not go with it; turn the armature instead, or "
+                          "apply that modifier first".format(armature.name))
 
 
 def move(context: Context, plan: Plan) -> None:

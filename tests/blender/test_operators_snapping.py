@@ -648,3 +648,25 @@ def test_the_strict_rule_poses_what_it_can_and_refuses_the_rest(name):
     assert run(name, strict=True) == {"CANCELLED"}
     bpy.ops.mesh.primitive_cube_add()
     assert run(name, strict=True) == {"CANCELLED"}
+
+
+@pytest.mark.parametrize("how", ["modifier", "parent"])
+def test_a_body_bound_to_an_armature_is_not_turned_away_from_its_bones(how, capfd):
+    bpy.ops.object.armature_add()
+    armature = bpy.context.object
+    obj = add(mesh_body(), rotation=(0.3, 0.4, 0.5))
+    obj.vertex_groups.new(name="Bone").add(range(len(obj.data.vertices)), 1.0, "REPLACE")
+    if how == "modifier":
+        obj.modifiers.new("Armature", "ARMATURE").object = armature
+    else:
+        obj.parent, obj.parent_type = armature, "ARMATURE"
+    bpy.context.view_layer.update()
+    before = state(obj)
+    assert run(ALIGN) == {"CANCELLED"}
+    assert state(obj) == before
+    assert "bound to the armature Armature" in capfd.readouterr().out
+    for name in REFRAMING:  # these leave it where it is
+        assert run(name) == {"FINISHED"}
+    obj.modifiers.clear()
+    obj.parent = None
+    assert run(ALIGN) == {"FINISHED"}
