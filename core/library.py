@@ -34,7 +34,7 @@ class Entry:
 def read_library(path: Path) -> tuple[list[Entry], list[str]]:
     """The bodies with a signature, and a sentence for each without. ValueError where the file is no library."""
     entries, faults = [], []
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+    for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
         if not line.strip():
             continue
         try:

@@ -38,6 +38,8 @@ def read_scan(path: str | Path) -> Scan:
         raise ValueError("Files of this kind are no scans; these are: {:s}.".format(" ".join(SUFFIXES)))
     if not path.is_file():
         raise ValueError("There is no such file." if not path.exists() else "This is not a regular file.")
+    with open(path, "rb"):
+        pass  # where it cannot be opened this says why; what reads it would take it for damaged
     try:
         scan = read(path)
     except (zlib.error, gzip.BadGzipFile, zipfile.BadZipFile, EOFError) as error:

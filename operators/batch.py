@@ -46,8 +46,8 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
                 return _similar(similar.parse(argv), channel)
             options = arguments.parse(argv, file_needed)
     except SystemExit as ended:
-        output.write(told.getvalue(), None, channel)  # the help, where it was asked for
-        return ended.code
+        # the help, where it was asked for
+        return ended.code if _written(told.getvalue(), None, channel) else OUR_FAULT
 
     from .command.run import Run
     from .write.record import FORMATS
@@ -55,32 +55,42 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     run = Run(options)
     try:
         run.measure()
-        output.write(FORMATS[options.format](run.documents), options.output, channel)
-    except OSError as error:
-        sys.stderr.write("body_moments: the result cannot be written: {}\n".format(error))
-        return OUR_FAULT
+        text = FORMATS[options.format](run.documents)
     except Exception:
         traceback.print_exc()
         return OUR_FAULT
-    if run.faults:
+    if not _written(text, options.output, channel) or run.faults:
         return OUR_FAULT
     return SOME_NOT if run.errors else ALL_MEASURED
 
 
 def _similar(options, channel: int) -> int:
     """Compare what was measured, and print the nearest."""
-    from .command import output, similar
+    from .command import similar
 
     try:
         text, faults = similar.answer(options)
-        output.write(text, None, channel)
     except similar.Unanswerable as error:
         sys.stderr.write("body_moments: {}\n".format(error))
         return WRONG_USAGE
     except Exception:
         traceback.print_exc()
         return OUR_FAULT
+    if not _written(text, None, channel):
+        return OUR_FAULT
     return SOME_NOT if faults else ALL_MEASURED
+
+
+def _written(text: str, path: Path | None, channel: int) -> bool:
+    """Whether a result could be written; the reason goes to the standard error where it could not."""
+    from .command import output
+
+    try:
+        output.write(text, path, channel)
+    except OSError as error:
+        sys.stderr.write("body_moments: the result cannot be written: {}\n".format(error))
+        return False
+    return True
 
 
 def register() -> None:

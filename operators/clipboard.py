@@ -9,7 +9,7 @@ from bpy.props import StringProperty
 from bpy.types import Context, Operator, OperatorProperties
 
 from . import selection, staleness
-from .counted import doubts
+from .counted import doubts, unfounded
 from .write import properties
 from .write.report import report_text
 
@@ -68,7 +68,8 @@ class OBJECT_OT_body_moments_copy_report(Operator):
         objects = selection.selected(context)
         outdated = {obj.name for obj in objects if staleness.reason(obj, context.scene)}
         counted = [obj for obj in objects if properties.is_stored(obj)]
-        text = report_text(context, objects, outdated, doubts(counted, context.view_layer))
+        told = unfounded((obj.name, properties.method_and_warnings(obj)[0]) for obj in counted)
+        text = report_text(context, objects, outdated, [*told, *doubts(counted, context.view_layer)])
         told = "Copied the report of {:s}".format(selection.counted(len(objects)))
         to_clipboard(self, context, text, told)
         return {"FINISHED"}

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from bpy.types import LayerCollection, Object, ViewLayer
 
@@ -39,6 +39,19 @@ def doubts(objects: Collection[Object], view_layer: ViewLayer) -> list[str]:
         found.append("What is hidden, not rendered, or displayed as wire or bounds counts: {:s}; leave out what is no "
                      "part.".format(", ".join(names)))
     return found
+
+
+def unfounded(methods: Iterable[tuple[str, str]]) -> list[str]:
+    """The same of bodies, as names and methods, whose own numbers stand on nothing."""
+    names, count = [], 0
+    for name, method in methods:
+        count += 1
+        if method.endswith("open"):
+            names.append("“{:s}”".format(name))
+    if not names or count < 2:
+        return []
+    return ["The total depends on a reference point, as the numbers of open bodies do: {:s}; close them, or leave them "
+            "out.".format(", ".join(listed(sorted(names), LISTED)))]
 
 
 def _operands(obj: Object) -> Iterator[Object]:

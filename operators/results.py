@@ -20,7 +20,7 @@ from mathutils import Matrix
 from ..core.decimal import decimal
 from ..core.mass import MassProperties, combined
 from . import live, staleness
-from .counted import doubts
+from .counted import doubts, unfounded
 from .fingerprint import settings_hash
 from .write import properties
 
@@ -91,12 +91,13 @@ def _sum(context: Context) -> Total:
         counted.append(obj)
         if staleness.reason(obj, scene):
             outdated.append(obj.name)
+    told = unfounded((obj.name, properties.method_and_warnings(obj)[0]) for obj in counted)
     body = None
     if found:
         with suppress(ValueError):  # together they have no mass
             body = combined([(one.body.as_moments(), 1.0) for one in found])
     return Total(len(found), sum(one.volume for one in found), sum(one.area for one in found), body, tuple(missing),
-                 tuple(outdated), tuple(doubts(counted, context.view_layer)))
+                 tuple(outdated), (*told, *doubts(counted, context.view_layer)))
 
 
 @lru_cache(maxsize=512)

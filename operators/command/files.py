@@ -103,11 +103,11 @@ def save_file(path: str) -> None:
 
 
 def _check(path: str, kind: str) -> None:
+    if os.path.isdir(path):
+        raise Unusable("This is a folder; name the files in it.")
     if kind != BLEND and kind not in _IMPORTERS:
         known = " ".join((BLEND, *_IMPORTERS, *scans.SUFFIXES))
         raise Unusable("Files of this kind cannot be measured; these can: {}.".format(known))
-    if os.path.isdir(path):
-        raise Unusable("This is a folder; name the files in it.")
     if not os.path.exists(path):
         raise Unusable("There is no such file.")
     if not os.path.isfile(path):

@@ -50,9 +50,9 @@ def check(options: Namespace, parser: ArgumentParser) -> None:
         parser.error("argument --fourier: there is no folder {}".format(target.parent))
     if target.is_dir():
         parser.error("argument --fourier: {} is a folder".format(target))
-    for other in (options.q, options.output):
-        if other is not None and other.resolve() == target.resolve():
-            parser.error("argument --fourier: {} is named twice".format(target))
+    for one, other in ((target, options.q), (target, options.output), (options.output, options.q)):
+        if one is not None and other is not None and one.resolve() == other.resolve():
+            parser.error("argument --fourier: {} is named twice".format(one))
     try:
         options.waves = Grid(options.grid, options.qmax) if options.q is None else _listed(options.q)
     except ValueError as error:

@@ -12,11 +12,12 @@ from __future__ import annotations
 
 import io
 import os
-import stat
 import sys
 from pathlib import Path
 
 from ..write.whole_file import whole_file
+
+_STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor is no longer 1
 
 
 def claim_stdout() -> int:
@@ -54,10 +55,8 @@ def write(text: str, path: Path | None, channel: int) -> None:
     # A file name that is not UTF-8 holds lone surrogates. Escaped so, they are what JSON writes for
     # them.
     data = text.encode("utf-8", "backslashreplace")
-    if path is None:
+    if path is None or str(path) in _STDOUT:
         _write_all(channel, data)
-    elif path.exists() and not stat.S_ISREG(path.stat().st_mode):
-        path.write_bytes(data)  # a pipe or a device: it must be written to, not replaced
     else:
         with whole_file(path) as file:
             file.write(data)

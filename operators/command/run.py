@@ -26,9 +26,10 @@ from ...core import scans
 from ...core.measurement import Measurement
 from .. import settings
 from ..array_body import ArrayOptions, measure_array
-from ..counted import doubts
+from ..counted import LISTED, doubts, unfounded
 from ..measure import THREADS, MeasureOptions, measure_object
 from ..read import Unreadable, measurable, measurable_objects
+from ..selection import listed
 from ..shape import DISPLAY_MESH, OF_SHAPES, POLYGONS, NoShape, shape_of
 from ..staleness import settle
 from ..write import record
@@ -99,8 +100,10 @@ class Run:
                     else:
                         objects.append(told)
                         measured.append((label, obj, one))
+                doubtful = unfounded((label, one.method) for label, _, one in measured)
                 if self.options.object is None:  # else whoever named them knows what they count
-                    doubtful = doubts([obj for _, obj, _ in measured], bpy.context.view_layer)
+                    doubtful += doubts([obj for _, obj, _ in measured], bpy.context.view_layer)
+                    doubtful += _other_scenes(bpy.context.scene)
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
             if self.options.write:
@@ -136,8 +139,12 @@ class Run:
             errors.append(_error(label, "It has no such moments: " + refusal.reason))
             order = None
         surface = one.area_moments if self.options.surface_moments and order is not None else None
-        told = replace(one, name=label, warnings=one.warnings + notes)
+        told = replace(one, name=label, warnings=(*one.warnings, *notes, *self._unused(one)))
         return one, record.record(told, self.options.frame, order, surface, more)
+
+    def _unused(self, one: Measurement) -> Iterator[str]:
+        if self.options.thickness is not None and one.kind != "shell":
+            yield "Only a shell has a thickness; --thickness was not used here (see --kind)."
 
     def _array(self, path: str) -> tuple[list, list, list]:
         """The records, measurements and errors of a scan or an array, which is one body, called like
@@ -158,8 +165,7 @@ class Run:
             return [], [], [*errors, _error(None, refusal.reason)]
         asked = [more for more in ("pose", "signature") if getattr(self.options, more)]
         surface = one.area_moments if self.options.surface_moments else None
-        if asked:
-            one = replace(one, warnings=(*one.warnings, OF_SHAPES))
+        one = replace(one, warnings=(*one.warnings, *self._unused(one), *([OF_SHAPES] if asked else ())))
         told = record.record(one, self.options.frame, self.options.order, surface, dict.fromkeys(asked))
         return [told], [(name, None, one)], errors
 
@@ -276,6 +282,15 @@ def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.typ
     instanced = {obj.instance_collection for obj in instancers} - {None}
     members = {member for collection in instanced for member in collection.all_objects}
     return {obj for obj in {*scene.objects} - {*layer.objects} - members if measurable(obj)}
+
+
+def _other_scenes(scene: bpy.types.Scene) -> Iterator[str]:
+    """That a file holds more than its open scene, where it does."""
+    here = {*scene.objects}
+    others = [one for one in bpy.data.scenes if any(measurable(obj) for obj in {*one.objects} - here)]
+    if others:
+        names = listed(("“{}”".format(one.name) for one in others), LISTED)
+        yield "Only the scene “{}” was measured; objects of others were not: {}.".format(scene.name, ", ".join(names))
 
 
 def _asked_for() -> str | None:

@@ -13,8 +13,12 @@ from typing import BinaryIO
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[BinaryIO]:
-    """A file to write to, which takes the place of `path` once it is on the disk, and is gone where that fails. Raises
-    OSError."""
+    """A file to write to, which takes the place of `path` once it is on the disk, and is gone where that fails. A pipe
+    or a device is written to, and not replaced. Raises OSError."""
+    if path.exists() and not path.is_file():
+        with open(path, "wb") as file:
+            yield file
+        return
     path = path.resolve()
     partial = path.with_name("{}.{}.partial".format(path.name, os.getpid()))
     try:

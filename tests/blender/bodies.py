@@ -5,6 +5,8 @@
 import bpy
 import numpy as np
 
+from tests.core.bodies import moebius
+
 # A closed body without any symmetry: an L with a slanted end, so that nothing about its frame is
 # left to choose.
 POINTS = ((0, 0, 0), (3, 0, 0), (3.5, 1, 0), (1, 1, 0), (1, 2.5, 0), (0, 2, 0))
@@ -20,6 +22,14 @@ def mesh_body(name="Body", points=POINTS, height=HEIGHT):
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(vertices, [], faces)
     mesh.update()
+    return mesh
+
+
+def strip_mesh(name="Strip"):
+    """A mesh that cannot be closed: a Möbius strip."""
+    points, triangles = moebius()
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(points.tolist(), [], triangles.tolist())
     return mesh
 
 

@@ -159,7 +159,7 @@ def test_a_binary_stl_whose_header_says_solid_is_binary(tmp_path):
 
 def test_what_is_no_file_is_an_error(tmp_path):
     (tmp_path / "folder.blend").mkdir()
-    assert "folder" in reason(tmp_path / "folder.blend")
+    assert "folder" in reason(tmp_path / "folder.blend") and "folder" in reason(tmp_path)
     assert "no such file" in reason(tmp_path / "missing.obj")
     if hasattr(os, "mkfifo"):
         os.mkfifo(tmp_path / "pipe.blend")

@@ -11,11 +11,13 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
+import numpy as np
 from body_moments.operators import batch
 from mathutils import Euler, Matrix
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured, run
+from tests.blender.bodies import add, strip_mesh
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -375,6 +377,59 @@ def test_no_result_is_written_over_the_file_that_is_measured(tmp_path, capfd, st
     assert batch.main(["measure", option, path, *waves]) == 2
     assert (tmp_path / "part.blend").read_bytes() == kept
     assert "name another" in capfd.readouterr().err
+
+
+def test_no_result_is_written_over_the_wave_vectors(tmp_path, capfd, standard_output):
+    files.add_box()
+    waves, out = tmp_path / "q.npy", tmp_path / "out.npz"
+    np.save(waves, np.ones((2, 3)))
+    kept = waves.read_bytes()
+    for words in (("--output", waves, "--fourier", out), ("--output", out, "--fourier", waves)):
+        assert batch.main(["measure", "--q", str(waves), *map(str, words)]) == 2
+    assert waves.read_bytes() == kept and not out.exists()
+    assert "named twice" in capfd.readouterr().err
+
+
+def test_a_thickness_is_told_to_be_unused_where_there_is_no_shell(tmp_path):
+    files.add_box()
+    for words in (("--thickness", "0.1"), ("--thickness", "0.1", "--kind", "solid")):
+        (warning,) = measured(*words)["warnings"]
+        assert "--thickness was not used" in warning
+    assert measured("--thickness", "0.1", "--kind", "shell")["warnings"] == []
+    np.save(tmp_path / "ones.npy", np.ones((2, 2, 2)))
+    assert any("--thickness" in told for told in measured(tmp_path / "ones.npy", "--thickness", "1")["warnings"])
+
+
+def test_objects_of_other_scenes_are_told_not_to_be_in_the_total():
+    box = files.add_box()
+    other = bpy.data.scenes.new("Other")
+    other.collection.objects.link(box)
+    bpy.data.scenes.new("Empty")
+    assert document()["total"]["warnings"] == []  # nothing is missing
+    other.collection.objects.link(bpy.data.objects.new("There", box.data))
+    found = document()
+    (told,) = found["total"]["warnings"]
+    assert "“Scene”" in told and "“Other”" in told and "Empty" not in told and names(found) == [files.BOX_NAME]
+    assert document("--object", files.BOX_NAME)["total"]["warnings"] == []
+    for obj in list(bpy.context.scene.objects):
+        bpy.context.scene.collection.objects.unlink(obj)
+    assert "“Other”" in document()["total"]["warnings"][0]  # where nothing at all was measured too
+
+
+def test_a_total_with_an_open_body_is_told_to_stand_on_nothing():
+    files.add_box("Box")
+    add(strip_mesh(), "Strip")
+    found = document("--object", "Box", "--object", "Strip")
+    assert [entry["method"] for entry in found["objects"]] == ["exact", "open"]
+    (told,) = found["total"]["warnings"]
+    assert "reference point" in told and "“Strip”" in told and "Box" not in told
+    assert document("--object", "Strip")["total"]["warnings"] == []  # its own record says so
+
+
+def test_a_shell_without_area_is_not_asked_to_be_a_shell():
+    files.add_box("Box").scale = (0.0, 0.0, 0.0)
+    assert "has an area" in errors(document("--kind", "shell"))["Box"]
+    assert "zero scale" in errors(document())["Box"]
 
 
 def test_options_of_arrays_are_told_to_be_unused_elsewhere():

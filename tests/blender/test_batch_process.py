@@ -14,6 +14,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
@@ -110,6 +111,23 @@ def test_a_device_is_written_to_and_not_replaced(folder):
     assert ended.returncode == 0 and Path("/dev/null").is_char_device()
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no such devices here")
+def test_a_fourier_transform_is_written_to_a_pipe_and_does_not_replace_it(folder, tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    ended = script("measure", "part.stl", "--fourier", pipe, "--grid", "2", "--qmax", "1", cwd=folder)
+    found = np.load(io.BytesIO(os.read(reader, 1 << 16)))
+    os.close(reader)
+    assert ended.returncode == 0 and found["F"].shape == (8,) and pipe.is_fifo()
+
+
+@pytest.mark.skipif(not Path("/dev/stdout").exists(), reason="no such device here")
+def test_the_standard_output_may_be_named(folder):
+    ended = script("measure", "part.stl", "--output", "/dev/stdout", cwd=folder)
+    assert ended.returncode == 0 and json.loads(ended.stdout)["file"] == "part.stl"
+
+
 @pytest.mark.parametrize("words", [(), ("measure",), ("measure", "part.glb", "--order", "99")])
 def test_wrong_usage_gives_2_and_a_clean_output(folder, words):
     ended = script(*words, cwd=folder)
@@ -118,8 +136,10 @@ def test_wrong_usage_gives_2_and_a_clean_output(folder, words):
 
 def test_a_result_that_cannot_be_written_gives_70(folder):
     with open(os.devnull, "rb") as read_only:
-        ended = script("measure", folder / "part.stl", stdout=read_only)
-    assert ended.returncode == 70 and b"cannot be written" in ended.stderr
+        for words in (("measure", folder / "part.stl"), ("measure", "--help")):
+            ended = script(*words, stdout=read_only)
+            assert ended.returncode == 70 and b"cannot be written" in ended.stderr
+            assert b"Traceback" not in ended.stderr
 
 
 def test_the_script_leaves_no_folder_behind(folder, tmp_path):

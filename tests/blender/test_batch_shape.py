@@ -14,7 +14,7 @@ from body_moments.core.library import read_library
 from body_moments.operators import batch
 
 from tests.blender.batch_files import add_box, document
-from tests.blender.bodies import add, mesh_body
+from tests.blender.bodies import add, mesh_body, strip_mesh
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -73,15 +73,10 @@ def test_a_pose_is_a_row_of_columns_in_csv(tmp_path):
 
 
 def test_an_open_surface_is_measured_but_has_no_pose():
-    mesh = bpy.data.meshes.new("Open")
-    mesh.from_pydata([(0, 0, 0), (1, 0, 0.3), (1, 1, 0), (0, 1, 0.3), (0.5, 0.5, 1)], [],
-                     [(0, 1, 4), (1, 2, 4), (4, 2, 3), (0, 4, 2)])
-    add(mesh, "Open")
-    found = document("--pose", "--signature")
-    for entry in found["objects"]:
-        if entry["method"].endswith("open"):
-            assert entry["pose"] is None and entry["signature"] is None
-            assert any("reference point" in warning for warning in entry["warnings"])
+    add(strip_mesh(), "Open")
+    (entry,) = document("--pose", "--signature")["objects"]
+    assert entry["method"] == "open" and entry["pose"] is None and entry["signature"] is None
+    assert any("reference point" in warning for warning in entry["warnings"])
 
 
 def test_similar_tells_copies_mirror_images_and_sizes(tmp_path):
@@ -117,6 +112,13 @@ def test_the_library_is_what_was_written(tmp_path):
     assert entry.name == "Box" and not faults
     record = json.loads(path.read_text(encoding="utf-8"))["objects"][0]["signature"]
     assert set(record) >= {"invariants", "zernike", "chirality"} and len(record["zernike"]) == 121
+
+
+def test_a_name_may_hold_any_character(tmp_path):
+    for name in ("Box", "a\u2028b", "c\x85d", "e\nf", 'g"h'):
+        add_box(name)
+    path, _ = shape_file(tmp_path)
+    assert {entry.name for entry in read_library(path)[0]} == {obj.name for obj in bpy.context.scene.objects}
 
 
 def test_bodies_of_any_size_have_the_same_signature():

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 
-from tests.blender.bodies import add, measured, mesh_body, only
+from tests.blender.bodies import add, measured, mesh_body, only, strip_mesh
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -251,6 +251,17 @@ def test_the_total_tells_what_may_be_no_part_of_it(capfd):
     only(cutter)
     bpy.context.view_layer.update()
     assert results.total(bpy.context).doubts == ()
+
+
+def test_the_total_tells_that_an_open_body_makes_it_stand_on_nothing(capfd):
+    from body_moments.operators import results
+
+    only(add(mesh_body(), "Body"), add(strip_mesh(), "Strip"))
+    bpy.ops.object.body_moments_measure()
+    (told,) = results.total(bpy.context).doubts
+    assert "reference point" in told and "“Strip”" in told and "“Body”" not in told
+    bpy.ops.object.body_moments_copy_report()
+    assert told in capfd.readouterr().out
 
 
 def test_what_is_rounding_in_a_totals_center_is_told_as_0():

@@ -293,3 +293,17 @@ def test_what_is_no_scan(tmp_path):
     (tmp_path / "b.npy").mkdir()
     with pytest.raises(ValueError, match="not a regular file"):
         read_scan(tmp_path / "b.npy")
+
+
+@pytest.mark.parametrize("end", SUFFIXES)
+def test_a_file_that_may_not_be_read_is_not_taken_for_damaged(tmp_path, monkeypatch, end):
+    path = tmp_path / f"scan_2x2x2_uint8{end}"
+    path.write_bytes(b"x")
+
+    def refused(*_):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr("builtins.open", refused)
+    monkeypatch.setattr("io.open", refused)
+    with pytest.raises(PermissionError):
+        read_scan(path)
