@@ -32,6 +32,7 @@ from .topology import components
 SAMPLES = 33  # points at least by which sides are compared
 BLOCK = 4096  # pairs of sides compared at a time
 PIECE = 1 << 20  # pairs of sides looked at together
+FOLDED = 1e-3  # radians: patches that lie on each other
 MOST_PAIRS = 100_000  # of closed sides, compared point by point
 SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held, end, run forward), counter-clockwise
 
@@ -92,10 +93,11 @@ def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
     points = np.array([side.curve.combined(_evenly(side.curve.space, count)) for side in sides])
     length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
     wide = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
-    left, right, same, gap, crowded = _matched(sides, points, np.flatnonzero(wide), tolerance)
-
     owner = np.array([side.patch for side in sides])
     forward = np.array([side.forward for side in sides])
+    left, right, same, gap, crowded = _paired(_matched(sides, points, np.flatnonzero(wide), tolerance), points, owner,
+                                              forward)
+
     # Two sides fit where one runs against the other; else one of their patches must turn.
     against = same == (forward[left] == forward[right])
     component, number = components(len(patches), owner[left], owner[right])
@@ -123,9 +125,9 @@ def _evenly(space: Space, count: int) -> NDArray[np.float64]:
 
 
 def _matched(sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tolerance: float
-             ) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
-    """Pairs of sides that coincide: (k,) and (k,), whether their curves run the same way, how far they are apart, and
-    the number of sides that would fit more than one other."""
+             ) -> list[tuple[float, int, int, bool]]:
+    """Pairs of sides that coincide, the nearest first: how far they are apart, which, and whether their curves run the
+    same way."""
     middle = points.shape[1] // 2
     rows = points[wide]
     first, last = rows[:, 0], rows[:, -1]
@@ -141,15 +143,72 @@ def _matched(sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tol
     candidates = np.concatenate([arcs[np.stack(ends)], np.sort(rings[np.stack(boxes)], axis=0)], axis=1)
     for i, j in wide[candidates.T].tolist():
         found += _astride(sides[i].curve, sides[j].curve, points[i], points[j], i, j, tolerance)
-    pairs, used, crowded = [], set(), set()
-    for gap, i, j, same in sorted(found):
-        if i in used or j in used:
-            crowded |= {i, j} - used
-            continue
-        used |= {i, j}
-        pairs.append((i, j, same, gap))
-    left, right, same, gap = (np.array(column) for column in zip(*pairs)) if pairs else np.zeros((4, 0))
-    return left.astype(np.intp), right.astype(np.intp), same.astype(bool), gap, len(crowded)
+    return sorted(found)
+
+
+def _paired(found: Sequence[tuple[float, int, int, bool]], points: NDArray, owner: NDArray[np.intp],
+            forward: NDArray[np.bool_]) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
+    """Which of the sides that coincide are joined: (k,) and (k,), whether their curves run the same way, how far they
+    are apart, and the number of sides that coincide with more than one other.
+
+    Where more than two meet, as where bodies touch, those are joined first whose patches are one already by other
+    sides, then a patch by itself to what it fits as it faces, then whatever fits as it faces: so no patch is turned
+    that need not be. Of equal ones the sharpest angle comes first, patches that lie on each other after all others.
+    """
+    times = np.bincount(np.array([side for _, i, j, _ in found for side in (i, j)], np.intp), minlength=len(owner))
+    part, odd, size = list(range(len(owner))), [False] * len(owner), [1] * len(owner)
+
+    def root(patch: int) -> tuple[int, bool]:
+        turn = False
+        while part[patch] != patch:
+            turn ^= odd[patch]
+            patch = part[patch]
+        return patch, turn
+
+    pairs, used = [], np.zeros(len(owner), bool)
+    arms = points.reshape(-1, len(SIDES), *points.shape[1:]).mean(axis=(1, 2))[owner] - points.mean(axis=1)
+    arms /= np.maximum(np.linalg.norm(arms, axis=1), 1e-300)[:, None]
+
+    def angle(pair: tuple[float, int, int, bool]) -> float:
+        return float(np.linalg.norm(arms[pair[1]] - arms[pair[2]]))
+
+    def rank(pair: tuple[float, int, int, bool]) -> int:
+        _, i, j, same = pair
+        (a, turn), (b, other) = root(int(owner[i])), root(int(owner[j]))
+        flip = same == (forward[i] == forward[j])
+        if a == b:
+            found = 0 if flip == turn ^ other else 4
+        else:
+            found = 3 if flip else 1 if (size[a] == 1) != (size[b] == 1) else 2
+        return max(found, 3) if angle(pair) < FOLDED else found
+
+    def join(pair: tuple[float, int, int, bool]) -> None:
+        _, i, j, same = pair
+        (a, turn), (b, other) = root(int(owner[i])), root(int(owner[j]))
+        if a != b:
+            a, b = (a, b) if size[a] >= size[b] else (b, a)
+            part[b], odd[b] = a, bool(same == (forward[i] == forward[j])) ^ turn ^ other
+            size[a] += size[b]
+        used[[i, j]] = True
+        pairs.append(pair)
+
+    crowds = [pair for pair in found if max(times[pair[1]], times[pair[2]]) > 1]
+    for pair in found:
+        if times[pair[1]] == times[pair[2]] == 1:
+            join(pair)
+    crowd, number = components(len(owner), *(np.array([pair[k] for pair in crowds], np.intp) for k in (1, 2)))
+    together: dict[int, list] = {}
+    for pair in crowds:
+        together.setdefault(int(crowd[pair[1]]), []).append(pair)
+    for meeting in together.values():
+        meeting.sort(key=lambda pair: (round(angle(pair), 3), pair))
+        for wanted in range(5):
+            for pair in meeting:
+                if not (used[pair[1]] or used[pair[2]]) and rank(pair) <= wanted:
+                    join(pair)
+    left, right, same, gap = (np.array(column) for column in zip(*(
+        (i, j, same, gap) for gap, i, j, same in pairs))) if pairs else np.zeros((4, 0))
+    return left.astype(np.intp), right.astype(np.intp), same.astype(bool), gap, int((times > 1).sum())
 
 
 def _near(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -228,6 +228,9 @@ def _told(closure: Closure, mixed: int, turn: NDArray, caps: NDArray, area: floa
                      if mixed == 1 else
                      "{:d} patches face against the rest and were measured as if turned; switch their "
                      "direction.".format(mixed))
+        if closure.crowded:
+            notes.append("Of its sides {:d} meet more than one other, so that which patches belong together, and face "
+                         "against the rest, is a guess; make all of them face outward.".format(closure.crowded))
     if turn.any():
         notes.append("{:s} inside out and measured as if turned; switch the direction of its patches to mend that."
                      .format("It is" if closure.number == 1 else "{:d} of its {:d} parts are".format(

@@ -170,6 +170,45 @@ def test_two_short_sides_along_a_long_one_leave_no_hole():
     assert abs(found.volume.total - 1.0) <= 1e-13
 
 
+def cube(*corner):
+    return box((1.0, 1.0, 1.0), corner)
+
+
+def turned(patches):
+    return [patch.turned() for patch in patches]
+
+
+TOUCHING = {
+    "face to face": (cube(0, 0, 0) + cube(1, 0, 0), "exact"),
+    "at an edge": (cube(0, 0, 0) + cube(1, 1, 0), "exact"),
+    "one inside out": (cube(0, 0, 0) + turned(cube(1, 0, 0)), "reoriented"),
+    "at an edge, one inside out": (cube(0, 0, 0) + turned(cube(1, 1, 0)), "reoriented"),
+    "with one wall": (cube(0, 0, 0) + cube(1, 0, 0)[1:], "capped"),
+    "eight": (sum([cube(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], []), "exact")}
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("name", TOUCHING)
+def test_bodies_that_touch_are_measured_whatever_the_order_of_their_patches(name, seed):
+    """More than two sides meet there; joined as they came, they made bodies that were flat or open."""
+    patches, method = TOUCHING[name]
+    order = np.random.default_rng(seed).permutation(len(patches))
+    found = measure_patches([patches[k] for k in order], order=0)
+    assert found.method == method and found.health.non_manifold_edges > 0
+    assert abs(found.volume.total - len(patches) // 6 - (name == "with one wall")) <= 1e-13
+    assert bool(found.warnings) == (method != "exact")
+
+
+@pytest.mark.parametrize("name", ["face to face", "at an edge", "one inside out"])
+def test_bodies_that_touch_are_told_from_each_other_though_their_patches_face_anyhow(name):
+    rng, patches = np.random.default_rng(1), TOUCHING[name][0]
+    for _ in range(5):
+        found = measure_patches([patches[k].turned() if rng.random() < 0.5 else patches[k]
+                                 for k in rng.permutation(len(patches))], order=0)
+        assert found.method == "reoriented" and abs(found.volume.total - 2.0) <= 1e-13
+        assert any("is a guess" in warning for warning in found.warnings)
+
+
 def test_a_patch_of_one_side_only_is_open():
     """A Möbius band closes upon itself the wrong way round."""
     turns = np.linspace(0.0, 2.0 * np.pi, 17)
