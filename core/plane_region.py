@@ -13,7 +13,8 @@ from .curve import Curve
 from .curve_moments import curves_center
 from .weld import TOLERANCE
 
-EACH = 16  # samples of a span
+EACH = 16, 64, 256  # samples of a span: more where what fewer make seems to cross
+MOST_CHORDS = 8192  # of the finer ones
 MOST_PAIRS = 4_000_000  # of chords compared at a time
 
 
@@ -28,7 +29,7 @@ def plane_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cur
     center = curves_center(curves)
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)
     tolerance = 4.0 * (TOLERANCE * size + stored + 2.0 ** -52 * float(np.abs(center).max()))
-    loops = [curve.samples(EACH) for curve in curves]
+    loops = [curve.samples(EACH[0]) for curve in curves]
     if any(np.linalg.norm(loop[0] - loop[-1]) > tolerance for loop in loops) or any(
             curve.space.is_torn for curve in curves):
         raise ValueError("One of its curves is not closed, so that it bounds nothing. Close it, or measure a wire.")
@@ -41,11 +42,20 @@ def plane_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cur
     leading = next(axis for axis in (2, 1, 0) if abs(normal[axis]) > 1e-6)
     normal = normal * np.sign(normal[leading])
     frame = np.stack([axes[0], np.cross(normal, axes[0])], axis=1)
-    flat = [_apart((loop[:-1] - center) @ frame, tolerance) for loop in loops]
+
+    def polygons(each: int) -> list[NDArray]:
+        return [_apart((curve.samples(each)[:-1] - center) @ frame, tolerance) for curve in curves]
+
+    flat = polygons(EACH[0])
     if min(map(len, flat)) < 3:
         raise ValueError("One of its curves is too small to be told from a point, as small as what its coordinates' "
                          "rounding leaves. Delete it, move its points nearer to the origin, or measure a wire.")
-    if _cross(flat, tolerance):
+    spans, crossing = sum(len(curve.space.spans) for curve in curves), _cross(flat, tolerance)
+    for each in EACH[1:]:
+        if crossing and spans * each <= MOST_CHORDS:
+            flat = polygons(each)
+            crossing = _cross(flat, tolerance)
+    if crossing:
         raise ValueError("Its curves cross or touch, so that it is not clear what they bound. Separate "
                          "them, or measure a wire.")
     found = []
