@@ -396,6 +396,26 @@ def test_live_numbers_follow_hooks_keys_transforms_and_frames():
     bpy.ops.object.body_moments_live()
 
 
+def test_live_numbers_follow_what_was_renamed_and_the_linked_one_of_two_with_one_name(tmp_path):
+    path, own = str(tmp_path / "library.blend"), primitive("sphere")
+    bpy.data.libraries.write(path, {own})
+    with bpy.data.libraries.load(path, link=True) as (_, found):
+        found.objects = [own.name]
+    (linked,) = found.objects
+    bpy.context.scene.collection.objects.link(linked)
+    assert linked.name == own.name
+    for obj in (own, linked):
+        only(obj)
+        bpy.ops.object.body_moments_live()
+    for obj in (own, linked):
+        obj.scale.z = 2.0
+    bpy.context.view_layer.update()
+    own.name = "Renamed"
+    live._tick()
+    for obj in (own, linked):
+        assert live.shown(obj).measurement.volume == pytest.approx(2.0 * BALL * STORED, rel=1e-8)
+
+
 def test_live_numbers_of_other_settings_are_out_of_date():
     obj, scene = primitive("sphere"), bpy.context.scene
     bpy.ops.object.body_moments_live()
