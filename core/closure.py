@@ -65,8 +65,8 @@ class Closure:
     """component: (n,) of each patch; number: of them. turned: (n,) which patches face against the first of theirs.
     loops: the holes. open_sides, crowded, against: how many sides lie open, coincide with more than one other, or run
     the same way as the side that they coincide with, before anything was turned. gap: the largest distance, times the
-    length, of sides that coincide. broken: (number,) components whose sides can be joined to no loops, or that have
-    one side only.
+    length, of sides that coincide. seams: (k, 2) sides that are joined, four to a patch in the order of `SIDES`.
+    broken: (number,) components whose sides can be joined to no loops, or that have one side only.
     """
 
     component: NDArray[np.intp]
@@ -77,6 +77,7 @@ class Closure:
     crowded: int
     against: int
     gap: float
+    seams: NDArray[np.intp]
     broken: NDArray[np.bool_]
 
 
@@ -114,7 +115,7 @@ def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
             continue
         loops.append(_capped([sides[k] for k in rows], points[rows], (forward ^ turned[owner])[rows], tolerance))
     return Closure(component, number, turned, tuple(loops), int(free.sum()), crowded, int(against.sum()),
-                   float((gap * length[left]).sum()), broken)
+                   float((gap * length[left]).sum()), np.stack([left, right], axis=1), broken)
 
 
 @lru_cache(maxsize=64)

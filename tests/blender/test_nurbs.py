@@ -278,8 +278,8 @@ def test_splines_that_show_nothing_are_left_out_and_said():
     assert found.method in {"NURBS exact", "exact"} and found.warnings
 
 
-def test_patches_with_a_seam_between_them_are_one_body():
-    """A loaf: six patches of different resolution in one object."""
+def loaf():
+    """A cube of six patches of different resolution in one object."""
     def side(u, v, origin, count):
         s, t = np.meshgrid(np.linspace(0, 1, count[0]), np.linspace(0, 1, count[1]), indexing="ij")
         return s[..., None] * v + t[..., None] * u + origin
@@ -291,9 +291,24 @@ def test_patches_with_a_seam_between_them_are_one_body():
     objects = [surface(points, orders=(2, 3)) for points in sides]
     only(*objects)
     bpy.ops.object.join()
-    found = measured(bpy.context.object)
+    return bpy.context.object
+
+
+def test_patches_with_a_seam_between_them_are_one_body():
+    found = measured(loaf())
     assert found.method == "NURBS reoriented" and found.health.components == 1
     assert found.volume == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_wall_over_creases_says_what_it_is():
+    obj = loaf()
+    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
+    found = measured(obj)
+    assert found.volume == pytest.approx(0.6, rel=1e-5)  # 1 - 0.8³ if it were mitred
+    assert any("creases of up to 90°" in warning for warning in found.warnings)
+    smooth = primitive("torus")
+    smooth.body_moments.kind, smooth.body_moments.wall, smooth.body_moments.thickness = "SHELL", "INWARD", 0.1
+    assert not measured(smooth).warnings
 
 
 def test_instances_of_a_surface_are_measured_as_it_is():

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from body_moments.core import closure
 from body_moments.core.bspline import Space, clamped
+from body_moments.core.closure import close_patches
+from body_moments.core.creases import sharpest_crease
 from body_moments.core.curve import Curve
 from body_moments.core.moments import monomials
 from body_moments.core.patch import Patch
@@ -294,6 +296,20 @@ def test_stored_float32_is_a_bound_of_the_area_too(patch):
         moved = measure_patches([Patch(patch.spaces, points, patch.weights)]).area
         assert abs(moved.total - exact.total) <= exact.input[0] + exact.error[0] + moved.error[0]
     assert exact.input[0] <= 20.0 * stored * patch.points.shape[0]  # so it tells something
+
+
+@pytest.mark.parametrize("patches, degrees", [
+    ([sphere()], 0.0), ([torus()], 0.0), ([tube()], 0.0), (box(), 90.0),
+    ([patch.turned() if k % 2 else patch for k, patch in enumerate(box())], 90.0),
+    ([flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], (2, 3), ((0.5,), (0.5,)))], 0.0),
+    ([flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]), flat([(1, 0, 0), (2, 0, 0.1), (2, 1, 0.1), (1, 1, 0)])],
+     np.degrees(np.arctan(0.1))),
+    ([Patch((Space((0.0, 0.0, 1.0, 2.0, 2.0), 2, 3), clamped(2)),
+            [[(x, y, z) for z in (0, 1)] for x, y in ((1, 0), (0, 0), (0, 1))])], 90.0)])
+def test_creases_within_patches_and_between_them_are_found(patches, degrees):
+    for move in (np.eye(4), np.diag([-1e-4, 1e-4, 1e-4, 1.0])):
+        own = [patch.mapped(move) for patch in patches]
+        assert np.degrees(sharpest_crease(own, close_patches(own, 1e-12))) == pytest.approx(degrees, abs=1e-6)
 
 
 def test_a_flat_part_beside_a_body_is_left_out_and_said():
