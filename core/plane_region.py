@@ -34,7 +34,7 @@ def plane_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cur
             curve.space.is_torn for curve in curves):
         raise ValueError("One of its curves is not closed, so that it bounds nothing. Close it, or measure a wire.")
     points = np.concatenate([curve.points for curve in curves]) - center
-    _, _, axes = np.linalg.svd(points, full_matrices=False)
+    _, _, axes = np.linalg.svd(np.concatenate([points, np.zeros((3, 3))]), full_matrices=False)
     if np.abs(points @ axes[2]).max() > tolerance:
         raise ValueError("Its curves are not in one plane, so that they bound no flat region. Flatten them, or measure "
                          "a wire.")

@@ -140,8 +140,8 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
                    for patch, sign in zip(part.splines.patches, measure.signs)]
         sharpest = sharpest_crease(part.splines.patches, measure.closure)
         if sharpest > CREASE:
-            warnings.append("It has creases of up to {:.0f}°, which its wall does not mitre: it overlaps itself or gapes "
-                            "there. Convert it to a mesh for mitred corners.".format(np.degrees(sharpest)))
+            warnings.append("It has creases of up to {:.0f}°, which its wall does not mitre: it overlaps itself or "
+                            "gapes there. Convert it to a mesh for mitred corners.".format(np.degrees(sharpest)))
         inner, outer = (thickness * height for height in HEIGHTS[wall])
         for patches, places in _distinct(outward, matrices):
             grown = unit * float(np.linalg.norm(part.matrices[:, :3, :3], 2, axis=(1, 2)).max())

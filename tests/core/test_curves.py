@@ -118,6 +118,7 @@ def test_a_reversed_curve_is_the_same_run_backwards():
     ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 0)])], "not closed"),
     ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0), (0, 0, 0)])], "one plane"),
     ([polyline([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0)])], "cross"),
+    ([polyline([(1, 0, 0), (1, 0, 0)])], "point"),  # a closed curve of one point
     ([ring(), ring(1.0, (0.5, 0.0, 0.0))], "cross")])
 def test_curves_that_bound_no_region_are_refused(curves, reason):
     with pytest.raises(ValueError, match=reason):
