@@ -130,6 +130,7 @@ def test_what_bounds_no_region_is_measured_by_its_fill_or_refused():
     crossing.data.dimensions, crossing.data.fill_mode = "2D", "BOTH"
     found = measured(crossing)
     assert found.method == "shell" and found.area > 0.0  # whatever Blender fills
+    assert any("Blender fills" in warning and "cross or touch" in warning for warning in found.warnings)
 
 
 def test_hooks_and_keys_bend_a_wire_with_a_bevel_and_without():
