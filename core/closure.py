@@ -27,12 +27,14 @@ from .curve import Curve
 from .nesting import overlapping_boxes
 from .patch import Patch
 from .patch_moments import vector_area
+from .plane_region import crosses_itself
 from .topology import components
 
 SAMPLES = 33  # points at least by which sides are compared
 BLOCK = 4096  # pairs of sides compared at a time
 PIECE = 1 << 20  # pairs of sides looked at together
 FOLDED = 1e-3  # radians: patches that lie on each other
+MOST_CHORDS = 4096  # of a rim that is asked whether it crosses itself
 MOST_PAIRS = 100_000  # of closed sides, compared point by point
 SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held, end, run forward), counter-clockwise
 
@@ -50,7 +52,7 @@ class Side:
 class Loop:
     """Open sides that run round a hole. caps: the patches that close it and face as theirs do. patch: one of theirs.
     flat: whether it lies in a plane; out_of_plane: by how much it does not. slim: whether it has no area, so that it
-    is closed already. area: of the cap, an estimate."""
+    is closed already. area: of the cap, an estimate. crossing: whether it is flat and crosses itself."""
 
     caps: tuple[Patch, ...]
     patch: int
@@ -58,6 +60,7 @@ class Loop:
     slim: bool
     area: float
     out_of_plane: float
+    crossing: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -345,4 +348,6 @@ def _capped(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_], 
     flat = off <= tolerance
     # A way there and back has no net area; of a loop in space only its cone's area tells.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width
-    return Loop(tuple(caps), sides[0].patch, flat, area <= tolerance * weigh.sum(), area, off)
+    slim = area <= tolerance * weigh.sum()
+    crossing = flat and not slim and len(arms) <= MOST_CHORDS and crosses_itself(arms @ axes[:2].T, tolerance)
+    return Loop(tuple(caps), sides[0].patch, flat, slim, area, off, crossing)

@@ -50,11 +50,11 @@ def plane_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cur
     if min(map(len, flat)) < 3:
         raise ValueError("One of its curves is too small to be told from a point, as small as what its coordinates' "
                          "rounding leaves. Delete it, move its points nearer to the origin, or measure a wire.")
-    spans, crossing = sum(len(curve.space.spans) for curve in curves), _cross(flat, tolerance)
+    spans, crossing = sum(len(curve.space.spans) for curve in curves), cross(flat, tolerance)
     for each in EACH[1:]:
         if crossing and spans * each <= MOST_CHORDS:
             flat = polygons(each)
-            crossing = _cross(flat, tolerance)
+            crossing = cross(flat, tolerance)
     if crossing:
         raise ValueError("Its curves cross or touch, so that it is not clear what they bound. Separate "
                          "them, or measure a wire.")
@@ -76,19 +76,26 @@ def _within(point: NDArray, loop: NDArray) -> bool:
     return bool(np.count_nonzero(upward & (x > point[0])) % 2)
 
 
+def crosses_itself(loop: NDArray, tolerance: float) -> bool:
+    """Whether a polygon (n, 2) runs through itself, in a corner too, but does not merely touch itself."""
+    loop = _apart(loop, tolerance)
+    return cross([loop], tolerance, touch=False) or (
+        cross([loop], tolerance) and cross([(loop + np.roll(loop, 1, axis=0)) / 2.0], tolerance, touch=False))
+
+
 def _apart(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
     """A polygon without repeated points."""
     return loop[np.linalg.norm(loop - np.roll(loop, 1, axis=0), axis=1) > tolerance]
 
 
-def _cross(loops: Sequence[NDArray], tolerance: float) -> bool:
-    """Whether chords of polygons (n, 2) cross by more than a tolerance, or corners of them coincide."""
+def cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True) -> bool:
+    """Whether chords of polygons (n, 2) cross by more than a tolerance. touch: or corners of them coincide."""
     a = np.concatenate(loops)
     b = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
     step = max(1, MOST_PAIRS // len(a))
     for start in range(0, len(a), step):
         p, q = a[start:start + step, None], b[start:start + step, None]
-        if np.count_nonzero(np.abs(p - a).max(axis=2) <= tolerance) > len(p):
+        if touch and np.count_nonzero(np.abs(p - a).max(axis=2) <= tolerance) > len(p):
             return True
         sides = [_side(p, q, a), _side(p, q, b), _side(a, b, p), _side(a, b, q)]
         length = [np.linalg.norm(q - p, axis=2), np.linalg.norm(b - a, axis=1)]

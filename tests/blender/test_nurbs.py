@@ -294,6 +294,18 @@ def loaf():
     return bpy.context.object
 
 
+def test_surfaces_that_show_none_are_refused_with_what_to_do():
+    circle = primitive("circle")
+    with pytest.raises(Unreadable, match="^SurfCircle: It shows lines without a surface; extrude"):
+        measured(circle)
+    sheet = primitive("surface")
+    sheet.data.splines[0].use_bezier_u = True
+    with pytest.raises(Unreadable, match="^SurfPatch: None of its splines .* turn Bézier off"):
+        measured(sheet)
+    sheet.data.splines[0].use_bezier_u = False
+    assert measured(sheet).volume > 0.0
+
+
 def test_patches_with_a_seam_between_them_are_one_body():
     found = measured(loaf())
     assert found.method == "NURBS reoriented" and found.health.components == 1

@@ -109,6 +109,20 @@ def test_the_cap_of_a_flat_rim_is_exact_whatever_the_rims_shape():
     assert abs(found.health.cap_area_share - 14.0 / (16.0 * 3.0)) <= 1e-12
 
 
+@pytest.mark.parametrize("shift", [0.0, 0.1])
+@pytest.mark.parametrize("crossing", [True, False])
+def test_rims_that_cross_themselves_are_told(crossing, shift):
+    """A prism over a lying eight, which crosses itself in a corner or beside it, and over two lobes that touch."""
+    t = np.linspace(0.0, 2.0 * np.pi, 33) + shift
+    x = np.sin(t) * (1.0 + 0.5 * (np.sin(t) > 0.0))
+    y = np.sin(t) * np.cos(t) if crossing else np.abs(np.sin(t)) * np.cos(t)
+    space = Space((0.0, *map(float, range(33)), 32.0), 2, 33)
+    points = np.stack([np.stack([x, y, np.full(33, z)], axis=1) for z in (0.0, 1.0)], axis=1)
+    found = measure_patches([Patch((space, clamped(2)), points)])
+    assert any("2 rims cross themselves" in warning for warning in found.warnings) == crossing
+    assert found.method == "capped"
+
+
 def test_six_patches_of_different_resolution_make_a_box():
     orders = ((2, 2), (3, 4), (2, 3), (5, 2), (4, 4), (2, 2))
     inner = (((), ()), ((0.5,), ()), ((0.25, 0.5), ()), ((), (0.5,)), ((0.1,), (0.9,)), ((0.5,), (0.5,)))
