@@ -27,11 +27,14 @@ from .curve import Curve
 from .nesting import overlapping_boxes
 from .patch import Patch
 from .patch_moments import vector_area
+from .plane_region import crosses_itself
 from .topology import components
 
 SAMPLES = 33  # points at least by which sides are compared
 BLOCK = 4096  # pairs of sides compared at a time
 PIECE = 1 << 20  # pairs of sides looked at together
+FOLDED = 1e-3  # radians: patches that lie on each other
+MOST_CHORDS = 4096  # of a rim that is asked whether it crosses itself
 MOST_PAIRS = 100_000  # of closed sides, compared point by point
 SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held, end, run forward), counter-clockwise
 
@@ -49,7 +52,7 @@ class Side:
 class Loop:
     """Open sides that run round a hole. caps: the patches that close it and face as theirs do. patch: one of theirs.
     flat: whether it lies in a plane; out_of_plane: by how much it does not. slim: whether it has no area, so that it
-    is closed already. area: of the cap, an estimate."""
+    is closed already. area: of the cap, an estimate. crossing: whether it is flat and crosses itself."""
 
     caps: tuple[Patch, ...]
     patch: int
@@ -57,6 +60,7 @@ class Loop:
     slim: bool
     area: float
     out_of_plane: float
+    crossing: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,8 +68,8 @@ class Closure:
     """component: (n,) of each patch; number: of them. turned: (n,) which patches face against the first of theirs.
     loops: the holes. open_sides, crowded, against: how many sides lie open, coincide with more than one other, or run
     the same way as the side that they coincide with, before anything was turned. gap: the largest distance, times the
-    length, of sides that coincide. broken: (number,) components whose sides can be joined to no loops, or that have
-    one side only.
+    length, of sides that coincide. seams: (k, 2) sides that are joined, four to a patch in the order of `SIDES`.
+    broken: (number,) components whose sides can be joined to no loops, or that have one side only.
     """
 
     component: NDArray[np.intp]
@@ -76,6 +80,7 @@ class Closure:
     crowded: int
     against: int
     gap: float
+    seams: NDArray[np.intp]
     broken: NDArray[np.bool_]
 
 
@@ -92,10 +97,11 @@ def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
     points = np.array([side.curve.combined(_evenly(side.curve.space, count)) for side in sides])
     length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
     wide = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
-    left, right, same, gap, crowded = _matched(sides, points, np.flatnonzero(wide), tolerance)
-
     owner = np.array([side.patch for side in sides])
     forward = np.array([side.forward for side in sides])
+    left, right, same, gap, crowded = _paired(_matched(sides, points, np.flatnonzero(wide), tolerance), points, owner,
+                                              forward)
+
     # Two sides fit where one runs against the other; else one of their patches must turn.
     against = same == (forward[left] == forward[right])
     component, number = components(len(patches), owner[left], owner[right])
@@ -112,7 +118,7 @@ def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
             continue
         loops.append(_capped([sides[k] for k in rows], points[rows], (forward ^ turned[owner])[rows], tolerance))
     return Closure(component, number, turned, tuple(loops), int(free.sum()), crowded, int(against.sum()),
-                   float((gap * length[left]).sum()), broken)
+                   float((gap * length[left]).sum()), np.stack([left, right], axis=1), broken)
 
 
 @lru_cache(maxsize=64)
@@ -123,9 +129,9 @@ def _evenly(space: Space, count: int) -> NDArray[np.float64]:
 
 
 def _matched(sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tolerance: float
-             ) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
-    """Pairs of sides that coincide: (k,) and (k,), whether their curves run the same way, how far they are apart, and
-    the number of sides that would fit more than one other."""
+             ) -> list[tuple[float, int, int, bool]]:
+    """Pairs of sides that coincide, the nearest first: how far they are apart, which, and whether their curves run the
+    same way."""
     middle = points.shape[1] // 2
     rows = points[wide]
     first, last = rows[:, 0], rows[:, -1]
@@ -141,15 +147,72 @@ def _matched(sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tol
     candidates = np.concatenate([arcs[np.stack(ends)], np.sort(rings[np.stack(boxes)], axis=0)], axis=1)
     for i, j in wide[candidates.T].tolist():
         found += _astride(sides[i].curve, sides[j].curve, points[i], points[j], i, j, tolerance)
-    pairs, used, crowded = [], set(), set()
-    for gap, i, j, same in sorted(found):
-        if i in used or j in used:
-            crowded |= {i, j} - used
-            continue
-        used |= {i, j}
-        pairs.append((i, j, same, gap))
-    left, right, same, gap = (np.array(column) for column in zip(*pairs)) if pairs else np.zeros((4, 0))
-    return left.astype(np.intp), right.astype(np.intp), same.astype(bool), gap, len(crowded)
+    return sorted(found)
+
+
+def _paired(found: Sequence[tuple[float, int, int, bool]], points: NDArray, owner: NDArray[np.intp],
+            forward: NDArray[np.bool_]) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
+    """Which of the sides that coincide are joined: (k,) and (k,), whether their curves run the same way, how far they
+    are apart, and the number of sides that coincide with more than one other.
+
+    Where more than two meet, as where bodies touch, those are joined first whose patches are one already by other
+    sides, then a patch by itself to what it fits as it faces, then whatever fits as it faces: so no patch is turned
+    that need not be. Of equal ones the sharpest angle comes first, patches that lie on each other after all others.
+    """
+    times = np.bincount(np.array([side for _, i, j, _ in found for side in (i, j)], np.intp), minlength=len(owner))
+    part, odd, size = list(range(len(owner))), [False] * len(owner), [1] * len(owner)
+
+    def root(patch: int) -> tuple[int, bool]:
+        turn = False
+        while part[patch] != patch:
+            turn ^= odd[patch]
+            patch = part[patch]
+        return patch, turn
+
+    pairs, used = [], np.zeros(len(owner), bool)
+    arms = points.reshape(-1, len(SIDES), *points.shape[1:]).mean(axis=(1, 2))[owner] - points.mean(axis=1)
+    arms /= np.maximum(np.linalg.norm(arms, axis=1), 1e-300)[:, None]
+
+    def angle(pair: tuple[float, int, int, bool]) -> float:
+        return float(np.linalg.norm(arms[pair[1]] - arms[pair[2]]))
+
+    def rank(pair: tuple[float, int, int, bool]) -> int:
+        _, i, j, same = pair
+        (a, turn), (b, other) = root(int(owner[i])), root(int(owner[j]))
+        flip = same == (forward[i] == forward[j])
+        if a == b:
+            found = 0 if flip == turn ^ other else 4
+        else:
+            found = 3 if flip else 1 if (size[a] == 1) != (size[b] == 1) else 2
+        return max(found, 3) if angle(pair) < FOLDED else found
+
+    def join(pair: tuple[float, int, int, bool]) -> None:
+        _, i, j, same = pair
+        (a, turn), (b, other) = root(int(owner[i])), root(int(owner[j]))
+        if a != b:
+            a, b = (a, b) if size[a] >= size[b] else (b, a)
+            part[b], odd[b] = a, bool(same == (forward[i] == forward[j])) ^ turn ^ other
+            size[a] += size[b]
+        used[[i, j]] = True
+        pairs.append(pair)
+
+    crowds = [pair for pair in found if max(times[pair[1]], times[pair[2]]) > 1]
+    for pair in found:
+        if times[pair[1]] == times[pair[2]] == 1:
+            join(pair)
+    crowd, number = components(len(owner), *(np.array([pair[k] for pair in crowds], np.intp) for k in (1, 2)))
+    together: dict[int, list] = {}
+    for pair in crowds:
+        together.setdefault(int(crowd[pair[1]]), []).append(pair)
+    for meeting in together.values():
+        meeting.sort(key=lambda pair: (round(angle(pair), 3), pair))
+        for wanted in range(5):
+            for pair in meeting:
+                if not (used[pair[1]] or used[pair[2]]) and rank(pair) <= wanted:
+                    join(pair)
+    left, right, same, gap = (np.array(column) for column in zip(*(
+        (i, j, same, gap) for gap, i, j, same in pairs))) if pairs else np.zeros((4, 0))
+    return left.astype(np.intp), right.astype(np.intp), same.astype(bool), gap, int((times > 1).sum())
 
 
 def _near(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -285,4 +348,6 @@ def _capped(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_], 
     flat = off <= tolerance
     # A way there and back has no net area; of a loop in space only its cone's area tells.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width
-    return Loop(tuple(caps), sides[0].patch, flat, area <= tolerance * weigh.sum(), area, off)
+    slim = area <= tolerance * weigh.sum()
+    crossing = flat and not slim and len(arms) <= MOST_CHORDS and crosses_itself(arms @ axes[:2].T, tolerance)
+    return Loop(tuple(caps), sides[0].patch, flat, slim, area, off, crossing)

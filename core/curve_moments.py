@@ -29,6 +29,7 @@ from .patch_moments import ROUNDING, TOLERANCE
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # points; each is compared with the one before
 DEEPEST = 60  # times that a piece is halved
+STEEP = 1e8  # the largest weight of a piece by its smallest: beyond it two rules may miss the same
 
 
 def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
@@ -106,6 +107,7 @@ def _integrated(curves: Sequence[Curve], density: Callable, largest: float, orde
             differ = np.where(unit > 0.0, np.abs(fine - coarse) / np.where(unit > 0.0, unit, 1.0), 0.0).max(axis=1)
             if kinks:
                 differ += _turning(net)
+            differ += largest * _unseen(net)
             # What is no number, of moments beyond its range, is not halved.
             good = ~(differ > tolerance * np.maximum(size, share) * largest) | (depth >= DEEPEST)
             values += fine[good].sum(axis=0)
@@ -143,6 +145,16 @@ def _turning(net: NDArray) -> NDArray[np.float64]:
     edges = np.diff(net[..., :3] / net[..., 3:] if net.shape[2] == 4 else net, axis=1)
     ahead = np.einsum("ckd,cd->ck", edges, edges.sum(axis=1)).min(axis=1) >= 0.0
     return np.where(ahead, 0.0, np.sqrt((edges ** 2).sum(axis=2)).sum(axis=1))
+
+
+def _unseen(net: NDArray) -> NDArray[np.float64]:
+    """(c,) the most that the lengths can be of pieces that heavy weights draw to a point but for their ends, 0 of
+    others."""
+    if net.shape[2] == 3:
+        return np.zeros(len(net))
+    weights, places = net[..., 3], net[..., :3] / net[..., 3:]
+    steep = weights.max(axis=1) > STEEP * weights.min(axis=1)
+    return np.where(steep, np.sqrt((np.diff(places, axis=1) ** 2).sum(axis=2)).sum(axis=1), 0.0)
 
 
 def _summed(net: NDArray, home: NDArray, points: int, density: Callable, order: int

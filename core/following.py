@@ -5,8 +5,9 @@
 All is decided anew each time as measuring does: which patches face which way, which rims are capped. Only the moments
 follow, from tables (`reevaluation`), and where few control points have moved only the spans that they act on. The
 tables' rule for rational patches is fixed and has no estimate of its own: how far it is off depends on the weights, so
-it is compared with what measuring found, and other weights are measured anew. So is a body that has gone far from the
-point about which its moments are taken.
+it is compared with what measuring found, of the body and of patches with its weights and points at random, as a body
+that is flat tells little of what becomes of it. Other weights are measured anew. So is a body that has gone far from
+the point about which its moments are taken.
 """
 
 from __future__ import annotations
@@ -52,6 +53,7 @@ class FollowedBody:
             tables = self._judged(patches, self.measure.closure, stored).volume
             # The worst of all moments stands for each: of a symmetric body one may be right by chance.
             off = float((np.abs(tables.raw - volume.raw) / largest).max())
+            off = max([off] + [_off_at_random(patch) for patch in patches if patch.weights is not None])
             self._error, self._follows = self._error + GROWS * off, off <= COARSE
 
     def _largest(self, patches: Sequence[Patch], area: float) -> NDArray[np.float64]:
@@ -107,3 +109,13 @@ class FollowedBody:
         for i, j in rows:
             found = self._evaluators[k].move(int(i), int(j), patch.points[i, j])
         return found
+
+
+def _off_at_random(patch: Patch) -> float:
+    """By how much the tables' rule is off for these weights, of the largest that a moment could be."""
+    points = np.random.default_rng(0).uniform(-1.0, 1.0, patch.points.shape)
+    other, about = replace(patch, points=points), np.zeros(3)
+    evaluator = Evaluator(other, 3, about)
+    off = np.abs(evaluator.moments(points, patch.weights).raw - volume_moments([other], 3, about)[0].raw)
+    reach = float(np.sqrt((points ** 2).sum(axis=2).max()))
+    return float((off / (evaluator.area * reach ** (monomials(3).sum(axis=1) + 1.0))).max())

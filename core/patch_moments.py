@@ -34,6 +34,8 @@ from .vectors import cross, dot
 TOLERANCE = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
 AREA_TOLERANCE = 1e-11
 UNSETTLED = 8.0  # times what two rules differ by that have not begun to agree, when no more points are to be spent
+STEEP = 1e2, 1e6  # a cell's largest weight by its smallest, beyond which rules may differ by less than both miss, or
+# miss the same
 FOLDED = 8.0  # times what two rules differ by: where a patch folds back, its area has kinks, and both may be off alike
 TURNED = 1e-9  # a normal that points against its neighbour by less than this is rounding
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
@@ -243,7 +245,7 @@ def sheet_moments(patches: Sequence[Patch], inner: float, outer: float, order: i
         rows[-1] = length * (outer - inner)
         return summed(rows, weights)
 
-    found = adaptive(parts, sheet, unit, AREA_TOLERANCE)
+    found = adaptive(parts, sheet, unit, AREA_TOLERANCE, thickness=outer - inner)
     orders = max(sum(part.orders) for part in parts)
     error = (found.estimate + ROUNDING * U * orders * found.size) * unit
     return Moments(found.values, about, "volume", error), found.settled
@@ -266,20 +268,21 @@ def exact_points(order: int, degree: int) -> int:
 
 
 def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolerance: float,
-             degree: int | None = None) -> Integral:
+             degree: int | None = None, thickness: float = 1.0) -> Integral:
     """An integral over patches, cell by cell to the rule that settles it.
 
     integrand: gives for each rule (K + 1, c) contributions and sizes of cells, and perhaps a row more of shares that
     count as error. unit: (K,) what a cell's size times it bounds.
     degree: of moments whose integrand is a polynomial along a direction in which the weights are the same, so that
-    there fewer points are exact; None where there is none.
+    there fewer points are exact; None where there is none. thickness: what an area is multiplied by.
     A cell is settled when two rules agree to the tolerance of its own scale, or of its share of the whole one.
     """
     k = len(unit)
-    values, estimate, most = np.zeros(k), 0.0, np.maximum(unit, TINY)[:, None]
+    values, estimate, lost, most = np.zeros(k), 0.0, 0.0, np.maximum(unit, TINY)[:, None]
     points, enough = (RULES, MOST_POINTS) if tolerance < AREA_TOLERANCE else (COARSE_RULES, MOST_POINTS // 2)
     work = [(part, None, 0) for part in cells]
     whole, count, spent, settled, depth = 0.0, sum(map(len, cells)), 0, True, 0
+    at_stake = thickness * sum(float(_unseen(part, STEEP[0]).sum()) for part in cells)
     while work:
         waiting, compared = [], []
         for part, coarse, level in work:
@@ -293,19 +296,20 @@ def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolera
         for part, coarse, fine, level in compared:
             # The worst of all moments stands for each: one may agree by chance.
             differ = np.maximum.reduce(np.abs(fine[:k] - coarse[:k]) / most)
-            if len(fine) > k + 1:
-                differ += fine[k + 1]
-            good = differ <= tolerance * np.maximum(fine[k], whole / count)
+            kinks = fine[k + 1] if len(fine) > k + 1 else 0.0
+            steep = thickness * _unseen(part, STEEP[1])
+            differ += kinks
+            good = differ + steep <= tolerance * np.maximum(fine[k], whole / count)
             if last or good.all():
                 settled &= not last or bool(good.all())
+                lost += thickness * float(_unseen(part[~good], STEEP[0]).sum()) if last and at_stake else 0.0
                 values += np.add.reduce(fine[:k], axis=1)
                 estimate += float(np.add.reduce(differ)) + (UNSETTLED - 1.0) * float(np.add.reduce(differ[~good]))
                 continue
             values += np.add.reduce(fine[:k, good], axis=1)
             estimate += float(np.add.reduce(differ[good]))
             onward = ~good if level + 2 < len(points) else np.zeros_like(good)
-            if len(fine) > k + 1:
-                onward &= fine[k + 1] == 0.0  # no rule sees through a kink
+            onward &= kinks + steep == 0.0  # no rule sees through a kink
             cut = ~(good | onward)
             if onward.any():
                 waiting.append((part[onward], fine[:, onward], level + 1))
@@ -313,7 +317,20 @@ def adaptive(cells: Sequence[Cells], integrand: Integrand, unit: NDArray, tolera
                 waiting.append((part[cut].split(), None, 0))
         depth += any(coarse is None for _, coarse, _ in waiting)
         work = waiting
-    return Integral(values, estimate, whole, settled)
+    return Integral(values, estimate + min(lost, at_stake), whole, settled)
+
+
+def _unseen(cells: Cells, steep: float) -> NDArray[np.float64]:
+    """(c,) the area that may lie between the points of all rules: of cells whose weights differ by more than that
+    factor, so that all but a rim of them is drawn to a point, the squared diagonal of their control points' box."""
+    lost = np.zeros(len(cells))
+    if len(cells.net) == 4:
+        weights = cells.net[3]
+        rows = np.flatnonzero(weights.max(axis=(0, 2)) > steep * weights.min(axis=(0, 2)))
+        if len(rows):
+            places = cells.net[:3, :, rows] / cells.net[3:, :, rows]
+            lost[rows] = (np.ptp(places, axis=(1, 3)) ** 2).sum(axis=0)
+    return lost
 
 
 @lru_cache(maxsize=256)

@@ -228,6 +228,9 @@ def _told(closure: Closure, mixed: int, turn: NDArray, caps: NDArray, area: floa
                      if mixed == 1 else
                      "{:d} patches face against the rest and were measured as if turned; switch their "
                      "direction.".format(mixed))
+        if closure.crowded:
+            notes.append("Of its sides {:d} meet more than one other, so that which patches belong together, and face "
+                         "against the rest, is a guess; make all of them face outward.".format(closure.crowded))
     if turn.any():
         notes.append("{:s} inside out and measured as if turned; switch the direction of its patches to mend that."
                      .format("It is" if closure.number == 1 else "{:d} of its {:d} parts are".format(
@@ -248,6 +251,10 @@ def _told(closure: Closure, mixed: int, turn: NDArray, caps: NDArray, area: floa
     if flat:
         notes.append("{:s} capped exactly ({:.3g} % of the area).".format(
             "One flat rim was" if flat == 1 else "{:d} flat rims were".format(int(flat)), 100.0 * share / area))
+    crossing = sum(loop.crossing and bool(solid[closure.component[loop.patch]]) for loop in closure.loops)
+    if crossing:
+        notes.append("{:s}: what lies on the other side of the crossing counts as negative.".format(
+            "One rim crosses itself" if crossing == 1 else "{:d} rims cross themselves".format(crossing)))
     if curved:
         worst = max(loop.out_of_plane for loop in closure.loops)
         notes.append("{:s} capped by the cone to {:s} center, {:.2g} % of the size out of plane ({:.3g} % of the "

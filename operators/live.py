@@ -44,7 +44,7 @@ class Live:
 
 # by session uid; none of it outlives the file
 _live: set[int] = set()
-_due: dict[int, str] = {}  # with the objects' names
+_due: set[int] = set()
 _shown: dict[int, Live] = {}
 _followed: dict[int, FollowedBody] = {}
 
@@ -144,7 +144,7 @@ def _note(_scene: Scene, depsgraph: Depsgraph | None = None) -> None:
         if isinstance(update.id, Object) and (update.is_updated_geometry or update.is_updated_transform):
             obj = update.id.original
             if is_live(obj):
-                _due[obj.session_uid] = obj.name
+                _due.add(obj.session_uid)
     if _due and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
         slowest = max((_shown[uid].seconds for uid in _due if uid in _shown), default=0.0)
         bpy.app.timers.register(_tick, first_interval=min(2.0 * slowest, LONGEST_WAIT))
@@ -155,12 +155,10 @@ def _tick() -> float | None:
         return 0.5
     layer = bpy.context.view_layer
     depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
-    due = dict(_due)
+    due = [obj for obj in layer.objects if obj.session_uid in _due]
     _due.clear()
-    for uid, name in due.items():
-        obj = layer.objects.get(name)
-        if obj is not None and obj.session_uid == uid and is_live(obj):
-            follow(obj, depsgraph)
+    for obj in due:
+        follow(obj, depsgraph)
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type in {"VIEW_3D", "PROPERTIES"}:
@@ -169,8 +167,9 @@ def _tick() -> float | None:
 
 
 def _forget(uid: int) -> None:
-    _live.discard(uid)
-    for kept in (_due, _shown, _followed):
+    for kept in (_live, _due):
+        kept.discard(uid)
+    for kept in (_shown, _followed):
         kept.pop(uid, None)
 
 

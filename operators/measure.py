@@ -90,11 +90,14 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
     shell = options.kind == "shell"
     try:
         density = None if given or options.kind == "wire" else density_field(obj.body_moments)
-        lines = _lines(obj, depsgraph, unit, options) if density is None else None
+        lines, unknown = _lines(obj, depsgraph, unit, options) if density is None else (None, "")
         if lines is not None:
             return to_order(as_measurement(obj, *lines, options, unit), lines[1], options), lines[1]
         reading = read_object(obj, depsgraph, materials=density is not None and density.kind == "materials",
                               attribute=density.attribute if density is not None and shell else None)
+        if unknown:
+            reading.warnings.append("The faces that Blender fills its curves with were measured, overlapping or not, "
+                                    "as the region that they bound is not known. {:s}".format(unknown))
         if reading.has_patches and density is None:
             body = nurbs_body(reading, unit, wall=options.wall if shell else None, thickness=options.thickness,
                               union=options.overlap == "union", threads=options.threads, compare=options.compare)
@@ -127,23 +130,24 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
 
 
 def _lines(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float, options: MeasureOptions
-           ) -> tuple[Reading, Body] | None:
-    """A curve object as a wire, or as the flat region that it bounds; None for what is measured by its surface."""
+           ) -> tuple[tuple[Reading, Body] | None, str]:
+    """A curve object as a wire, or as the flat region that it bounds; None for what is measured by its surface, with
+    the reason where that is only what Blender fills."""
     if options.kind == "wire":
         reading = read_lines(obj, depsgraph)
-        return reading, wire_body(reading.curves, reading.matrix, unit)
+        return (reading, wire_body(reading.curves, reading.matrix, unit)), ""
     if options.kind != "shell" or obj.type != "CURVE" or not shows_flat_region(obj) or options.wall != "thin":
-        return None
+        return None, ""
     reading = read_lines(obj, depsgraph)
     filled = obj.data.dimensions == "2D" and obj.data.fill_mode != "NONE"
     if not filled:
         reading.warnings.append("The curve is not filled; the flat region that it bounds was measured.")
     try:
-        return reading, region_body(reading.curves, reading.matrix, unit)
-    except ValueError:
+        return (reading, region_body(reading.curves, reading.matrix, unit)), ""
+    except ValueError as error:
         if not filled:
             raise
-    return None
+        return None, str(error)
 
 
 def _measure_grid(obj: bpy.types.Object, volume: VolumeReading, grid: GridOptions, options: MeasureOptions,

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.affine import distinct_linear, translations
+from ..core.creases import sharpest_crease
 from ..core.moments import Moments, are_similarities, map_sum, monomial_count, sum_moments
 from ..core.patch import Patch
 from ..core.patch_moments import area_moments, volume_moments
@@ -35,6 +36,7 @@ from .mesh_body import (
 )
 from .read import Part, Reading
 
+CREASE = 0.02  # radians: less is what float32 leaves of a surface without
 HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)}  # of a wall, in thicknesses
 
 
@@ -136,6 +138,10 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
             continue
         outward = [patch.turned() if sign < 0.0 else patch
                    for patch, sign in zip(part.splines.patches, measure.signs)]
+        sharpest = sharpest_crease(part.splines.patches, measure.closure)
+        if sharpest > CREASE:
+            warnings.append("It has creases of up to {:.0f}°, which its wall does not mitre: it overlaps itself or "
+                            "gapes there. Convert it to a mesh for mitred corners.".format(np.degrees(sharpest)))
         inner, outer = (thickness * height for height in HEIGHTS[wall])
         for patches, places in _distinct(outward, matrices):
             grown = unit * float(np.linalg.norm(part.matrices[:, :3, :3], 2, axis=(1, 2)).max())
@@ -143,8 +149,7 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
             sheets.append(map_sum(sheet, places))
             areas.append(map_sum(area, places))
             if not fine:
-                warnings.append("The estimate of its wall's error is above what was asked for; its surface may have "
-                                "creases, which a wall does not fill.")
+                warnings.append("The estimate of its wall's error is above what was asked for.")
     if meshes.parts:
         body = mesh_body(meshes, unit, shell=True, union=False, threads=threads)
         areas.append(body.area)

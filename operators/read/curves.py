@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The splines of a curve object as B-spline curves: Bézier, NURBS and straight ones.
+"""The splines of a curve object as B-spline curves: Bézier, NURBS, Catmull-Rom and straight ones.
 
-Blender's geometry set has the control points of a curve that shows no surface as modifiers and shape keys leave them.
-Of one with a bevel it has the mesh alone, and the points come from the splines.
+Blender's geometry set has the curves that are shown without a surface, as modifiers and shape keys leave them. Of those
+with a bevel it has the mesh alone, and they come from the splines.
 """
 
 from __future__ import annotations
@@ -22,6 +22,11 @@ from .splines import weighted_points
 from .visibility import evaluated_geometry
 
 STRAIGHT = 1e-6  # of a spline's length: what float32 leaves of a straight line
+TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # of a geometry set's curves, by their number
+CUSTOM = 4  # the mode of knots that are none of those that the flags make
+STEPS, SAME_LENGTH, AGREE = 8, 1e-4, 1e-7  # a point; of the length; of the largest coordinate, at each step
+OTHER_KNOTS = ("Its file gave it knots of its own, which Blender keeps to itself; switch Endpoint off and on in its "
+               "Active Spline settings, which makes knots that are known.")
 
 
 def read_curves(obj, depsgraph) -> tuple[list[Curve], list[str]]:
@@ -30,32 +35,23 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[str]]:
     Raises Unreadable where there is none, or Blender has not evaluated it.
     """
     obj = obj.original
-    geometry = evaluated_geometry(obj, depsgraph, obj)
+    geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its curves
+    shown = geometry.curves
     evaluated = obj.evaluated_get(depsgraph)
-    splines = list(evaluated.data.splines)
     notes = []
-    rows = [_control_points(spline) for spline in splines]
-    places = np.concatenate(rows) if rows else np.zeros((0, 3))
-    shown = _evaluated_points(geometry.curves, splines)
     if shown is not None:
-        places = shown
-    elif is_deformed(evaluated):
-        places = deformed(evaluated, places, depsgraph)
-    if spline_modifiers(obj)[1] and shown is None:
-        notes.append("Its modifiers change the mesh that comes of the curve; the curve was measured as it is before.")
-    if not np.isfinite(places).all():
-        raise Unreadable(obj.name, "Some of its control points are not finite; delete them, or mend what moves them.")
-    found, left_out, start = [], 0, 0
-    for spline, row in zip(splines, rows):
-        curve = _curve(spline, places[start:start + len(row)])
-        start += len(row)
-        if curve is None:
-            left_out += 1
-        else:
-            found.append(curve)
-    if left_out:
+        curves = list(_shown_curves(shown, obj.name))
+    else:
+        curves = list(_spline_curves(evaluated, depsgraph))
+        if spline_modifiers(obj)[1]:
+            notes.append("Its modifiers change the mesh that comes of the curve; the curve was measured as it is "
+                         "before.")
+        if (obj.data.bevel_factor_start, obj.data.bevel_factor_end) != (0.0, 1.0):
+            notes.append("The whole curve was measured, also where its bevel's Start and End leave it bare.")
+    found = [curve for curve in curves if curve is not None]
+    if len(found) < len(curves):
         notes.append("{:d} of its {:d} splines are no curve and are left out: they have too few points for their "
-                     "order, or for Bézier ends.".format(left_out, len(splines)))
+                     "order, or for Bézier ends.".format(len(curves) - len(found), len(curves)))
     if not found:
         raise Unreadable(obj.name, "It has no spline that is a curve; add points to one.")
     return found, notes
@@ -99,44 +95,92 @@ def _control_points(spline) -> NDArray[np.float64]:
     return rows.reshape(3, -1, 3).swapaxes(0, 1).reshape(-1, 3).astype(np.float64)
 
 
-def _evaluated_points(curves, splines: list) -> NDArray[np.float64] | None:
-    """As `_control_points` for all splines in turn, from a geometry set's curves; None where they are others."""
-    if curves is None or len(curves.curves) != len(splines):
-        return None
-    counts = [len(spline.bezier_points if spline.type == "BEZIER" else spline.points) for spline in splines]
-    if len(curves.points) != sum(counts):
-        return None
-    position = _attribute(curves, "position")
-    left, right = _attribute(curves, "handle_left"), _attribute(curves, "handle_right")
-    rows, start = [], 0
-    for spline, count in zip(splines, counts):
-        own = slice(start, start + count)
-        if spline.type != "BEZIER":
-            rows.append(position[own])
-        elif left is None or right is None:
-            return None
-        else:
-            rows.append(np.stack([left[own], position[own], right[own]], axis=1).reshape(-1, 3))
-        start += count
-    return np.concatenate(rows).astype(np.float64)
+def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
+    """Those of the splines, None for what is no curve, as shape keys and hooks move them."""
+    name, splines = evaluated.original.name, list(evaluated.data.splines)
+    rows = [_control_points(spline) for spline in splines]
+    places = np.concatenate(rows) if rows else np.zeros((0, 3))
+    if is_deformed(evaluated):
+        places = deformed(evaluated, places, depsgraph)
+    _require_finite(places, name)
+    start = 0
+    for spline, row in zip(splines, rows):
+        kind = (spline.type, spline.use_cyclic_u, spline.order_u, spline.use_bezier_u, spline.use_endpoint_u)
+        weights = weighted_points(spline)[:, 3].astype(np.float64) if spline.type == "NURBS" else None
+        if spline.type == "NURBS" and not _is_told(spline, _curve(*kind, row, weights)):
+            raise Unreadable(name, OTHER_KNOTS)
+        yield _curve(*kind, places[start:start + len(row)], weights)
+        start += len(row)
 
 
-def _attribute(curves, name: str) -> NDArray[np.float32] | None:
+def _is_told(spline, curve: Curve | None) -> bool:
+    """Whether the knots are those that a spline's settings make: else Blender finds another length."""
+    if curve is None:
+        return True
+    low, high = curve.space.domain
+    steps = STEPS * len(spline.points) if spline.use_cyclic_u else STEPS * (len(spline.points) - 1) - 1
+    points = curve.at(low + (high - low) * np.arange(steps + 1) / steps)
+    length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
+    unsure = SAME_LENGTH * length + AGREE * steps * float(np.abs(points).max())
+    return bool(abs(spline.calc_length(resolution=STEPS) - length) <= unsure)
+
+
+def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
+    """Those of a geometry set, None for what is no curve."""
+    places = _values(curves, "position", "vector", 3, 0.0)
+    left, right = (_values(curves, side, "vector", 3, 0.0) for side in ("handle_left", "handle_right"))
+    weights = _values(curves, "nurbs_weight", "value", 1, 1.0)[:, 0]
+    types, cyclic, orders, knots = (
+        _values(curves, attribute, "value", 1, default, len(curves.curves))[:, 0].astype(int).tolist()
+        for attribute, default in (("curve_type", 0), ("cyclic", 0), ("nurbs_order", 4), ("knots_mode", 0)))
+    _require_finite(places, name)
+    for number, curve in enumerate(curves.curves):
+        own = slice(curve.first_point_index, curve.first_point_index + curve.points_length)
+        kind, points = TYPES[types[number]], places[own]
+        if kind == "NURBS" and knots[number] == CUSTOM:
+            raise Unreadable(name, OTHER_KNOTS)
+        if kind == "CATMULL_ROM":
+            arms = _catmull_rom(points, bool(cyclic[number]))
+            kind, points = "BEZIER", np.stack([points - arms, points, points + arms], axis=1).reshape(-1, 3)
+        elif kind == "BEZIER":
+            points = np.stack([left[own], points, right[own]], axis=1).reshape(-1, 3)
+            _require_finite(points, name)
+        yield _curve(kind, bool(cyclic[number]), orders[number], bool(knots[number] & 2), bool(knots[number] & 1),
+                     points, weights[own])
+
+
+def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
+    """(n, 3) the handles of the Bézier curve that is the same: a third of the slope, half of the way from neighbour to
+    neighbour."""
+    around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic else "edge")
+    return (around[2:] - around[:-2]) / 6.0
+
+
+def _values(curves, name: str, item: str, width: int, default: float, count: int | None = None
+            ) -> NDArray[np.float64]:
+    """(n, width) an attribute of the points, or of `count` curves; the default where there is none."""
+    count = len(curves.points) if count is None else count
     if name not in curves.attributes:
-        return None
-    values = np.empty(3 * len(curves.points), np.float32)
-    curves.attributes[name].data.foreach_get("vector", values)
-    return values.reshape(-1, 3)
+        return np.full((count, width), float(default))
+    attribute = curves.attributes[name]
+    values = np.empty(count * width, {"BOOLEAN": bool, "FLOAT": np.float32, "FLOAT_VECTOR": np.float32}.get(
+        attribute.data_type, np.int32))
+    attribute.data.foreach_get(item, values)
+    return values.reshape(count, width).astype(np.float64)
 
 
-def _curve(spline, places: NDArray[np.float64]) -> Curve | None:
-    cyclic = spline.use_cyclic_u
-    if spline.type == "NURBS":
-        space = blender_space(len(places), spline.order_u, cyclic, spline.use_bezier_u, spline.use_endpoint_u)
-        if space is None:
-            return None
-        return Curve(space, places, weighted_points(spline)[:, 3].astype(np.float64))
-    if spline.type == "BEZIER":
+def _require_finite(places: NDArray, name: str) -> None:
+    if not np.isfinite(places).all():
+        raise Unreadable(name, "Some of its control points are not finite; delete them, or mend what moves them.")
+
+
+def _curve(kind: str, cyclic: bool, order: int, bezier: bool, endpoint: bool, places: NDArray[np.float64],
+           weights: NDArray | None) -> Curve | None:
+    """places: (n, 3), of a Bézier curve three for each point."""
+    if kind == "NURBS":
+        space = blender_space(len(places), order, cyclic, bezier, endpoint)
+        return None if space is None else Curve(space, places, weights)
+    if kind == "BEZIER":
         knots = places.reshape(-1, 3, 3)
         if cyclic:
             knots = np.concatenate([knots, knots[:1]])

@@ -46,6 +46,13 @@ def why_empty(obj, gathered: Gathered, depsgraph) -> str:
         return "It shows lines without a surface; give it a bevel or an extrusion, or fill it{:s}.".format(
             ", or set its kind to Wire" if obj.type == "CURVE" else ""
         )
+    if obj.type == "SURFACE" and not obj.modifiers and obj.instance_type == "NONE" and obj.data.splines:
+        if vertices:
+            return "It shows lines without a surface; extrude them in Edit Mode, or make a curve object of them."
+        return (
+            "None of its splines shows a surface: they have too few points for their order, or for Bézier ends; add "
+            "points, lower the order or turn Bézier off in its Active Spline settings."
+        )
     if set(gathered.left_out) == {"volumes"} and (gathered.sources or obj.type != "VOLUME"):
         return "It shows volumes by instances only, which are not measured; measure the Volume objects themselves."
     if gathered.left_out:

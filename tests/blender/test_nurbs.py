@@ -278,8 +278,8 @@ def test_splines_that_show_nothing_are_left_out_and_said():
     assert found.method in {"NURBS exact", "exact"} and found.warnings
 
 
-def test_patches_with_a_seam_between_them_are_one_body():
-    """A loaf: six patches of different resolution in one object."""
+def loaf():
+    """A cube of six patches of different resolution in one object."""
     def side(u, v, origin, count):
         s, t = np.meshgrid(np.linspace(0, 1, count[0]), np.linspace(0, 1, count[1]), indexing="ij")
         return s[..., None] * v + t[..., None] * u + origin
@@ -291,9 +291,36 @@ def test_patches_with_a_seam_between_them_are_one_body():
     objects = [surface(points, orders=(2, 3)) for points in sides]
     only(*objects)
     bpy.ops.object.join()
-    found = measured(bpy.context.object)
+    return bpy.context.object
+
+
+def test_surfaces_that_show_none_are_refused_with_what_to_do():
+    circle = primitive("circle")
+    with pytest.raises(Unreadable, match="^SurfCircle: It shows lines without a surface; extrude"):
+        measured(circle)
+    sheet = primitive("surface")
+    sheet.data.splines[0].use_bezier_u = True
+    with pytest.raises(Unreadable, match="^SurfPatch: None of its splines .* turn Bézier off"):
+        measured(sheet)
+    sheet.data.splines[0].use_bezier_u = False
+    assert measured(sheet).volume > 0.0
+
+
+def test_patches_with_a_seam_between_them_are_one_body():
+    found = measured(loaf())
     assert found.method == "NURBS reoriented" and found.health.components == 1
     assert found.volume == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_wall_over_creases_says_what_it_is():
+    obj = loaf()
+    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
+    found = measured(obj)
+    assert found.volume == pytest.approx(0.6, rel=1e-5)  # 1 - 0.8³ if it were mitred
+    assert any("creases of up to 90°" in warning for warning in found.warnings)
+    smooth = primitive("torus")
+    smooth.body_moments.kind, smooth.body_moments.wall, smooth.body_moments.thickness = "SHELL", "INWARD", 0.1
+    assert not measured(smooth).warnings
 
 
 def test_instances_of_a_surface_are_measured_as_it_is():
@@ -394,6 +421,26 @@ def test_live_numbers_follow_hooks_keys_transforms_and_frames():
     found = live.follow(obj, bpy.context.evaluated_depsgraph_get()).measurement
     assert found.volume == pytest.approx(measured(obj).volume, rel=1e-12)
     bpy.ops.object.body_moments_live()
+
+
+def test_live_numbers_follow_what_was_renamed_and_the_linked_one_of_two_with_one_name(tmp_path):
+    path, own = str(tmp_path / "library.blend"), primitive("sphere")
+    bpy.data.libraries.write(path, {own})
+    with bpy.data.libraries.load(path, link=True) as (_, found):
+        found.objects = [own.name]
+    (linked,) = found.objects
+    bpy.context.scene.collection.objects.link(linked)
+    assert linked.name == own.name
+    for obj in (own, linked):
+        only(obj)
+        bpy.ops.object.body_moments_live()
+    for obj in (own, linked):
+        obj.scale.z = 2.0
+    bpy.context.view_layer.update()
+    own.name = "Renamed"
+    live._tick()
+    for obj in (own, linked):
+        assert live.shown(obj).measurement.volume == pytest.approx(2.0 * BALL * STORED, rel=1e-8)
 
 
 def test_live_numbers_of_other_settings_are_out_of_date():

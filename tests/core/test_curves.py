@@ -118,6 +118,7 @@ def test_a_reversed_curve_is_the_same_run_backwards():
     ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 0)])], "not closed"),
     ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0), (0, 0, 0)])], "one plane"),
     ([polyline([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0)])], "cross"),
+    ([polyline([(1, 0, 0), (1, 0, 0)])], "point"),  # a closed curve of one point
     ([ring(), ring(1.0, (0.5, 0.0, 0.0))], "cross")])
 def test_curves_that_bound_no_region_are_refused(curves, reason):
     with pytest.raises(ValueError, match=reason):
@@ -173,3 +174,23 @@ def test_two_turns_between_the_points_of_all_rules_are_found():
         line = Curve(clamped(4), np.stack([x, 0.0 * x, 0.0 * x], axis=1))
         found = length_moments([line], 0)
         assert abs(found.total - (x[3] + 8.0 * h**3 / 3.0)) <= found.error[0] <= 1e-11
+
+
+@pytest.mark.parametrize("weight", [1e12, 1e16, 1e20, 1e30, 1e38])
+def test_an_arc_that_a_weight_draws_to_its_corner_is_not_lost(weight):
+    """What is near the two sides of the corner is seen, or counts as error."""
+    weights = ring().weights.copy()
+    weights[1] = weight
+    corner = Curve(ROUND, ring().points, weights)
+    length, area = length_moments([corner], 0), plane_moments([corner], UP)
+    assert abs(length.total - (2.0 + 1.5 * np.pi)) <= length.error[0] + 100.0 / weight
+    assert abs(area.total - (1.0 + 0.75 * np.pi)) <= area.error[0] + 100.0 / weight
+
+
+@pytest.mark.parametrize("gap", [1e-2, 1e-3, 1e-4])
+@pytest.mark.parametrize("turn", [0.0, 0.05, 0.3])
+def test_rings_are_told_apart_whose_samples_seem_to_cross(gap, turn):
+    c, s = np.cos(turn), np.sin(turn)
+    inner = Curve(ROUND, ring(1.0 - gap).points @ [[c, s, 0], [-s, c, 0], [0, 0, 1]], ring().weights)
+    moments = plane_moments(*plane_region([inner, ring()]))
+    assert moments.total == pytest.approx(np.pi * (1.0 - (1.0 - gap) ** 2), rel=1e-11)

@@ -188,6 +188,23 @@ def test_the_estimate_holds_against_a_fixed_fine_rule(tolerance):
         assert (np.abs(moments.raw - truth(patch, 2)) <= moments.error + 1e-14).all()
 
 
+@pytest.mark.parametrize("weight", [1e8, 1e12, 1e30])
+@pytest.mark.parametrize("heavy", [(1, 1), (2, 2)])
+def test_the_estimate_holds_where_a_weight_draws_all_but_a_rim_to_a_point(weight, heavy, monkeypatch):
+    """The more, the nearer comes an octant of the sphere to the cone over its rim, while rules see a point."""
+    monkeypatch.setattr(patch_moments, "MOST_POINTS", 300_000)
+    ball = sphere()
+    points, weights = ball.points[:3, :3], ball.weights[:3, :3].copy()
+    rim = closed_by_cones(Patch((clamped(3),) * 2, points, weights), points[heavy])[1:]
+    volume = -volume_moments(rim, 0, ORIGIN)[0].total
+    area = area_moments(rim)[0].total
+    weights[heavy] = weight
+    octant = Patch((clamped(3),) * 2, points, weights)
+    for (found, settled), limit in ((volume_moments([octant], 0, ORIGIN), volume), (area_moments([octant]), area)):
+        assert abs(found.total - limit) <= found.error[0] + 100.0 / weight * limit
+        assert not settled
+
+
 def test_areas_of_spheres_and_tori_come_with_an_estimate_that_holds():
     moments, settled = area_moments([sphere()], 2)
     assert settled and abs(moments.total - 4.0 * np.pi) <= moments.error[0] <= 1e-9
@@ -218,6 +235,15 @@ def test_sheets_have_real_thickness():
     R, r = 0.75, 0.25
     shells = [2.0 * np.pi**2 * R * (r + h) ** 2 for h in (0.05, -0.05)]
     assert abs(sheet.total / (shells[0] - shells[1]) - 1.0) <= 1e-13
+
+
+def test_the_estimate_of_a_sheet_tells_what_heavy_weights_hide(monkeypatch):
+    monkeypatch.setattr(patch_moments, "MOST_POINTS", 300_000)
+    weights = np.ones((3, 3))
+    weights[1, 1] = 1e12
+    square = Patch((clamped(3),) * 2, [[(i, j, 0) for j in range(3)] for i in range(3)], weights)
+    found, settled = sheet_moments([square], 0.0, 1e-3)
+    assert not settled and abs(found.total - 4e-3) <= found.error[0] <= 0.1
 
 
 def test_a_sheet_thicker_than_its_radius_is_refused():

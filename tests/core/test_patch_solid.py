@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from body_moments.core import closure
 from body_moments.core.bspline import Space, clamped
+from body_moments.core.closure import close_patches
+from body_moments.core.creases import sharpest_crease
 from body_moments.core.curve import Curve
 from body_moments.core.moments import monomials
 from body_moments.core.patch import Patch
@@ -107,6 +109,20 @@ def test_the_cap_of_a_flat_rim_is_exact_whatever_the_rims_shape():
     assert abs(found.health.cap_area_share - 14.0 / (16.0 * 3.0)) <= 1e-12
 
 
+@pytest.mark.parametrize("shift", [0.0, 0.1])
+@pytest.mark.parametrize("crossing", [True, False])
+def test_rims_that_cross_themselves_are_told(crossing, shift):
+    """A prism over a lying eight, which crosses itself in a corner or beside it, and over two lobes that touch."""
+    t = np.linspace(0.0, 2.0 * np.pi, 33) + shift
+    x = np.sin(t) * (1.0 + 0.5 * (np.sin(t) > 0.0))
+    y = np.sin(t) * np.cos(t) if crossing else np.abs(np.sin(t)) * np.cos(t)
+    space = Space((0.0, *map(float, range(33)), 32.0), 2, 33)
+    points = np.stack([np.stack([x, y, np.full(33, z)], axis=1) for z in (0.0, 1.0)], axis=1)
+    found = measure_patches([Patch((space, clamped(2)), points)])
+    assert any("2 rims cross themselves" in warning for warning in found.warnings) == crossing
+    assert found.method == "capped"
+
+
 def test_six_patches_of_different_resolution_make_a_box():
     orders = ((2, 2), (3, 4), (2, 3), (5, 2), (4, 4), (2, 2))
     inner = (((), ()), ((0.5,), ()), ((0.25, 0.5), ()), ((), (0.5,)), ((0.1,), (0.9,)), ((0.5,), (0.5,)))
@@ -168,6 +184,45 @@ def test_two_short_sides_along_a_long_one_leave_no_hole():
     found = measure_patches([*halves, *patches[1:]])
     assert found.method == "exact"
     assert abs(found.volume.total - 1.0) <= 1e-13
+
+
+def cube(*corner):
+    return box((1.0, 1.0, 1.0), corner)
+
+
+def turned(patches):
+    return [patch.turned() for patch in patches]
+
+
+TOUCHING = {
+    "face to face": (cube(0, 0, 0) + cube(1, 0, 0), "exact"),
+    "at an edge": (cube(0, 0, 0) + cube(1, 1, 0), "exact"),
+    "one inside out": (cube(0, 0, 0) + turned(cube(1, 0, 0)), "reoriented"),
+    "at an edge, one inside out": (cube(0, 0, 0) + turned(cube(1, 1, 0)), "reoriented"),
+    "with one wall": (cube(0, 0, 0) + cube(1, 0, 0)[1:], "capped"),
+    "eight": (sum([cube(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], []), "exact")}
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("name", TOUCHING)
+def test_bodies_that_touch_are_measured_whatever_the_order_of_their_patches(name, seed):
+    """More than two sides meet there; joined as they came, they made bodies that were flat or open."""
+    patches, method = TOUCHING[name]
+    order = np.random.default_rng(seed).permutation(len(patches))
+    found = measure_patches([patches[k] for k in order], order=0)
+    assert found.method == method and found.health.non_manifold_edges > 0
+    assert abs(found.volume.total - len(patches) // 6 - (name == "with one wall")) <= 1e-13
+    assert bool(found.warnings) == (method != "exact")
+
+
+@pytest.mark.parametrize("name", ["face to face", "at an edge", "one inside out"])
+def test_bodies_that_touch_are_told_from_each_other_though_their_patches_face_anyhow(name):
+    rng, patches = np.random.default_rng(1), TOUCHING[name][0]
+    for _ in range(5):
+        found = measure_patches([patches[k].turned() if rng.random() < 0.5 else patches[k]
+                                 for k in rng.permutation(len(patches))], order=0)
+        assert found.method == "reoriented" and abs(found.volume.total - 2.0) <= 1e-13
+        assert any("is a guess" in warning for warning in found.warnings)
 
 
 def test_a_patch_of_one_side_only_is_open():
@@ -255,6 +310,20 @@ def test_stored_float32_is_a_bound_of_the_area_too(patch):
         moved = measure_patches([Patch(patch.spaces, points, patch.weights)]).area
         assert abs(moved.total - exact.total) <= exact.input[0] + exact.error[0] + moved.error[0]
     assert exact.input[0] <= 20.0 * stored * patch.points.shape[0]  # so it tells something
+
+
+@pytest.mark.parametrize("patches, degrees", [
+    ([sphere()], 0.0), ([torus()], 0.0), ([tube()], 0.0), (box(), 90.0),
+    ([patch.turned() if k % 2 else patch for k, patch in enumerate(box())], 90.0),
+    ([flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], (2, 3), ((0.5,), (0.5,)))], 0.0),
+    ([flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]), flat([(1, 0, 0), (2, 0, 0.1), (2, 1, 0.1), (1, 1, 0)])],
+     np.degrees(np.arctan(0.1))),
+    ([Patch((Space((0.0, 0.0, 1.0, 2.0, 2.0), 2, 3), clamped(2)),
+            [[(x, y, z) for z in (0, 1)] for x, y in ((1, 0), (0, 0), (0, 1))])], 90.0)])
+def test_creases_within_patches_and_between_them_are_found(patches, degrees):
+    for move in (np.eye(4), np.diag([-1e-4, 1e-4, 1e-4, 1.0])):
+        own = [patch.mapped(move) for patch in patches]
+        assert np.degrees(sharpest_crease(own, close_patches(own, 1e-12))) == pytest.approx(degrees, abs=1e-6)
 
 
 def test_a_flat_part_beside_a_body_is_left_out_and_said():
