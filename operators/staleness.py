@@ -8,8 +8,12 @@ re-evaluated after their numbers were stored: a note is the pair of the object's
 fingerprint that it then carried. Nothing is written to any data, until a file is saved: then the geometry's
 digest in the fingerprints of noted objects becomes EDITED, so that the file knows when it is opened.
 
-Undo re-evaluates what it brings back, which is no edit: the one update that follows it is not
-noted. An edit that undo brings back again was noted when it was made, and notes are kept: undo may
+Blender re-evaluates more than what was changed: an object that is copied, shown again or gets a material slot. So
+what small meshes showed when their numbers were stored is kept, as a digest, and a note is made, or taken back, by
+comparing what they show now.
+
+Undo re-evaluates what it brings back, which is no edit: of what cannot be compared, the one update that follows it is
+not noted. An edit that undo brings back again was noted when it was made, and notes are kept: undo may
 bring back the numbers of before, too. Reading a file reports no updates.
 """
 
@@ -23,6 +27,7 @@ from bpy.app.handlers import persistent
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from .fingerprint import VERSION, matrix_hash, scale_hash, settings_hash
+from .read.shape import shape_digest
 from .write import section
 
 EDITED = "edited"
@@ -30,6 +35,7 @@ EDITED = "edited"
 _settings: dict[int, str] = {}  # session uid → digest of the settings at the last update
 _edited: dict[int, set[str]] = {}  # session uid → the fingerprints that were current when the geometry changed
 _changes: dict[int, int] = {}  # session uid → how often its geometry changed
+_shapes: dict[str, bytes] = {}  # fingerprint → digest of what was shown when it was stored, where there is one
 _undone = False
 _paused = False
 _generation = 0
@@ -39,9 +45,10 @@ def settle(context: Context, objects: list[Object]) -> None:
     """Call after results were stored: evaluates what storing itself has tagged, then takes the
     objects as up to date.
     """
-    context.view_layer.update()
+    depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
         mark_fresh(obj)
+        _keep_shape(obj, str(obj.get("body_fingerprint", "")), depsgraph)
 
 
 def settle_marks(context: Context, marks: Iterable[tuple[Object, str]]) -> None:
@@ -49,9 +56,10 @@ def settle_marks(context: Context, marks: Iterable[tuple[Object, str]]) -> None:
     date.
     """
     with paused():
-        context.view_layer.update()
+        depsgraph = context.evaluated_depsgraph_get()
     for obj, mark in marks:
         _forget(obj, mark)
+        _keep_shape(obj, mark, depsgraph)
 
 
 def mark_fresh(obj: Object) -> None:
@@ -64,6 +72,21 @@ def _forget(obj: Object, mark: str) -> None:
     global _generation
     _generation += 1
     _edited.get(obj.session_uid, set()).discard(mark)
+
+
+def _keep_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
+    shape = _shape(obj, depsgraph)
+    if shape is None:
+        _shapes.pop(mark, None)
+    else:
+        _shapes[mark] = shape
+
+
+def _shape(obj: Object, depsgraph: Depsgraph) -> bytes | None:
+    """A digest of all that the numbers come from beside settings and transform; None where there is none."""
+    if obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}:
+        return None
+    return shape_digest(obj, depsgraph)
 
 
 def mark_retold(obj: Object) -> None:
@@ -202,13 +225,23 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
     updated |= dict.fromkeys(_instancing([*updated, *moved], collections))
     for obj in updated:
         _changes[obj.session_uid] = _changes.get(obj.session_uid, 0) + 1
-    if undone:  # what is stored on the objects came back with them, what is in memory did not
-        return
     for obj in updated | dict.fromkeys(_filled_from(updated)):
         found = [str(mark) for mark in (obj.get("body_fingerprint"), section.fingerprint(obj), _symmetry_mark(obj))
                  if mark]
-        if found and not _settings_edited(obj, found[0], scene):
-            _edited.setdefault(obj.session_uid, set()).update(found)
+        if found:
+            _judge(obj, found, depsgraph, heard=not undone and not _settings_edited(obj, found[0], scene))
+
+
+def _judge(obj: Object, marks: list[str], depsgraph: Depsgraph, heard: bool) -> None:
+    """Note a change of the object's geometry, or that there is none any more. heard: whether what cannot be compared
+    has changed."""
+    noted = _edited.setdefault(obj.session_uid, set())
+    shape = _shape(obj, depsgraph) if any(mark in _shapes for mark in marks) else None
+    for mark in marks:
+        if shape is not None and mark in _shapes:
+            (noted.discard if shape == _shapes[mark] else noted.add)(mark)
+        elif heard:
+            noted.add(mark)
 
 
 @persistent
@@ -224,6 +257,7 @@ def _load(*_args) -> None:
     _generation += 1
     _undone = False
     _edited.clear()
+    _shapes.clear()
     _settings.clear()
     _changes.clear()
 

@@ -74,6 +74,88 @@ def test_numbers_that_undo_brings_back_are_not_those_of_a_later_edit():
     measure(obj)
 
 
+def evaluated_anew(obj):
+    only(obj)
+    bpy.ops.object.duplicate()
+    yield obj, bpy.context.object
+    only(obj)
+    bpy.ops.object.duplicate(linked=True)
+    yield obj, bpy.context.object
+    obj.hide_set(True)
+    update()
+    obj.hide_set(False)
+    yield (obj,)
+    obj.data.materials.append(bpy.data.materials.new("Paint"))
+    yield (obj,)
+    only(obj)
+    bpy.ops.object.shade_smooth()
+    yield (obj,)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    yield (obj,)
+    obj.vertex_groups.new(name="Group").add([0], 1.0, "REPLACE")
+    yield (obj,)
+
+
+def test_what_blender_evaluates_again_and_shows_as_before_is_up_to_date():
+    obj = add(mesh_body())
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    bpy.ops.object.body_moments_find_symmetry()
+    measure(obj)
+    for objects in evaluated_anew(obj):
+        update()
+        assert [reason(one) for one in objects] == [""] * len(objects)
+        assert [staleness.symmetry_reason(one) for one in objects] == [""] * len(objects)
+        if len(objects) == 2:
+            edit(objects[1]) if objects[1].data != obj.data else bpy.data.objects.remove(objects[1])
+    assert reason(bpy.data.objects["Body.001"]) == "Geometry Changed"
+
+
+def test_an_edit_that_is_taken_back_is_none():
+    obj = add(mesh_body())
+    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels = 1
+    measure(obj)
+    bpy.ops.ed.undo_push(message="Measured")
+    edit(obj)
+    bpy.ops.ed.undo_push(message="Edited")
+    assert reason(obj) == "Geometry Changed"
+    bpy.ops.ed.undo()
+    update()
+    obj = bpy.data.objects["Body"]
+    assert reason(obj) == ""
+    bpy.ops.ed.redo()
+    update()
+    obj = bpy.data.objects["Body"]
+    assert reason(obj) == "Geometry Changed"
+    obj.data.vertices[0].co.x += 1.0
+    obj.data.update()
+    update()
+    assert reason(obj) == ""
+    for level, told in ((2, "Geometry Changed"), (1, "")):
+        obj.modifiers[0].levels = level
+        update()
+        assert reason(obj) == told
+
+
+@pytest.mark.parametrize("source", ["MATERIALS", "ATTRIBUTE"])
+def test_a_density_that_lies_on_the_mesh_counts_as_its_geometry(source):
+    obj = add(mesh_body())
+    obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
+    obj.body_moments.density_from, obj.body_moments.density_attribute = source, "rho"
+    obj.data.attributes.new("rho", "FLOAT", "POINT").data.foreach_set("value", [1.0] * len(obj.data.vertices))
+    for density in (1000.0, 2000.0):
+        material = bpy.data.materials.new("Of {:g}".format(density))
+        material.body_moments.density = density
+        obj.data.materials.append(material)
+    measure(obj)
+    obj.data.polygons[0].material_index = 1
+    obj.data.attributes["rho"].data[0].value = 2.0
+    obj.data.update()
+    update()
+    assert reason(obj) == "Geometry Changed"
+
+
 def test_numbers_of_before_an_edit_are_out_of_date_when_the_add_on_is_enabled_again():
     obj, other = add(mesh_body()), add(mesh_body(), "Other")
     measure(obj, other)
