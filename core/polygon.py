@@ -31,11 +31,12 @@ TOUCH = 1e-9  # of the polygon's size: edges that pass each other by less than t
 @dataclass(frozen=True)
 class Flaws:
     """crossings: pairs of edges that cross, lost: whether there were too many pairs to look at all; doubled: whether
-    somewhere an edge has more than one region, or less than none, beside it."""
+    somewhere an edge has more than one region, or less than none, beside it; negative: whether less than none."""
 
     crossings: int
     lost: bool
     doubled: bool
+    negative: bool = False
 
 
 def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
@@ -113,7 +114,8 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
 
 
 def flaws(points: NDArray, edges: NDArray, error: float = 0.0) -> Flaws:
-    """What makes it unclear which side of the edges is inside. Outlines may touch, at corners and along edges.
+    """What makes it unclear which side of the edges is inside. Outlines may touch, at corners and along edges; edges so
+    short that their ends touch have no sides.
 
     error: how far the points may be from where they were meant; what overlaps by no more touches.
     """
@@ -123,7 +125,8 @@ def flaws(points: NDArray, edges: NDArray, error: float = 0.0) -> Flaws:
     touch = TOUCH * float(points[edges.ravel()].max()) + 4.0 * error
     crossings, lost = _crossings(points, edges, touch)
     left, right = _sides(points, edges, touch)
-    return Flaws(crossings, lost, bool((left < right).any() or right.min() < 0 or left.max() > 1))
+    negative = bool((left < 0).any() or (right < 0).any())
+    return Flaws(crossings, lost, negative or bool((left < right).any() or (left > 1).any()), negative)
 
 
 def winding_numbers(points: NDArray, edges: NDArray, places: NDArray) -> NDArray[np.float64]:
@@ -146,10 +149,10 @@ def _sides(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArray[np.in
     Rays are sent across the edges, so that none runs along its own; edges that lie on one another are passed together.
     """
     span = np.abs(points[edges[:, 1]] - points[edges[:, 0]])
-    steep = span[:, 1] >= span[:, 0]
-    found = [_sides_of(points, edges, np.flatnonzero(steep), touch),
+    steep, long = span[:, 1] >= span[:, 0], np.hypot(*span.T) > 4.0 * touch
+    found = [_sides_of(points, edges, np.flatnonzero(steep & long), touch),
              # Mirrored, and each edge turned round: left stays left.
-             _sides_of(points[:, ::-1], edges[:, ::-1], np.flatnonzero(~steep), touch)]
+             _sides_of(points[:, ::-1], edges[:, ::-1], np.flatnonzero(~steep & long), touch)]
     left, right = zip(*found)
     return np.concatenate(left), np.concatenate(right)
 

@@ -146,6 +146,27 @@ def test_regions_on_one_another_are_found_where_no_edges_cross():
     assert flaws(points, directed(loops)).doubled
 
 
+@pytest.mark.parametrize("offset", [0.0, 1e3])
+@pytest.mark.parametrize("away", [0.0, 0.5])
+def test_points_that_are_there_twice_are_no_flaw(offset, away):
+    """As drawings that were imported have them; away: by how many float32 steps they are apart."""
+    rng = np.random.default_rng(3)
+    for turn in rng.uniform(0.0, 7.0, 40):
+        points = np.array([(math.cos(turn + k), math.sin(turn + k)) for k in range(6)]) + offset
+        step = float(np.spacing(np.float32(offset + 1.0)))
+        points = np.insert(points, 3, points[2] + away * step * rng.uniform(-1.0, 1.0, 2), axis=0)
+        assert flaws(points, directed([np.arange(7)]), error=step) == Flaws(0, False, False)
+        assert flaws(points, directed([np.arange(7)[::-1]]), error=step).negative
+
+
+def test_what_is_gone_round_the_other_way_counts_negative():
+    points, loops = shape([(0, 0), (4, 4), (4, 0), (0, 5)], PENTAGRAM, rectangle(0, 0, 4, 4))
+    assert flaws(points, directed(loops[:1])).negative
+    found = flaws(points, directed(loops[1:2]))
+    assert found.doubled and not found.negative
+    assert not flaws(points, directed(loops[2:])).negative
+
+
 def test_outlines_on_one_another_are_refused():
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(0, 0, 4, 4))
     with pytest.raises(ValueError, match="lie on one another"):
