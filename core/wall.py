@@ -90,6 +90,11 @@ class Sweep:
         moved = swept * np.multiply.reduce(reach ** monomials(ORDER), axis=1)
         return Moments(raw, self.about, "volume", error, np.minimum(self.input @ both, moved))
 
+    def box(self, inward: float, outward: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(3,) and (3,) the least and the largest coordinates of the wall."""
+        sides = [self.points - inward * self.vectors, self.points + outward * self.vectors]
+        return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
+
     def meets_itself(self, inward: float, outward: float) -> bool:
         """Whether the two sides of the wall go through each other, a moved side through itself, or closed parts into or
         past each other, as far as is found within bounds of time."""
