@@ -237,11 +237,12 @@ def _balance(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, wa
                 break
             surface = replace(_read(context, obj, None).surface.mapped(linear, offset), points=start.points)
         else:
-            raise Refused("its faces that are not flat are cut differently with every change; triangulate them first")
+            raise Refused("its faces are cut differently with every change; triangulate the mesh itself first")
     units = Units.of(context.scene.unit_settings)
     moves = (points[mesh.movable].astype(np.float64) - mesh.start[mesh.movable]) @ linear.T
-    told = "Moved {:d} vertices by at most {:s}: the center of mass went from {:s} to {:s}".format(
-        int(np.count_nonzero(moves.any(axis=1))), units.text("length", float(np.linalg.norm(moves, axis=1).max())),
+    number, largest = int(np.count_nonzero(moves.any(axis=1))), float(np.linalg.norm(moves, axis=1).max())
+    told = "Moved {:s} by at most {:s}: the center of mass went from {:s} to {:s}".format(
+        "1 vertex" if number == 1 else "{:d} vertices".format(number), units.text("length", largest),
         *("({:s})".format(", ".join(units.texts("length", one.mass_properties.center, size)))
           for one in (before, after)))
     notes = []

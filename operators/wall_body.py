@@ -110,8 +110,8 @@ class Walls:
         least = min(piece.sweep.least for piece in self.pieces)
         most = max(piece.sweep.most for piece in self.pieces)
         if least < 1.0 - WORTH_TELLING or most > 1.0 + WORTH_TELLING:
-            notes.append("Where more than three planes meet, no corner keeps all of them at the thickness: the wall is "
-                         "{:.3g} to {:.3g} times as thick there.".format(least, most))
+            notes.append("Where more than three planes meet, or two in a blade, no corner keeps all of them at the "
+                         "thickness: the wall is {:.3g} to {:.3g} times as thick there.".format(least, most))
         ignored = sum(piece.sweep.ignored for piece in self.pieces)
         if ignored:
             notes.append("{:d} of its faces have too little area to face anywhere, and moved along with their "
