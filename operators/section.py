@@ -56,7 +56,7 @@ def _measured(reading: SectionReading, unit: float) -> tuple[Section, list[str]]
     if found.negative:
         raise ValueError("Some of its faces cross themselves, so that a part of them would count negative; cut them "
                          "where they cross.")
-    section = measure_section(plane, points, edges, error)
+    section = measure_section(plane, points, edges, error, found.shared)
     if found.crossings or found.doubled:
         warnings.append("Its faces overlap or cross themselves; what they share counts once for each of them.")
     if found.lost:
