@@ -248,6 +248,9 @@ def _balance(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, wa
     notes = []
     if obj.data.users - obj.data.use_fake_user > 1:
         notes.append("Other objects use its mesh and have changed with it")
+    if any(other.type == "MESH" and other.data.is_editmode and other.data != obj.data
+           for other in context.view_layer.objects):
+        notes.append("Only {:s} was balanced; the others in Edit Mode are as they were".format(obj.name))
     return told, notes
 
 
