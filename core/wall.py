@@ -96,8 +96,8 @@ class Sweep:
         return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
 
     def meets_itself(self, inward: float, outward: float) -> bool:
-        """Whether the two sides of the wall go through each other, a moved side through itself, or closed parts into or
-        past each other, as far as is found within bounds of time."""
+        """Whether the two sides of the wall go through each other, a moved side through itself, or the walls of parts
+        into one another, as far as is found within bounds of time."""
         count = len(self.points)
         points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
         triangles = np.concatenate([self.triangles, self.triangles + count])
@@ -105,33 +105,23 @@ class Sweep:
         tolerance = min(TOUCHING * float(np.ptp(points, axis=0).max()), 1e-3 * (inward + outward))
         pairs = [(0, 1), *((k, k) for k, moved in enumerate((inward, outward)) if moved)]
         return (pierced(points, triangles, shell, np.array(pairs), np.tile(np.arange(count), 2), tolerance)
-                or self._overlaps(points, triangles, np.array([inward, outward]) > 0.0, tolerance))
+                or self._overlaps(points, tolerance))
 
-    def _overlaps(self, points: NDArray, triangles: NDArray, moved: NDArray, tolerance: float) -> bool:
-        """Whether closed parts reach into one another or into themselves, or lie otherwise to each other on one side of
-        the wall than on the other, as the two skins of a hollow body do where each has moved beyond the other. No edge
-        need pierce a face then. moved: (2,) whether the inner and the outer side are not the surface itself."""
+    def _overlaps(self, points: NDArray, tolerance: float) -> bool:
+        """Whether the walls of parts reach into one another or into themselves, where no edge need pierce a face: skins
+        that have moved past each other, or that are flush. Each wall is a closed body: both its sides and its rim."""
         part, number = components(len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel())
-        closed = np.ones(number, bool)
-        closed[part[self.triangles.ravel()[find_edges(self.triangles).rims()]]] = False
-        own = part[self.triangles[:, 0]].astype(np.intp)
-        shells = sort_shells(points, triangles, np.concatenate([own, number + own]), 2 * number)
-        solid = np.tile(closed, 2) & (shells.volume != 0.0)
-        if winds_twice(points, shells, solid & np.repeat(moved, number), tolerance):
+        rims, count = find_edges(self.triangles).rims(), len(self.points)
+        start, stop = self.triangles.ravel()[rims], np.roll(self.triangles, -1, axis=1).ravel()[rims]
+        triangles = np.concatenate([
+            self.triangles[:, ::-1], self.triangles + count, np.stack([start, stop, stop + count], axis=1),
+            np.stack([start, stop + count, start + count], axis=1)])
+        shells = sort_shells(points, triangles, part[triangles[:, 0] % count].astype(np.intp), number)
+        solid = shells.volume > 0.0
+        if winds_twice(points, shells, solid, tolerance):
             return True
-        if np.count_nonzero(closed) < 2:
-            return False
         found = relate(points, shells, solid, tolerance)
-        within, beside = (pairs[np.diff(pairs % number)[:, 0] != 0] for pairs in (found.inside, found.crossing))
-        apart = [np.abs(side[beside[:, 0]] - side[beside[:, 1]]).max(axis=1, initial=0.0)
-                 for side in (shells.low, shells.high)]
-        if (np.maximum(*apart) > tolerance).any():  # else the two coincide, and touch
-            return True
-        within, beside = within % number @ (number, 1), beside % number
-        order = np.sort(np.concatenate([beside @ (number, 1), beside @ (1, number)]))
-        pairs, times = np.unique(within, return_counts=True)
-        times = times + np.searchsorted(order, pairs, "right") - np.searchsorted(order, pairs)
-        return not found.unchecked and bool((times < 4).any())  # either side of one part in either of another
+        return len(found.inside) + len(found.crossing) > 0
 
     def without_surface(self) -> Sweep:
         """The same without the arrays that are as large as the mesh."""

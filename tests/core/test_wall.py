@@ -414,6 +414,7 @@ def clamp():
     return points, bodies.split(np.array(quads))
 
 
+SHEET = (np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]), bodies.split([(0, 1, 2, 3)]))
 OUTER, INNER = bodies.box((0, 0, 0), (4, 4, 4)), bodies.box((1, 1, 1), (3, 3, 3))
 
 
@@ -425,6 +426,9 @@ OUTER, INNER = bodies.box((0, 0, 0), (4, 4, 4)), bodies.box((1, 1, 1), (3, 3, 3)
     (bodies.joined(OUTER, INNER), "inward", (0.5, 0.9), ()),
     (bodies.joined(bodies.box(), bodies.moved(bodies.box(), offset=(4, 0, 0))), "outward", (1.0, 1.5), (1.51, 5.0)),
     (clamp(), "outward", (0.05, 0.09), (0.11, 0.15, 0.3)),
+    (bodies.joined(SHEET, bodies.moved(SHEET, offset=(0, 0, 0.25))), "inward", (0.1, 0.25), (0.26, 0.5)),
+    (bodies.joined(SHEET, bodies.moved(SHEET, offset=(0.5, 0.5, 0.25))), "centered", (0.1, 0.25), (0.26, 0.5)),
+    (bodies.joined(SHEET, bodies.moved(SHEET, offset=(2, 0, 0.25))), "outward", (0.1, 0.5), ()),
 ])
 def test_walls_that_meet_are_found_where_no_edge_pierces_a_face(part, side, apart, through):
     """Skins that have moved past one another, and ones that are flush with each other."""
