@@ -12,12 +12,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .caps import ramp
 from .shell_tree import PIECE, Shells, Tree, pierced_pairs, sort_shells
 
 MOST_PAIRS = 100_000  # of shells
+MOST_TWICE = 4096  # points under the skin of a shell of few faces that are asked whether it surrounds them twice
 SAMPLES = 256, 8, 50_000  # points under the skin for one pair: at most, at least; and for all pairs together
 
 
@@ -106,6 +107,21 @@ def pierced(points: NDArray[np.floating], triangles: NDArray[np.integer], shell:
     return bool(pierced_pairs(tree, pairs[:, 0], pairs[:, 1], tolerance, vertex)[0].any())
 
 
+def winds_twice(points: NDArray[np.floating], shells: Shells, ask: NDArray[np.bool_], tolerance: float) -> bool:
+    """Whether a closed shell selected by `ask` surrounds a point under its own skin more than once, of those that are
+    tried. So it does where it has run into itself, though no edge need pierce a face then."""
+    chosen = np.flatnonzero(ask)
+    if not len(chosen):
+        return False
+    tree = Tree(points, shells, ask)
+    size = (shells.start[1:] - shells.start[:-1])[chosen]
+    number = np.clip(SAMPLES[2] // len(chosen), SAMPLES[1], np.maximum(size, MOST_TWICE))
+    own = np.repeat(chosen, number)
+    place = _under_skin(points, shells, tree, own, ramp(number), np.repeat(number, number), tolerance)
+    winding, sure = tree.inside(place, own, tolerance)
+    return bool((sure & (np.abs(winding) > 1)).any())
+
+
 def decide(shells: Shells, relations: Relations, ask: NDArray[np.bool_]
            ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
     """Which shells to turn, and which are then outward shells in the material of others or cavities; (c,) each.
@@ -164,12 +180,24 @@ def _locate(points: NDArray, shells: Shells, tree: Tree, small: NDArray, large: 
     """For each pair: whether some point under the smaller shell's skin is inside the larger shell, whether some is
     outside, and whether neither could be decided."""
     most, least, together = SAMPLES
-    size = shells.start[small + 1] - shells.start[small]
     number = np.clip(together // len(small), least, most)
     pair = np.repeat(np.arange(len(small)), number)
-    k = np.tile(np.arange(number), len(small))
     own = small[pair]
-    triangle = shells.start[own] + k * size[pair] // number
+    place = _under_skin(points, shells, tree, own, np.tile(np.arange(number), len(small)), number, tolerance)
+    self_winding, self_sure = tree.inside(place, own, tolerance)
+    keep = self_sure & (self_winding != 0)
+    place, pair = place[keep], pair[keep]
+    winding, sure = tree.inside(place, large[pair], tolerance)
+    within, without = np.zeros((2, len(small)), bool)
+    within[pair[sure & (winding != 0)]] = True
+    without[pair[sure & (winding == 0)]] = True
+    return within, without, ~(within | without)
+
+
+def _under_skin(points: NDArray, shells: Shells, tree: Tree, own: NDArray, k: NDArray, number: ArrayLike,
+                tolerance: float) -> NDArray[np.float64]:
+    """(n, 3) the k-th of so many points under the skins of shells, about the tree's origin."""
+    triangle = shells.start[own] + k * (shells.start[own + 1] - shells.start[own]) // number
     corner = points[shells.triangles[triangle]].astype(np.float64) - tree.origin
     # Three numbers that never put two samples of a triangle in one place, nor any on a line of symmetry.
     weight = np.stack([0.17 + k * 0.7548776662 % 1.0, 0.11 + k * 0.5698402910 % 1.0, 0.23 + k * 0.3247179572 % 1.0])
@@ -179,12 +207,4 @@ def _locate(points: NDArray, shells: Shells, tree: Tree, small: NDArray, large: 
     area = np.linalg.norm(normal, axis=1)
     depth = 10.0 ** (-2 - k % 3) * np.sqrt(area)  # a thin shell needs less than a thick one allows
     inward = -np.sign(shells.volume[own]) * np.maximum(depth, 4.0 * tolerance)
-    place += normal * np.divide(inward, area, out=np.zeros_like(area), where=area > 0.0)[:, None]
-    self_winding, self_sure = tree.inside(place, own, tolerance)
-    keep = self_sure & (self_winding != 0)
-    place, pair = place[keep], pair[keep]
-    winding, sure = tree.inside(place, large[pair], tolerance)
-    within, without = np.zeros((2, len(small)), bool)
-    within[pair[sure & (winding != 0)]] = True
-    without[pair[sure & (winding == 0)]] = True
-    return within, without, ~(within | without)
+    return place + normal * np.divide(inward, area, out=np.zeros_like(area), where=area > 0.0)[:, None]

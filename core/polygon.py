@@ -31,11 +31,14 @@ TOUCH = 1e-9  # of the polygon's size: edges that pass each other by less than t
 @dataclass(frozen=True)
 class Flaws:
     """crossings: pairs of edges that cross, lost: whether there were too many pairs to look at all; doubled: whether
-    somewhere an edge has more than one region, or less than none, beside it."""
+    somewhere an edge has more than one region, or less than none, beside it; negative: whether less than none.
+    shared: the length along which edges run against each other, which is not the region's rim."""
 
     crossings: int
     lost: bool
     doubled: bool
+    negative: bool = False
+    shared: float = 0.0
 
 
 def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
@@ -113,7 +116,8 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
 
 
 def flaws(points: NDArray, edges: NDArray, error: float = 0.0) -> Flaws:
-    """What makes it unclear which side of the edges is inside. Outlines may touch, at corners and along edges.
+    """What makes it unclear which side of the edges is inside. Outlines may touch, at corners and along edges; edges so
+    short that their ends touch have no sides.
 
     error: how far the points may be from where they were meant; what overlaps by no more touches.
     """
@@ -121,9 +125,11 @@ def flaws(points: NDArray, edges: NDArray, error: float = 0.0) -> Flaws:
         return Flaws(0, False, False)
     points = points - points[edges.ravel()].min(axis=0)
     touch = TOUCH * float(points[edges.ravel()].max()) + 4.0 * error
-    crossings, lost = _crossings(points, edges, touch)
+    crossings, shared, lost = _pairs(points, edges, touch)
     left, right = _sides(points, edges, touch)
-    return Flaws(crossings, lost, bool((left < right).any() or right.min() < 0 or left.max() > 1))
+    negative = bool((left < 0).any() or (right < 0).any())
+    return Flaws(crossings, lost, negative or bool((left < right).any() or (left > 1).any()), negative,
+                 shared)
 
 
 def winding_numbers(points: NDArray, edges: NDArray, places: NDArray) -> NDArray[np.float64]:
@@ -146,10 +152,10 @@ def _sides(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArray[np.in
     Rays are sent across the edges, so that none runs along its own; edges that lie on one another are passed together.
     """
     span = np.abs(points[edges[:, 1]] - points[edges[:, 0]])
-    steep = span[:, 1] >= span[:, 0]
-    found = [_sides_of(points, edges, np.flatnonzero(steep), touch),
+    steep, long = span[:, 1] >= span[:, 0], np.hypot(*span.T) > 4.0 * touch
+    found = [_sides_of(points, edges, np.flatnonzero(steep & long), touch),
              # Mirrored, and each edge turned round: left stays left.
-             _sides_of(points[:, ::-1], edges[:, ::-1], np.flatnonzero(~steep), touch)]
+             _sides_of(points[:, ::-1], edges[:, ::-1], np.flatnonzero(~steep & long), touch)]
     left, right = zip(*found)
     return np.concatenate(left), np.concatenate(right)
 
@@ -192,25 +198,26 @@ def _signed_area(points: NDArray, edges: NDArray) -> float:
     return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum()) / 2.0
 
 
-def _crossings(points: NDArray, edges: NDArray, touch: float) -> tuple[int, bool]:
-    """Pairs of edges that cross by more than `touch`: each edge is entered into the cells of a grid that its box meets,
-    and compared with those that share a cell. The second value tells whether that was given up."""
+def _pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
+    """Pairs of edges that cross by more than `touch`, and the length along which others run against each other: each
+    edge is entered into the cells of a grid that its box meets, and compared with those that share a cell. The last
+    value tells whether that was given up."""
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low, high = np.minimum(start, end), np.maximum(start, end)
     length = np.hypot(*(end - start).T)
     length[length == 0.0] = 1.0
     size = float((high.max(axis=0) - low.min(axis=0)).max()) or 1.0
     cell = max(2.0 * float((high - low).mean()), size / CELLS)
-    low, high = (np.floor(corner / cell).astype(np.int64) for corner in (low, high))
+    low, high = (np.floor(corner / cell).astype(np.int64) for corner in (low - touch, high + touch))
     wide, tall = (high - low + 1).T
     if (wide * tall).sum() > PAIRS:
-        return 0, True
+        return 0, 0.0, True
     edge = np.repeat(np.arange(len(edges)), wide * tall)
     within = ramp(wide * tall)
     key = (low[edge, 0] + within // tall[edge]) * (2 * CELLS) + low[edge, 1] + within % tall[edge]
     order = np.argsort(key, kind="stable")
     edge, key = edge[order], key[order]
-    active, found, looked = np.arange(len(edge)), [], 0
+    active, found, against, looked = np.arange(len(edge)), [], {}, 0
     for step in range(1, len(edge)):
         active = active[active < len(edge) - step]
         active = active[key[active + step] == key[active]]
@@ -222,6 +229,14 @@ def _crossings(points: NDArray, edges: NDArray, touch: float) -> tuple[int, bool
         for p, q, other in ((i, j, start), (i, j, end), (j, i, start), (j, i, end)):
             span, to = end[p] - start[p], other[q] - start[p]
             sides.append((span[:, 0] * to[:, 1] - span[:, 1] * to[:, 0]) / length[p])
-        cross = (sides[0] * sides[1] < 0.0) & (sides[2] * sides[3] < 0.0) & (np.abs(sides) > touch).all(axis=0)
-        found.append(np.minimum(i, j)[cross] * len(edges) + np.maximum(i, j)[cross])
-    return len(np.unique(np.concatenate(found))) if found else 0, looked > PAIRS
+        sides = np.array(sides)
+        pair = np.minimum(i, j) * len(edges) + np.maximum(i, j)
+        found.append(pair[(sides[0] * sides[1] < 0.0) & (sides[2] * sides[3] < 0.0)
+                          & (np.abs(sides) > touch).all(axis=0)])
+        along = (np.abs(sides) <= touch).all(axis=0)
+        i, j, pair = i[along], j[along], pair[along]
+        unit = (end[i] - start[i]) / length[i, None]
+        first, last = (((point[j] - start[i]) * unit).sum(axis=1) for point in (start, end))
+        common = np.minimum(first, length[i]) - np.maximum(last, 0.0)  # of opposite edges first is beyond last
+        against.update(zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist()))
+    return len(np.unique(np.concatenate(found))) if found else 0, float(sum(against.values())), looked > PAIRS

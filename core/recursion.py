@@ -79,8 +79,8 @@ def _as_surface(piece: Surface | NDArray) -> Surface:
     if isinstance(piece, Surface):
         return piece
     corners = np.asarray(piece)
-    if corners.ndim != 3 or corners.shape[1:] != (3, 3):
-        raise ValueError("Triangles are an array of shape (m, 3, 3): corners, and their coordinates.")
+    if corners.ndim != 3 or corners.shape[1:] != (3, 3) or np.iscomplexobj(corners):
+        raise ValueError("Triangles are an array of shape (m, 3, 3): corners, and their real coordinates.")
     return Surface(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
 
 

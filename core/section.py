@@ -179,9 +179,9 @@ def region(plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray,
     return boundary_edges(triangles, len(points)), int(np.count_nonzero(turned))
 
 
-def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0) -> Section:
+def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0, shared: float = 0.0) -> Section:
     """The properties of the region left of directed edges over (n, 3) points near the plane. `polygon.flaws` tells
-    whether that is one region.
+    whether that is one region, and the length that edges share, which the perimeter leaves out twice.
 
     error: how far storing the points as float32 may have moved each of them.
     ValueError where the edges enclose no area, or do not close.
@@ -200,15 +200,16 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
     bounds = []
     for step, own in ((rounded, moments.error), (error, np.zeros(6))):
         bounds.append(_bounds(moments, _moved(flat, edges, about, step) + own))
-    bounds[0]["perimeter"] = float(length.error[0]) + ENDS * len(edges) * rounded
-    bounds[1]["perimeter"] = ENDS * len(edges) * error
+    ends = ENDS * len(edges) * (5.0 if shared else 1.0)  # of 2 len(edges) shared pieces at most, each taken twice
+    bounds[0]["perimeter"] = float(length.error[0]) * (3.0 if shared else 1.0) + ends * rounded
+    bounds[1]["perimeter"] = ends * error
     area, shift = float(moments.raw[0]), moments.raw[1:3] / moments.raw[0]
     second = moments.raw[[5, 3, 4]] - area * np.array([shift[1] ** 2, shift[0] ** 2, shift[0] * shift[1]])
     second[:2] = np.maximum(second[:2], 0.0)
     sizes = outline_areas(flat, edges)
     centroid = about + shift
-    section = Section(plane, area, float(length.raw[0]), centroid, second, np.ones(4), int((sizes > 0.0).sum()),
-                      int((sizes < 0.0).sum()), *bounds)
+    section = Section(plane, area, float(length.raw[0]) - 2.0 * shared, centroid, second, np.ones(4),
+                      int((sizes > 0.0).sum()), int((sizes < 0.0).sum()), *bounds)
     x, y = (used - centroid).T
     sine, cosine = np.sin(section.angle), np.cos(section.angle)
     reach = np.array([np.abs(row).max() for row in (y, x, y * cosine - x * sine, x * cosine + y * sine)])

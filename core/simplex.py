@@ -89,16 +89,19 @@ def facet_moments(points: ArrayLike, simplices: ArrayLike, order: int,
 
 def _measure(points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLike | None, signs: ArrayLike | None,
              enclosed: bool) -> SimplexMoments:
-    points, simplices = np.asarray(points, np.float64), np.asarray(simplices)
-    if points.ndim != 2 or not points.shape[1]:
-        raise ValueError("points must be rows of coordinates")
+    points, simplices = np.asarray(points), np.asarray(simplices)
+    if points.ndim != 2 or not points.shape[1] or np.iscomplexobj(points):
+        raise ValueError("points must be rows of coordinates, real numbers")
+    points = points.astype(np.float64, copy=False)
     dimension = points.shape[1]
     if simplices.ndim != 2 or simplices.shape[1] != dimension:
         raise ValueError("the boundary of a body in n dimensions is made of simplices of n corners")
+    if simplices.size and simplices.dtype.kind not in "iu":
+        raise ValueError("a simplex names its points by whole numbers")
     if simplices.size and not (simplices.min() >= 0 and simplices.max() < len(points)):
         raise ValueError("a simplex names a point that is not there")
-    if order < 0:
-        raise ValueError("the order of moments is 0 or more")
+    if not isinstance(order, (int, np.integer)) or order < 0:
+        raise ValueError("the order of moments is a whole number, 0 or more")
     indices = multi_indices(dimension, order)
     used = points[simplices.ravel()] if simplices.size else np.zeros((1, dimension))
     low, high = used.min(axis=0), used.max(axis=0)
@@ -110,6 +113,8 @@ def _measure(points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLi
     reach = float(np.maximum(np.abs(high - about), np.abs(low - about)).max())
     exponent = int(np.frexp(reach)[1]) if reach else 0  # the body is brought to size 1, which rounds nothing
 
+    if signs is not None and np.shape(signs) != (len(simplices),):
+        raise ValueError("each simplex has one sign")
     measure = dimension if enclosed else dimension - 1
     degree = indices.sum(axis=1)
     raw, size = np.zeros((2, len(indices)))

@@ -50,6 +50,8 @@ class Surface:
             if indices is not None and indices.dtype not in (np.int32, np.int64):
                 # Numbers of faces, edges and vertices are added to others, which must neither overflow nor round.
                 object.__setattr__(self, name, indices.astype(np.int64))
+        if not self.points.dtype.isnative:  # files of the other byte order: float32 must be known as such
+            object.__setattr__(self, "points", self.points.astype(self.points.dtype.newbyteorder("=")))
 
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -97,7 +99,9 @@ class Surface:
             raise ValueError("points are rows of 3 coordinates, and triangles rows of 3 indices")
         if triangles.dtype.kind not in "iu":
             raise ValueError("a triangle is named by whole numbers")
-        if points.dtype not in (np.float32, np.float64):
+        if np.iscomplexobj(points):
+            raise ValueError("coordinates are real numbers")
+        if points.dtype.newbyteorder("=") not in (np.float32, np.float64):
             points = points.astype(np.float64)
         if not all_there(triangles, len(points)):
             raise ValueError("a triangle names a point that is not there")

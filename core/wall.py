@@ -22,10 +22,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .moments import PAIRWISE, Moments, U, index, monomial_count, monomials
-from .nesting import pierced
+from .nesting import pierced, relate, winds_twice
 from .offset import UNEVEN, blocks, offset_directions
+from .shell_tree import sort_shells
 from .surface import Surface
-from .topology import find_edges
+from .topology import components, find_edges
 from .vectors import cross
 from .weld import equal_positions
 
@@ -89,16 +90,38 @@ class Sweep:
         moved = swept * np.multiply.reduce(reach ** monomials(ORDER), axis=1)
         return Moments(raw, self.about, "volume", error, np.minimum(self.input @ both, moved))
 
+    def box(self, inward: float, outward: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(3,) and (3,) the least and the largest coordinates of the wall."""
+        sides = [self.points - inward * self.vectors, self.points + outward * self.vectors]
+        return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
+
     def meets_itself(self, inward: float, outward: float) -> bool:
-        """Whether the two sides of the wall go through each other, or a moved side through itself, as far as is
-        found within bounds of time."""
+        """Whether the two sides of the wall go through each other, a moved side through itself, or the walls of parts
+        into one another, as far as is found within bounds of time."""
         count = len(self.points)
         points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
         triangles = np.concatenate([self.triangles, self.triangles + count])
         shell = np.repeat([0, 1], len(self.triangles))
         tolerance = min(TOUCHING * float(np.ptp(points, axis=0).max()), 1e-3 * (inward + outward))
         pairs = [(0, 1), *((k, k) for k, moved in enumerate((inward, outward)) if moved)]
-        return pierced(points, triangles, shell, np.array(pairs), np.tile(np.arange(count), 2), tolerance)
+        return (pierced(points, triangles, shell, np.array(pairs), np.tile(np.arange(count), 2), tolerance)
+                or self._overlaps(points, tolerance))
+
+    def _overlaps(self, points: NDArray, tolerance: float) -> bool:
+        """Whether the walls of parts reach into one another or into themselves, where no edge need pierce a face: skins
+        that have moved past each other, or that are flush. Each wall is a closed body: both its sides and its rim."""
+        part, number = components(len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel())
+        rims, count = find_edges(self.triangles).rims(), len(self.points)
+        start, stop = self.triangles.ravel()[rims], np.roll(self.triangles, -1, axis=1).ravel()[rims]
+        triangles = np.concatenate([
+            self.triangles[:, ::-1], self.triangles + count, np.stack([start, stop, stop + count], axis=1),
+            np.stack([start, stop + count, start + count], axis=1)])
+        shells = sort_shells(points, triangles, part[triangles[:, 0] % count].astype(np.intp), number)
+        solid = shells.volume > 0.0
+        if winds_twice(points, shells, solid, tolerance):
+            return True
+        found = relate(points, shells, solid, tolerance)
+        return len(found.inside) + len(found.crossing) > 0
 
     def without_surface(self) -> Sweep:
         """The same without the arrays that are as large as the mesh."""

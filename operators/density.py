@@ -17,7 +17,7 @@ from .grid_options import GridOptions
 @dataclass(frozen=True, eq=False)
 class DensityField:
     """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of metres, along the
-    world's axes or each surface's own; text: as it was typed. attribute: the name of the vertices' attribute."""
+    world's axes or each surface's own; text: as it was typed, or taken. attribute: the name of that of the vertices."""
 
     kind: str
     polynomial: Polynomial | None = None
@@ -35,7 +35,9 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
         return DensityField("materials")
     if settings.density_from == "POLYNOMIAL":
         text = settings.density_polynomial.strip()
-        return DensityField("polynomial", parse(text), settings.density_frame == "WORLD", text)
+        # Who meant a decimal comma sees here what it was taken for.
+        told = "with the coefficients {:s} of 1, x, y, z, …".format(text) if "," in text else text
+        return DensityField("polynomial", parse(text), settings.density_frame == "WORLD", told)
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:
             raise ValueError("The Volume object that its density comes from is not chosen; choose one.")

@@ -237,16 +237,20 @@ def _balance(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, wa
                 break
             surface = replace(_read(context, obj, None).surface.mapped(linear, offset), points=start.points)
         else:
-            raise Refused("its faces that are not flat are cut differently with every change; triangulate them first")
+            raise Refused("its faces are cut differently with every change; triangulate the mesh itself first")
     units = Units.of(context.scene.unit_settings)
     moves = (points[mesh.movable].astype(np.float64) - mesh.start[mesh.movable]) @ linear.T
-    told = "Moved {:d} vertices by at most {:s}: the center of mass went from {:s} to {:s}".format(
-        int(np.count_nonzero(moves.any(axis=1))), units.text("length", float(np.linalg.norm(moves, axis=1).max())),
+    number, largest = int(np.count_nonzero(moves.any(axis=1))), float(np.linalg.norm(moves, axis=1).max())
+    told = "Moved {:s} by at most {:s}: the center of mass went from {:s} to {:s}".format(
+        "1 vertex" if number == 1 else "{:d} vertices".format(number), units.text("length", largest),
         *("({:s})".format(", ".join(units.texts("length", one.mass_properties.center, size)))
           for one in (before, after)))
     notes = []
     if obj.data.users - obj.data.use_fake_user > 1:
         notes.append("Other objects use its mesh and have changed with it")
+    if any(other.type == "MESH" and other.data.is_editmode and other.data != obj.data
+           for other in context.view_layer.objects):
+        notes.append("Only {:s} was balanced; the others in Edit Mode are as they were".format(obj.name))
     return told, notes
 
 

@@ -51,8 +51,12 @@ def _measured(reading: SectionReading, unit: float) -> tuple[Section, list[str]]
     if reading.loops is not None and (found.crossings or found.doubled):
         raise ValueError(
             "Its outlines cross or overlap{:s}, so that it is open what is inside; move them apart, or convert it to a "
-            "mesh and unite its faces.".format(" at {:d} places".format(found.crossings) if found.crossings else ""))
-    section = measure_section(plane, points, edges, error)
+            "mesh and unite its faces.".format(" at one place" if found.crossings == 1 else
+                " at {:d} places".format(found.crossings) if found.crossings else ""))
+    if found.negative:
+        raise ValueError("Some of its faces cross themselves, so that a part of them would count negative; cut them "
+                         "where they cross.")
+    section = measure_section(plane, points, edges, error, found.shared)
     if found.crossings or found.doubled:
         warnings.append("Its faces overlap or cross themselves; what they share counts once for each of them.")
     if found.lost:

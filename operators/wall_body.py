@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..core.moments import Moments, map_sum, sum_moments
 from ..core.polyhedron import solid_and_area
 from ..core.solid import SolidMeasure
-from ..core.surface import Surface
+from ..core.surface import Surface, boxes_meet
 from ..core.wall import Sweep, share, sweep
 from .body import Body
 from .mesh_body import even_surfaces
@@ -49,6 +49,12 @@ class Piece:
     def meets_itself(self, side: str, thickness: float) -> bool:
         """Whether the wall runs into itself."""
         return self.sweep.meets_itself(*share(side, thickness / self.scale))
+
+    def boxes(self, side: str, thickness: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(k, 3) the middles and (k, 3) half the sides of boxes around the wall where it stands, in m."""
+        low, high = self.sweep.box(*share(side, thickness / self.scale))
+        linear = self.matrices[:, :3, :3]
+        return linear @ ((low + high) / 2.0) + self.matrices[:, :3, 3], np.abs(linear) @ ((high - low) / 2.0)
 
 
 @dataclass(frozen=True)
@@ -104,8 +110,8 @@ class Walls:
         least = min(piece.sweep.least for piece in self.pieces)
         most = max(piece.sweep.most for piece in self.pieces)
         if least < 1.0 - WORTH_TELLING or most > 1.0 + WORTH_TELLING:
-            notes.append("Where more than three planes meet, no corner keeps all of them at the thickness: the wall is "
-                         "{:.3g} to {:.3g} times as thick there.".format(least, most))
+            notes.append("Where more than three planes meet, or two in a blade, no corner keeps all of them at the "
+                         "thickness: the wall is {:.3g} to {:.3g} times as thick there.".format(least, most))
         ignored = sum(piece.sweep.ignored for piece in self.pieces)
         if ignored:
             notes.append("{:d} of its faces have too little area to face anywhere, and moved along with their "
@@ -115,7 +121,14 @@ class Walls:
         elif any(piece.meets_itself(self.side, thickness) for piece in self.pieces):
             notes.append("Its walls run into each other, and what they share counts twice. Choose a thinner one, or "
                          "another side.")
+        elif self._places_meet(thickness):
+            notes.append("The walls of its instances may run into each other, and what they share counts twice: that "
+                         "was not looked for between instances. Make them real and join them to know.")
         return notes
+
+    def _places_meet(self, thickness: float) -> bool:
+        centers, extents = zip(*(piece.boxes(self.side, thickness) for piece in self.pieces))
+        return boxes_meet(np.concatenate(centers), np.concatenate(extents))
 
 
 def find_walls(reading: Reading, body: Body, side: str) -> Walls:

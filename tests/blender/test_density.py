@@ -339,6 +339,9 @@ def test_coefficients_are_the_same_density():
     one = measure(by_polynomial(obj, "1000 + 20*z")).mass_properties
     other = measure(by_polynomial(obj, "1000, 0, 0, 20")).mass_properties
     assert one.mass == other.mass and np.array_equal(one.inertia, other.inertia)
+    # A decimal comma makes two coefficients, too: it is told as what it was read.
+    told = measure(by_polynomial(obj, "1000,5")).density_from
+    assert told == "polynomial with the coefficients 1000,5 of 1, x, y, z, …, in own coordinates"
 
 
 def boxes_mass(low, high, density):

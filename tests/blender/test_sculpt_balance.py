@@ -335,6 +335,22 @@ def test_what_was_done_is_told(capfd):
     assert "Moved" in told and "went from" in told and "(0.05 m, 0 m, " in told
 
 
+@pytest.mark.usefixtures("over_cursor")
+def test_of_several_in_edit_mode_the_active_one_is_balanced_and_it_is_said(capfd):
+    other, obj = figure(location=(5, 0, 0)), figure()
+    only(obj, other)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    before = points(other)
+    assert balance() == {"FINISHED"}
+    assert "Only {:s} was balanced".format(obj.name) in capfd.readouterr().out
+    assert np.array_equal(points(other), before)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    edit(obj)
+    bpy.context.scene.cursor.location.x += 0.01
+    assert balance() == {"FINISHED"} and "Only" not in capfd.readouterr().out
+
+
 def test_the_poll_says_what_is_missing():
     bpy.ops.object.select_all(action="DESELECT")
     bpy.context.view_layer.objects.active = None

@@ -210,6 +210,27 @@ def test_outlines_that_cross_or_coincide_are_refused_with_the_remedy(outlines):
     assert "outlines" in reason and ("move them apart" in reason or "remove one" in reason)
 
 
+@pytest.mark.parametrize("at", [0, 2, 3])
+def test_points_of_an_outline_that_are_there_twice_change_nothing(at):
+    outer, hole = square(0, 0, 4), square(1, 1, 1)
+    outer.insert(at, outer[at])
+    hole.append(hole[0])  # closed twice: by its last point, and as a cyclic spline
+    found, _, warnings = section_of(add(curve_of(outer, hole)))
+    assert (found.area, found.outlines, found.holes) == (15.0, 1, 1) and not warnings
+
+
+def test_lines_between_faces_that_share_no_corners_are_no_perimeter():
+    found, _, warnings = section_of(add(flat_mesh(square(0, 0, 2), square(2, 0, 1), square(2, 1, 1))))
+    assert found.perimeter == pytest.approx(10.0, abs=1e-14) and found.area == 6.0 and not warnings
+    assert found.error["perimeter"] < 1e-11
+    found = section_of(add(curve_of(square(0, 0, 4), square(0, 1, 2))))[0]  # a hole that touches from within
+    assert found.perimeter == pytest.approx(20.0, abs=1e-14)
+
+
+def test_faces_that_cross_themselves_are_refused():
+    assert "cross themselves" in refused(add(flat_mesh([(0, 0), (4, 4), (4, 0), (0, 5)])))
+
+
 def test_letters_that_overlap_are_refused():
     text = text_of("OO")
     text.space_character = 0.5

@@ -162,6 +162,25 @@ def test_two_parts_whose_walls_meet_say_so():
     assert any("run into" in warning for warning in measured(obj).warnings)
 
 
+def test_walls_of_instances_that_may_meet_say_that_nobody_looked():
+    one = box(wall="OUTWARD", thickness=0.1)
+    inside = bpy.data.collections.new("Inside")
+    bpy.context.scene.collection.objects.unlink(one)
+    other = bpy.data.objects.new("Other", one.data)
+    for obj in (one, other):
+        inside.objects.link(obj)
+    shown = bpy.data.objects.new("Shown", None)
+    shown.instance_type, shown.instance_collection = "COLLECTION", inside
+    bpy.context.scene.collection.objects.link(shown)
+    settings = shown.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.1
+    for place, told in ((1.25, False), (1.2, False), (1.15, True)):
+        other.location.x = place
+        assert any("between instances" in warning for warning in measured(shown).warnings) == told
+    settings.wall = "INWARD"
+    assert not any("between instances" in warning for warning in measured(shown).warnings)
+
+
 def test_instances_have_walls_of_one_thickness():
     part = box(thickness=0.125)
     collection = bpy.data.collections.new("Parts")

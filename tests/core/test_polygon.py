@@ -110,7 +110,7 @@ def test_what_overlaps_by_its_coordinates_errors_touches():
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(4 - 1e-6, 1, 2, 2))
     edges = nested(points, loops)
     assert flaws(points, edges).doubled and flaws(points, edges).crossings == 2
-    assert flaws(points, edges, error=1e-6) == Flaws(0, False, False)
+    assert flaws(points, edges, error=1e-6) == Flaws(0, False, False, shared=2.0)
 
 
 def test_a_hole_that_touches_its_outline_from_within_is_a_hole():
@@ -144,6 +144,41 @@ def test_regions_on_one_another_are_found_where_no_edges_cross():
     # Through a corner of the other, so that no edge crosses another in its inside.
     points, loops = shape([(0, 0), (4, 0), (4, 2), (4, 4), (0, 4)], [(2, 2), (4, 2), (6, 0), (6, 4)])
     assert flaws(points, directed(loops)).doubled
+
+
+@pytest.mark.parametrize("offset", [0.0, 1e3])
+@pytest.mark.parametrize("away", [0.0, 0.5])
+def test_points_that_are_there_twice_are_no_flaw(offset, away):
+    """As drawings that were imported have them; away: by how many float32 steps they are apart."""
+    rng = np.random.default_rng(3)
+    for turn in rng.uniform(0.0, 7.0, 40):
+        points = np.array([(math.cos(turn + k), math.sin(turn + k)) for k in range(6)]) + offset
+        step = float(np.spacing(np.float32(offset + 1.0)))
+        points = np.insert(points, 3, points[2] + away * step * rng.uniform(-1.0, 1.0, 2), axis=0)
+        assert flaws(points, directed([np.arange(7)]), error=step) == Flaws(0, False, False)
+        assert flaws(points, directed([np.arange(7)[::-1]]), error=step).negative
+
+
+def test_what_is_gone_round_the_other_way_counts_negative():
+    points, loops = shape([(0, 0), (4, 4), (4, 0), (0, 5)], PENTAGRAM, rectangle(0, 0, 4, 4))
+    assert flaws(points, directed(loops[:1])).negative
+    found = flaws(points, directed(loops[1:2]))
+    assert found.doubled and not found.negative
+    assert not flaws(points, directed(loops[2:])).negative
+
+
+@pytest.mark.parametrize("turn, offset", [(0.0, 0.0), (0.3, 0.0), (0.7, 1e3)])
+@pytest.mark.parametrize("outlines, shared", [
+    ([rectangle(0, 0, 2, 2), rectangle(2, 0, 1, 1), rectangle(2, 1, 1, 1)], 3.0),
+    ([rectangle(0, 0, 2, 3), rectangle(2, 2, 2, 3)], 1.0),
+    ([rectangle(0, 0, 4, 4), rectangle(0, 1, 2, 2)], 2.0),
+    ([rectangle(0, 0, 4, 4), rectangle(0, 0, 2, 2)], 4.0),
+    ([rectangle(0, 0, 1, 1), rectangle(1, 1, 1, 1), rectangle(3, 0, 1, 1)], 0.0),
+])
+def test_the_length_that_outlines_share_is_known(outlines, shared, turn, offset):
+    points, loops = shape(*outlines)
+    points = points @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]]) + offset
+    assert flaws(points, nested(points, loops)).shared == pytest.approx(shared, abs=1e-11)
 
 
 def test_outlines_on_one_another_are_refused():

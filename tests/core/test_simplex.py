@@ -189,6 +189,9 @@ def test_many_blocks_give_what_one_gives(monkeypatch):
     ([[0.0, 0.0], [1.0, 0.0]], [[0, 2]], "not there"),
     ([[0.0, 0.0], [1.0, 0.0]], [[0, 1, 1]], "n corners"),
     ([0.0, 1.0], [[0]], "rows"),
+    ([[0.0, 1j], [1.0, 0.0]], [[0, 1]], "real"),
+    ([[0.0, 0.0], [1.0, 0.0]], [[0.0, 1.0]], "whole numbers"),
+    ([[0.0, 0.0], [1.0, 0.0]], [[False, True]], "whole numbers"),
 ])
 def test_bad_input_is_refused(points, simplices, words):
     with pytest.raises(ValueError, match=words):
@@ -196,11 +199,19 @@ def test_bad_input_is_refused(points, simplices, words):
 
 
 @pytest.mark.parametrize(("order", "about", "words"), [
-    (-1, None, "0 or more"), (2, (0.0, 0.0), "as many"), (2, (0.0, np.nan, 0.0), "finite")])
+    (-1, None, "0 or more"), (2.5, None, "whole number"), (2, (0.0, 0.0), "as many"),
+    (2, (0.0, np.nan, 0.0), "finite")])
 def test_what_is_asked_for_is_looked_at_too(order, about, words):
     points, facets, _ = cube(3)
     with pytest.raises(ValueError, match=words):
         enclosed_moments(points, facets, order, about)
+
+
+def test_each_simplex_has_a_sign():
+    points, facets, _ = cube(3)
+    for signs in (np.ones(len(facets) - 1), np.ones((1, len(facets))), 1.0):
+        with pytest.raises(ValueError, match="one sign"):
+            enclosed_moments(points, facets, 2, signs=signs)
 
 
 def test_nothing_encloses_nothing():

@@ -400,3 +400,38 @@ def test_what_a_few_faces_without_a_direction_lack_is_in_the_bound():
         truth = (1 + 2 * s) ** 2 * (0.001 + 2 * s) - 0.001
         body = found.moments(0.0, s)
         assert body.total < 0.9985 * truth and abs(body.total - truth) <= body.input[0] < 0.01 * truth
+
+
+JAWS = [(0, 0), (4, 0), (4, 1.9), (3, 1.9), (3, 1), (1, 1), (1, 3), (3, 3), (3, 2.1), (4, 2.1), (4, 4), (0, 4)]
+CAP = [(0, 1, 4, 5), (1, 2, 3, 4), (0, 5, 6, 11), (6, 7, 10, 11), (7, 8, 9, 10)]
+
+
+def clamp():
+    """A C whose jaws face each other over a gap of 0.2, each as wide and high as the other."""
+    points = np.array([(x, y, z) for z in (0.0, 1.0) for x, y in JAWS])
+    quads = [row[::-1] for row in CAP] + [tuple(i + 12 for i in row) for row in CAP]
+    quads += [(i, (i + 1) % 12, (i + 1) % 12 + 12, i + 12) for i in range(12)]
+    return points, bodies.split(np.array(quads))
+
+
+SHEET = (np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]), bodies.split([(0, 1, 2, 3)]))
+OUTER, INNER = bodies.box((0, 0, 0), (4, 4, 4)), bodies.box((1, 1, 1), (3, 3, 3))
+
+
+@pytest.mark.parametrize(("part", "side", "apart", "through"), [
+    (bodies.joined(OUTER, bodies.inverted(INNER)), "inward", (0.1, 0.49, 0.5), (0.501, 0.6, 1.0, 1.5)),
+    (bodies.joined(OUTER, bodies.inverted(INNER)), "centered", (0.5, 0.99), (1.01, 1.5)),
+    (bodies.joined(OUTER, bodies.inverted(INNER)), "outward", (0.5, 0.9), ()),
+    (bodies.joined(OUTER, INNER), "outward", (0.5, 0.99), (1.01, 3.0)),
+    (bodies.joined(OUTER, INNER), "inward", (0.5, 0.9), ()),
+    (bodies.joined(bodies.box(), bodies.moved(bodies.box(), offset=(4, 0, 0))), "outward", (1.0, 1.5), (1.51, 5.0)),
+    (clamp(), "outward", (0.05, 0.09), (0.11, 0.15, 0.3)),
+    (bodies.joined(SHEET, bodies.moved(SHEET, offset=(0, 0, 0.25))), "inward", (0.1, 0.25), (0.26, 0.5)),
+    (bodies.joined(SHEET, bodies.moved(SHEET, offset=(0.5, 0.5, 0.25))), "centered", (0.1, 0.25), (0.26, 0.5)),
+    (bodies.joined(SHEET, bodies.moved(SHEET, offset=(2, 0, 0.25))), "outward", (0.1, 0.5), ()),
+])
+def test_walls_that_meet_are_found_where_no_edge_pierces_a_face(part, side, apart, through):
+    """Skins that have moved past one another, and ones that are flush with each other."""
+    swept = sweep(bodies.surface(part))
+    assert not any(swept.meets_itself(*share(side, t)) for t in apart)
+    assert all(swept.meets_itself(*share(side, t)) for t in through)
