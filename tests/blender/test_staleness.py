@@ -111,6 +111,15 @@ def test_what_blender_evaluates_again_and_shows_as_before_is_up_to_date():
     assert reason(bpy.data.objects["Body.001"]) == "Geometry Changed"
 
 
+def test_a_setting_of_one_object_leaves_another_with_its_mesh_up_to_date():
+    one = add(mesh_body())
+    other = add(one.data, "Other")
+    measure(one, other)
+    one.body_moments.density = 500.0
+    update()
+    assert (reason(one), reason(other)) == ("Settings Changed", "")
+
+
 def test_an_edit_that_is_taken_back_is_none():
     obj = add(mesh_body())
     modifier = obj.modifiers.new("Subdivision", "SUBSURF")
