@@ -20,7 +20,6 @@ from ..core.library import UNCLEAR, Entry, nearest, read_library, verdict
 from ..core.matching import FITS, Match
 from ..core.signature import Likeness, Signature, compared
 from . import selection, snapping
-from .measure import THREADS, MeasureOptions
 from .read import measurable_objects
 from .shape import Shape, Skin, matched, surface_shape_of
 from .stepwise import Stepwise
@@ -222,7 +221,7 @@ class OBJECT_OT_body_moments_select_found(Operator):
 
 
 def _shape(context: Context, obj: Object) -> Shape:
-    return surface_shape_of(obj, context.evaluated_depsgraph_get(), MeasureOptions(threads=THREADS))
+    return surface_shape_of(obj, context.evaluated_depsgraph_get())
 
 
 def _mirrored(found: Match, size: float) -> bool | None:

@@ -5,6 +5,8 @@ surfaces. What was found is kept with each object, in its own axes, for the pane
 
 from __future__ import annotations
 
+from functools import partial
+
 import bpy
 import numpy as np
 from bpy.props import (
@@ -119,7 +121,8 @@ def _symmetries(shape: Shape, tolerance: float) -> tuple[Symmetry, Symmetry]:
     skin, moments = Skin(shape), shape.of_pieces()
     # Moments are looked at as loosely as the surface.
     allowed = symmetry(moments, max(NOISE, tolerance))
-    return confirmed(allowed, moments.about, skin.points, skin.distance, tolerance * shape.size), allowed
+    near = tolerance * shape.size
+    return confirmed(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
 
 
 def _keep(obj: Object, measurement: Measurement, found: Symmetry, allowed: Symmetry, tolerance: float) -> None:
