@@ -106,7 +106,7 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
         "Compare the shapes of all visible objects with the active one's, however they lie and whatever their size and "
         "faces: copies, mirror images and what is merely similar"
     )
-    DOING = "Comparing: {:d} of {:d} objects. Esc cancels"
+    DOING = "Comparing: {:.0%}. Esc cancels"
     CANCELLED = "The search was cancelled; nothing was changed"
 
     select: BoolProperty(
@@ -135,18 +135,24 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
             self._steps = self._compare(context, shape)
         return wanted is not None
 
-    def _compare(self, context: Context, wanted: Shape) -> Iterator[int]:
+    def _compare(self, context: Context, wanted: Shape) -> Iterator[float]:
         skin = None
 
-        def compare(obj: Object) -> None:
+        def compare(obj: Object) -> Iterator[float]:
             nonlocal skin
             shape = _shape(context, obj)
+            yield 0.3
             entry = Entry(obj.name_full, "", shape.signature(ORDER))
             likeness = compared(self._wanted, entry.signature)
             if verdict(likeness) in UNCLEAR:
-                skin = skin or Skin(wanted)
-                self._hands[entry] = _mirrored(matched(shape, wanted, Skin(shape), skin, 1.0 / likeness.scale),
-                                               wanted.size)
+                yield 0.6
+                if skin is None:
+                    skin = Skin(wanted)
+                    for _ in skin.grow():
+                        yield 0.6
+                own = Skin(shape)
+                yield from (0.6 + 0.3 * share for share in own.grow())
+                self._hands[entry] = _mirrored(matched(shape, wanted, own, skin, 1.0 / likeness.scale), wanted.size)
             self._objects[entry] = obj
 
         return selection.one_by_one(self._others, compare, snapping.REFUSALS, self._failures)

@@ -167,15 +167,14 @@ def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
 
 
 class Skin:
-    """A shape's surface, to hold points against. Lengths in metres, world axes; Blender's tree of triangles keeps them
-    as float32, so about the center and by its size."""
+    """A shape's surface, to hold points against, once it is grown. Lengths in metres, world axes; Blender's tree of
+    triangles keeps them as float32, so about the center and by its size."""
 
     def __init__(self, shape: Shape):
         whole = joined(list(shape.pieces()))
         self._center, self._scale = shape.center, shape.size
         self._triangles = triangles = whole.all_triangles()[0]
         self._corners = (whole.points - self._center) / self._scale
-        self._tree = BVHTree.FromPolygons(_as_tuples(self._corners), _as_tuples(triangles), all_triangles=True)
         is_used = np.zeros(len(whole.points), bool)
         is_used[triangles] = True
         used = np.flatnonzero(is_used)
@@ -184,6 +183,16 @@ class Skin:
             int)]].mean(axis=1)
         far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1))[-SAMPLES // 10:]
         self.points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
+
+    def grow(self) -> Iterator[float]:
+        """Build the tree, in steps of some tenths of a second for a million triangles. Yields the share that is
+        done."""
+        points = _as_tuples(self._corners)
+        yield 0.2
+        triangles = _as_tuples(self._triangles)
+        yield 0.4
+        self._tree = BVHTree.FromPolygons(points, triangles, all_triangles=True)
+        yield 1.0
 
     def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
         """(n,) of (n, 3) points from the surface. within: where only this matters, whether they are within so much:
