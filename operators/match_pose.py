@@ -42,30 +42,31 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
         return True
 
     def execute(self, context: Context) -> set[str]:
-        return self.all_at_once(context, len(self._others)) if self._begin(context) else {"CANCELLED"}
+        self._begin(context)
+        return self.all_at_once(context, len(self._others))
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
-        if not self._begin(context):
-            return {"CANCELLED"}
         if context.window is None:
-            return self.all_at_once(context, len(self._others))
+            return self.execute(context)
+        self._begin(context)
         return self.begin_modal(context, len(self._others))
 
-    def _begin(self, context: Context) -> bool:
-        active = context.object
-        self._others = [obj for obj in selection.selected(context) if obj != active]
+    def _begin(self, context: Context) -> None:
+        self._others = [obj for obj in selection.selected(context) if obj != context.object]
+        self._size = 0.0  # of the active object, once it is measured
         self._found: list[tuple[reframe.Plan, Match]] = []
         self._failures: list[tuple[str, str]] = []
+        self._steps = self._compare(context)
+
+    def _compare(self, context: Context) -> Iterator[float]:
+        active = context.object
         try:
             target = surface_shape_of(active, context.evaluated_depsgraph_get())
         except snapping.REFUSALS as error:
             self.report({"ERROR"}, "{:s}: {:s}".format(active.name, getattr(error, "reason", str(error))))
-            return False
-        self._size, self._steps = target.size, self._compare(context, target)
-        return True
-
-    def _compare(self, context: Context, target: Shape) -> Iterator[float]:
-        skin = Skin(target)
+            return
+        yield 0.0
+        self._size, skin = target.size, Skin(target)
         for _ in skin.grow():
             yield 0.0
 
@@ -81,6 +82,8 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing moves before all places are found, so that a cancelled run leaves everything where it was."""
+        if not self._size:
+            return {"CANCELLED"}
         active, units = context.object, Units.of(context.scene.unit_settings)
         moved, notes, fits = [], [], True
         for plan, found in self._found:  # parents first, for a child moves with its parent

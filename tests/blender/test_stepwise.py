@@ -126,6 +126,16 @@ def test_esc_within_an_object_leaves_everything_as_it_was(cls, count):
     assert result == {"FINISHED"} and steps > 4
 
 
+@pytest.mark.parametrize("cls", [OBJECT_OT_body_moments_match_pose, OBJECT_OT_body_moments_find_similar])
+def test_an_active_object_that_has_no_shape_is_told_and_ends_it(cls):
+    bodies = three()
+    bodies[0].data = bpy.data.meshes.new("Nothing")
+    operator, window = pressed(cls, select=True, mirrored=False, scaled=False)
+    assert finished(operator, window) == {"CANCELLED"}
+    ((kind, text),) = operator.reports
+    assert kind == "ERROR" and text.startswith("a: ")
+
+
 def test_esc_leaves_what_was_said_of_objects_that_could_not_be_measured(monkeypatch):
     monkeypatch.setattr("body_moments.operators.measure_selected.AT_ONCE", 1)
     bodies = three()
