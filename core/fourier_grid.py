@@ -25,7 +25,7 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from .fourier import Transform, finished
+from .fourier import Transform
 from .nufft import WIDTHS, Spreading, aliasing
 from .precise import normals
 from .quadrature import triangle_rule
@@ -39,6 +39,7 @@ MOST = 24  # Gauss points along a side at most
 DIRECT_COST = 6.0  # of a frequency in closed form, in cells spread
 SAMPLES = 24  # frequencies that are compared with the closed form
 SAFETY = 3.0  # the error that is reported or allowed, by the largest difference found
+SHARING, CHECKING = 0.3, 0.1  # of the time, roughly: what `_share` takes, and what the comparison does
 SHELLS = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)  # of the largest frequency along an axis, where they are found
 CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)  # how much larger than in their sum the errors of single triangles may be
 
@@ -133,14 +134,17 @@ class GridTransform(Transform):
         return sum(corner[..., None] * share for corner, share in zip(corners, shares)), normals(*corners), weights
 
     def steps(self) -> Iterator[float]:
-        """Do the work. Yields after each part of it the fraction done, from 0 to 1."""
-        yield from self._share()
+        """Do the work. Yields after each part of it the fraction done, from 0 to 1, roughly."""
+        expected = len(self.faces.triangles) * len(_trial(self.q)) / PAIRS
+        for tried, _ in enumerate(self._share()):
+            yield SHARING * tried / (tried + expected)
+        checked = CHECKING if self.fine else 0.0
         direct = len(self.direct.triangles) * len(self.sums) * DIRECT_COST
         total = direct + self.width**3 * sum(len(rows) * len(triangle_rule(n)[1]) for n, rows in self.fine)
         done = 0.0
         for share in super().steps():
             done = share * direct
-            yield done / total
+            yield SHARING + (1.0 - SHARING - checked) * done / total
         for n, rows in self.fine:
             count = len(triangle_rule(n)[1])
             size = max(1, CHUNK // count)
@@ -148,9 +152,11 @@ class GridTransform(Transform):
                 some = rows[start:start + size]
                 self._spread(self.faces.triangles[some], n)
                 done += len(some) * count * self.width**3
-                yield done / total
+                yield SHARING + (1.0 - SHARING - checked) * done / total
         if self.fine:
-            self._gather()
+            yield from (1.0 - checked for _ in self._gather())
+            self.exact = Transform(self.surface, self.q.vectors()[_samples(self.q)], self.of, self.threads)
+            yield from (1.0 - checked * (1.0 - share) for share in self.exact.steps())
 
     def _spread(self, triangles: NDArray, n: int) -> None:
         """Put the points of some triangles on the fine grid."""
@@ -160,7 +166,7 @@ class GridTransform(Transform):
         strengths = (strengths[..., None] * weights).reshape(len(strengths), -1)
         self.spreading.add(points.reshape(3, -1) * (self.q.step * self.faces.scale), strengths)
 
-    def _gather(self) -> None:
+    def _gather(self) -> Iterator[None]:
         """Add to the sums what was spread, less the halves that `Transform` takes off."""
         vectors = self.waves.vectors(slice(0, self.waves.rows))
         for axis, waves in enumerate(self.spreading.sums()):
@@ -168,15 +174,14 @@ class GridTransform(Transform):
                 self.sums += vectors[axis] * (waves.reshape(-1) - waves[self.q.half, self.q.half, 0].real)
             else:
                 self.sums += waves.reshape(-1) - waves[self.q.half, self.q.half, 0].real
+            yield
 
     def result(self) -> Spectrum:
         """The spectrum, when all steps are done, and how far it is from the closed form at some frequencies."""
         found = super().result()
         if not self.fine:
             return found
-        chosen = _samples(self.q)
-        exact = finished(Transform(self.surface, found.q[chosen], self.of, self.threads))
-        error = SAFETY * np.abs(found.values[chosen] - exact.values).max()
+        error = SAFETY * np.abs(found.values[_samples(self.q)] - self.exact.result().values).max()
         return replace(found, error=found.error + error, method=APPROXIMATE)
 
 

@@ -21,6 +21,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import chain, islice
 from math import factorial, frexp
 
 import numpy as np
@@ -203,7 +204,10 @@ class _Stream:
 
     def _parts(self, tasks: Iterator[_Task]) -> Iterator[tuple[int, list[Sums]]]:
         """The results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
-        if self.threads == 1:
+        first = list(islice(tasks, min(self.threads, 2)))
+        alone, tasks = len(first) < 2, chain(first, tasks)
+        del first  # it holds pieces of a stream
+        if alone:  # or a body of one task, for which starting threads takes longer than the work
             yield from map(self._run, tasks)
             return
         with ThreadPoolExecutor(self.threads) as pool:

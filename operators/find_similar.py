@@ -20,9 +20,8 @@ from ..core.library import UNCLEAR, Entry, nearest, read_library, verdict
 from ..core.matching import FITS, Match
 from ..core.signature import Likeness, Signature, compared
 from . import selection, snapping
-from .measure import THREADS, MeasureOptions
 from .read import measurable_objects
-from .shape import Shape, Skin, matched, surface_shape_of
+from .shape import Skin, matched, surface_shape_of
 from .stepwise import Stepwise
 
 ORDER = 12  # of the descriptors: more than tell parts apart, a fourth of the time that 20 takes
@@ -64,13 +63,16 @@ class _Find:
             return False
         return True
 
-    def wanted(self, context: Context) -> tuple[Shape, Signature] | None:
+    def look(self, context: Context) -> Iterator[float]:
+        """Measure the active object: `shape`, and `wanted`, its signature. It stays None where there is none, which is
+        reported."""
+        self.wanted: Signature | None = None
         try:
-            shape = _shape(context, context.object)
-            return shape, shape.signature(ORDER)
+            self.shape = surface_shape_of(context.object, context.evaluated_depsgraph_get())
+            yield 0.0
+            self.wanted = self.shape.signature(ORDER)
         except snapping.REFUSALS as error:
             self.report({"ERROR"}, "{:s}: {:s}".format(context.object.name, getattr(error, "reason", str(error))))
-            return None
 
     def keep(self, context: Context, rows: list[tuple[Entry, Likeness]], looked_at: str) -> None:
         search = context.scene.body_moments_search
@@ -107,7 +109,7 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
         "Compare the shapes of all visible objects with the active one's, however they lie and whatever their size and "
         "faces: copies, mirror images and what is merely similar"
     )
-    DOING = "Comparing: {:d} of {:d} objects. Esc cancels"
+    DOING = "Comparing: {:.0%}. Esc cancels"
     CANCELLED = "The search was cancelled; nothing was changed"
 
     select: BoolProperty(
@@ -117,45 +119,54 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
     scaled: SCALED
 
     def execute(self, context: Context) -> set[str]:
-        return self.all_at_once(context, len(self._others)) if self._begin(context) else {"CANCELLED"}
+        self._begin(context)
+        return self.all_at_once(context, len(self._others))
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         if context.window is None:
             return self.execute(context)
-        return self.begin_modal(context, len(self._others)) if self._begin(context) else {"CANCELLED"}
+        self._begin(context)
+        return self.begin_modal(context, len(self._others))
 
-    def _begin(self, context: Context) -> bool:
-        wanted = self.wanted(context)
+    def _begin(self, context: Context) -> None:
         self._others = [obj for obj in measurable_objects(context.view_layer)
                         if obj != context.object and obj.visible_get()]
         self._objects: dict[Entry, Object] = {}
         self._hands: dict[Entry, bool | None] = {}  # of those whose signatures do not tell it
         self._failures: list[tuple[str, str]] = []
-        if wanted is not None:
-            shape, self._wanted = wanted
-            self._steps = self._compare(context, shape)
-        return wanted is not None
+        self._steps = self._compare(context)
 
-    def _compare(self, context: Context, wanted: Shape) -> Iterator[int]:
-        skin = None
+    def _compare(self, context: Context) -> Iterator[float]:
+        yield from self.look(context)
+        if self.wanted is None:
+            return
+        wanted, skin = self.shape, None
 
-        def compare(obj: Object) -> None:
+        def compare(obj: Object) -> Iterator[float]:
             nonlocal skin
-            shape = _shape(context, obj)
+            shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
+            yield 0.3
             entry = Entry(obj.name_full, "", shape.signature(ORDER))
-            likeness = compared(self._wanted, entry.signature)
+            likeness = compared(self.wanted, entry.signature)
             if verdict(likeness) in UNCLEAR:
-                skin = skin or Skin(wanted)
-                self._hands[entry] = _mirrored(matched(shape, wanted, Skin(shape), skin, 1.0 / likeness.scale),
-                                               wanted.size)
+                yield 0.6
+                if skin is None:
+                    skin = Skin(wanted)
+                    for _ in skin.grow():
+                        yield 0.6
+                own = Skin(shape)
+                yield from (0.6 + 0.3 * share for share in own.grow())
+                self._hands[entry] = _mirrored(matched(shape, wanted, own, skin, 1.0 / likeness.scale), wanted.size)
             self._objects[entry] = obj
 
-        return selection.one_by_one(self._others, compare, snapping.REFUSALS, self._failures)
+        yield from selection.one_by_one(self._others, compare, snapping.REFUSALS, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing is kept or selected before everything is compared, so that a cancelled search leaves nothing."""
+        if self.wanted is None:
+            return {"CANCELLED"}
         rows = [(entry, replace(likeness, mirrored=self._hands.get(entry, likeness.mirrored)))
-                for entry, likeness in nearest(self._wanted, self._objects, self.scaled, self.mirrored)]
+                for entry, likeness in nearest(self.wanted, self._objects, self.scaled, self.mirrored)]
         self.keep(context, rows, "")
         if self.select:
             chosen = {"copy": True, "mirror image": self.mirrored, "scaled copy": self.scaled,
@@ -193,10 +204,11 @@ class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
         except (OSError, ValueError) as error:
             self.report({"ERROR"}, "{:s} cannot be read: {:s}".format(path.name, str(error)))
             return {"CANCELLED"}
-        wanted = self.wanted(context)
-        if wanted is None:
+        for _ in self.look(context):
+            pass
+        if self.wanted is None:
             return {"CANCELLED"}
-        rows = nearest(wanted[1], entries, self.scaled, self.mirrored)
+        rows = nearest(self.wanted, entries, self.scaled, self.mirrored)
         self.keep(context, rows, path.name)
         return self.tell(rows, faults)
 
@@ -219,10 +231,6 @@ class OBJECT_OT_body_moments_select_found(Operator):
             other.select_set(other == obj)
         context.view_layer.objects.active = obj
         return {"FINISHED"}
-
-
-def _shape(context: Context, obj: Object) -> Shape:
-    return surface_shape_of(obj, context.evaluated_depsgraph_get(), MeasureOptions(threads=THREADS))
 
 
 def _mirrored(found: Match, size: float) -> bool | None:

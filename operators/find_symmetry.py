@@ -5,6 +5,9 @@ surfaces. What was found is kept with each object, in its own axes, for the pane
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import partial
+
 import bpy
 import numpy as np
 from bpy.props import (
@@ -64,7 +67,7 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
         "moments to sixth order allow, confirmed on their surfaces"
     )
     bl_options = {"REGISTER", "UNDO"}
-    DOING = "Looking for symmetry: {:d} of {:d} objects. Esc cancels"
+    DOING = "Looking for symmetry: {:.0%}. Esc cancels"
     CANCELLED = "The search was cancelled; nothing was changed"
 
     tolerance: FloatProperty(
@@ -81,7 +84,7 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         self._begin(context)
-        if len(self._objects) < 2 or context.window is None:
+        if context.window is None:
             return self.all_at_once(context, len(self._objects))
         return self.begin_modal(context, len(self._objects))
 
@@ -90,10 +93,13 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
         self._found: list[tuple[Object, Measurement, Symmetry, Symmetry]] = []
         self._failures: list[tuple[str, str]] = []
 
-        def find(obj: Object) -> None:
+        def find(obj: Object) -> Iterator[float]:
             require_own(obj, "its symmetry")
             shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
-            self._found.append((obj, shape.measurement, *_symmetries(shape, self.tolerance)))
+            yield 0.3
+            skin = Skin(shape)
+            yield from (0.4 + 0.5 * share for share in skin.grow())
+            self._found.append((obj, shape.measurement, *_symmetries(shape, skin, self.tolerance)))
 
         self._steps = selection.one_by_one(self._objects, find, snapping.REFUSALS, self._failures)
 
@@ -114,12 +120,13 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
         return {"FINISHED"}
 
 
-def _symmetries(shape: Shape, tolerance: float) -> tuple[Symmetry, Symmetry]:
+def _symmetries(shape: Shape, skin: Skin, tolerance: float) -> tuple[Symmetry, Symmetry]:
     """What the surface confirms, and what the moments allow."""
-    skin, moments = Skin(shape), shape.of_pieces()
+    moments = shape.of_pieces()
     # Moments are looked at as loosely as the surface.
     allowed = symmetry(moments, max(NOISE, tolerance))
-    return confirmed(allowed, moments.about, skin.points, skin.distance, tolerance * shape.size), allowed
+    near = tolerance * shape.size
+    return confirmed(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
 
 
 def _keep(obj: Object, measurement: Measurement, found: Symmetry, allowed: Symmetry, tolerance: float) -> None:

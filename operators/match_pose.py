@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from bpy.types import Context, Event, Object, Operator
 
@@ -27,7 +29,7 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
         "mirror image is left where it is"
     )
     bl_options = {"REGISTER", "UNDO"}
-    DOING = "Comparing: {:d} of {:d} objects. Esc cancels"
+    DOING = "Comparing: {:.0%}. Esc cancels"
     CANCELLED = "Match Pose was cancelled; nothing was moved"
 
     @classmethod
@@ -40,35 +42,48 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
         return True
 
     def execute(self, context: Context) -> set[str]:
-        return self.all_at_once(context, len(self._others)) if self._begin(context) else {"CANCELLED"}
+        self._begin(context)
+        return self.all_at_once(context, len(self._others))
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
-        if not self._begin(context):
-            return {"CANCELLED"}
-        if len(self._others) < 2 or context.window is None:
-            return self.all_at_once(context, len(self._others))
+        if context.window is None:
+            return self.execute(context)
+        self._begin(context)
         return self.begin_modal(context, len(self._others))
 
-    def _begin(self, context: Context) -> bool:
-        active = context.object
-        self._others = [obj for obj in selection.selected(context) if obj != active]
+    def _begin(self, context: Context) -> None:
+        self._others = [obj for obj in selection.selected(context) if obj != context.object]
+        self._size = 0.0  # of the active object, once it is measured
         self._found: list[tuple[reframe.Plan, Match]] = []
         self._failures: list[tuple[str, str]] = []
+        self._steps = self._compare(context)
+
+    def _compare(self, context: Context) -> Iterator[float]:
+        active = context.object
         try:
             target = surface_shape_of(active, context.evaluated_depsgraph_get())
         except snapping.REFUSALS as error:
             self.report({"ERROR"}, "{:s}: {:s}".format(active.name, getattr(error, "reason", str(error))))
-            return False
+            return
+        yield 0.0
         self._size, skin = target.size, Skin(target)
+        for _ in skin.grow():
+            yield 0.0
 
-        def find(obj: Object) -> None:
-            self._found.append(_planned(context, obj, target, skin))
+        def find(obj: Object) -> Iterator[float]:
+            _check(context, obj)
+            shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
+            yield 0.3
+            own = Skin(shape)
+            yield from (0.4 + 0.5 * share for share in own.grow())
+            self._found.append(_planned(context, obj, shape, target, matched(shape, target, own, skin)))
 
-        self._steps = selection.one_by_one(self._others, find, snapping.REFUSALS, self._failures)
-        return True
+        yield from selection.one_by_one(self._others, find, snapping.REFUSALS, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing moves before all places are found, so that a cancelled run leaves everything where it was."""
+        if not self._size:
+            return {"CANCELLED"}
         active, units = context.object, Units.of(context.scene.unit_settings)
         moved, notes, fits = [], [], True
         for plan, found in self._found:  # parents first, for a child moves with its parent
@@ -97,13 +112,15 @@ def _told(name: str, found: Match, size: float, units: Units) -> str:
     return apart
 
 
-def _planned(context: Context, obj: Object, target: Shape, skin: Skin) -> tuple[reframe.Plan, Match]:
-    """Where the object lies on the target, and how well."""
+def _check(context: Context, obj: Object) -> None:
+    """Raises where the object cannot be laid onto the active one."""
     reframe.check_movable(obj)
     if obj in selection.lineage(context.object):
         raise Refused("the active object is its child and would move with it; clear the parent first")
-    shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
-    found = matched(shape, target, Skin(shape), skin)
+
+
+def _planned(context: Context, obj: Object, shape: Shape, target: Shape, found: Match) -> tuple[reframe.Plan, Match]:
+    """Where the object lies on the target, and how well."""
     if found.mirrored:
         raise Refused("it is a mirror image of the active object, and no turn lays it there")
     unit = decimal(context.scene.unit_settings.scale_length)

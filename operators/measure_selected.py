@@ -25,7 +25,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
     bl_options = {"REGISTER", "UNDO"}
-    DOING = "Measuring: {:d} of {:d} objects. Esc cancels"
+    DOING = "Measuring: {:.0%}. Esc cancels"
     CANCELLED = "Measuring was cancelled; nothing was changed"
 
     @classmethod

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, replace
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,6 +117,7 @@ def _body(volume: Moments, area: Moments, health: Health, method: str, warnings:
     def refined() -> Moments:
         return sum_moments([map_sum(solid.refined(threads), matrices) for solid, matrices in solids])
 
+    @cache  # the frame and the shape need them to one order
     def to_order(order: int, area: bool) -> tuple[Moments, Moments | None]:
         return _to_order(solids, surfaces, order, area, threads)
 

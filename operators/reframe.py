@@ -102,7 +102,7 @@ def check(obj: Object) -> None:
 
 
 def reframe(
-    context: Context, plans: list[Plan], progress: Callable[[], None] = lambda: None
+    context: Context, plans: list[Plan], progress: Callable[[float], None] = lambda done: None
 ) -> tuple[list[Plan], list[tuple[Object, str]]]:
     """Carry out the plans; those that were, and for each other object the reason why it was left
     as it was.
@@ -116,7 +116,7 @@ def reframe(
         except (Refused, Unreadable, ValueError, RuntimeError) as error:
             reason = str(getattr(error, "reason", error))
             failures += [(plan.obj, reason) for plan in group]
-        progress()
+        progress(len(done) + len(failures))
     return done, failures
 
 

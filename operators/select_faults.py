@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 from bpy.types import Context, Object, Operator
 
+from ..core.measurement import Measurement
 from . import selection, snapping, staleness
 from .channels import Refused
 from .measure import measure_object
@@ -73,22 +74,30 @@ class OBJECT_OT_body_moments_select_faults(Operator):
         if editing:
             bpy.ops.object.mode_set(mode="OBJECT")
         objects = [obj for obj in context.view_layer.objects.selected if obj.type == "MESH"]
+        depsgraph = context.evaluated_depsgraph_get()
+        found: dict[Object, Measurement] = {}
         faults: dict[Object, dict[str, np.ndarray]] = {}
-        measured: list[Object] = []
 
         def measure(obj: Object) -> bool:
-            found = _measure(context, obj)
-            measured.append(obj)
-            if found:
-                faults[obj] = found
+            _check(obj)
+            found[obj] = measure_object(obj, depsgraph)
             return True
 
-        count, failures = selection.each(objects, measure, snapping.REFUSALS)
+        def store(obj: Object) -> bool:
+            properties.store(obj, found[obj])
+            if wrong := _faults(found[obj]):
+                faults[obj] = wrong
+            return True
+
+        # Not each stored as it is measured: Blender would evaluate the scene again for every one of them.
+        _, failures = selection.each(objects, measure, snapping.REFUSALS)
+        count, unstored = selection.each(list(found), store, snapping.REFUSALS)
+        failures += unstored
         if faults:
             _show(context, faults)
         elif editing:
             bpy.ops.object.mode_set(mode="EDIT")
-        staleness.settle(context, measured)
+        staleness.settle(context, list(found))
         text = "{count} measured, no faults" if count else ""
         told = ["{:s} has {:s}".format(obj.name, _words(found)) for obj, found in faults.items()]
         if told:
@@ -96,8 +105,8 @@ class OBJECT_OT_body_moments_select_faults(Operator):
         return selection.summarise(self, count, len(objects), text, failures, told)
 
 
-def _measure(context: Context, obj: Object) -> dict[str, np.ndarray]:
-    """Measure and store. Returns the faults by kind, without the kinds that have none."""
+def _check(obj: Object) -> None:
+    """Raises where what is measured is not what could be edited."""
     if not obj.is_editable or not obj.data.is_editable:
         raise Refused("it is linked from another file; make it and its data local first")
     changing = [
@@ -110,8 +119,10 @@ def _measure(context: Context, obj: Object) -> dict[str, np.ndarray]:
             "its modifiers make another mesh of it, whose faults are not in the mesh to be "
             "edited; apply or hide {:s} first".format(", ".join(changing))
         )
-    measurement = measure_object(obj, context.evaluated_depsgraph_get())
-    properties.store(obj, measurement)
+
+
+def _faults(measurement: Measurement) -> dict[str, np.ndarray]:
+    """By kind, without the kinds that have none."""
     faults = measurement.health.faults
     arrays = {
         field.name: np.asarray(getattr(faults, field.name), np.int64) for field in fields(faults)

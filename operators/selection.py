@@ -50,15 +50,12 @@ def redraw(context: Context) -> None:
 
 
 @contextmanager
-def progress(count: float) -> Iterator[Callable[[], None]]:
-    """A counter to call after each of `count` steps; shown at the cursor where there are many."""
+def progress(count: float) -> Iterator[Callable[[float], None]]:
+    """What to tell how much of `count` is done; shown at the cursor where there are many."""
     manager = bpy.context.window_manager
     shown = count > 1
-    done = 0
 
-    def step() -> None:
-        nonlocal done
-        done += 1
+    def step(done: float) -> None:
         if shown:
             manager.progress_update(done)
 
@@ -126,16 +123,18 @@ def counted(count: int) -> str:
 
 def one_by_one(
     objects: Iterable[Object],
-    action: Callable[[Object], object],
+    action: Callable[[Object], Iterator[float] | None],
     refusals: tuple[type[Exception], ...],
     failures: list[tuple[str, str]],
-) -> Iterator[int]:
-    """Run `action` on one object per step. Yields how many are done. (name, reason) of those
-    that it refused are added to `failures`.
+) -> Iterator[float]:
+    """Run `action` on one object after the other: it does the work, or returns an iterator that does it in steps and
+    yields its share that is done. Yields how many objects are done. (name, reason) of those that it refused are added
+    to `failures`.
     """
     for done, obj in enumerate(objects, 1):
         try:
-            action(obj)
+            for share in action(obj) or ():
+                yield done - 1 + share
         except refusals as error:
             # Objects of two libraries may have one name.
             failures.append((obj.name_full, str(getattr(error, "reason", error))))
@@ -158,6 +157,6 @@ def each(
             changed.append(obj)
 
     with progress(len(objects)) as step:
-        for _ in one_by_one(objects, run, refusals, failures):
-            step()
+        for done in one_by_one(objects, run, refusals, failures):
+            step(done)
     return len(changed), failures

@@ -10,12 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 from math import frexp
 from typing import Any
 
 import bpy
 import numpy as np
-from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
@@ -31,7 +31,7 @@ from ..core.surface import Surface, joined
 from ..core.symmetry import symmetry
 from ..core.zernike import BY_MOMENTS, ENOUGH, zernike_quadrature
 from .body import Body
-from .measure import MeasureOptions, measure_body
+from .measure import THREADS, MeasureOptions, measure_body
 from .read import Unreadable
 
 OF_SHAPES = "Pose and signature tell shapes, and a grid of densities has none."
@@ -39,6 +39,7 @@ DISPLAY_MESH = "Its signature is that of its display mesh, as fine as the viewpo
 POLYGONS = "Its signature is known of polygons only; convert it to a mesh first."
 EXACT, NEAR = 1e-5, 1e-2  # of the size: between them single precision mistakes the distances of thin triangles
 SAMPLES = 1500  # points of a surface that are held against another one
+TOGETHER = 64  # points whose distances are found at once
 
 
 @dataclass(frozen=True)
@@ -138,10 +139,9 @@ class NoShape(Unreadable):
         self.measurement = measurement
 
 
-def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
-                     options: MeasureOptions | None = None) -> Shape:
-    """As `shape_of`, of bodies with polygons only."""
-    shape = shape_of(obj, depsgraph, options)
+def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
+    """As `shape_of`, of bodies with polygons only, in threads."""
+    shape = shape_of(obj, depsgraph, MeasureOptions(threads=THREADS))
     if not shape.has_surface:
         raise NoShape(shape.measurement, POLYGONS)
     return shape
@@ -167,41 +167,63 @@ def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph,
 
 
 class Skin:
-    """A shape's surface, to hold points against. Lengths in metres, world axes; Blender's tree of triangles keeps them
-    as float32, so about the center and by its size."""
+    """A shape's surface, to hold points against, once it is grown. Lengths in metres, world axes; Blender's tree of
+    triangles keeps them as float32, so about the center and by its size."""
 
     def __init__(self, shape: Shape):
         whole = joined(list(shape.pieces()))
         self._center, self._scale = shape.center, shape.size
-        triangles = whole.all_triangles()[0]
-        corners = (whole.points - self._center) / self._scale
-        self._tree = BVHTree.FromPolygons(corners.tolist(), triangles.tolist(), all_triangles=True)
-        self._corners = corners[triangles]
-        used = np.unique(triangles)
+        self._triangles = triangles = whole.all_triangles()[0]
+        self._corners = (whole.points - self._center) / self._scale
+        is_used = np.zeros(len(whole.points), bool)
+        is_used[triangles] = True
+        used = np.flatnonzero(is_used)
         pick = np.linspace(0, len(used) - 1, min(len(used), SAMPLES // 2)).astype(int)
         middles = whole.points[triangles[np.linspace(0, len(triangles) - 1, min(len(triangles), SAMPLES // 2)).astype(
             int)]].mean(axis=1)
         far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1))[-SAMPLES // 10:]
         self.points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
 
-    def distance(self, points: NDArray) -> NDArray[np.float64]:
-        """(n,) of (n, 3) points from the surface."""
-        nearest = self._tree.find_nearest
+    def grow(self) -> Iterator[float]:
+        """Build the tree, in steps of some tenths of a second for a million triangles. Yields the share that is
+        done."""
+        points = _as_tuples(self._corners)
+        yield 0.2
+        triangles = _as_tuples(self._triangles)
+        yield 0.4
+        self._tree = BVHTree.FromPolygons(points, triangles, all_triangles=True)
+        yield 1.0
+
+    def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
+        """(n,) of (n, 3) points from the surface. within: where only this matters, whether they are within so much:
+        what is, and what clearly is not, is told in single precision, or as infinite."""
         scaled = (points - self._center) / self._scale
-        found = np.array([nearest(Vector(point))[3] for point in scaled.tolist()])
-        for i in np.flatnonzero((found > EXACT) & (found < NEAR)).tolist():
-            around = self._tree.find_nearest_range(Vector(scaled[i].tolist()), NEAR)
-            own = self._corners[[index for _, _, index, _ in around]].reshape(-1, 3, 3)
-            found[i] = min(found[i], triangle_distances(scaled[i], own).min(initial=np.inf))
+        nearest, rows = self._tree.find_nearest, scaled.tolist()
+        reach = np.inf if within is None else 1.01 * max(NEAR, within / self._scale)
+        found = np.array([nearest(row, reach)[3] for row in rows], np.float64)  # None becomes NaN
+        found[np.isnan(found)] = np.inf
+        doubtful = np.flatnonzero((found > EXACT) & (found < NEAR) & (found * self._scale > (within or 0.0)))
+        for start in range(0, len(doubtful), TOGETHER):
+            some = doubtful[start:start + TOGETHER]
+            around = [[hit[2] for hit in self._tree.find_nearest_range(rows[i], NEAR)] for i in some.tolist()]
+            which = np.repeat(some, [len(one) for one in around])
+            own = self._triangles[np.fromiter(chain.from_iterable(around), np.intp)]
+            np.minimum.at(found, which, triangle_distances(scaled[which], self._corners[own]))
         return found * self._scale
+
+
+def _as_tuples(rows: NDArray) -> list[tuple]:
+    """As `tolist`, but of tuples, which the garbage collector does not look at again and again."""
+    return list(zip(*rows.T.tolist()))
 
 
 def matched(source: Shape, target: Shape, own: Skin, skin: Skin, scale: float = 1.0) -> Match:
     """How a shape comes to lie on another one, about their centers, and what is left between their surfaces. own, skin:
     theirs. scale: what the source is multiplied by first."""
-    def residual(way: NDArray) -> NDArray[np.float64]:
-        there = skin.distance(scale * (own.points - source.center) @ way.T + target.center)
-        back = own.distance((skin.points - target.center) @ way / scale + source.center)
+    def residual(way: NDArray, few: int | None) -> NDArray[np.float64]:
+        mine, others = (one.points[::max(1, len(one.points) // few) if few else 1] for one in (own, skin))
+        there = skin.distance(scale * (mine - source.center) @ way.T + target.center)
+        back = own.distance((others - target.center) @ way / scale + source.center)
         return np.concatenate([there, scale * back])
 
     return match(source.moments, target.moments, residual, target.size)

@@ -17,14 +17,14 @@ class Stepwise:
     """Of an operator, whose `_steps` is a generator that does the work and yields how much is done, and whose `_finish`
     alone changes anything.
 
-    DOING: the status text, with places for how much is done, and of how much. CANCELLED: the report after Esc.
+    DOING: the status text, with a place for the share that is done. CANCELLED: the report after Esc.
     """
 
     def all_at_once(self, context: Context, count: float) -> set[str]:
         """Every step, in one call of the operator. count: what the last step yields."""
         with selection.progress(count) as step:
-            for _ in self._steps:
-                step()
+            for done in self._steps:
+                step(done)
         return self._finish(context)
 
     def begin_modal(self, context: Context, count: float) -> set[str]:
@@ -58,7 +58,7 @@ class Stepwise:
 
     def _tell(self, context: Context, done: float) -> None:
         context.window_manager.progress_update(done)
-        context.workspace.status_text_set(self.DOING.format(done, self._count))
+        context.workspace.status_text_set(self.DOING.format(done / self._count if self._count else 1.0))
 
     def _end(self, context: Context) -> None:
         self._steps.close()

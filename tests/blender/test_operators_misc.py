@@ -458,3 +458,15 @@ def test_sentences_of_a_report_have_one_period_each():
 
     assert one_line(["Measured 1 object"]) == "Measured 1 object"
     assert one_line(["Laid 1 object", "It is open.", "It is mended."]) == "Laid 1 object. It is open. It is mended."
+
+
+def test_faults_of_many_objects_are_looked_for_in_one_evaluation_of_the_scene():
+    bodies = [add(mesh_body(), "Body", location=(4 * i, 0, 0)) for i in range(4)]
+    only(*bodies)
+    evaluations = []
+    bpy.app.handlers.depsgraph_update_post.append(lambda *_: evaluations.append(1))
+    try:
+        assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
+    finally:
+        bpy.app.handlers.depsgraph_update_post.pop()
+    assert all(body["body_mass"] > 0.0 for body in bodies) and len(evaluations) < 4

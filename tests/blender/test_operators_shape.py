@@ -426,3 +426,32 @@ def test_clearing_takes_the_symmetry_away():
     assert run("clear") == {"FINISHED"}
     assert not obj.is_property_set("body_moments_symmetry")
     assert run("clear") == {"CANCELLED"}
+
+
+@pytest.mark.parametrize("body", ["wedge", "sliver", "sphere"])
+def test_distances_from_a_skin_are_those_from_all_triangles_and_decide_alike(body):
+    from body_moments.core.distance import triangle_distances
+    from body_moments.operators.shape import Skin, shape_of
+
+    if body == "sphere":
+        bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, location=(1, 2, 3))
+        obj = bpy.context.object
+    else:
+        obj = wedge(location=(1, 2, 3))
+        obj.scale.z = 1.0 if body == "wedge" else 1e-3
+        bpy.context.view_layer.update()
+    shape = shape_of(obj, bpy.context.evaluated_depsgraph_get())
+    skin = Skin(shape)
+    assert list(skin.grow())[-1] == 1.0
+    (piece,) = shape.pieces()
+    corners = piece.points[piece.all_triangles()[0]]
+    rng = np.random.default_rng(0)
+    away = rng.normal(size=skin.points.shape) * 10.0 ** rng.uniform(-7, 0.5, len(skin.points))[:, None] * shape.size
+    points = skin.points + away
+    truth = np.array([triangle_distances(point, corners).min() for point in points])
+    found = skin.distance(points)
+    assert np.abs(found - truth).max() < 2e-6 * shape.size + 1e-6 * truth.max()
+    near = (truth > 2e-5 * shape.size) & (truth < 9e-3 * shape.size)
+    assert near.sum() > 5 and (found - truth)[near].max() < 1e-12  # single precision may tell less
+    for tolerance in np.array([1e-6, 1e-4, 1e-3, 1e-2, 0.1]) * shape.size:
+        assert ((found <= tolerance) == (skin.distance(points, within=tolerance) <= tolerance)).all()

@@ -10,6 +10,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.operators import results, stepwise
+from body_moments.operators.find_similar import OBJECT_OT_body_moments_find_similar
 from body_moments.operators.find_symmetry import OBJECT_OT_body_moments_find_symmetry
 from body_moments.operators.fourier import OBJECT_OT_body_moments_fourier_run
 from body_moments.operators.match_pose import OBJECT_OT_body_moments_match_pose
@@ -99,6 +100,40 @@ def test_esc_between_two_objects_leaves_everything_as_it_was(cls, settings, monk
     assert window.timers == [] and window.told[-1] is None and operator.reports[-1][0] == "INFO"
     assert all((place(body) == matrix).all() for body, matrix in zip(bodies, before, strict=True))
     assert not any("body_mass" in body or body.is_property_set("body_moments_symmetry") for body in bodies)
+
+
+@pytest.mark.parametrize(("cls", "count"), [
+    (OBJECT_OT_body_moments_find_symmetry, 1), (OBJECT_OT_body_moments_match_pose, 2),
+    (OBJECT_OT_body_moments_find_similar, 2)])
+def test_esc_within_an_object_leaves_everything_as_it_was(cls, count):
+    bodies = three()[:count]
+    only(*bodies)
+    before = [place(body) for body in bodies]
+    settings = {"tolerance": 1e-3, "select": True, "mirrored": False, "scaled": False}
+    for steps in range(1, 100):
+        operator, window = pressed(cls, **settings)
+        for _ in range(steps):
+            result = operator.modal(window, TIMER)
+        if result != {"RUNNING_MODAL"}:
+            break
+        assert operator.modal(window, ESC) == {"CANCELLED"}
+        assert window.timers == [] and window.told[-1] is None
+        assert all((place(body) == matrix).all() for body, matrix in zip(bodies, before, strict=True))
+        assert not any(body.is_property_set("body_moments_symmetry") for body in bodies)
+        assert not len(bpy.context.scene.body_moments_search.found)
+        shares = [float(text.split(": ")[1].partition("%")[0]) for text in window.told[:-1]]
+        assert shares == sorted(shares) and 0.0 <= shares[-1] <= 100.0
+    assert result == {"FINISHED"} and steps > 4
+
+
+@pytest.mark.parametrize("cls", [OBJECT_OT_body_moments_match_pose, OBJECT_OT_body_moments_find_similar])
+def test_an_active_object_that_has_no_shape_is_told_and_ends_it(cls):
+    bodies = three()
+    bodies[0].data = bpy.data.meshes.new("Nothing")
+    operator, window = pressed(cls, select=True, mirrored=False, scaled=False)
+    assert finished(operator, window) == {"CANCELLED"}
+    ((kind, text),) = operator.reports
+    assert kind == "ERROR" and text.startswith("a: ")
 
 
 def test_esc_leaves_what_was_said_of_objects_that_could_not_be_measured(monkeypatch):

@@ -37,3 +37,12 @@ def test_a_triangle_without_area_is_its_edges():
 def test_points_on_a_long_sliver_are_on_it():
     corners = np.array([[[0.1, 0.2, 0.3], [3.1, 0.2, 0.3], [1.7, 0.2 + 1e-6, 0.3]]])
     assert triangle_distances(corners[0].mean(axis=0), corners)[0] < 1e-15
+
+
+def test_each_point_from_its_own_triangle():
+    rng = np.random.default_rng(1)
+    points, corners = rng.standard_normal((40, 3)), rng.standard_normal((40, 3, 3))
+    corners[:5, 2] = corners[:5, 0] + 1e-9
+    one_by_one = [triangle_distances(point, own[None])[0] for point, own in zip(points, corners)]
+    assert triangle_distances(points, corners).tolist() == one_by_one
+    assert triangle_distances(points[:0], corners[:0]).shape == (0,)

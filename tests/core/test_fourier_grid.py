@@ -79,6 +79,16 @@ def test_a_grid_is_right_to_the_tolerance_at_every_frequency(name):
         assert (error <= 2.0 * found.error).all()  # an estimate, by some of them
 
 
+def test_the_share_that_is_done_grows_from_the_start_to_the_end_and_all_work_is_in_the_steps(monkeypatch):
+    part, grid, (tolerance, _) = CASES["torus"]
+    transform = GridTransform(bodies.surface(part), grid, "volume", tolerance)
+    shares = list(transform.steps())
+    assert shares == sorted(shares) and shares[0] == 0.0 and shares[-1] == 1.0
+    assert sum(0.0 < share < fourier_grid.SHARING for share in shares) > 1
+    monkeypatch.delattr(fourier_grid.Transform, "steps")  # what `result` would have to wait for
+    assert transform.result().method == "approximate"
+
+
 def test_the_area_and_an_open_surface_are_right_to_the_tolerance():
     surface = bodies.surface(bodies.without(LOPSIDED, *range(300)))
     exact = surface_transform(surface, Grid(15, 18.0))
