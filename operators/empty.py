@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Add Empty at the Principal Frame: something to parent, constrain and look at."""
 
+from collections.abc import Generator
+
 import bpy
 import numpy as np
 from bpy.props import BoolProperty
-from bpy.types import Context, Object, Operator
+from bpy.types import Context, Depsgraph, Object, Operator
 from mathutils import Matrix
 
 from . import selection, snapping
 from .channels import Channels, Refused, basis, world
+from .side_by_side import Change, carry_out, dependents, rounds, side_by_side
 
 OF = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
 KEPT = ("parent", "parent_type", "parent_bone", "empty_display_size")
@@ -47,18 +50,32 @@ class OBJECT_OT_body_moments_add_empty(Operator):
         }
         notes: list[str] = []
 
-        def add(obj: Object) -> bool:
-            if self.parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
-                raise Refused("its scale is zero along an axis; set the scale first, or turn off Parent to Object")
-            body = snapping.body_of(context, obj)
-            empty = existing.get(obj) or _new_empty(context, obj)
-            changed = _place(context, empty, body, obj if self.parent else None)
-            if changed and body.note:
-                notes.append("{:s}: {:s}".format(obj.name, body.note))
-            return changed
+        failures: list[tuple[str, str]] = []
+        placed: list[Object] = []
 
-        count, failures = selection.each(objects, add, snapping.REFUSALS)
-        return selection.summarise(self, count, len(objects), "Placed an empty at the principal frame of {count}",
+        def add(obj: Object) -> Change:
+            yield
+            try:
+                if self.parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
+                    raise Refused("its scale is zero along an axis; set the scale first, or turn off Parent to Object")
+                body = snapping.body_of(context, obj)
+                step(len(placed) + len(failures))
+                yield  # all are measured before the scene changes
+                empty = existing.get(obj) or _new_empty(context, obj)
+                if (yield from _placed(empty, body, obj if self.parent else None)):
+                    notes.extend(["{:s}: {:s}".format(obj.name, body.note)] if body.note else [])
+                    placed.append(obj)
+            except snapping.REFUSALS as error:
+                failures.append((obj.name_full, str(getattr(error, "reason", error))))
+
+        followers = dependents(existing.values())  # what moves with an empty is measured after that
+        together: dict[int, list[Object]] = {}
+        for obj, number in zip(objects, rounds({obj, *followers.get(existing.get(obj), ())} for obj in objects)):
+            together.setdefault(number, []).append(obj)
+        with selection.progress(len(objects)) as step:
+            for several in together.values():
+                carry_out(context, side_by_side(map(add, several)))
+        return selection.summarise(self, len(placed), len(objects), "Placed an empty at the principal frame of {count}",
                                    failures, notes, idle="the empties are there already")
 
 
@@ -75,8 +92,8 @@ def _new_empty(context: Context, obj: Object) -> Object:
     return empty
 
 
-def _place(context: Context, empty: Object, body: snapping.Body, parent: Object | None) -> bool:
-    """Move the empty to the body's frame; whether it was elsewhere. Refused where it cannot be there."""
+def _placed(empty: Object, body: snapping.Body, parent: Object | None) -> Generator[None, Depsgraph, bool]:
+    """Move the empty to the body's frame; returns whether it was elsewhere. Refused where it cannot be there."""
     if _follows(body.obj, empty):
         raise Refused(FOLLOWS.format(empty.name))
     if _is_there(empty, body) and empty.parent == parent:
@@ -93,18 +110,17 @@ def _place(context: Context, empty: Object, body: snapping.Body, parent: Object 
         empty.matrix_parent_inverse = Matrix(np.linalg.inv(world(parent)))
     empty.empty_display_size = body.size
     empty.matrix_world = Matrix(frame)
-    context.view_layer.update()
+    yield
     if parent is not None and not _is_there(empty, body):  # a curve also lays its children along its path
         outer = np.linalg.solve(basis(empty).T, world(empty).T).T
         inverse = np.array(empty.matrix_parent_inverse, np.float64) @ np.linalg.inv(outer)
         empty.matrix_parent_inverse, empty.matrix_basis = Matrix(inverse), Matrix(frame)
-        context.view_layer.update()
+        yield
     held, follows = not _is_there(empty, body), (world(body.obj) != was).any()
     if held or follows:
         for name, value in before.items():
             setattr(empty, name, value)
         saved.restore()
-        context.view_layer.update()
         raise Refused((FOLLOWS if follows else "a constraint holds its empty {:s}; remove that first").format(
             empty.name))
     return True

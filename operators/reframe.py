@@ -10,6 +10,9 @@ Nothing is assumed of modifiers: the change is first made on a copy of the data,
 surfaces in the world are compared with those of before, and only where they are the same the change
 is kept. Otherwise all is put back. Other users of the data keep it as it is; the objects that are
 changed get a copy of their own, shared among them.
+
+Objects that have nothing to do with each other are changed side by side. One that is refused so is tried again alone,
+lest another's change was the reason.
 """
 
 from __future__ import annotations
@@ -36,6 +39,7 @@ from .channels import (
 from .density import fixed_to
 from .read import Unreadable
 from .selection import lineage
+from .side_by_side import Change, carry_out, dependents, rounds, side_by_side
 from .surroundings import SAME_SHAPE, Surroundings, mapped, referring, same_shape, shape
 
 # What these do does not depend on where an object's origin is, nor on its axes.
@@ -107,39 +111,61 @@ def reframe(
     """Carry out the plans; those that were, and for each other object the reason why it was left
     as it was.
     """
-    users = referring({plan.obj for plan in plans}) if plans else {}
-    done, failures = [], []
-    for group in _groups(plans):
+    objects = {plan.obj for plan in plans}
+    users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
+    groups = _groups(plans)
+    numbers = rounds({plan.obj.data for plan in group}.union(*(touched[plan.obj] for plan in group))
+                     for group in groups)
+    together: dict[int, list[list[Plan]]] = {}
+    for group, number in zip(groups, numbers):
+        together.setdefault(number, []).append(group)
+    refused: dict[Object, str] = {}
+    done = 0
+
+    def attempt(group: list[Plan], alone: bool) -> Change:
+        nonlocal done
         try:
-            _reframe_group(context, group, users)
-            done += group
+            yield from _reframed(group, users)
         except (Refused, Unreadable, ValueError, RuntimeError) as error:
-            reason = str(getattr(error, "reason", error))
-            failures += [(plan.obj, reason) for plan in group]
-        progress(len(done) + len(failures))
-    return done, failures
+            if not alone:
+                again.append(group)
+                return
+            refused.update(dict.fromkeys((plan.obj for plan in group), str(getattr(error, "reason", error))))
+        done += len(group)
+        progress(done)
+
+    for beside in together.values():
+        again: list[list[Plan]] = []
+        carry_out(context, side_by_side(attempt(group, alone=len(beside) == 1) for group in beside))
+        for group in again:
+            for plan in group:
+                plan.notes.clear()
+            carry_out(context, attempt(group, alone=True))
+    return [plan for plan in plans if plan.obj not in refused], list(refused.items())
 
 
 def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
     """Plans whose objects share data and want the same change of it; never a parent and its child,
     for the child is placed after its parent.
     """
-    groups: list[tuple[Matrix4, list[Plan]]] = []
+    groups: list[list[Plan]] = []
+    sharing: dict[ID, list[tuple[Matrix4, list[Plan]]]] = {}
     for plan in plans:
         change = np.linalg.solve(plan.target, world(plan.obj))
         reach = np.abs(np.array(plan.obj.bound_box)).max()
         above = set(lineage(plan.obj))
-        for other, members in groups:
+        others = sharing.setdefault(plan.obj.data, [])
+        for other, members in others:
             if (
-                members[0].obj.data == plan.obj.data
-                and not above & {member.obj for member in members}
+                not above & {member.obj for member in members}
                 and _moves(change, other, reach) <= SAME_SHAPE * plan.size
             ):
                 members.append(plan)
                 break
         else:
-            groups.append((change, [plan]))
-    return [members for _, members in groups]
+            others.append((change, [plan]))
+            groups.append(others[-1][1])
+    return groups
 
 
 def _moves(one: Matrix4, other: Matrix4, reach: float) -> float:
@@ -147,10 +173,10 @@ def _moves(one: Matrix4, other: Matrix4, reach: float) -> float:
     return difference[:3, :3].sum() * reach + difference[:3, 3].max()
 
 
-def _reframe_group(context: Context, group: list[Plan], users: dict[Object, set[Object]]) -> None:
+def _reframed(group: list[Plan], users: dict[Object, set[Object]]) -> Change:
+    depsgraph = yield
     objects = [plan.obj for plan in group]
     data = group[0].obj.data
-    depsgraph = context.evaluated_depsgraph_get()
     before = {obj: shape(obj, depsgraph) for obj in objects}
     around = Surroundings(objects, users, depsgraph)
     was = {obj: world(obj) for obj in objects}
@@ -158,16 +184,14 @@ def _reframe_group(context: Context, group: list[Plan], users: dict[Object, set[
     trial = None
     kept = False
     try:
-        for plan in group:
-            reach(context, plan)
+        yield from side_by_side(reached(plan) for plan in group)
         change = _exact_change(group[0], was[group[0].obj])
         trial = data.copy()
         transform_data(trial, change)
         for obj in objects:
             obj.data = trial
         around.hold()
-        context.view_layer.update()
-        depsgraph = context.evaluated_depsgraph_get()
+        depsgraph = yield
         for plan in group:
             if not same_shape(before[plan.obj], shape(plan.obj, depsgraph), plan.size):
                 raise Refused(_blame(plan.obj))
@@ -190,7 +214,6 @@ def _reframe_group(context: Context, group: list[Plan], users: dict[Object, set[
         elif kept:
             for plan in group:
                 plan.notes.append("got a copy of its data, for other objects use it too")
-        context.view_layer.update()
 
 
 def check_movable(obj: Object) -> None:
@@ -210,11 +233,11 @@ def check_movable(obj: Object) -> None:
 
 
 def move(context: Context, plan: Plan) -> None:
-    """`reach` as the body that it is, or leave the object where it was."""
+    """As `reached`, as the body that it is, or leave the object where it was."""
     obj, saved = plan.obj, Channels(plan.obj)
     was, before = world(obj), shape(obj, context.evaluated_depsgraph_get())
     try:
-        reach(context, plan)
+        carry_out(context, reached(plan))
         if not same_shape(mapped(before, was, world(obj)), shape(obj, context.evaluated_depsgraph_get()), plan.size):
             names = ", ".join(modifier.name for modifier in obj.modifiers if modifier.show_viewport)
             raise Refused("its shape would change, because it depends on where it is through {:s}; apply that first, "
@@ -225,10 +248,11 @@ def move(context: Context, plan: Plan) -> None:
         raise
 
 
-def reach(context: Context, plan: Plan) -> None:
+def reached(plan: Plan) -> Change:
     """Set the channels so that the evaluated matrix becomes the target; Refused where something
     else holds it.
     """
+    yield
     obj = plan.obj
     outer = _outer(obj)
     if not abs(np.linalg.det(outer[:3, :3])) > 0.0:
@@ -240,17 +264,17 @@ def reach(context: Context, plan: Plan) -> None:
         set_location(obj, local[:3, 3], slack)
         if not plan.move_only:
             set_rotation_and_scale(obj, local[:3, :3])
-        context.view_layer.update()
+        yield
         off = plan.target[:3, 3] - world(obj)[:3, 3]
         if np.abs(off).max() <= FLOAT32 * np.abs(plan.target[:3, 3]).max():
             break
         wanted = wanted.copy()
         wanted[:3, 3] += off
-    reached = world(obj)
-    if np.abs(reached[:3, 3] - plan.target[:3, 3]).max() > location_tolerance(obj, plan.size):
+    now = world(obj)
+    if np.abs(now[:3, 3] - plan.target[:3, 3]).max() > location_tolerance(obj, plan.size):
         raise Refused("a constraint or its parent holds its location; remove or apply that first")
     scale = np.abs(plan.target[:3, :3]).max()
-    if np.abs(reached[:3, :3] - plan.target[:3, :3]).max() > 2e-6 * scale:
+    if np.abs(now[:3, :3] - plan.target[:3, :3]).max() > 2e-6 * scale:
         raise Refused(
             "a constraint or its parent holds its rotation or scale; remove or apply that first"
         )

@@ -43,7 +43,9 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
         objects = selection.selected(context)
         elsewhere: list[str] = []
 
-        def assign(obj: Object) -> bool:
+        bodies: list[snapping.Body] = []
+
+        def measure(obj: Object) -> bool:
             require_own(obj, "its rigid body's mass")
             if obj.rigid_body is None and not self.add:
                 raise Refused(
@@ -59,22 +61,24 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
                     "its mass of {:.3g} kg is less than the {:.3g} kg that a rigid body can "
                     "have; raise its density".format(body.mass, limit)
                 )
-            changed = obj.rigid_body is None
-            if changed:
-                with context.temp_override(object=obj, active_object=obj, selected_objects=[obj]):
-                    bpy.ops.rigidbody.object_add(type="ACTIVE")
-            if np.float32(obj.rigid_body.mass) != np.float32(body.mass):
-                obj.rigid_body.mass = body.mass
-                changed = True
             if np.abs(world(obj)[:3, 3] - body.center).max() > reframe.location_tolerance(
                 obj, body.size
             ):
                 elsewhere.append(obj.name)
-            return changed
+            bodies.append(body)
+            return True
 
         context.view_layer.update()  # edits of before are noted as such
         with staleness.paused():  # Blender reports a rigid body as a change of the shape
-            count, failures = selection.each(objects, assign, snapping.REFUSALS)
+            _, failures = selection.each(objects, measure, snapping.REFUSALS)
+            new = [body.obj for body in bodies if body.obj.rigid_body is None]
+            failures += _add(context, new)
+            changed = {obj for obj in new if obj.rigid_body is not None}
+            for body in bodies:
+                if body.obj.rigid_body is not None and np.float32(body.obj.rigid_body.mass) != np.float32(body.mass):
+                    body.obj.rigid_body.mass = body.mass
+                    changed.add(body.obj)
+            count = len(changed)
             context.view_layer.update()
         notes = []
         unit = decimal(context.scene.unit_settings.scale_length)
@@ -90,6 +94,18 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
             ]
         return selection.summarise(self, count, len(objects), "Set the rigid body mass of {count}", failures, notes,
                                    idle="the masses were right already")
+
+
+def _add(context: Context, objects: list[Object]) -> list[tuple[str, str]]:
+    """Make them active rigid bodies, all by one operator; (name, reason) of those that Blender makes none of."""
+    reason = "Blender makes no rigid body of it"
+    if objects:
+        try:
+            with context.temp_override(object=objects[0], active_object=objects[0], selected_objects=objects):
+                bpy.ops.rigidbody.objects_add(type="ACTIVE")
+        except RuntimeError as error:
+            reason = str(error)
+    return [(obj.name_full, reason) for obj in objects if obj.rigid_body is None]
 
 
 CLASSES = (OBJECT_OT_body_moments_set_rigid_body_mass,)

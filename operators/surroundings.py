@@ -101,7 +101,8 @@ class Surroundings:
     ) -> None:
         self.notes: list[str] = []
         self.changed = {obj: world(obj) for obj in objects}
-        others = {user for obj in objects for user in users.get(obj, ())} - set(objects)
+        others = sorted({user for obj in objects for user in users.get(obj, ())} - set(objects),
+                        key=lambda other: other.name_full)
         linked = [
             other for other in others if other.library is not None and other.parent in self.changed
         ]
@@ -131,9 +132,8 @@ class Surroundings:
 
     def hold(self) -> None:
         """Give children parent inverses, and Child Of constraints inverses, that keep them where
-        they were.
+        they were, now that the changed objects' matrices are evaluated.
         """
-        bpy.context.view_layer.update()
         held = {parent: np.linalg.solve(world(parent), was) for parent, was in self.changed.items()}
         for child, inverse in self.children.items():
             child.matrix_parent_inverse = Matrix(held[child.parent] @ inverse)

@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Changes of the scene that have to see what comes of them, many at a time.
+
+To evaluate the scene costs as much for one changed object as for a thousand. So a change is a generator: it yields
+wherever it needs the scene evaluated, and gets the evaluated depsgraph back. Changes that have nothing to do with each
+other go forward side by side, with one evaluation for all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterable, Iterator
+
+import bpy
+from bpy.types import ID, Context, Depsgraph, Object
+
+Change = Generator[None, Depsgraph, None]  # yields once before it does anything
+
+
+def carry_out(context: Context, change: Change) -> None:
+    """Run a change to its end, or to the exception that it raises, and evaluate the scene."""
+    try:
+        next(change)
+        while True:
+            context.view_layer.update()
+            change.send(context.evaluated_depsgraph_get())
+    except StopIteration:
+        pass
+    finally:
+        context.view_layer.update()
+
+
+def side_by_side(changes: Iterable[Change]) -> Change:
+    """Several changes as one."""
+    waiting = list(changes)
+    try:
+        for change in waiting:
+            next(change)
+        while waiting:
+            depsgraph = yield
+            waiting = [change for change in waiting if _goes_on(change, depsgraph)]
+    finally:
+        for change in waiting:  # where one fails, the others put back what they have changed
+            change.close()
+
+
+def _goes_on(change: Change, depsgraph: Depsgraph) -> bool:
+    try:
+        change.send(depsgraph)
+    except StopIteration:
+        return False
+    return True
+
+
+def rounds(touched: Iterable[set[ID]]) -> Iterator[int]:
+    """For each change, told by what it may touch, the round in which it can be made: after all earlier changes that
+    touch the same, beside others."""
+    last: dict[ID, int] = {}
+    for own in touched:
+        number = 1 + max((last.get(one, -1) for one in own), default=-1)
+        last.update(dict.fromkeys(own, number))
+        yield number
+
+
+def dependents(objects: Iterable[Object]) -> dict[Object, set[ID]]:
+    """For each object itself and all that refers to it, directly or through others: what may look different while it
+    is being changed."""
+    users: dict[ID, set[ID]] = {}
+    new: set[ID] = set(objects)
+    while new:
+        users |= bpy.data.user_map(subset=new, value_types={"OBJECT", "NODETREE", "COLLECTION"})
+        new = {user for one in new for user in users[one]} - users.keys()
+
+    def reached(obj: Object) -> set[ID]:
+        found, front = {obj}, {obj}
+        while front:
+            front = {user for one in front for user in users[one]} - found
+            found |= front
+        return found
+
+    return {obj: reached(obj) for obj in objects}
