@@ -15,6 +15,8 @@ import bpy
 from bpy.types import ID, Context, Depsgraph, Object
 
 Change = Generator[None, Depsgraph, None]  # yields once before it does anything
+# What objects refer to each other by: a curve by its bevel, shape keys by drivers, particles by what they show.
+BETWEEN = {"ARMATURE", "COLLECTION", "CURVE", "KEY", "LATTICE", "MESH", "META", "NODETREE", "PARTICLE", "TEXTURE"}
 
 
 def carry_out(context: Context, change: Change) -> None:
@@ -27,6 +29,7 @@ def carry_out(context: Context, change: Change) -> None:
     except StopIteration:
         pass
     finally:
+        change.close()
         context.view_layer.update()
 
 
@@ -62,20 +65,28 @@ def rounds(touched: Iterable[set[ID]]) -> Iterator[int]:
         yield number
 
 
-def dependents(objects: Iterable[Object]) -> dict[Object, set[ID]]:
-    """For each object itself and all that refers to it, directly or through others: what may look different while it
+def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
+    """For each object itself and all that refer to it, directly or through others: what may look different while it
     is being changed."""
-    users: dict[ID, set[ID]] = {}
-    new: set[ID] = set(objects)
-    while new:
-        users |= bpy.data.user_map(subset=new, value_types={"OBJECT", "NODETREE", "COLLECTION"})
-        new = {user for one in new for user in users[one]} - users.keys()
+    users = users_of(objects, {"OBJECT", *BETWEEN})
 
-    def reached(obj: Object) -> set[ID]:
+    def reached(obj: Object) -> set[Object]:
         found, front = {obj}, {obj}
         while front:
             front = {user for one in front for user in users[one]} - found
             found |= front
-        return found
+        return {one for one in found if isinstance(one, Object)}  # lying in one collection ties nothing
 
     return {obj: reached(obj) for obj in objects}
+
+
+def users_of(objects: Iterable[Object], through: set[str]) -> dict[ID, set[ID]]:
+    """What refers to the objects, what refers to that, and so on as far as it is of the kinds `through`; of the last
+    ones only the objects are told."""
+    users: dict[ID, set[ID]] = {}
+    new: set[ID] = set(objects)
+    while new:
+        users |= bpy.data.user_map(subset=new, value_types={"OBJECT", *BETWEEN})
+        new = {user for one in new for user in users[one]} - users.keys()
+        new = {user for user in new if user.id_type in through}
+    return users

@@ -9,7 +9,6 @@ modifiers could say what each of them does with an origin.
 
 from __future__ import annotations
 
-import bpy
 import numpy as np
 from bpy.types import ID, Constraint, Depsgraph, Object
 from mathutils import Matrix
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 
 from .channels import FLOAT32, Matrix4, Refused, world
 from .read import Unreadable, measurable, read_object
+from .side_by_side import BETWEEN, users_of
 
 # Of the size: what rounding in a chain of modifiers may move, and far less than anyone can see.
 SAME_SHAPE = 1e-5
@@ -27,13 +27,8 @@ Shape = list[tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 
 def referring(objects: set[Object]) -> dict[Object, set[Object]]:
-    """For each object the other objects that refer to it, directly or through node groups."""
-    found: dict[ID, set[ID]] = {}
-    new: set[ID] = set(objects)
-    while new:
-        found |= bpy.data.user_map(subset=new, value_types={"OBJECT", "NODETREE"})
-        trees = {user for one in new for user in found[one] if isinstance(user, bpy.types.NodeTree)}
-        new = trees - found.keys()
+    """For each object the other objects that refer to it, directly or through data and collections."""
+    found = users_of(objects, BETWEEN)
 
     def through(one: ID, seen: set[ID]) -> set[Object]:
         reached = set()
@@ -41,7 +36,8 @@ def referring(objects: set[Object]) -> dict[Object, set[Object]]:
             if isinstance(user, Object):
                 reached.add(user)
             else:
-                reached |= through(user, seen | {user})
+                seen.add(user)
+                reached |= through(user, seen)
         return reached
 
     return {obj: through(obj, {obj}) for obj in objects}
@@ -127,7 +123,7 @@ class Surroundings:
         self.shapes = {
             other: shape(other, depsgraph)
             for other in others
-            if other.modifiers and measurable(other)
+            if _is_made(other) and measurable(other)
         }
 
     def hold(self) -> None:
@@ -163,6 +159,9 @@ class Surroundings:
                 raise Refused(
                     "{:s} would change its shape, for a modifier of it refers to this object; "
                     "apply that modifier first".format(other.name)
+                    if other.modifiers else
+                    "{:s} would change its shape, which is made with this object; convert it to a mesh first".format(
+                        other.name)
                 )
 
     def _moved(self, before: NDArray, now: NDArray, size: float) -> bool:
@@ -179,6 +178,11 @@ class Surroundings:
             child.matrix_parent_inverse = Matrix(inverse)
         for constraint, inverse in self.anchors:
             constraint.inverse_matrix = Matrix(inverse)
+
+
+def _is_made(obj: Object) -> bool:
+    """Whether its shape is more than its own data, and so may come from other objects."""
+    return bool(obj.modifiers or obj.type in {"CURVE", "FONT"} or getattr(obj.data, "shape_keys", None))
 
 
 def _child_of(obj: Object) -> list[Constraint]:

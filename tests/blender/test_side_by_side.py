@@ -32,16 +32,30 @@ def evaluations():
     bpy.app.handlers.depsgraph_update_post.remove(note)
 
 
+@pytest.mark.parametrize("collected", [False, True])
 @pytest.mark.parametrize("name, options", [*((name, {}) for name in SNAPS), ("add_empty", {}),
                                            ("set_rigid_body_mass", {"add": True})])
-def test_many_objects_take_as_few_evaluations_of_the_scene_as_some(name, options, evaluations):
+def test_many_objects_take_as_few_evaluations_of_the_scene_as_some(name, options, collected, evaluations):
     taken = []
     for count in (3, 12):
-        only(*bodies(count))
+        objects = bodies(count)
+        if collected:  # as in every file that Blender begins with
+            collect(objects)
+        only(*objects)
         evaluations.clear()
         assert run(name, **options) == {"FINISHED"}
         taken.append(len(evaluations))
     assert taken[1] <= taken[0] + 1 < 25
+
+
+def collect(objects):
+    """Put objects into a collection of the scene's."""
+    collection = bpy.data.collections.new("Members")
+    bpy.context.scene.collection.children.link(collection)
+    for obj in objects:
+        collection.objects.link(obj)
+        bpy.context.scene.collection.objects.unlink(obj)
+    return collection
 
 
 def wrap_around(obj, other):
@@ -82,17 +96,70 @@ def shown_by_nodes(collection):
 
 def test_what_shows_the_others_through_a_collection_is_changed_after_them():
     members = bodies(2)
-    collection = bpy.data.collections.new("Members")
-    bpy.context.scene.collection.children.link(collection)
-    for obj in members:
-        collection.objects.link(obj)
-        bpy.context.scene.collection.objects.unlink(obj)
+    collection = collect(members)
     shower = add(mesh_body(), "Shower", (0, 9, 0))
     shower.modifiers.new("Show", "NODES").node_group = shown_by_nodes(collection)
     bpy.context.view_layer.update()
     touched = side_by_side.dependents([*members, shower])
     assert shower in touched[members[0]] and members[0] not in touched[shower]
     assert list(side_by_side.rounds(touched.values())) == [0, 1, 2]
+
+
+def beveled_by(obj):
+    """A curve that has another one as its profile."""
+    curve = bpy.data.curves.new("Rail", "CURVE")
+    curve.dimensions, curve.bevel_mode, curve.bevel_object = "3D", "OBJECT", obj
+    spline = curve.splines.new("POLY")
+    spline.points.add(1)
+    spline.points[1].co = (0, 0, 4, 1)
+    return add(curve, "Rail", (0, 7, 0))
+
+
+def keyed_by(obj):
+    """A mesh of which a driver blends in a shape key by where another object is."""
+    keyed = add(mesh_body(), "Keyed", (0, 9, 0))
+    keyed.shape_key_add(name="Basis")
+    keyed.shape_key_add(name="Raised").data[0].co.z += 2.0
+    driver = keyed.data.shape_keys.key_blocks["Raised"].driver_add("value").driver
+    driver.type = "SUM"
+    variable = driver.variables.new()
+    variable.type = "TRANSFORMS"
+    variable.targets[0].id, variable.targets[0].transform_type = obj, "LOC_X"
+    return keyed
+
+
+def scattering(obj):
+    """A mesh that shows the members of another object's collection at its own place, wherever they are."""
+    shower = add(mesh_body(), "Shower", (0, 9, 0))
+    tree = shown_by_nodes(collect([obj]))
+    info = next(node for node in tree.nodes if node.bl_idname == "GeometryNodeCollectionInfo")
+    info.transform_space = "ORIGINAL"
+    info.inputs["Separate Children"].default_value = info.inputs["Reset Children"].default_value = True
+    shower.modifiers.new("Show", "NODES").node_group = tree
+    return shower
+
+
+@pytest.mark.parametrize("made_with", [beveled_by, keyed_by, scattering])
+def test_what_is_made_with_an_object_by_way_of_its_data_keeps_its_shape_too(made_with, capfd):
+    if made_with is beveled_by:
+        curve = bpy.data.curves.new("Profile", "CURVE")
+        curve.dimensions = "2D"
+        spline = curve.splines.new("POLY")
+        spline.points.add(2)
+        spline.points.foreach_set("co", [1, 1, 0, 1, 2, 1, 0, 1, 1, 2, 0, 1])
+        spline.use_cyclic_u = True
+        obj = add(curve, "Profile", (0, 0, 0))
+        obj.body_moments.kind = "SHELL"
+    else:
+        obj = add(mesh_body(), "Body", (0.2, 0, 0))
+    other = made_with(obj)
+    bpy.context.view_layer.update()
+    before, was = seen(other), place(obj)
+    assert other in side_by_side.dependents([obj])[obj]
+    only(obj)
+    assert run("origin_to_center") == {"CANCELLED"}
+    assert other.name + " would change its shape" in capfd.readouterr().out
+    assert np.abs(seen(other) - before).max() < 1e-6 and np.abs(place(obj) - was).max() == 0.0
 
 
 def test_one_that_is_refused_leaves_the_others_beside_it_to_be_done(capfd):
