@@ -41,8 +41,6 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
 
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected(context)
-        elsewhere: list[str] = []
-
         bodies: list[snapping.Body] = []
 
         def measure(obj: Object) -> bool:
@@ -61,10 +59,6 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
                     "its mass of {:.3g} kg is less than the {:.3g} kg that a rigid body can "
                     "have; raise its density".format(body.mass, limit)
                 )
-            if np.abs(world(obj)[:3, 3] - body.center).max() > reframe.location_tolerance(
-                obj, body.size
-            ):
-                elsewhere.append(obj.name)
             bodies.append(body)
             return True
 
@@ -80,6 +74,9 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
                     changed.add(body.obj)
             count = len(changed)
             context.view_layer.update()
+        elsewhere = [body.obj.name for body in bodies if body.obj.rigid_body is not None
+                     and np.abs(world(body.obj)[:3, 3] - body.center).max()
+                     > reframe.location_tolerance(body.obj, body.size)]
         notes = []
         unit = decimal(context.scene.unit_settings.scale_length)
         if count and unit != 1.0 and context.scene.unit_settings.system != "NONE":

@@ -160,6 +160,8 @@ def reframe_selected(
             selection.each([one.obj for one in done], plan, REFUSALS)
             reframe.reframe(context, plans)
     refresh(context, [plan.obj for plan in done])
+    if not move_only:
+        staleness.mark_turned(plan.obj for plan in done)
     notes = ["{:s} {:s}".format(plan.obj.name, note) for plan in done for note in plan.notes]
     return selection.summarise(operator, len(done), len(objects), text, failures, notes,
                                idle="all of it was there already")

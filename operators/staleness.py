@@ -76,9 +76,7 @@ def _forget(obj: Object, mark: str) -> None:
 
 def _keep_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
     shape = _shape(obj, depsgraph)
-    if shape is None:
-        _shapes.pop(mark, None)
-    else:
+    if shape is not None:  # else what another object with these very numbers showed still holds
         _shapes[mark] = shape
 
 
@@ -93,6 +91,13 @@ def mark_retold(obj: Object) -> None:
     """As `mark_fresh`, from within the update of a setting: what Blender reports next is that update."""
     mark_fresh(obj)
     _settings[obj.session_uid] = ""
+
+
+def mark_turned(objects: Iterable[Object]) -> None:
+    """The objects have other axes than before: directions that are stored in these no longer hold."""
+    for obj in objects:
+        if mark := _symmetry_mark(obj):
+            _edited.setdefault(obj.session_uid, set()).add(mark)
 
 
 @contextmanager
@@ -229,18 +234,18 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
         found = [str(mark) for mark in (obj.get("body_fingerprint"), section.fingerprint(obj), _symmetry_mark(obj))
                  if mark]
         if found:
-            _judge(obj, found, depsgraph, heard=not undone and not _settings_edited(obj, found[0], scene))
+            _judge(obj, found, depsgraph, undone, heard=not undone and not _settings_edited(obj, found[0], scene))
 
 
-def _judge(obj: Object, marks: list[str], depsgraph: Depsgraph, heard: bool) -> None:
-    """Note a change of the object's geometry, or that there is none any more. heard: whether what cannot be compared
-    has changed."""
+def _judge(obj: Object, marks: list[str], depsgraph: Depsgraph, undone: bool, heard: bool) -> None:
+    """Note a change of the object's geometry, or that there is none any more. undone: whether undo or redo evaluated
+    it, heard: whether what could never be compared has changed."""
     noted = _edited.setdefault(obj.session_uid, set())
     shape = _shape(obj, depsgraph) if any(mark in _shapes for mark in marks) else None
     for mark in marks:
         if shape is not None and mark in _shapes:
             (noted.discard if shape == _shapes[mark] else noted.add)(mark)
-        elif heard:
+        elif heard or undone and mark in _shapes:  # the note of an edit that redo brings back may have been taken back
             noted.add(mark)
 
 

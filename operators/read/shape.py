@@ -8,28 +8,28 @@ import hashlib
 
 import numpy as np
 
-from .objects import read_object
+from .mesh import mesh_surface
 from .reading import Unreadable
+from .visibility import evaluated_geometry
 
 MOST = 50_000  # faces: reading and digesting them takes 2 ms
 
 
 def shape_digest(obj, depsgraph) -> bytes | None:
-    """Of the faces of a mesh object in Object Mode, wherever it stands; None of others, large ones and those that show
-    instances."""
-    if (obj.type != "MESH" or obj.mode != "OBJECT" or obj.instance_type != "NONE" or len(obj.particle_systems)
-            or any(modifier.type == "NODES" for modifier in obj.modifiers)):
-        return None
-    evaluated = obj.evaluated_get(depsgraph)
-    if not evaluated.is_evaluated or len(evaluated.data.polygons) > MOST:
+    """Of the faces of a mesh object in Object Mode, wherever it stands; None of others, large ones, those that show
+    instances, and those whose mesh is edited by way of another object."""
+    if (obj.type != "MESH" or obj.mode != "OBJECT" or obj.data.is_editmode or obj.instance_type != "NONE"
+            or len(obj.particle_systems) or any(modifier.type == "NODES" for modifier in obj.modifiers)):
         return None
     try:
-        parts = read_object(obj, depsgraph, edges=False).parts
+        geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
     except Unreadable:
         return None
+    if geometry.mesh is None or len(geometry.mesh.polygons) > MOST:
+        return None
+    surface = mesh_surface(geometry.mesh, edges=False)
     digest = hashlib.blake2b(digest_size=16)
-    for part in parts:
-        for array in (part.surface.points, part.surface.triangles, part.surface.quads):
-            digest.update(np.ascontiguousarray(array))
-            digest.update(repr(array.shape).encode())
+    for array in (surface.points, surface.triangles, surface.quads):
+        digest.update(np.ascontiguousarray(array))
+        digest.update(repr(array.shape).encode())
     return digest.digest()

@@ -5,9 +5,11 @@
 import pytest
 
 pytest.importorskip("bpy")
+import bmesh
 import body_moments
 import bpy
 from body_moments.operators import staleness
+from body_moments.operators.read import instances, shape
 
 from tests.blender.bodies import add, mesh_body, only
 
@@ -145,6 +147,71 @@ def test_an_edit_that_is_taken_back_is_none():
         obj.modifiers[0].levels = level
         update()
         assert reason(obj) == told
+
+
+def grown_by_nodes(obj):
+    tree = bpy.data.node_groups.new("Twice", "GeometryNodeTree")
+    for side in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
+    start, end = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    twice = tree.nodes.new("GeometryNodeTransform")
+    twice.inputs["Scale"].default_value = (2.0, 2.0, 2.0)
+    tree.links.new(start.outputs[0], twice.inputs[0])
+    tree.links.new(twice.outputs[0], end.inputs[0])
+    obj.modifiers.new("Twice", "NODES").node_group = tree
+
+
+def made_large(obj):
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+
+
+def edited_in_edit_mode(obj):
+    only(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    mesh = bmesh.from_edit_mesh(obj.data)
+    mesh.verts.ensure_lookup_table()
+    mesh.verts[0].co.x -= 1.0
+    bmesh.update_edit_mesh(obj.data)
+
+
+@pytest.mark.parametrize("change", [grown_by_nodes, made_large, edited_in_edit_mode])
+def test_an_edit_that_redo_brings_back_is_told_where_it_cannot_be_compared(change, monkeypatch):
+    obj = add(mesh_body())
+    monkeypatch.setattr(shape, "MOST", len(obj.data.polygons))
+    measure(obj)
+    bpy.ops.ed.undo_push(message="Measured")
+    change(obj)
+    update()
+    bpy.ops.ed.undo_push(message="Changed")
+    for step, told in (("undo", ""), ("redo", "Geometry Changed")):
+        assert getattr(bpy.ops.ed, step)() == {"FINISHED"}
+        update()
+        assert reason(bpy.data.objects["Body"]) == told
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_no_mesh_is_made_to_compare_one_that_is_edited_by_way_of_another_object(monkeypatch):
+    obj = add(mesh_body())
+    other = add(obj.data, "Other", (9, 0, 0))
+    measure(obj, other)
+    monkeypatch.setattr(instances, "from_edit_mesh", lambda *_args: pytest.fail("It made a mesh."))
+    edited_in_edit_mode(obj)
+    update()
+    assert reason(obj) == reason(other) == "Geometry Changed"
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_the_symmetry_of_an_object_that_got_other_axes_is_out_of_date():
+    obj = add(mesh_body())
+    only(obj)
+    assert bpy.ops.object.body_moments_find_symmetry() == {"FINISHED"}
+    assert bpy.ops.object.body_moments_origin_to_center() == {"FINISHED"}
+    assert staleness.symmetry_reason(obj) == ""
+    assert bpy.ops.object.body_moments_axes_to_principal() == {"FINISHED"}
+    assert staleness.symmetry_reason(obj) != ""
+    assert bpy.ops.object.body_moments_find_symmetry() == {"FINISHED"}
+    assert staleness.symmetry_reason(obj) == ""
 
 
 @pytest.mark.parametrize("source", ["MATERIALS", "ATTRIBUTE"])
