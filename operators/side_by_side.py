@@ -81,8 +81,7 @@ def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
 
 
 def users_of(objects: Iterable[Object], through: set[str]) -> dict[ID, set[ID]]:
-    """What refers to the objects, what refers to that, and so on as far as it is of the kinds `through`; of the last
-    ones only the objects are told."""
+    """What refers to the objects, and what refers to that as far as it is of the kinds `through`, and so on."""
     users: dict[ID, set[ID]] = {}
     new: set[ID] = set(objects)
     while new:

@@ -22,6 +22,7 @@ from .side_by_side import BETWEEN, users_of
 SAME_SHAPE = 1e-5
 # Points compared in each of many instances; the first instance is compared point by point.
 SAMPLES = 64
+ALONG = np.array([1.0, 0.7548776662, 0.5698402910])  # a direction along which hardly anything is symmetric
 
 Shape = list[tuple[NDArray[np.float64], NDArray[np.float64]]]
 
@@ -72,12 +73,27 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
     if before is None or after is None:
         return before is None and after is None
     pairs = [pair for one, other in zip(before, after) for pair in zip(one, other)]
-    return len(before) == len(after) and all(_close(*pair, size) for pair in pairs)
+    if len(before) == len(after) and all(one.shape == other.shape for one, other in pairs):
+        return all(_close(*pair, size) for pair in pairs)
+    # Objects that shared a mesh are parts of their own once one of them has got a copy.
+    before, after = _by_place(before), _by_place(after)
+    return before.keys() == after.keys() and all(_close(before[count], after[count], size) for count in before)
+
+
+def _by_place(shape: Shape) -> dict[int, NDArray[np.float64]]:
+    """Some points of each place, whichever part it is of, in the order of their centers along a line: for each number
+    of points (k, few, 3)."""
+    found: dict[int, list[NDArray[np.float64]]] = {}
+    for first, rest in shape:
+        few = np.linspace(0, len(first) - 1, rest.shape[1]).astype(int)
+        found.setdefault(len(first), []).append(np.concatenate([first[few][None], rest]))
+    every = {count: np.concatenate(places) for count, places in found.items()}
+    return {count: places[np.argsort(places.mean(axis=1) @ ALONG)] for count, places in every.items()}
 
 
 def _close(one: NDArray, other: NDArray, size: float) -> bool:
     if one.shape != other.shape:
-        return False
+        return False  # more or fewer places
     if not one.size:
         return True
     limit = SAME_SHAPE * size + 16.0 * FLOAT32 * np.abs(one).max()

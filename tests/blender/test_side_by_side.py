@@ -234,3 +234,14 @@ def test_an_empty_that_another_object_follows_is_placed_before_that_is_measured(
     kept = place(own)
     run("add_empty")
     assert np.abs(place(own) - kept).max() < 1e-6
+
+
+def test_what_shows_objects_that_share_a_mesh_does_not_hinder_one_of_them():
+    first = add(mesh_body(), "First", (1, 2, 0))
+    other, third = add(mesh_body(), "Other", (9, 0, 0)), add(first.data, "Third", (4, 5, 6))
+    shower = add(mesh_body(), "Shower", (0, 20, 0))
+    shower.modifiers.new("Show", "NODES").node_group = shown_by_nodes(collect([first, other, third]))
+    bpy.context.view_layer.update()
+    only(first)
+    assert run("origin_to_center") == {"FINISHED"}
+    assert first.data != third.data
