@@ -14,7 +14,8 @@ comparing what they show now.
 
 Undo re-evaluates what it brings back, which is no edit: of what cannot be compared, the one update that follows it is
 not noted. An edit that undo brings back again was noted when it was made, and notes are kept: undo may
-bring back the numbers of before, too. Reading a file reports no updates.
+bring back the numbers of before, too. In Edit Mode and Sculpt Mode it brings back the shape alone, and is an edit.
+Reading a file reports no updates.
 """
 
 from __future__ import annotations
@@ -234,7 +235,9 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
         found = [str(mark) for mark in (obj.get("body_fingerprint"), section.fingerprint(obj), _symmetry_mark(obj))
                  if mark]
         if found:
-            _judge(obj, found, depsgraph, undone, heard=not undone and not _settings_edited(obj, found[0], scene))
+            came_back = undone and not (obj.mode == "SCULPT" or getattr(obj.data, "is_editmode", False))
+            _judge(obj, found, depsgraph, undone,
+                   heard=not came_back and not _settings_edited(obj, found[0], scene))
 
 
 def _judge(obj: Object, marks: list[str], depsgraph: Depsgraph, undone: bool, heard: bool) -> None:

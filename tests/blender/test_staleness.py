@@ -168,6 +168,10 @@ def made_large(obj):
 def edited_in_edit_mode(obj):
     only(obj)
     bpy.ops.object.mode_set(mode="EDIT")
+    edited_vertices(obj)
+
+
+def edited_vertices(obj):
     mesh = bmesh.from_edit_mesh(obj.data)
     mesh.verts.ensure_lookup_table()
     mesh.verts[0].co.x -= 1.0
@@ -189,6 +193,23 @@ def test_an_edit_that_redo_brings_back_is_told_where_it_cannot_be_compared(chang
         assert reason(bpy.data.objects["Body"]) == told
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_undo_in_edit_mode_brings_no_numbers_back_and_is_an_edit():
+    obj = add(mesh_body())
+    only(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.ed.undo_push(message="Edit Mode")
+    edited_vertices(obj)
+    bpy.ops.ed.undo_push(message="Edited")
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    update()
+    assert reason(obj) == ""
+    bpy.ops.ed.undo()
+    update()
+    obj = bpy.data.objects["Body"]
+    assert bpy.context.mode == "EDIT_MESH" and reason(obj) == "Geometry Changed"
+    bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def test_no_mesh_is_made_to_compare_one_that_is_edited_by_way_of_another_object(monkeypatch):
