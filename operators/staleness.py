@@ -28,7 +28,7 @@ from bpy.app.handlers import persistent
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from .fingerprint import VERSION, matrix_hash, scale_hash, settings_hash
-from .read.shape import shape_digest
+from .read.digest import shape_digest
 from .write import section
 
 EDITED = "edited"
