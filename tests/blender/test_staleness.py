@@ -9,7 +9,7 @@ import bmesh
 import body_moments
 import bpy
 from body_moments.operators import staleness
-from body_moments.operators.read import instances, shape
+from body_moments.operators.read import digest, instances
 
 from tests.blender.bodies import add, mesh_body, only
 
@@ -181,7 +181,7 @@ def edited_vertices(obj):
 @pytest.mark.parametrize("change", [grown_by_nodes, made_large, edited_in_edit_mode])
 def test_an_edit_that_redo_brings_back_is_told_where_it_cannot_be_compared(change, monkeypatch):
     obj = add(mesh_body())
-    monkeypatch.setattr(shape, "MOST", len(obj.data.polygons))
+    monkeypatch.setattr(digest, "MOST", len(obj.data.polygons))
     measure(obj)
     bpy.ops.ed.undo_push(message="Measured")
     change(obj)
