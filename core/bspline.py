@@ -155,10 +155,12 @@ class Space:
         """The first and the last knot of the order - 1 functions, one order lower, that act in a span."""
         return near[..., self.order - order:self.order - 1], near[..., self.order - 1:self.order + order - 2]
 
-    def matrix(self, parameters: NDArray, derivative: int = 0) -> NDArray[np.float64]:
-        """(n, count) what each control point weighs at each of n parameters, or in a derivative there."""
+    def matrix(self, parameters: NDArray, derivative: int = 0, spans: NDArray[np.integer] | None = None
+               ) -> NDArray[np.float64]:
+        """(n, count) what each control point weighs at each of n parameters, or in a derivative there. spans: (n,)
+        those that they belong to, where a knot may end one or begin the next."""
         parameters = np.asarray(parameters, np.float64)
-        spans = self.locate(parameters)
+        spans = self.locate(parameters) if spans is None else spans
         values = self.derivatives(spans, parameters, derivative)[derivative]
         table = np.zeros((len(parameters), self.count))
         np.add.at(table, (np.arange(len(parameters))[:, None], self.controls(spans)), values)

@@ -13,7 +13,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .bspline import Space
 from .closure import SIDES, Closure
 from .patch import Patch
 from .vectors import cross
@@ -37,10 +36,7 @@ def sharpest_crease(patches: Sequence[Patch], closure: Closure) -> float:
 def _along_side(patch: Patch, axis: int, end: int) -> NDArray[np.float64]:
     """(m, 3) its unit normals along a side, at the samples of the side's curve; zero at poles."""
     held, run = patch.spaces[axis], patch.spaces[1 - axis]
-    at = np.array([held.domain[end]])
-    rows = held.locate(at), at
-    steps = run.steps(EACH)
-    tables = [rows, (run.locate(steps), steps)]
+    tables = [(np.array([held.domain[end]]), None), (run.steps(EACH), None)]
     return _normals(patch, *(tables if axis == 0 else tables[::-1])).reshape(-1, 3)
 
 
@@ -53,17 +49,17 @@ def _within(patch: Patch) -> float:
         sharp = np.array([np.count_nonzero(knots == knot) >= space.order - 1 for knot in inner], bool)
         if not sharp.any():
             continue
-        steps = patch.spaces[1 - axis].steps(EACH)
-        across = patch.spaces[1 - axis].locate(steps), steps
-        before, after = ((spans[sharp], inner[sharp]) for spans in (space.spans[:-1], space.spans[1:]))
+        across = patch.spaces[1 - axis].steps(EACH), None
+        before, after = ((inner[sharp], spans[sharp]) for spans in (space.spans[:-1], space.spans[1:]))
         one, other = (_normals(patch, *((rows, across) if axis == 0 else (across, rows))) for rows in (before, after))
         worst = max(worst, _angle(one, other))
     return worst
 
 
-def _normals(patch: Patch, *places: tuple[NDArray, NDArray]) -> NDArray[np.float64]:
-    """(m, n, 3) unit normals at parameters in given spans; zero where there is none."""
-    (s, by_s), (t, by_t) = ([_table(space, *place, k) for k in (0, 1)] for space, place in zip(patch.spaces, places))
+def _normals(patch: Patch, *places: tuple[NDArray, NDArray | None]) -> NDArray[np.float64]:
+    """(m, n, 3) unit normals at parameters, perhaps in given spans; zero where there is none."""
+    (s, by_s), (t, by_t) = ([space.matrix(at, k, spans) for k in (0, 1)]
+                            for space, (at, spans) in zip(patch.spaces, places))
     net = np.moveaxis(patch.points - patch.points[0, 0], -1, 0)
     weights = np.ones(net.shape[1:]) if patch.weights is None else patch.weights
     net = np.concatenate([net * weights, weights[None]])
@@ -72,13 +68,6 @@ def _normals(patch: Patch, *places: tuple[NDArray, NDArray]) -> NDArray[np.float
     normal = np.stack(cross(along, across), axis=-1)
     length = np.linalg.norm(normal, axis=-1, keepdims=True)
     return np.where(length > POLE * length.max(), normal / np.where(length > 0.0, length, 1.0), 0.0)
-
-
-def _table(space: Space, spans: NDArray, parameters: NDArray, derivative: int) -> NDArray[np.float64]:
-    table = np.zeros((len(parameters), space.count))
-    values = space.derivatives(spans, parameters, derivative)[derivative]
-    np.add.at(table, (np.arange(len(parameters))[:, None], space.controls(spans)), values)
-    return table
 
 
 def _angle(one: NDArray, other: NDArray) -> float:

@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .caps import find_loops, join_sides
+from .sentences import counted
 from .surface import Surface, normals
 from .topology import Edges, components, find_edges, named_edges, orientation, shells
 from .weld import equal_positions, face_groups, near_positions, vertex_tolerance
 
-LISTED = 8  # numbers of faces that a sentence names
 NO_COPIES = np.empty(0, np.intp), np.empty(0, np.intp)
 NO_EDGES = np.empty((0, 2), np.intp)
 
@@ -212,17 +212,6 @@ def _copied(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np
     copied = np.zeros(int(face.max()) + 1, bool)
     copied[group[group != face]] = True
     return copied[group]
-
-
-def counted(numbers: NDArray[np.integer], one: str, many: str, names: Callable[[NDArray], str]) -> str:
-    """A sentence about numbered things: `one` takes the name, `many` how many there are and the names."""
-    return one.format(names(numbers)) if len(numbers) == 1 else many.format(len(numbers), names(numbers))
-
-
-def listed(numbers: NDArray[np.integer]) -> str:
-    """The first few numbers, as text."""
-    text = ", ".join(str(int(number)) for number in numbers[:LISTED])
-    return text + ", …" if len(numbers) > LISTED else text
 
 
 def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:

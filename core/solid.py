@@ -19,10 +19,10 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from . import polyhedron
+from . import polyhedron, sentences
 from .components import Components
 from .flatness import Flatness, Witness
-from .mending import Mended, counted, listed, mend
+from .mending import Mended, mend
 from .moments import SECOND, Moments, sum_moments
 from .nesting import cut_from, decide, relate
 from .shell_tree import sort_shells
@@ -120,7 +120,7 @@ class SolidMeasure:
 
 
 def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1,
-                  names: Callable[[NDArray], str] = listed, near: bool = True) -> SolidMeasure:
+                  names: Callable[[NDArray], str] = sentences.listed, near: bool = True) -> SolidMeasure:
     """The moments of the body that a surface bounds, in the surface's own coordinates and unit, and how they came.
 
     shell: the area's moments to order 3 (else order 0). threads: for the sums over faces, and for the verdict.
@@ -174,10 +174,12 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1,
         method = "capped"
     else:
         method = "reoriented" if len(flipped) or len(inverted) else "exact"
-    notes = [*body.notes, *_turned_told(body, flipped, inverted, names),
-             *_capped_told(*caps[:2].astype(int), cap_share)]
+    notes = [*body.notes, *sentences.turned(flipped, inverted, body.number, names),
+             *sentences.capped(*caps[:2].astype(int), cap_share)]
     if compared is not None:
-        notes += _compared_told(body, compared)
+        flat = int(np.count_nonzero(~compared.solid & ~body.open)) if compared.solid.any() else 0
+        notes += sentences.compared(compared.counts["nested_components"], compared.counts["overlapping_components"],
+                                    flat, compared.unchecked)
     if impossible:
         notes.append("It intersects itself, and parts of it count with the opposite sign: these are the moments of no "
                      "body. Unite its shells, or mend it.")
@@ -262,7 +264,7 @@ def _used(surface: Surface) -> tuple[Surface, NDArray[np.intp] | None, float]:
         if len(astray):
             raise ValueError(
                 "{:d} of its vertices have no finite position: {:s}. Delete them, or repair what moves them."
-                .format(len(astray), listed(astray if vertices is None else vertices[astray])))
+                .format(len(astray), sentences.listed(astray if vertices is None else vertices[astray])))
     if not max(size, float(np.abs([low, high]).max())) < LARGEST:
         raise ValueError("It is too large for its moments to be numbers. Scale it down.")
     if 0.0 < size < SMALLEST:
@@ -375,48 +377,3 @@ def _turned_faces(body: Mended, turn: NDArray[np.bool_]) -> tuple[NDArray[np.int
     turned, shell = (body.turned ^ turn[body.shell])[own], body.shell[own]
     whole = np.bincount(shell, ~turned, minlength=body.number) == 0
     return np.unique(body.face[own][turned & ~whole[shell]]), np.flatnonzero(whole)
-
-
-def _turned_told(body: Mended, flipped: NDArray, inverted: NDArray, names: Callable[[NDArray], str]) -> list[str]:
-    """Sentences about the faces and the parts that were turned."""
-    notes = []
-    if len(flipped):
-        notes.append(counted(
-            flipped, "Face {:s} is flipped and was measured as if turned. Recalculate Outside mends it.",
-            "{:d} faces are flipped and were measured as if turned: {:s}. Recalculate Outside mends them.", names))
-    if len(inverted):
-        notes.append("{:s} inside out, and measured as if turned. Recalculate Outside mends that.".format(
-            "It is" if body.number == 1 else "One of its parts is" if len(inverted) == 1
-            else "{:d} of its {:d} parts are".format(len(inverted), body.number)))
-    return notes
-
-
-def _capped_told(flat: int, curved: int, share: float) -> list[str]:
-    """Sentences about the caps: how many are flat and curved, and their share of the area."""
-    if flat + curved == 0:
-        return []
-    if flat + curved == 1:
-        return ["One {:s} hole was capped ({:.3g} % of the area). Fill it for a closed body."
-                .format("curved" if curved else "flat", 100.0 * share)]
-    return ["{:d} holes were capped ({:d} flat, {:d} curved; {:.3g} % of the area). Fill them for a closed body."
-            .format(flat + curved, flat, curved, 100.0 * share)]
-
-
-def _compared_told(body: Mended, compared: _Compared) -> list[str]:
-    """Sentences about parts that count twice or not at all."""
-    notes = []
-    nested, overlapping = (compared.counts[key] for key in ("nested_components", "overlapping_components"))
-    if nested:
-        notes.append("{:s} inside another one, so that space counts twice. Flip what is a cavity, or measure the union."
-                     .format("One outward shell lies" if nested == 1 else "{:d} outward shells lie".format(nested)))
-    if overlapping:
-        notes.append("{:d} parts overlap, so that what they share counts twice. Measure the union instead."
-                     .format(overlapping))
-    flat = np.count_nonzero(~compared.solid & ~body.open)
-    if flat and compared.solid.any():
-        notes.append("{:s} flat and adds no volume.".format(
-            "One part is" if flat == 1 else "Each of {:d} parts is".format(flat)))
-    if compared.unchecked:
-        notes.append("Whether {:d} pairs of its parts overlap was not checked, as it would have taken too long."
-                     .format(compared.unchecked))
-    return notes

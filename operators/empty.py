@@ -69,11 +69,8 @@ class OBJECT_OT_body_moments_add_empty(Operator):
                 failures.append((obj.name_full, str(getattr(error, "reason", error))))
 
         followers = dependents(existing.values())  # what moves with an empty is measured after that
-        together: dict[int, list[Object]] = {}
-        for obj, number in zip(objects, rounds({obj, *followers.get(existing.get(obj), ())} for obj in objects)):
-            together.setdefault(number, []).append(obj)
         with selection.progress(len(objects)) as step:
-            for several in together.values():
+            for several in rounds((obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects):
                 carry_out(context, side_by_side(map(add, several)))
         return selection.summarise(self, len(placed), len(objects), "Placed an empty at the principal frame of {count}",
                                    failures, notes, idle="the empties are there already")

@@ -113,34 +113,29 @@ def reframe(
     """
     objects = {plan.obj for plan in plans}
     users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
-    groups = _groups(plans)
-    numbers = rounds({plan.obj.data for plan in group}.union(*(touched[plan.obj] for plan in group))
-                     for group in groups)
-    together: dict[int, list[list[Plan]]] = {}
-    for group, number in zip(groups, numbers):
-        together.setdefault(number, []).append(group)
     refused: dict[Object, str] = {}
     done = 0
 
-    def attempt(group: list[Plan], alone: bool) -> Change:
+    def attempt(group: list[Plan], again: list[list[Plan]] | None = None) -> Change:
         nonlocal done
         try:
             yield from _reframed(group, users)
         except (Refused, Unreadable, ValueError, RuntimeError) as error:
-            if not alone:
+            if again is not None:
                 again.append(group)
                 return
             refused.update(dict.fromkeys((plan.obj for plan in group), str(getattr(error, "reason", error))))
         done += len(group)
         progress(done)
 
-    for beside in together.values():
+    for beside in rounds((group, {plan.obj.data for plan in group}.union(*(touched[plan.obj] for plan in group)))
+                         for group in _groups(plans)):
         again: list[list[Plan]] = []
-        carry_out(context, side_by_side(attempt(group, alone=len(beside) == 1) for group in beside))
+        carry_out(context, side_by_side(attempt(group, again if len(beside) > 1 else None) for group in beside))
         for group in again:
             for plan in group:
                 plan.notes.clear()
-            carry_out(context, attempt(group, alone=True))
+            carry_out(context, attempt(group))
     return [plan for plan in plans if plan.obj not in refused], list(refused.items())
 
 

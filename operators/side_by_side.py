@@ -9,11 +9,13 @@ other go forward side by side, with one evaluation for all of them.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Generator, Iterable
+from typing import TypeVar
 
 import bpy
 from bpy.types import ID, Context, Depsgraph, Object
 
+Planned = TypeVar("Planned")
 Change = Generator[None, Depsgraph, None]  # yields once before it does anything
 # What objects refer to each other by: a curve by its bevel, shape keys by drivers, particles by what they show.
 BETWEEN = {"ARMATURE", "COLLECTION", "CURVE", "KEY", "LATTICE", "MESH", "META", "NODETREE", "PARTICLE", "TEXTURE"}
@@ -55,14 +57,16 @@ def _goes_on(change: Change, depsgraph: Depsgraph) -> bool:
     return True
 
 
-def rounds(touched: Iterable[set[ID]]) -> Iterator[int]:
-    """For each change, told by what it may touch, the round in which it can be made: after all earlier changes that
-    touch the same, beside others."""
+def rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[Planned]]:
+    """Changes, each with what it may touch, in the rounds in which they can be made: after all earlier ones that touch
+    the same, beside others."""
     last: dict[ID, int] = {}
-    for own in touched:
-        number = 1 + max((last.get(one, -1) for one in own), default=-1)
-        last.update(dict.fromkeys(own, number))
-        yield number
+    found: dict[int, list[Planned]] = {}
+    for change, touched in changes:
+        number = 1 + max((last.get(one, -1) for one in touched), default=-1)
+        last.update(dict.fromkeys(touched, number))
+        found.setdefault(number, []).append(change)
+    return list(found.values())
 
 
 def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:

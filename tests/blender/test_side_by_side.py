@@ -102,7 +102,7 @@ def test_what_shows_the_others_through_a_collection_is_changed_after_them():
     bpy.context.view_layer.update()
     touched = side_by_side.dependents([*members, shower])
     assert shower in touched[members[0]] and members[0] not in touched[shower]
-    assert list(side_by_side.rounds(touched.values())) == [0, 1, 2]
+    assert side_by_side.rounds(touched.items()) == [[members[0]], [members[1]], [shower]]
 
 
 def beveled_by(obj):
