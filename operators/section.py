@@ -111,8 +111,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
             mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
             record.store(obj, section, what, warnings, mark, unit)
         staleness.settle_marks(context, [(obj, record.fingerprint(obj)) for obj, *_ in found])
-        for area in context.screen.areas if context.screen else ():
-            area.tag_redraw()
+        selection.redraw(context)
         warned = sum(bool(alarms(warnings)) for *_, warnings in found)
         one = "Measured the section of {:s}, with warnings" if warned else "Measured the section of {:s}"
         told = ["Measured {:d} sections".format(len(found))] if len(found) > 1 else [
