@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from ..core.affine import distinct_linear
 from ..core.components import Components, PartDensities, part_densities
-from ..core.mending import listed
 from ..core.moments import Moments, are_similarities, map_sum, sum_moments
 from ..core.polyhedron import solid_and_area
+from ..core.sentences import listed
 from ..core.solid import SolidMeasure
 from ..core.surface import Surface
 from ..core.weighted import as_mass, weighted_sheet, weighted_solid
