@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .mass import MassProperties
-from .moments import Moments
-from .solid import Health
+from .inertia.mass_properties import MassProperties
+from .moments.moments import Moments
+from .verdict.health import Health
 
 ONE_DENSITY = ("one value", "given mass")
 

@@ -11,10 +11,32 @@ from importlib import import_module
 from types import ModuleType
 
 # Everything that is registered, in this order: modules with `register`, or with CLASSES only.
-PARTS = ("settings", "live", "presets", "measure_selected", "section", "select_faults", "clear",
-         "clipboard", "moments_table", "origin", "principal_axes", "align", "empty", "cursor", "orientation",
-         "rigid_body", "sculpt_balance", "fourier", "match_pose", "find_similar", "find_symmetry",
-         "import_scan", "batch", "staleness")
+PARTS = (
+    "settings",
+    "live",
+    "presets",
+    "measure_selected",
+    "section",
+    "select_faults",
+    "clear",
+    "clipboard",
+    "moments_table",
+    "origin",
+    "principal_axes",
+    "align",
+    "empty",
+    "cursor",
+    "orientation",
+    "rigid_body",
+    "sculpt_balance",
+    "fourier",
+    "match_pose",
+    "find_similar",
+    "find_symmetry",
+    "import_scan",
+    "batch",
+    "staleness",
+)
 
 
 def _parts() -> list[ModuleType]:

@@ -10,7 +10,8 @@ from contextlib import ExitStack
 
 
 def _classes() -> tuple[type, ...]:
-    from . import body, materials, moments, section, shape
+    from . import body, moments, section, shape
+    from . import material_menus as materials
 
     return (*materials.CLASSES, *body.CLASSES, *moments.CLASSES, *section.CLASSES, *shape.CLASSES)
 

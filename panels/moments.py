@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from bpy.types import Context, Panel
 
-from ..operators import moments_table
+from ..operators.actions.measure import moments as moments_table
 from . import rows
 
 
@@ -39,8 +39,12 @@ class MomentsPanel:
             for label, text, exact in degree.rows:
                 rows.texts(column, label, text, exact, degree.unit)
         if computed.order > moments_table.SHOWN:
-            rows.sentence(layout, context, "Orders {:d} to {:d} are in the copy.".format(
-                moments_table.SHOWN + 1, computed.order), icon="INFO")
+            rows.sentence(
+                layout,
+                context,
+                "Orders {:d} to {:d} are in the copy.".format(moments_table.SHOWN + 1, computed.order),
+                icon="INFO",
+            )
         layout.operator("object.body_moments_copy_moments", icon="COPYDOWN")
 
 

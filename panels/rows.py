@@ -12,9 +12,9 @@ import bpy
 import numpy as np
 from bpy.types import Context, UILayout
 
+from ..operators.actions.measure.copy import OBJECT_OT_body_moments_copy_value
 from ..operators.alarms import alarms
-from ..operators.clipboard import OBJECT_OT_body_moments_copy_value
-from ..operators.units import SI_UNITS, Units
+from ..operators.write.units import SI_UNITS, Units
 
 LABEL, SHORT, INDEX = 0.36, 0.2, 0.1  # share of a row that its label takes, one of few letters, and of one
 MARGIN = 96  # what tabs, borders and an icon take of the region's width, in unscaled pixels
@@ -82,9 +82,7 @@ def texts(layout: UILayout, label: str, text: str, exact: str, unit: str) -> Non
 
 
 def _copy(row: UILayout, exact: str, unit: str) -> None:
-    button = row.operator(
-        OBJECT_OT_body_moments_copy_value.bl_idname, text="", icon="COPYDOWN", emboss=False
-    )
+    button = row.operator(OBJECT_OT_body_moments_copy_value.bl_idname, text="", icon="COPYDOWN", emboss=False)
     button.value = exact
     button.unit = unit
 

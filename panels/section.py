@@ -8,16 +8,20 @@ from math import degrees
 
 from bpy.types import Context, Panel, UILayout
 
-from ..operators import section as sections
+from ..operators.actions.measure import section as sections
 from ..operators.read.section import SECTION_TYPES
-from ..operators.units import SI_UNITS, Units, number
 from ..operators.write import section as record
+from ..operators.write.units import SI_UNITS, Units, number
 from . import rows
 
 AXES = ("X", "Y", "Z")
 ABOUT = ("x", "y", "1", "2")
-BOUNDED = {"area": ("Area", "area"), "perimeter": ("Perimeter", "length"), "centroid": ("Centroid", "length"),
-           "second": ("Moments", "area_moment")}
+BOUNDED = {
+    "area": ("Area", "area"),
+    "perimeter": ("Perimeter", "length"),
+    "centroid": ("Centroid", "length"),
+    "second": ("Moments", "area_moment"),
+}
 
 
 class SectionPanel:
@@ -74,8 +78,13 @@ def _numbers(layout: UILayout, units: Units, section) -> None:
         column.label(text="Every axis is principal", icon="INFO")
     else:
         turned = degrees(section.angle)
-        rows.texts(column, "Angle x to 1", "{:s}°".format(number(0.0 if abs(turned) < 1e-6 else turned)),
-                   repr(section.angle), "rad")
+        rows.texts(
+            column,
+            "Angle x to 1",
+            "{:s}°".format(number(0.0 if abs(turned) < 1e-6 else turned)),
+            repr(section.angle),
+            "rad",
+        )
 
 
 def _more(layout: UILayout, units: Units, section) -> None:
@@ -103,15 +112,26 @@ def _more(layout: UILayout, units: Units, section) -> None:
     header, body = layout.panel("body_moments_section_bounds", default_closed=True)
     header.label(text="Error Bounds")
     if body is not None:
-        sizes = {"area": section.area, "perimeter": section.perimeter, "centroid": section.area**0.5,
-                 "second": section.polar}
-        for title, bounds in (("Rounding, at Most", section.error),
-                              ("Coordinates Stored as Float32, at Most", section.input)):
+        sizes = {
+            "area": section.area,
+            "perimeter": section.perimeter,
+            "centroid": section.area**0.5,
+            "second": section.polar,
+        }
+        for title, bounds in (
+            ("Rounding, at Most", section.error),
+            ("Coordinates Stored as Float32, at Most", section.input),
+        ):
             column = body.column(align=True)
             column.label(text=title)
             for name, (label, quantity) in BOUNDED.items():
-                rows.texts(column, label, units.bound(quantity, bounds[name], sizes[name]), repr(bounds[name]),
-                           SI_UNITS[quantity])
+                rows.texts(
+                    column,
+                    label,
+                    units.bound(quantity, bounds[name], sizes[name]),
+                    repr(bounds[name]),
+                    SI_UNITS[quantity],
+                )
 
 
 class VIEW3D_PT_body_moments_section(SectionPanel, Panel):

@@ -6,14 +6,21 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, Panel, UILayout
 
-from ..operators import staleness
+from ..operators.session import staleness
 from . import rows
 
 SHOWN = 12  # elements of a symmetry, and similar shapes
 KINDS = {"AXIS": "{:d}-Fold", "PLANE": "Mirror", "ROUND": "Round"}
-ICONS = {"copy": "CHECKMARK", "scaled copy": "FULLSCREEN_ENTER", "mirror image": "MOD_MIRROR",
-         "scaled mirror": "MOD_MIRROR", "copy or mirror": "QUESTION", "scaled copy or mirror": "QUESTION",
-         "similar": "RADIOBUT_OFF", "different": "X"}
+ICONS = {
+    "copy": "CHECKMARK",
+    "scaled copy": "FULLSCREEN_ENTER",
+    "mirror image": "MOD_MIRROR",
+    "scaled mirror": "MOD_MIRROR",
+    "copy or mirror": "QUESTION",
+    "scaled copy or mirror": "QUESTION",
+    "similar": "RADIOBUT_OFF",
+    "different": "X",
+}
 
 
 class ShapePanel:
@@ -45,8 +52,14 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
     if kept.compatible != kept.group:
         text = "Moments to order 6 alone would allow {:s}".format(kept.compatible)
         rows.sentence(column, context, text, icon="BLANK1")
-    rows.sentence(column, context, "The {:s} lies on its images within {:.2g} of the radius of gyration".format(
-        "display mesh" if kept.of_display_mesh else "surface", kept.tolerance), icon="BLANK1")
+    rows.sentence(
+        column,
+        context,
+        "The {:s} lies on its images within {:.2g} of the radius of gyration".format(
+            "display mesh" if kept.of_display_mesh else "surface", kept.tolerance
+        ),
+        icon="BLANK1",
+    )
     if not kept.elements:
         return
     header, body = layout.panel("body_moments_symmetry", default_closed=True)

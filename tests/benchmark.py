@@ -34,7 +34,8 @@ ROOT = Path(__file__).resolve().parent.parent
 def load_package() -> None:
     """The project's root as the package `body_moments`, whatever its folder is called."""
     spec = importlib.util.spec_from_file_location(
-        "body_moments", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)])
+        "body_moments", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
+    )
     module = importlib.util.module_from_spec(spec)
     sys.modules["body_moments"] = module
     spec.loader.exec_module(module)
@@ -42,16 +43,16 @@ def load_package() -> None:
 
 load_package()
 
-from body_moments.core.fourier import finished, solid_transform  # noqa: E402
-from body_moments.core.fourier_grid import GridTransform  # noqa: E402
-from body_moments.core.gradient import area_gradient, volume_gradient  # noqa: E402
-from body_moments.core.mass import MassProperties  # noqa: E402
-from body_moments.core.polyhedron import solid_and_area, solid_moments, third_moments_exact  # noqa: E402
-from body_moments.core.recursion import moments_to_order  # noqa: E402
-from body_moments.core.sheynin_tuzikov import triangle_moments as explicit_moments  # noqa: E402
-from body_moments.core.surface import Surface  # noqa: E402
-from body_moments.core.wall import sweep  # noqa: E402
-from body_moments.core.waves import Grid  # noqa: E402
+from body_moments.core.fourier.grid import GridTransform
+from body_moments.core.fourier.transform import finished, solid_transform
+from body_moments.core.fourier.wave_vectors import Grid
+from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.offset.walls import sweep
+from body_moments.core.papers.sheynin_tuzikov_2001 import triangle_moments as explicit_moments
+from body_moments.core.polyhedron.any_order import moments_to_order
+from body_moments.core.polyhedron.third_order import solid_and_area, solid_moments, third_moments_exact
+from body_moments.core.statics.gradient import area_gradient, volume_gradient
 
 
 def torus(n: int, m: int, noise: float, lopsided: bool = False) -> tuple[np.ndarray, np.ndarray]:
@@ -88,7 +89,7 @@ def gather(points: np.ndarray, faces: np.ndarray) -> None:
     size = 16384
     flat = np.subtract(points, points[0], dtype=np.float64).reshape(-1)
     for start in range(0, len(faces), size):
-        index = np.multiply(faces[start:start + size].T, 3, dtype=np.intp)
+        index = np.multiply(faces[start : start + size].T, 3, dtype=np.intp)
         for axis in range(3):
             flat[axis:].take(index, mode="clip")
 
@@ -100,7 +101,7 @@ def gather_in_place(points: np.ndarray, faces: np.ndarray) -> None:
     index, fetched = np.empty((corners, size), np.intp), np.empty((3, corners, size), points.dtype)
     place = np.empty(fetched.shape)
     for start in range(0, len(faces) - size + 1, size):  # what is left over is not worth a line
-        index[...] = faces[start:start + size].T
+        index[...] = faces[start : start + size].T
         np.multiply(index, 3, index)
         for axis in range(3):
             flat[axis:].take(index, None, fetched[axis], "wrap")
@@ -127,8 +128,12 @@ def table(title: str, times: dict[str, list[float]], against: list[str], per: in
     print("    {:<40s}{:>10s}{:>10s}{:>15s}{:s}".format("", "median ms", "least ms", unit, head))
     for name, values in times.items():
         median, least = statistics.median(values), min(values)
-        ratios = "".join("{:>22s}".format("{:.2f} ({:.2f})".format(median / statistics.median(times[other]),
-                                                                   least / min(times[other]))) for other in against)
+        ratios = "".join(
+            "{:>22s}".format(
+                "{:.2f} ({:.2f})".format(median / statistics.median(times[other]), least / min(times[other]))
+            )
+            for other in against
+        )
         each = "{:.1f}".format(median / per * 1e9) if per else ""
         print("    {:<40s}{:>10.1f}{:>10.1f}{:>15s}{:s}".format(name, median * 1e3, least * 1e3, each, ratios))
 
@@ -151,8 +156,10 @@ def compare(title: str, points: np.ndarray, quads: np.ndarray, paired: bool, rou
     trimesh, igl = optional("trimesh"), optional("igl")
     triangles = halves(quads, paired)
     indices = triangles.astype(np.int64)
-    ours = {"ours with frame, 1 thread": lambda: measure_arrays(points, triangles),
-            "ours with frame, 2 threads": lambda: measure_arrays(points, triangles, 2)}
+    ours = {
+        "ours with frame, 1 thread": lambda: measure_arrays(points, triangles),
+        "ours with frame, 2 threads": lambda: measure_arrays(points, triangles, 2),
+    }
     rows = ours | {"gather only": lambda: gather(points, triangles)}
     if igl:
         rows["igl.moments"] = lambda: igl.moments(points, indices)
@@ -162,8 +169,11 @@ def compare(title: str, points: np.ndarray, quads: np.ndarray, paired: bool, rou
     others = [name for name in rows if name not in ours]
     table("{:,} triangles in arrays: {:s}".format(len(triangles), title), times, others, len(triangles))
     if trimesh:
-        print("    faster than trimesh: {:.1f}x on one thread, {:.1f}x on two".format(*(
-            statistics.median(times["trimesh mass_properties"]) / statistics.median(times[name]) for name in ours)))
+        print(
+            "    faster than trimesh: {:.1f}x on one thread, {:.1f}x on two".format(
+                *(statistics.median(times["trimesh mass_properties"]) / statistics.median(times[name]) for name in ours)
+            )
+        )
 
 
 def walls_and_derivatives(side: int, rounds: int) -> None:
@@ -171,21 +181,30 @@ def walls_and_derivatives(side: int, rounds: int) -> None:
     points, quads = torus(side, side, 0.0, lopsided=True)
     surface = Surface(points, halves(quads, paired=False))
     swept, center = sweep(surface), np.zeros(3)
-    rows = {"solid to third order": lambda: solid_and_area(surface),
-            "wall as polynomials": lambda: sweep(surface),
-            "another thickness": lambda: swept.moments(1e-3, 0.0),
-            "derivatives of volume moments": lambda: volume_gradient(surface, center),
-            "derivatives of area moments": lambda: area_gradient(surface, center)}
-    table("{:,} triangles: walls and derivatives".format(2 * len(quads)), interleaved(rows, rounds),
-          ["solid to third order"], 2 * len(quads))
+    rows = {
+        "solid to third order": lambda: solid_and_area(surface),
+        "wall as polynomials": lambda: sweep(surface),
+        "another thickness": lambda: swept.moments(1e-3, 0.0),
+        "derivatives of volume moments": lambda: volume_gradient(surface, center),
+        "derivatives of area moments": lambda: area_gradient(surface, center),
+    }
+    table(
+        "{:,} triangles: walls and derivatives".format(2 * len(quads)),
+        interleaved(rows, rounds),
+        ["solid to third order"],
+        2 * len(quads),
+    )
 
 
 def memory(side: int) -> None:
     """What measuring takes beside the arrays that it is given."""
     points, quads = torus(side, side, 0.05)
     triangles = halves(quads, paired=False)
-    print("\nextra memory, {:,} triangles (16 bytes a triangle + 8 MB are {:.1f} MB)".format(
-        len(triangles), (16 * len(triangles) + 8e6) / 1e6))
+    print(
+        "\nextra memory, {:,} triangles (16 bytes a triangle + 8 MB are {:.1f} MB)".format(
+            len(triangles), (16 * len(triangles) + 8e6) / 1e6
+        )
+    )
     for threads in (1, 2):
         tracemalloc.start()
         measure_arrays(points, triangles, threads)
@@ -198,14 +217,19 @@ def latency(rounds: int) -> None:
     """What measuring a small body takes."""
     points, quads = torus(10, 15, 0.05)
     triangles = halves(quads, paired=True)
-    rows = {"ours: moments": lambda: solid_moments(Surface(points, triangles)),
-            "ours: with frame": lambda: measure_arrays(points, triangles)}
+    rows = {
+        "ours: moments": lambda: solid_moments(Surface(points, triangles)),
+        "ours: with frame": lambda: measure_arrays(points, triangles),
+    }
     if trimesh := optional("trimesh"):
         rows["trimesh mass_properties"] = lambda: trimesh.triangles.mass_properties(points[triangles])
     print("\n{:d} triangles".format(len(triangles)))
     for name, values in interleaved(rows, 100 * rounds).items():
-        print("    {:<40s}{:>10.0f} us median{:>10.0f} us least".format(name, statistics.median(values) * 1e6,
-                                                                        min(values) * 1e6))
+        print(
+            "    {:<40s}{:>10.0f} us median{:>10.0f} us least".format(
+                name, statistics.median(values) * 1e6, min(values) * 1e6
+            )
+        )
 
 
 MULTIPLES = {4: 6, 6: 15, 10: 60, 16: 260, 20: 480}  # of the kernel for low orders that each order may cost
@@ -215,11 +239,16 @@ EXPLICIT = {4: 18, 6: 40}  # times as fast as the explicit formula that each ord
 def orders(quick: bool) -> None:
     """Moments to high orders on the same mesh, as multiples of the kernel for low ones and of the explicit formula."""
     points, quads = torus(400, 300, 0.05)
-    for title, faces in (("triangulated quads", halves(quads, paired=True)),
-                         ("loose triangles", halves(quads, paired=False))):
+    for title, faces in (
+        ("triangulated quads", halves(quads, paired=True)),
+        ("loose triangles", halves(quads, paired=False)),
+    ):
         print("\nmoments to order N of {:s}, ns a triangle, medians of interleaved runs".format(title))
-        print("    {:>4s}{:>10s}{:>10s}{:>11s}{:>10s}{:>14s}{:>11s}{:>16s}".format(
-            "N", "order 3", "volume", "multiple", "at most", "with surface", "2 threads", "explicit/ours"))
+        print(
+            "    {:>4s}{:>10s}{:>10s}{:>11s}{:>10s}{:>14s}{:>11s}{:>16s}".format(
+                "N", "order 3", "volume", "multiple", "at most", "with surface", "2 threads", "explicit/ours"
+            )
+        )
         for order in MULTIPLES:
             compare_order(points, faces, order, quick)
 
@@ -229,22 +258,34 @@ def compare_order(points: np.ndarray, faces: np.ndarray, order: int, quick: bool
     count = min(len(faces), (8_000_000 if quick else 32_000_000) // (order + 1) ** 3 // 2 * 2)
     part, base = Surface(points, faces[:count]), Surface(points, faces)
     few = max(count // 40, 200)
-    rows = {"base": (lambda: solid_moments(base), len(faces)),
-            "volume": (lambda: moments_to_order(part, order), count),
-            "both": (lambda: moments_to_order(part, order, area=True), count)}
+    rows = {
+        "base": (lambda: solid_moments(base), len(faces)),
+        "volume": (lambda: moments_to_order(part, order), count),
+        "both": (lambda: moments_to_order(part, order, area=True), count),
+    }
     if order in EXPLICIT:
         rows["explicit"] = (lambda: explicit_moments(points, faces[:few], order), few)
     times = interleaved({name: function for name, (function, _) in rows.items()}, 3 if quick else 7)
     each = {name: statistics.median(times[name]) / rows[name][1] * 1e9 for name in rows}
     # Threads want many blocks.
-    shared = interleaved({str(threads): partial(moments_to_order, base, order, threads=threads) for threads in (1, 2)},
-                         1 if quick else 2)
+    shared = interleaved(
+        {str(threads): partial(moments_to_order, base, order, threads=threads) for threads in (1, 2)}, 1 if quick else 2
+    )
     told = ""
     if order in EXPLICIT:
         told = "{:.0f}x (at least {:d})".format(each["explicit"] / each["volume"], EXPLICIT[order])
-    print("    {:>4d}{:>10.0f}{:>10.0f}{:>10.1f}x{:>9d}x{:>+13.0f}%{:>10.2f}x{:>22s}".format(
-        order, each["base"], each["volume"], each["volume"] / each["base"], MULTIPLES[order],
-        100.0 * (each["both"] / each["volume"] - 1.0), min(shared["1"]) / min(shared["2"]), told))
+    print(
+        "    {:>4d}{:>10.0f}{:>10.0f}{:>10.1f}x{:>9d}x{:>+13.0f}%{:>10.2f}x{:>22s}".format(
+            order,
+            each["base"],
+            each["volume"],
+            each["volume"] / each["base"],
+            MULTIPLES[order],
+            100.0 * (each["both"] / each["volume"] - 1.0),
+            min(shared["1"]) / min(shared["2"]),
+            told,
+        )
+    )
 
 
 def stream(millions: float, order: int = 4) -> None:
@@ -263,20 +304,33 @@ def stream(millions: float, order: int = 4) -> None:
     def strips():
         for start in range(0, n, strip):
             turn = (start + np.arange(strip + 1)) % n * (2 * np.pi / n)
-            points = np.stack([np.outer(np.cos(turn), ring[0]), np.outer(np.sin(turn), ring[0]),
-                               np.broadcast_to(ring[1], (strip + 1, m))], axis=-1)
+            points = np.stack(
+                [
+                    np.outer(np.cos(turn), ring[0]),
+                    np.outer(np.sin(turn), ring[0]),
+                    np.broadcast_to(ring[1], (strip + 1, m)),
+                ],
+                axis=-1,
+            )
             yield Surface(points.reshape(-1, 3), triangles)
 
     before, start = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, time.perf_counter()
-    volume, area = moments_to_order(strips(), order, area=True, threads=os.cpu_count() or 1, about=np.zeros(3),
-                                    reach=1.4)
+    volume, area = moments_to_order(
+        strips(), order, area=True, threads=os.cpu_count() or 1, about=np.zeros(3), reach=1.4
+    )
     seconds = time.perf_counter() - start
     grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
     polygons = np.prod([k / (2 * np.pi) * np.sin(2 * np.pi / k) for k in (n, m)])  # for circles
-    print("\nstream of {:,} triangles to order {:d}, both weights: {:.1f} s, {:.0f} MB more than before".format(
-        2 * n * m, order, seconds, grown / 1024))
-    print("    volume / that of the torus - 1 = {:.2e} (of its polygons {:.2e}), error bound {:.1e}".format(
-        volume.total / (2 * np.pi ** 2 * 0.16) - 1.0, polygons - 1.0, volume.error[0]))
+    print(
+        "\nstream of {:,} triangles to order {:d}, both weights: {:.1f} s, {:.0f} MB more than before".format(
+            2 * n * m, order, seconds, grown / 1024
+        )
+    )
+    print(
+        "    volume / that of the torus - 1 = {:.2e} (of its polygons {:.2e}), error bound {:.1e}".format(
+            volume.total / (2 * np.pi**2 * 0.16) - 1.0, polygons - 1.0, volume.error[0]
+        )
+    )
 
 
 def mesh_object(name: str, points: np.ndarray, quads: np.ndarray):
@@ -310,8 +364,9 @@ def blender(side: int, rounds: int) -> None:
     """An evaluated mesh: reading, measuring, the full verdict, and Blender's own volume."""
     import bmesh
     import bpy
-    from body_moments.operators.measure import MeasureOptions, measure_object
+    from body_moments.operators.bodies.measure_object import measure_object
     from body_moments.operators.read import read_object
+    from body_moments.operators.settings.options import MeasureOptions
 
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     body = mesh_object("Torus", *torus(side, side, 0.05))
@@ -332,34 +387,44 @@ def blender(side: int, rounds: int) -> None:
         edited.calc_volume(signed=True)
         edited.free()
 
-    rows = {"mass properties, 1 thread": lambda: moments_only(1),
-            "mass properties, 2 threads": lambda: moments_only(2),
-            "with the full verdict, 1 thread": lambda: measure_object(body, depsgraph, MeasureOptions(threads=1)),
-            "with the full verdict, 2 threads": lambda: measure_object(body, depsgraph, MeasureOptions(threads=2)),
-            "read and gather only": lambda: floor(gather),
-            "the same, in place": lambda: floor(gather_in_place),
-            "bmesh from_object + calc_volume": by_bmesh}
+    rows = {
+        "mass properties, 1 thread": lambda: moments_only(1),
+        "mass properties, 2 threads": lambda: moments_only(2),
+        "with the full verdict, 1 thread": lambda: measure_object(body, depsgraph, MeasureOptions(threads=1)),
+        "with the full verdict, 2 threads": lambda: measure_object(body, depsgraph, MeasureOptions(threads=2)),
+        "read and gather only": lambda: floor(gather),
+        "the same, in place": lambda: floor(gather_in_place),
+        "bmesh from_object + calc_volume": by_bmesh,
+    }
     times = interleaved(rows, rounds)
-    table("evaluated mesh of {:,} quads, Blender {:s}".format(side * side, bpy.app.version_string), times,
-          list(rows)[4:], 2 * side * side)
+    table(
+        "evaluated mesh of {:,} quads, Blender {:s}".format(side * side, bpy.app.version_string),
+        times,
+        list(rows)[4:],
+        2 * side * side,
+    )
     bpy.data.objects.remove(body)
 
 
 def instances(count: int, rounds: int) -> None:
     """Many instances of one mesh, scattered by geometry nodes."""
     import bpy
-    from body_moments.operators.measure import MeasureOptions, measure_object
+    from body_moments.operators.bodies.measure_object import measure_object
     from body_moments.operators.read.mesh import mesh_surface
+    from body_moments.operators.settings.options import MeasureOptions
 
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     source = mesh_object("Source", *torus(100, 100, 0.05))
-    ground = mesh_object("Ground", np.random.default_rng(1).uniform(-100.0, 100.0, (count, 3)),
-                         np.empty((0, 4), np.int32))
+    ground = mesh_object(
+        "Ground", np.random.default_rng(1).uniform(-100.0, 100.0, (count, 3)), np.empty((0, 4), np.int32)
+    )
     group = bpy.data.node_groups.new("Scatter", "GeometryNodeTree")
     for direction in ("INPUT", "OUTPUT"):
         group.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
-    start, end, info, scatter = (group.nodes.new(name) for name in (
-        "NodeGroupInput", "NodeGroupOutput", "GeometryNodeObjectInfo", "GeometryNodeInstanceOnPoints"))
+    start, end, info, scatter = (
+        group.nodes.new(name)
+        for name in ("NodeGroupInput", "NodeGroupOutput", "GeometryNodeObjectInfo", "GeometryNodeInstanceOnPoints")
+    )
     info.inputs["Object"].default_value = source
     info.inputs["As Instance"].default_value = True
     group.links.new(start.outputs[0], scatter.inputs["Points"])
@@ -380,16 +445,19 @@ def instances(count: int, rounds: int) -> None:
             instance.matrix_world.copy()
         mesh_surface(source.evaluated_get(depsgraph).data)
 
-    rows = {"measure, 1 thread": lambda: measure_object(ground, depsgraph, MeasureOptions(threads=1)),
-            "matrices as one array, and the mesh": floor, "depsgraph.object_instances, and the mesh": one_by_one}
+    rows = {
+        "measure, 1 thread": lambda: measure_object(ground, depsgraph, MeasureOptions(threads=1)),
+        "matrices as one array, and the mesh": floor,
+        "depsgraph.object_instances, and the mesh": one_by_one,
+    }
     table("{:,} instances of {:,} faces".format(count, 10_000), interleaved(rows, rounds), list(rows)[1:])
 
 
 def spline_bodies() -> dict[str, tuple[list, float | None]]:
     """Closed bodies of clamped B-spline patches, each with its volume where that is known in closed form."""
-    from body_moments.core.bspline import Space, clamped
-    from body_moments.core.patch import Patch
-    from body_moments.core.patch_solid import measure_patches
+    from body_moments.core.numerics.bspline import Space, clamped
+    from body_moments.core.nurbs.patch import Patch
+    from body_moments.core.nurbs.solid import measure_patches
 
     half = np.sqrt(0.5)
     around = Space((0.0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4), 3, 9)
@@ -413,10 +481,13 @@ def spline_bodies() -> dict[str, tuple[list, float | None]]:
     spaces = clamped(4, (1, 2, 3, 4), 0, 5), clamped(4, (1, 2, 3), 0, 4)
     random = 10.0 ** rng.uniform(-0.5, 0.5, (8, 7))
     random[-1] = random[0]
-    return {"unit sphere": ([ball], 4.0 * np.pi / 3.0), "torus": ([ring], 2.0 * np.pi**2 * 0.75 * 0.0625),
-            "capped cylinder": (list(measure_patches([tube]).patches), 2.0 * np.pi),
-            "bicubic closed 8 x 7": ([Patch(spaces, blob)], None),
-            "random rational 8 x 7": ([Patch(spaces, blob, random)], None)}
+    return {
+        "unit sphere": ([ball], 4.0 * np.pi / 3.0),
+        "torus": ([ring], 2.0 * np.pi**2 * 0.75 * 0.0625),
+        "capped cylinder": (list(measure_patches([tube]).patches), 2.0 * np.pi),
+        "bicubic closed 8 x 7": ([Patch(spaces, blob)], None),
+        "random rational 8 x 7": ([Patch(spaces, blob, random)], None),
+    }
 
 
 def opencascade_shape(patches):
@@ -459,10 +530,10 @@ def splines(rounds: int) -> None:
     Errors are the larger one of both numbers. At equal error means: against OpenCascade's fastest way whose error is at
     most ours, or rounding; where none is, ours to the tolerance at which its error is at most OpenCascade's least.
     """
-    from body_moments.core import patch_moments
-    from body_moments.core.bspline import clamped
-    from body_moments.core.patch import Patch
-    from body_moments.core.reevaluation import Evaluator
+    from body_moments.core.numerics.bspline import clamped
+    from body_moments.core.nurbs import patch_moments
+    from body_moments.core.nurbs.incremental import Evaluator
+    from body_moments.core.nurbs.patch import Patch
 
     print("\nB-spline bodies: relative error of V and of the second moment about z, and time of one call")
     for name, (patches, volume) in spline_bodies().items():
@@ -478,8 +549,11 @@ def splines(rounds: int) -> None:
             errors = np.abs(function() / truth - 1.0)
             last = time.perf_counter() - start
             times = interleaved({"": function}, min(20 * rounds, int(0.1 / last)))[""] or [last]
-            print("    {:<24s}{:<34s}{:>10.1e}{:>10.1e}{:>11.3f} ms".format(
-                name, way, *errors, statistics.median(times) * 1e3))
+            print(
+                "    {:<24s}{:<34s}{:>10.1e}{:>10.1e}{:>11.3f} ms".format(
+                    name, way, *errors, statistics.median(times) * 1e3
+                )
+            )
             return float(errors.max()), statistics.median(times)
 
         def fastest(rows: list[tuple[float, float]], error: float) -> float | None:
@@ -487,9 +561,13 @@ def splines(rounds: int) -> None:
 
         fresh = iter([_anew(patches) for _ in range(20 * rounds + 2)])
         first = told("ours, new function spaces", lambda fresh=fresh: _ours(next(fresh)))
-        ours = [told("ours" if tolerance < 1e-14 else "ours, to {:.0e}".format(tolerance),
-                     lambda patches=patches, tolerance=tolerance: _ours(patches, tolerance))
-                for tolerance in (patch_moments.TOLERANCE, 1e-6)]
+        ours = [
+            told(
+                "ours" if tolerance < 1e-14 else "ours, to {:.0e}".format(tolerance),
+                lambda patches=patches, tolerance=tolerance: _ours(patches, tolerance),
+            )
+            for tolerance in (patch_moments.TOLERANCE, 1e-6)
+        ]
         if not optional("OCP"):
             continue
         target, theirs = max(ours[0][0], ROUNDED), []
@@ -502,20 +580,26 @@ def splines(rounds: int) -> None:
         if other is None:
             target = min(error for error, _ in theirs)
             own, other = fastest(ours, target), fastest(theirs, target)
-        print("    {:<24s}at equal error, {:.0e}: {:.0f} times as fast, {:.0f} times in new function spaces".format(
-            name, target, other / own, other / first[1]))
+        print(
+            "    {:<24s}at equal error, {:.0e}: {:.0f} times as fast, {:.0f} times in new function spaces".format(
+                name, target, other / own, other / first[1]
+            )
+        )
     rng = np.random.default_rng(0)
     for count in (8, 40):
         space = clamped(4, tuple(range(1, count - 3)), 0, count - 3)
         points = rng.random((count, count, 3))
         evaluator = Evaluator(Patch((space, space), points))
         evaluator.moments(points)
-        times = interleaved({
-            "all ten moments": lambda e=evaluator, p=points: e.moments(p),
-            "after one point": lambda e=evaluator, i=count // 2: e.move(i, i, np.zeros(3))}, 20 * rounds)
+        times = interleaved(
+            {
+                "all ten moments": lambda e=evaluator, p=points: e.moments(p),
+                "after one point": lambda e=evaluator, i=count // 2: e.move(i, i, np.zeros(3)),
+            },
+            20 * rounds,
+        )
         for way, values in times.items():
-            print("    bicubic {:d} x {:d}, {:s}: {:.3f} ms".format(
-                count, count, way, statistics.median(values) * 1e3))
+            print("    bicubic {:d} x {:d}, {:s}: {:.3f} ms".format(count, count, way, statistics.median(values) * 1e3))
 
 
 def _anew(patches) -> list:
@@ -524,7 +608,7 @@ def _anew(patches) -> list:
 
 
 def _ours(patches, tolerance: float = 0.0) -> np.ndarray:
-    from body_moments.core.patch_moments import TOLERANCE, volume_moments
+    from body_moments.core.nurbs.patch_moments import TOLERANCE, volume_moments
 
     moments = volume_moments(patches, 2, np.zeros(3), tolerance or TOLERANCE)[0]
     return np.array([moments.total, moments[2, 0, 0] + moments[0, 2, 0]])
@@ -539,16 +623,17 @@ def _opencascade(shape) -> dict[str, dict[float, Callable[[], np.ndarray]]]:
         properties = GProp_GProps()
         function(shape, properties, *arguments)
         center, mass = properties.CentreOfMass(), properties.Mass()
-        second = properties.MatrixOfInertia().Value(3, 3) + mass * (center.X()**2 + center.Y()**2)
+        second = properties.MatrixOfInertia().Value(3, 3) + mass * (center.X() ** 2 + center.Y() ** 2)
         return np.abs([mass, second])
 
     plain, kronrod = BRepGProp.VolumeProperties_s, BRepGProp.VolumePropertiesGK_s
-    to = [10.0 ** -k for k in (4, 6, 7, 8, 9, 10, 12)]
-    return {"": {0.0: partial(run, plain)},
-            ", Eps {:.0e}": {epsilon: partial(run, plain, epsilon) for epsilon in to},
-            ", GK {:.0e} by spans": {epsilon: partial(run, kronrod, epsilon, False, True, False, True)
-                                     for epsilon in to},
-            ", GK {:.0e}": {epsilon: partial(run, kronrod, epsilon, False, False, False, True) for epsilon in to}}
+    to = [10.0**-k for k in (4, 6, 7, 8, 9, 10, 12)]
+    return {
+        "": {0.0: partial(run, plain)},
+        ", Eps {:.0e}": {epsilon: partial(run, plain, epsilon) for epsilon in to},
+        ", GK {:.0e} by spans": {epsilon: partial(run, kronrod, epsilon, False, True, False, True) for epsilon in to},
+        ", GK {:.0e}": {epsilon: partial(run, kronrod, epsilon, False, False, False, True) for epsilon in to},
+    }
 
 
 def fourier(quick: bool) -> None:
@@ -562,11 +647,16 @@ def fourier(quick: bool) -> None:
         q = rng.normal(size=(500, 3))
         q *= size / 2.8 / np.linalg.norm(q, axis=1)[:, None]
         grid = Grid(count, size / 2.8)
-        times = interleaved({"list": lambda q=q: solid_transform(surface, q),
-                             "grid": lambda grid=grid: solid_transform(surface, grid)}, 1 if quick else 3)
+        times = interleaved(
+            {"list": lambda q=q: solid_transform(surface, q), "grid": lambda grid=grid: solid_transform(surface, grid)},
+            1 if quick else 3,
+        )
         half = (count + 1) ** 2 * (count // 2 + 1)  # of a grid only half is computed
-        print("    |q| L = {:<6g}    list {:>5.0f}    grid {:>5.0f}".format(
-            size, min(times["list"]) / 500 / faces * 1e9, min(times["grid"]) / half / faces * 1e9))
+        print(
+            "    |q| L = {:<6g}    list {:>5.0f}    grid {:>5.0f}".format(
+                size, min(times["list"]) / 500 / faces * 1e9, min(times["grid"]) / half / faces * 1e9
+            )
+        )
     points, quads = torus(160, 64, 0.0)
     surface = Surface(points, halves(quads, paired=False))
     volume, grid = solid_moments(surface).total, Grid(64, 16.0 * np.pi / 1.4)
@@ -574,21 +664,26 @@ def fourier(quick: bool) -> None:
     found = finished(GridTransform(surface, grid, "volume", 1e-7 * volume))
     seconds, some = time.perf_counter() - start, rng.integers(0, 64**3, 100)
     error = np.abs(found.values[some] - solid_transform(surface, found.q[some]).values).max()
-    print("    {:,} triangles, 64³ frequencies to 1e-7 of the volume: {:.1f} s, error {:.1e}, told {:.1e}".format(
-        len(surface.triangles), seconds, error / volume, found.error.max() / volume))
+    print(
+        "    {:,} triangles, 64³ frequencies to 1e-7 of the volume: {:.1f} s, error {:.1e}, told {:.1e}".format(
+            len(surface.triangles), seconds, error / volume, found.error.max() / volume
+        )
+    )
     if bornagain := optional("bornagain"):
         body, q = bornagain.PlatonicTetrahedron(1.0), rng.normal(size=(5000, 3)) * 10.0
         corners = np.array([[0, 0, 0], [1, 1, 0], [1, 0, 1], [0, 1, 1]]) / 2**0.5
         surface = Surface(corners, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))
-        rows = {"ours": lambda: solid_transform(surface, q),
-                "bornagain": lambda: [body.formfactorAtBottom(bornagain.C3(*row)) for row in q.tolist()]}
+        rows = {
+            "ours": lambda: solid_transform(surface, q),
+            "bornagain": lambda: [body.formfactorAtBottom(bornagain.C3(*row)) for row in q.tolist()],
+        }
         table("A tetrahedron at 5,000 wave vectors", interleaved(rows, 3), ["bornagain"])
 
 
 def densities(rounds: int) -> None:
     """The volumetric scheme: all moments to order 2 of 128 x 128 x 256 coefficients, and one coefficient changed."""
-    from body_moments.core.density import Trivariate, density_moments
-    from body_moments.core.density_tables import Axis
+    from body_moments.core.density.spline_grid import Trivariate, density_moments
+    from body_moments.core.density.spline_tables import Axis
 
     rng = np.random.default_rng(0)
     coefficients = rng.random((128, 128, 256))
@@ -599,11 +694,13 @@ def densities(rounds: int) -> None:
         for p in range(3):
             for q in range(3 - p):
                 for r in range(3 - p - q):
-                    (coefficients * x[:, None, None] ** p * y[:, None] ** q * z ** r).sum()
+                    (coefficients * x[:, None, None] ** p * y[:, None] ** q * z**r).sum()
 
-    rows = {"ours, cubic splines, float64": lambda: density_moments(coefficients, axes, 2),
-            "ours, cubic splines, float32": lambda: density_moments(single, axes, 2),
-            "straightforward voxel sum": voxel_sum}
+    rows = {
+        "ours, cubic splines, float64": lambda: density_moments(coefficients, axes, 2),
+        "ours, cubic splines, float32": lambda: density_moments(single, axes, 2),
+        "straightforward voxel sum": voxel_sum,
+    }
     single = coefficients.astype(np.float32)
     times = interleaved(rows, rounds)
     table("128 x 128 x 256 coefficients, moments to order 2 (the paper: 21,100 ms)", times, [list(rows)[-1]])
@@ -614,8 +711,11 @@ def densities(rounds: int) -> None:
         live.set_coefficient(i, j, k, 0.5)
     one = (time.perf_counter() - start) / len(places)
     ratio = statistics.median(times["straightforward voxel sum"]) / one
-    print("    {:<40s}{:>10.1f} us (the paper: 8,370 us), {:,.0f}x the voxel sum".format(
-        "one coefficient changed", one * 1e6, ratio))
+    print(
+        "    {:<40s}{:>10.1f} us (the paper: 8,370 us), {:,.0f}x the voxel sum".format(
+            "one coefficient changed", one * 1e6, ratio
+        )
+    )
 
 
 def volumes(rounds: int) -> None:
@@ -655,10 +755,16 @@ def volumes(rounds: int) -> None:
             finally:
                 reader._unchanged_file, reader.openvdb = kept
 
-        rows = {"from its file": read, "as if a modifier had made it": lambda: read(unchanged=False),
-                "by nodes, without openvdb": lambda: read(module=False)}
-        table("{:,} voxels read from a Volume object, Blender {:s}".format(128**3, bpy.app.version_string),
-              interleaved(rows, rounds), [])
+        rows = {
+            "from its file": read,
+            "as if a modifier had made it": lambda: read(unchanged=False),
+            "by nodes, without openvdb": lambda: read(module=False),
+        }
+        table(
+            "{:,} voxels read from a Volume object, Blender {:s}".format(128**3, bpy.app.version_string),
+            interleaved(rows, rounds),
+            [],
+        )
 
 
 def main() -> None:
@@ -671,8 +777,11 @@ def main() -> None:
         return
     quick = options.quick
     side, rounds = (316, 5) if quick else (1000, 9)
-    print("Python {:s}, numpy {:s}, {:s}, {:d} processors".format(
-        platform.python_version(), np.__version__, platform.machine(), os.cpu_count() or 1))
+    print(
+        "Python {:s}, numpy {:s}, {:s}, {:d} processors".format(
+            platform.python_version(), np.__version__, platform.machine(), os.cpu_count() or 1
+        )
+    )
     arrays(side, rounds)
     walls_and_derivatives(side // 4, rounds)
     memory(side)

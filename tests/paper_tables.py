@@ -25,13 +25,14 @@ import numpy as np
 
 if "body_moments" not in sys.modules:
     root = Path(__file__).resolve().parent.parent
-    spec = importlib.util.spec_from_file_location("body_moments", root / "__init__.py",
-                                                  submodule_search_locations=[str(root)])
+    spec = importlib.util.spec_from_file_location(
+        "body_moments", root / "__init__.py", submodule_search_locations=[str(root)]
+    )
     sys.modules["body_moments"] = module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
 
-from body_moments.core.density import grid_moments
-from body_moments.core.mass import MassProperties
+from body_moments.core.density.spline_grid import grid_moments
+from body_moments.core.inertia.mass_properties import MassProperties
 
 
 @dataclass(frozen=True)
@@ -74,10 +75,16 @@ class Row:
         """The same of the samples as points, in exact integers."""
         i, j, k = (np.arange(n) - n // 2 for n in grid.shape)
         planes = grid.sum(axis=2, dtype=np.int64)
-        second = [int((planes.sum(axis=1) * i**2).sum()), int((planes.sum(axis=0) * j**2).sum()),
-                  int((grid.sum(axis=(0, 1), dtype=np.int64) * k**2).sum())]
-        return self._told(int(planes.sum()) * self.spacing**3, (second[1] + second[2]) * self.spacing**5,
-                          (second[0] + second[1]) * self.spacing**5)
+        second = [
+            int((planes.sum(axis=1) * i**2).sum()),
+            int((planes.sum(axis=0) * j**2).sum()),
+            int((grid.sum(axis=(0, 1), dtype=np.int64) * k**2).sum()),
+        ]
+        return self._told(
+            int(planes.sum()) * self.spacing**3,
+            (second[1] + second[2]) * self.spacing**5,
+            (second[0] + second[1]) * self.spacing**5,
+        )
 
     def analytic(self) -> tuple[float, ...]:
         r, h = self.radius, self.height
@@ -93,8 +100,9 @@ class Row:
 
 def _row(name: str, width: int, samples: int, radius: int, height: int, *columns: str) -> Row:
     third = len(columns) // 3
-    printed = {method: columns[i * third:(i + 1) * third]
-               for i, method in enumerate(("trivariate", "discrete", "analytic"))}
+    printed = {
+        method: columns[i * third : (i + 1) * third] for i, method in enumerate(("trivariate", "discrete", "analytic"))
+    }
     return Row(name, width, samples, radius, height, printed)
 
 
@@ -109,10 +117,8 @@ ROWS = (
     _row("C2", 4, 32, 2, 16, "196.70", "4327", "389.9", "196.70", "4325", "387.9", "201.06", "4490", "402.1"),
     _row("C3", 4, 64, 2, 16, "199.53", "4423", "398.1", "199.5", "4422", "397.6", "201.06", "4490", "402.1"),
     _row("C4", 32, 128, 4, 16, "780.61", "19244", "6189", "780.61", "19211", "6157", "804.25", "20374", "6434"),
-    _row("C5", 32, 128, 8, 32, "6359.9", "6359e2", "2030e2", "6359.9", "6356e2", "2028e2", "6434", "6520e2",
-         "2059e2"),
-    _row("C6", 32, 128, 16, 64, "51195", "2061e4", "6546e3", "51195", "2061e4", "6543e3", "51472", "2086e4",
-         "6588e3"),
+    _row("C5", 32, 128, 8, 32, "6359.9", "6359e2", "2030e2", "6359.9", "6356e2", "2028e2", "6434", "6520e2", "2059e2"),
+    _row("C6", 32, 128, 16, 64, "51195", "2061e4", "6546e3", "51195", "2061e4", "6543e3", "51472", "2086e4", "6588e3"),
 )
 
 
@@ -130,22 +136,40 @@ def as_printed(value: float, printed: str) -> str:
 def main() -> int:
     """Print every cell; 1 where one is not the paper's."""
     wrong = 0
-    for title, rows, names in (("Table 2: spheres", ROWS[:6], ("mass", "I_xx = I_yy = I_zz")),
-                               ("Table 3: cylinders", ROWS[6:], ("mass", "I_xx = I_yy", "I_zz"))):
+    for title, rows, names in (
+        ("Table 2: spheres", ROWS[:6], ("mass", "I_xx = I_yy = I_zz")),
+        ("Table 3: cylinders", ROWS[6:], ("mass", "I_xx = I_yy", "I_zz")),
+    ):
         print(title)
-        print("{:>4s}{:>16s}{:>10s}  {:<12s}{:<20s}{:>24s}{:>12s}{:>12s}".format(
-            "row", "patch", "samples", "method", "", "ours", "as printed", "paper"))
+        print(
+            "{:>4s}{:>16s}{:>10s}  {:<12s}{:<20s}{:>24s}{:>12s}{:>12s}".format(
+                "row", "patch", "samples", "method", "", "ours", "as printed", "paper"
+            )
+        )
         for row in rows:
             grid = row.grid()
             count = int(grid.sum(dtype=np.int64))
-            for method, values in (("trivariate", row.trivariate(grid)), ("discrete", row.discrete(grid)),
-                                   ("analytic", row.analytic())):
+            for method, values in (
+                ("trivariate", row.trivariate(grid)),
+                ("discrete", row.discrete(grid)),
+                ("analytic", row.analytic()),
+            ):
                 for name, value, printed in zip(names, values, row.printed[method]):
                     ours = as_printed(value, printed)
                     wrong += ours != printed
-                    print("{:>4s}{:>16s}{:>10d}  {:<12s}{:<20s}{:>24.15g}{:>12s}{:>12s}{:s}".format(
-                        row.name, "x".join(map(str, row.shape)), count, method, name, value, ours, printed,
-                        "" if ours == printed else "  differs"))
+                    print(
+                        "{:>4s}{:>16s}{:>10d}  {:<12s}{:<20s}{:>24.15g}{:>12s}{:>12s}{:s}".format(
+                            row.name,
+                            "x".join(map(str, row.shape)),
+                            count,
+                            method,
+                            name,
+                            value,
+                            ours,
+                            printed,
+                            "" if ours == printed else "  differs",
+                        )
+                    )
         print()
     cells = sum(len(columns) for row in ROWS for columns in row.printed.values())
     print("{:d} of {:d} cells are the paper's.".format(cells - wrong, cells))

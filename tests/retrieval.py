@@ -29,7 +29,8 @@ ROOT = Path(__file__).resolve().parent.parent
 def load_package() -> None:
     """The project's root as the package `body_moments`, and its tests as `tests`."""
     spec = importlib.util.spec_from_file_location(
-        "body_moments", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)])
+        "body_moments", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
+    )
     module = importlib.util.module_from_spec(spec)
     sys.modules["body_moments"] = module
     spec.loader.exec_module(module)
@@ -39,12 +40,12 @@ def load_package() -> None:
 
 load_package()
 
-from body_moments.core.polyhedron import solid_moments  # noqa: E402
-from body_moments.core.recursion import moments_to_order  # noqa: E402
-from body_moments.core.signature import Signature, compared, signature  # noqa: E402
-from body_moments.core.solid import measure_solid  # noqa: E402
-from body_moments.core.surface import Surface  # noqa: E402
-from body_moments.core.topology import components  # noqa: E402
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.numerics.graph import components
+from body_moments.core.polyhedron.any_order import moments_to_order
+from body_moments.core.polyhedron.third_order import solid_moments
+from body_moments.core.shape.signature import Signature, compared, signature
+from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.core import bodies, shapes  # noqa: E402
 
@@ -130,8 +131,11 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     start = time.perf_counter()
     kept = library(parser.parse_args().folder)
-    print("{:d} distinct parts, {:,d} triangles, {:.0f} s".format(
-        len(kept), sum(len(part[1]) for _, part, _ in kept), time.perf_counter() - start))
+    print(
+        "{:d} distinct parts, {:,d} triangles, {:.0f} s".format(
+            len(kept), sum(len(part[1]) for _, part, _ in kept), time.perf_counter() - start
+        )
+    )
     for noise in NOISES:
         missed = []
         for i, (name, part, _) in enumerate(kept):
@@ -139,8 +143,12 @@ def main() -> None:
             nearest = min(kept, key=lambda row: compared(row[2], found).distance())
             if nearest[0] != name:
                 missed.append("{:s} -> {:s}".format(name, nearest[0]))
-        print("noise {:g} of the size: the original is nearest in {:d} of {:d}, {:.2f} %".format(
-            noise, len(kept) - len(missed), len(kept), 100.0 - 100.0 * len(missed) / len(kept)), flush=True)
+        print(
+            "noise {:g} of the size: the original is nearest in {:d} of {:d}, {:.2f} %".format(
+                noise, len(kept) - len(missed), len(kept), 100.0 - 100.0 * len(missed) / len(kept)
+            ),
+            flush=True,
+        )
         for line in missed:
             print("    " + line)
 

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import bpy
 
-from ...core.density_tables import MAX_ORDER as MAX_SPLINE_ORDER
-from ...core.recursion import MAX_ORDER
+from ...core.density.spline_tables import MAX_ORDER as MAX_SPLINE_ORDER
+from ...core.polyhedron.any_order import MAX_ORDER
 from ..write.record import FORMATS, FRAMES
 from . import fourier
 
@@ -71,9 +71,7 @@ def _keep_what_is_read(options: argparse.Namespace, parser: argparse.ArgumentPar
             continue
         for path in read:
             if os.path.exists(path) and os.path.samefile(path, target):
-                parser.error(
-                    "argument --{}: {} is the file that is measured; name another".format(name, target)
-                )
+                parser.error("argument --{}: {} is the file that is measured; name another".format(name, target))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -112,9 +110,7 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
         help="of a shell, in meters (each object's setting)",
     )
     group = parser.add_mutually_exclusive_group()
-    group.add_argument(
-        "--density", type=_positive, metavar="D", help="kg/m³ (each object's setting, or 1000)"
-    )
+    group.add_argument("--density", type=_positive, metavar="D", help="kg/m³ (each object's setting, or 1000)")
     group.add_argument("--mass", type=_positive, metavar="M", help="kg, for each object")
     add(
         "--overlap",
@@ -149,8 +145,7 @@ def _add_of_files(parser: argparse.ArgumentParser) -> None:
         "--spline-order",
         type=_spline_order,
         metavar="K",
-        help="arrays: the samples are the coefficients of a spline of this order: 1 voxels, 2 "
-        "trilinear, 4 cubic (1)",
+        help="arrays: the samples are the coefficients of a spline of this order: 1 voxels, 2 trilinear, 4 cubic (1)",
     )
     add(
         "--density-scale",
@@ -173,9 +168,7 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         "--order",
         type=_order,
         metavar="N",
-        help="add volume moments up to this order, at most {}, about the frame's origin".format(
-            MAX_ORDER
-        ),
+        help="add volume moments up to this order, at most {}, about the frame's origin".format(MAX_ORDER),
     )
     add(
         "--surface-moments",
@@ -237,9 +230,7 @@ def _spacing(text: str) -> tuple[float, ...]:
 
 def _spline_order(text: str) -> int:
     if text not in {str(order) for order in range(1, MAX_SPLINE_ORDER + 1)}:
-        raise argparse.ArgumentTypeError(
-            "{!r} is not an order from 1 to {}".format(text, MAX_SPLINE_ORDER)
-        )
+        raise argparse.ArgumentTypeError("{!r} is not an order from 1 to {}".format(text, MAX_SPLINE_ORDER))
     return int(text)
 
 

@@ -20,7 +20,7 @@ from pathlib import Path
 import addon_utils
 import bpy
 
-from ...core import scans
+from ...core.scans import formats as scans
 
 BLEND = ".blend"
 UNITLESS = (".stl", ".obj", ".ply")
@@ -69,15 +69,11 @@ def open_file(path: str) -> None:
             addon_utils.enable("io_scene_gltf2")
         _IMPORTERS[kind](absolute)
     except AttributeError as error:
-        raise Unusable(
-            "This Blender was built without an importer of {} files.".format(kind)
-        ) from error
+        raise Unusable("This Blender was built without an importer of {} files.".format(kind)) from error
     except RuntimeError as error:
         raise Unusable("Blender cannot read the file: {}.".format(_told(error))) from error
     if not bpy.context.scene.objects:
-        raise Unusable(
-            "Blender finds no object in the file; check that it really is {}.".format(kind)
-        )
+        raise Unusable("Blender finds no object in the file; check that it really is {}.".format(kind))
 
 
 def save_file(path: str) -> None:
@@ -134,8 +130,7 @@ def _check_stl(head: bytes, tail: bytes, size: int) -> None:
         return
     if not head.lstrip().lower().startswith(b"solid"):
         raise Unusable(
-            "The STL file is cut short or damaged: its size does not fit the number of triangles "
-            "that it promises."
+            "The STL file is cut short or damaged: its size does not fit the number of triangles that it promises."
         )
     if b"endsolid" not in tail.lower():
         raise Unusable('The STL file is cut short: its last line, "endsolid", is missing.')

@@ -12,9 +12,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.waves import Grid, wave_vectors
-from ..fourier_body import object_transform
-from ..measure import MeasureOptions
+from ...core.fourier.wave_vectors import Grid, wave_vectors
+from ..bodies.fourier import object_transform
+from ..settings.options import MeasureOptions
 from ..write import spectrum
 
 LARGEST_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
@@ -23,11 +23,19 @@ LARGEST_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 def add_options(parser: ArgumentParser, positive: Callable[[str], float]) -> None:
     """--fourier and what belongs to it. positive: the type of a positive number."""
     add = parser.add_argument
-    add("--fourier", type=Path, metavar="OUT.npz",
-        help="write the Fourier transform of the one object: q, and F = ∫exp(-i q·x)dV in m³, in the frame")
+    add(
+        "--fourier",
+        type=Path,
+        metavar="OUT.npz",
+        help="write the Fourier transform of the one object: q, and F = ∫exp(-i q·x)dV in m³, in the frame",
+    )
     add("--q", type=Path, metavar="Q.npy", help="at these wave vectors: rows of 3 numbers, in rad/m")
-    add("--grid", type=_count, metavar="N",
-        help="or on a grid of N³ of them: (j - h) Q / h along each axis, with h = N // 2 and j from 0 to N - 1")
+    add(
+        "--grid",
+        type=_count,
+        metavar="N",
+        help="or on a grid of N³ of them: (j - h) Q / h along each axis, with h = N // 2 and j from 0 to N - 1",
+    )
     add("--qmax", type=positive, metavar="Q", help="the largest along each axis of the grid, in rad/m")
 
 

@@ -22,18 +22,19 @@ from typing import Any
 
 import bpy
 
-from ...core import scans
 from ...core.measurement import Measurement
-from .. import settings
-from ..array_body import ArrayOptions, measure_array
-from ..counted import LISTED, doubts, unfounded
-from ..measure import THREADS, MeasureOptions, measure_object
+from ...core.scans import formats as scans
+from ..bodies.array import ArrayOptions, measure_array
+from ..bodies.measure_object import THREADS, measure_object
+from ..bodies.shape import DISPLAY_MESH, OF_SHAPES, POLYGONS, NoShape, shape_of
 from ..read import Unreadable, measurable, measurable_objects
-from ..selection import listed
-from ..shape import DISPLAY_MESH, OF_SHAPES, POLYGONS, NoShape, shape_of
-from ..staleness import settle
+from ..read.total_caveats import LISTED, doubts, unfounded
+from ..session.staleness import settle
+from ..settings import properties as settings
+from ..settings.options import MeasureOptions
 from ..write import record
 from ..write.properties import store
+from ..write.text import listed
 from . import fourier
 from .files import BLEND, UNITLESS, Unusable, open_file, save_file, suffix
 
@@ -53,10 +54,7 @@ class Run:
     faults: int = 0
 
     def __post_init__(self) -> None:
-        wanted = {
-            name: getattr(self.options, name)
-            for name in ("kind", "density", "mass", "thickness", "overlap")
-        }
+        wanted = {name: getattr(self.options, name) for name in ("kind", "density", "mass", "thickness", "overlap")}
         self._wanted = MeasureOptions(
             **wanted,
             order=self.options.order,
@@ -124,8 +122,14 @@ class Run:
             frame=self.options.frame,
         )
 
-    def _recorded(self, label: str, obj: bpy.types.Object, wanted: MeasureOptions, notes: tuple[str, ...],
-                  errors: list[dict[str, Any]]) -> tuple[Measurement, dict[str, Any]]:
+    def _recorded(
+        self,
+        label: str,
+        obj: bpy.types.Object,
+        wanted: MeasureOptions,
+        notes: tuple[str, ...],
+        errors: list[dict[str, Any]],
+    ) -> tuple[Measurement, dict[str, Any]]:
         """An object's measurement and its record. What has no moments of the order that was asked for may have a mass:
         then the record goes without them, and an error is added that says so.
         """
@@ -201,9 +205,7 @@ class Run:
         except Exception as error:
             yield self._fault(label, error)
 
-    def _measure(
-        self, obj: bpy.types.Object, wanted: MeasureOptions
-    ) -> tuple[Measurement, dict[str, Any]]:
+    def _measure(self, obj: bpy.types.Object, wanted: MeasureOptions) -> tuple[Measurement, dict[str, Any]]:
         """The object's measurement, and its pose and signature where they are asked for: None of
         what has no shape of its own, which is measured all the same.
         """
@@ -266,9 +268,7 @@ def _missing_links() -> Iterator[dict[str, Any]]:
     """An error where Blender opened a file but not what it links to. It puts empty data there."""
     data = bpy.data
     groups = (data.objects, data.meshes, data.curves, data.metaballs, data.collections)
-    missing = [
-        item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing
-    ]
+    missing = [item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing]
     if missing:
         reason = "Linked data is missing; put the linked files back, or make the data local: {}."
         yield _error(None, reason.format(", ".join(sorted(missing))))

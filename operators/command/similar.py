@@ -8,7 +8,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from ...core.library import Entry, nearest, read_library, verdict
+from ...core.shape.library import Entry, nearest, read_library, verdict
 
 _COLUMNS = "{:>12} {:>10}  {:<21} {}\n"
 
@@ -20,14 +20,21 @@ class Unanswerable(Exception):
 def parse(argv: list[str]) -> argparse.Namespace:
     """The options of `similar`. Raises SystemExit(2), or SystemExit(0) after --help."""
     parser = argparse.ArgumentParser(
-        prog="body_moments", usage="body_moments similar LIBRARY [LIBRARY ...] --to NAME [options]",
+        prog="body_moments",
+        usage="body_moments similar LIBRARY [LIBRARY ...] --to NAME [options]",
         description="The bodies of a library that are most like one of them. A library is what `measure --signature "
-                    "--format jsonl` writes.",
-        epilog="exit code: 0 compared, 1 some records have no signature, 2 wrong usage", allow_abbrev=False)
+        "--format jsonl` writes.",
+        epilog="exit code: 0 compared, 1 some records have no signature, 2 wrong usage",
+        allow_abbrev=False,
+    )
     parser.add_argument("command", choices=("similar",), metavar="similar")
     parser.add_argument("libraries", nargs="+", type=Path, metavar="LIBRARY")
-    parser.add_argument("--to", required=True, metavar="NAME",
-                        help="the body's name, or FILE:NAME where several files have one of that name")
+    parser.add_argument(
+        "--to",
+        required=True,
+        metavar="NAME",
+        help="the body's name, or FILE:NAME where several files have one of that name",
+    )
     parser.add_argument("--any-size", action="store_true", help="copies of another size are as near")
     parser.add_argument("--any-hand", action="store_true", help="mirror images are as near")
     parser.add_argument("--count", type=_count, default=10, metavar="N", help="how many are printed (10)")
@@ -57,7 +64,7 @@ def answer(options: argparse.Namespace) -> tuple[str, int]:
     rows = [_COLUMNS.format("distance", "size", "", "name")]
     others = [entry for entry in entries if entry is not wanted]
     ranked = nearest(wanted.signature, others, options.any_size, options.any_hand)
-    for entry, likeness in ranked[:options.count]:
+    for entry, likeness in ranked[: options.count]:
         distance = "{:.3e}".format(likeness.distance(options.any_size, options.any_hand))
         rows.append(_COLUMNS.format(distance, "{:.4g}".format(likeness.scale), verdict(likeness), entry.label))
     return "".join(rows), len(faults)
@@ -68,6 +75,9 @@ def _named(entries: list[Entry], name: str) -> Entry:
     if not found:
         raise Unanswerable("No body with a signature is called {}.".format(name))
     if len(found) > 1:
-        raise Unanswerable("Several bodies are called {}; name one of them: {}.".format(
-            name, ", ".join(entry.label for entry in found)))
+        raise Unanswerable(
+            "Several bodies are called {}; name one of them: {}.".format(
+                name, ", ".join(entry.label for entry in found)
+            )
+        )
     return found[0]

@@ -6,5 +6,16 @@ from .objects import read_lines, read_object, read_patches
 from .reading import Painted, Part, Reading, SplineReading, Unreadable
 from .visibility import measurable, measurable_objects, shows_flat_region
 
-__all__ = ["Painted", "Part", "Reading", "SplineReading", "Unreadable", "measurable", "measurable_objects",
-           "read_lines", "read_object", "read_patches", "shows_flat_region"]
+__all__ = [
+    "Painted",
+    "Part",
+    "Reading",
+    "SplineReading",
+    "Unreadable",
+    "measurable",
+    "measurable_objects",
+    "read_lines",
+    "read_object",
+    "read_patches",
+    "shows_flat_region",
+]

@@ -13,9 +13,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.blender_knots import blender_space
-from ...core.bspline import Space
-from ...core.curve import Curve
+from ...core.numerics.bspline import Space
+from ...core.nurbs.blender_knots import blender_space
+from ...core.nurbs.curve import Curve
 from .deformation import deformed, is_deformed, spline_modifiers
 from .reading import Unreadable
 from .splines import weighted_points
@@ -25,8 +25,10 @@ STRAIGHT = 1e-6  # of a spline's length: what float32 leaves of a straight line
 TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # of a geometry set's curves, by their number
 CUSTOM = 4  # the mode of knots that are none of those that the flags make
 STEPS, SAME_LENGTH, AGREE = 8, 1e-4, 1e-7  # a point; of the length; of the largest coordinate, at each step
-OTHER_KNOTS = ("Its file gave it knots of its own, which Blender keeps to itself; switch Endpoint off and on in its "
-               "Active Spline settings, which makes knots that are known.")
+OTHER_KNOTS = (
+    "Its file gave it knots of its own, which Blender keeps to itself; switch Endpoint off and on in its "
+    "Active Spline settings, which makes knots that are known."
+)
 
 
 def read_curves(obj, depsgraph) -> tuple[list[Curve], list[str]]:
@@ -44,14 +46,17 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[str]]:
     else:
         curves = list(_spline_curves(evaluated, depsgraph))
         if spline_modifiers(obj)[1]:
-            notes.append("Its modifiers change the mesh that comes of the curve; the curve was measured as it is "
-                         "before.")
+            notes.append(
+                "Its modifiers change the mesh that comes of the curve; the curve was measured as it is before."
+            )
         if (obj.data.bevel_factor_start, obj.data.bevel_factor_end) != (0.0, 1.0):
             notes.append("The whole curve was measured, also where its bevel's Start and End leave it bare.")
     found = [curve for curve in curves if curve is not None]
     if len(found) < len(curves):
-        notes.append("{:d} of its {:d} splines are no curve and are left out: they have too few points for their "
-                     "order, or for Bézier ends.".format(len(curves) - len(found), len(curves)))
+        notes.append(
+            "{:d} of its {:d} splines are no curve and are left out: they have too few points for their "
+            "order, or for Bézier ends.".format(len(curves) - len(found), len(curves))
+        )
     if not found:
         raise Unreadable(obj.name, "It has no spline that is a curve; add points to one.")
     return found, notes
@@ -63,8 +68,9 @@ def is_round(obj) -> bool:
     if obj.type == "FONT" or (curve.bevel_mode != "OBJECT" and curve.bevel_depth and curve.bevel_resolution):
         return True
     shapes = [curve.bevel_object if curve.bevel_mode == "OBJECT" else None, curve.taper_object]
-    return not all(_is_straight(spline) for data in (curve, *(one.data for one in shapes if one))
-                   for spline in data.splines)
+    return not all(
+        _is_straight(spline) for data in (curve, *(one.data for one in shapes if one)) for spline in data.splines
+    )
 
 
 def _is_straight(spline) -> bool:
@@ -75,7 +81,7 @@ def _is_straight(spline) -> bool:
     if spline.type == "BEZIER":
         knots = pieces.reshape(-1, 3, 3)
         after = np.roll(knots, -1, axis=0)
-        pieces = np.concatenate([knots[:, 1:], after[:, :2]], axis=1)[:None if spline.use_cyclic_u else -1]
+        pieces = np.concatenate([knots[:, 1:], after[:, :2]], axis=1)[: None if spline.use_cyclic_u else -1]
     arms = pieces - pieces[:, :1]
     lengths = np.linalg.norm(arms, axis=2)
     if not lengths.any():
@@ -109,7 +115,7 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
         weights = weighted_points(spline)[:, 3].astype(np.float64) if spline.type == "NURBS" else None
         if spline.type == "NURBS" and not _is_told(spline, _curve(*kind, row, weights)):
             raise Unreadable(name, OTHER_KNOTS)
-        yield _curve(*kind, places[start:start + len(row)], weights)
+        yield _curve(*kind, places[start : start + len(row)], weights)
         start += len(row)
 
 
@@ -132,7 +138,8 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
     weights = _values(curves, "nurbs_weight", "value", 1, 1.0)[:, 0]
     types, cyclic, orders, knots = (
         _values(curves, attribute, "value", 1, default, len(curves.curves))[:, 0].astype(int).tolist()
-        for attribute, default in (("curve_type", 0), ("cyclic", 0), ("nurbs_order", 4), ("knots_mode", 0)))
+        for attribute, default in (("curve_type", 0), ("cyclic", 0), ("nurbs_order", 4), ("knots_mode", 0))
+    )
     _require_finite(places, name)
     for number, curve in enumerate(curves.curves):
         own = slice(curve.first_point_index, curve.first_point_index + curve.points_length)
@@ -145,8 +152,15 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
         elif kind == "BEZIER":
             points = np.stack([left[own], points, right[own]], axis=1).reshape(-1, 3)
             _require_finite(points, name)
-        yield _curve(kind, bool(cyclic[number]), orders[number], bool(knots[number] & 2), bool(knots[number] & 1),
-                     points, weights[own])
+        yield _curve(
+            kind,
+            bool(cyclic[number]),
+            orders[number],
+            bool(knots[number] & 2),
+            bool(knots[number] & 1),
+            points,
+            weights[own],
+        )
 
 
 def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
@@ -156,15 +170,16 @@ def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
     return (around[2:] - around[:-2]) / 6.0
 
 
-def _values(curves, name: str, item: str, width: int, default: float, count: int | None = None
-            ) -> NDArray[np.float64]:
+def _values(curves, name: str, item: str, width: int, default: float, count: int | None = None) -> NDArray[np.float64]:
     """(n, width) an attribute of the points, or of `count` curves; the default where there is none."""
     count = len(curves.points) if count is None else count
     if name not in curves.attributes:
         return np.full((count, width), float(default))
     attribute = curves.attributes[name]
-    values = np.empty(count * width, {"BOOLEAN": bool, "FLOAT": np.float32, "FLOAT_VECTOR": np.float32}.get(
-        attribute.data_type, np.int32))
+    values = np.empty(
+        count * width,
+        {"BOOLEAN": bool, "FLOAT": np.float32, "FLOAT_VECTOR": np.float32}.get(attribute.data_type, np.int32),
+    )
     attribute.data.foreach_get(item, values)
     return values.reshape(count, width).astype(np.float64)
 
@@ -174,8 +189,15 @@ def _require_finite(places: NDArray, name: str) -> None:
         raise Unreadable(name, "Some of its control points are not finite; delete them, or mend what moves them.")
 
 
-def _curve(kind: str, cyclic: bool, order: int, bezier: bool, endpoint: bool, places: NDArray[np.float64],
-           weights: NDArray | None) -> Curve | None:
+def _curve(
+    kind: str,
+    cyclic: bool,
+    order: int,
+    bezier: bool,
+    endpoint: bool,
+    places: NDArray[np.float64],
+    weights: NDArray | None,
+) -> Curve | None:
     """places: (n, 3), of a Bézier curve three for each point."""
     if kind == "NURBS":
         space = blender_space(len(places), order, cyclic, bezier, endpoint)

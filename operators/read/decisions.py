@@ -14,14 +14,7 @@ from .curves import is_round
 from .deformation import spline_modifiers
 from .instances import Gathered, shows_itself, visible_objects
 from .splines import weightless
-from .visibility import (
-    blends_keys,
-    edit_modifiers,
-    hidden_reason,
-    instanced_by_parent,
-    measurable,
-    metaball_families,
-)
+from .visibility import blends_keys, edit_modifiers, hidden_reason, instanced_by_parent, measurable, metaball_families
 
 POLYGONS = (
     "{:s} measured as the polygons that Blender draws, as fine as the viewport's resolution; twice as fine, they come "
@@ -35,9 +28,7 @@ def why_empty(obj, gathered: Gathered, depsgraph) -> str:
     if obj.type == "META":
         mother = _family(obj, depsgraph)[0]
         if mother != obj:
-            return "“{:s}” holds the polygons of this metaball's family; measure that.".format(
-                mother.name
-            )
+            return "“{:s}” holds the polygons of this metaball's family; measure that.".format(mother.name)
     if gathered.vanished:
         return "All that it instances is scaled to zero; give the instances a scale."
     if obj.type == "FONT" and not obj.data.body.strip():
@@ -65,9 +56,7 @@ def why_empty(obj, gathered: Gathered, depsgraph) -> str:
             "thickness by a modifier."
         ).format(vertices, edges)
     if obj.instance_type == "COLLECTION":
-        return (
-            "The collection that it instances shows no surface; add or show an object with faces."
-        )
+        return "The collection that it instances shows no surface; add or show an object with faces."
     if obj.type in {"CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}:
         return "It has no surface; give it one, by a modifier for example."
     if not shows_itself(obj, False):
@@ -81,9 +70,7 @@ def decisions(obj, gathered: Gathered, depsgraph) -> Iterator[str]:
     if hidden:
         yield "Measured although it is not shown. {:s}".format(hidden)
     if instanced_by_parent(obj):
-        yield "Shown only as instances of “{:s}”; measured once, where it stands.".format(
-            obj.parent.name
-        )
+        yield "Shown only as instances of “{:s}”; measured once, where it stands.".format(obj.parent.name)
     for evaluated, splines in gathered.splines.items():
         yield from _spline_notes(evaluated, splines, obj)
     if obj.type == "META":
@@ -97,14 +84,15 @@ def decisions(obj, gathered: Gathered, depsgraph) -> Iterator[str]:
     for source in gathered.sources:
         differences = list(_render_differences(source, depsgraph.scene, source in exact)) if source != obj else []
         if differences:
-            yield (
-                "The instanced “{:s}” is read as the viewport shows it; the render differs: {:s}."
-            ).format(source.name, "; ".join(differences))
+            yield ("The instanced “{:s}” is read as the viewport shows it; the render differs: {:s}.").format(
+                source.name, "; ".join(differences)
+            )
     yield from _members(gathered.collections)
     yield from _node_errors(obj)
     if gathered.vanished:
         yield "Left out: {:d} {:s} scaled to zero.".format(
-            gathered.vanished, "instance" if gathered.vanished == 1 else "instances")
+            gathered.vanished, "instance" if gathered.vanished == 1 else "instances"
+        )
     if gathered.left_out:
         yield "Left out, as they have no surface: {:s}.".format(_listing(gathered.left_out))
 
@@ -118,9 +106,7 @@ def modifier_decisions(obj, scene) -> Iterator[str]:
 def _rendered(obj, scene, exact: bool = False) -> Iterator[str]:
     differences = list(_render_differences(obj, scene, exact))
     if differences:
-        yield "Read as the viewport shows it; the render differs: {:s}.".format(
-            "; ".join(differences)
-        )
+        yield "Read as the viewport shows it; the render differs: {:s}.".format("; ".join(differences))
 
 
 def _members(collections) -> Iterator[str]:
@@ -146,9 +132,7 @@ def _node_errors(obj) -> Iterator[str]:
     for modifier in obj.modifiers:
         for warning in getattr(modifier, "node_warnings", ()):
             if warning.type == "ERROR":
-                yield "Its modifier “{:s}” reports an error: {:s}".format(
-                    modifier.name, warning.message
-                )
+                yield "Its modifier “{:s}” reports an error: {:s}".format(modifier.name, warning.message)
 
 
 def _family(obj, depsgraph) -> list:
@@ -171,20 +155,14 @@ def _mode(obj) -> Iterator[str]:
     if obj.type == "MESH" and obj.data.is_editmode:
         acting = edit_modifiers(obj)
         if acting:
-            yield "Read in Edit Mode, with the modifiers that act there: {:s}.".format(
-                _names(acting)
-            )
+            yield "Read in Edit Mode, with the modifiers that act there: {:s}.".format(_names(acting))
         elif blends_keys(obj):
             yield "Read in Edit Mode, with its shape keys."
         else:
             yield "Read from the mesh being edited."
         if obj.mode == "EDIT" and obj.active_shape_key and not blends_keys(obj):
             yield "The shape key “{:s}” is edited, and was read alone.".format(obj.active_shape_key.name)
-        idle = [
-            modifier
-            for modifier in obj.modifiers
-            if modifier.show_viewport and not modifier.show_in_editmode
-        ]
+        idle = [modifier for modifier in obj.modifiers if modifier.show_viewport and not modifier.show_in_editmode]
         if idle:
             yield "Left out, as they are off in Edit Mode: {:s}.".format(_names(idle))
     elif obj.mode == "SCULPT" and obj.modifiers:
@@ -212,20 +190,14 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[str]:
     for modifier in obj.modifiers:
         shown, rendered = modifier.show_viewport, modifier.show_render
         if shown != rendered:
-            yield ("“{:s}” is not rendered" if shown else "“{:s}” is rendered only").format(
-                modifier.name
-            )
+            yield ("“{:s}” is not rendered" if shown else "“{:s}” is rendered only").format(modifier.name)
         elif shown:
             here, there = _levels(modifier, scene.render)
             if here != there:
-                yield "“{:s}” has {:d} in the viewport, {:d} in the render".format(
-                    modifier.name, here, there
-                )
+                yield "“{:s}” has {:d} in the viewport, {:d} in the render".format(modifier.name, here, there)
             system = getattr(modifier, "particle_system", None)
             if system is not None and system.settings.display_percentage < 100:
-                yield "“{:s}” shows {:d} % of its particles".format(
-                    modifier.name, system.settings.display_percentage
-                )
+                yield "“{:s}” shows {:d} % of its particles".format(modifier.name, system.settings.display_percentage)
     data = obj.data
     for axis in ("u", "v"):
         rendered = getattr(data, "render_resolution_" + axis, 0)
@@ -233,9 +205,7 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[str]:
         if exact:
             break
         if rendered and rendered != shown and (axis == "u" or obj.type == "SURFACE"):
-            yield "the resolution {:s} is {:d} in the viewport, {:d} in the render".format(
-                axis, shown, rendered
-            )
+            yield "the resolution {:s} is {:d} in the viewport, {:d} in the render".format(axis, shown, rendered)
     if obj.type == "META" and data.resolution != data.render_resolution:
         yield "the resolution is {:.3g} in the viewport, {:.3g} in the render".format(
             data.resolution, data.render_resolution

@@ -17,8 +17,26 @@ from .reading import float64_matrix
 # These move control points whatever their switch says (curve_get_tessellate_point in displist.cc); others only with
 # `use_apply_on_spline`, and only in front of the first one that makes a mesh.
 ALWAYS_ON_SPLINE = {"HOOK", "SOFT_BODY", "MESH_DEFORM"}
-CONSTRUCTIVE = {"ARRAY", "BEVEL", "BOOLEAN", "BUILD", "DECIMATE", "EDGE_SPLIT", "MASK", "MIRROR", "NODES", "REMESH",
-                "SCREW", "SOLIDIFY", "SUBSURF", "TRIANGULATE", "WELD", "WIREFRAME", "VOLUME_TO_MESH", "SKIN"}
+CONSTRUCTIVE = {
+    "ARRAY",
+    "BEVEL",
+    "BOOLEAN",
+    "BUILD",
+    "DECIMATE",
+    "EDGE_SPLIT",
+    "MASK",
+    "MIRROR",
+    "NODES",
+    "REMESH",
+    "SCREW",
+    "SOLIDIFY",
+    "SUBSURF",
+    "TRIANGULATE",
+    "WELD",
+    "WIREFRAME",
+    "VOLUME_TO_MESH",
+    "SKIN",
+}
 # Of the distance from the hook's center, 0 there and 1 at the radius.
 FALLOFFS = {
     "CONSTANT": lambda d: np.ones_like(d),
@@ -27,14 +45,17 @@ FALLOFFS = {
     "SHARP": lambda d: (1.0 - d) ** 2,
     "ROOT": lambda d: np.sqrt(1.0 - d),
     "SPHERE": lambda d: np.sqrt(2.0 * (1.0 - d) - (1.0 - d) ** 2),
-    "INVERSE_SQUARE": lambda d: 1.0 - d ** 2,
+    "INVERSE_SQUARE": lambda d: 1.0 - d**2,
 }
 
 
 def spline_modifiers(obj) -> tuple[list, list]:
     """The modifiers that move control points, and those that change the mesh that comes after."""
-    shown = [modifier for modifier in obj.modifiers if modifier.show_viewport
-             and (obj.mode != "EDIT" or modifier.show_in_editmode)]
+    shown = [
+        modifier
+        for modifier in obj.modifiers
+        if modifier.show_viewport and (obj.mode != "EDIT" or modifier.show_in_editmode)
+    ]
     last = 0
     for number, modifier in enumerate(shown, 1):
         if modifier.type in CONSTRUCTIVE:
@@ -47,7 +68,8 @@ def spline_modifiers(obj) -> tuple[list, list]:
 def is_deformed(evaluated) -> bool:
     """Whether shape keys or modifiers move control points."""
     return bool(spline_modifiers(evaluated.original)[0]) or (
-        evaluated.data.shape_keys is not None and evaluated.original.mode != "EDIT")
+        evaluated.data.shape_keys is not None and evaluated.original.mode != "EDIT"
+    )
 
 
 def deformed(evaluated, points: NDArray, depsgraph) -> NDArray[np.float64]:

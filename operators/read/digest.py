@@ -18,8 +18,14 @@ MOST = 50_000  # faces: reading and digesting them takes 2 ms
 def shape_digest(obj, depsgraph) -> bytes | None:
     """Of the faces of a mesh object in Object Mode, wherever it stands; None of others, large ones, those that show
     instances, and those whose mesh is edited by way of another object."""
-    if (obj.type != "MESH" or obj.mode != "OBJECT" or obj.data.is_editmode or obj.instance_type != "NONE"
-            or len(obj.particle_systems) or any(modifier.type == "NODES" for modifier in obj.modifiers)):
+    if (
+        obj.type != "MESH"
+        or obj.mode != "OBJECT"
+        or obj.data.is_editmode
+        or obj.instance_type != "NONE"
+        or len(obj.particle_systems)
+        or any(modifier.type == "NODES" for modifier in obj.modifiers)
+    ):
         return None
     try:
         geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh

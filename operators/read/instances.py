@@ -22,7 +22,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.surface import Surface
+from ...core.mesh.surface import Surface
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
 from .reading import Painted, Part, SplineReading, Unreadable, float64_matrix
 from .splines import spline_reading
@@ -50,9 +50,7 @@ class Gathered:
         whether the edges at the corners are.
     """
 
-    def __init__(
-        self, root, depsgraph, materials: bool = False, attribute: str | None = None, edges: bool = True
-    ):
+    def __init__(self, root, depsgraph, materials: bool = False, attribute: str | None = None, edges: bool = True):
         self.root = root
         self.depsgraph = depsgraph
         self.materials, self.attribute, self.edges = materials, attribute, edges
@@ -130,11 +128,7 @@ class Gathered:
             instanced = self._instances(geometry, places)
             if shows_itself(original, instanced):
                 self._own(evaluated, geometry, places)
-        if (
-            not instanced
-            and original.instance_type == "COLLECTION"
-            and evaluated.instance_collection
-        ):
+        if not instanced and original.instance_type == "COLLECTION" and evaluated.instance_collection:
             self._collection(evaluated.instance_collection, places)
         self._path.pop()
 
@@ -270,9 +264,7 @@ class Gathered:
         evaluated.to_mesh_clear()
         return read
 
-    def _add(
-        self, key: Hashable, read: Callable[[], tuple[Surface, Painted]], places: NDArray, owner
-    ) -> None:
+    def _add(self, key: Hashable, read: Callable[[], tuple[Surface, Painted]], places: NDArray, owner) -> None:
         if key not in self._surfaces:
             self._surfaces[key], self._painted[key] = read()
             self._names[key] = "" if owner is None else owner.original.name

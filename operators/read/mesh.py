@@ -23,7 +23,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.surface import NO_QUADS, NO_TRIANGLES, Surface
+from ...core.mesh.surface import NO_QUADS, NO_TRIANGLES, Surface
 
 # One triangle read by its index costs as much as about five in a `foreach_get` of all of them.
 SINGLE_COST = 5
@@ -102,23 +102,15 @@ def vertex_values(mesh, name: str) -> NDArray[np.float64]:
     """(n,) the values of a float attribute on vertices. ValueError where there is none, with what to do."""
     attribute = mesh.attributes.get(name)
     if attribute is None:
-        raise ValueError(
-            "It has no attribute “{:s}”; store one on its vertices, or set another name.".format(name)
-        )
+        raise ValueError("It has no attribute “{:s}”; store one on its vertices, or set another name.".format(name))
     if attribute.domain != "POINT" or attribute.data_type != "FLOAT":
-        raise ValueError(
-            "Its attribute “{:s}” is not one float for each vertex; convert it to that.".format(name)
-        )
+        raise ValueError("Its attribute “{:s}” is not one float for each vertex; convert it to that.".format(name))
     return _attribute(mesh, name, "value", (len(mesh.vertices),), np.float32).astype(np.float64)
 
 
 def _attribute(mesh, name: str, member: str, shape: tuple[int, ...], dtype) -> NDArray:
     # Where there are no elements there may be no attribute either.
-    return (
-        _array(mesh.attributes[name].data, member, shape, dtype)
-        if shape[0]
-        else np.empty(shape, dtype)
-    )
+    return _array(mesh.attributes[name].data, member, shape, dtype) if shape[0] else np.empty(shape, dtype)
 
 
 def _array(data, member: str, shape: tuple[int, ...], dtype) -> NDArray:

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core.rotation import rotation_matrix
-from ...core.surface import Surface
+from ...core.mesh.surface import Surface
+from ...core.numerics.rotations import rotation_matrix
 from .curves import read_curves
 from .decisions import decisions, why_empty
 from .deformation import is_deformed

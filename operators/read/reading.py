@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.curve import Curve
-from ...core.patch import Patch
-from ...core.surface import Surface, joined
+from ...core.mesh.surface import Surface, joined
+from ...core.nurbs.curve import Curve
+from ...core.nurbs.patch import Patch
 
 # Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
 # float32 entries alone may have made it: such a matrix cannot be told from one that flattens.
@@ -119,8 +119,9 @@ class Reading:
 
     def joined(self) -> Surface:
         """All parts, wherever they stand, as one surface of triangles in the world, float64."""
-        return joined([part.surface.mapped(matrix[:3, :3], matrix[:3, 3])
-                       for part in self.parts for matrix in part.matrices])
+        return joined(
+            [part.surface.mapped(matrix[:3, :3], matrix[:3, 3]) for part in self.parts for matrix in part.matrices]
+        )
 
 
 def flattens(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:
@@ -133,9 +134,7 @@ def flattens(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:
     columns /= _or_one(np.sqrt((columns * columns).sum(axis=0)))
     x, y, z = columns
     volume = (
-        x[0] * (y[1] * z[2] - z[1] * y[2])
-        + y[0] * (z[1] * x[2] - x[1] * z[2])
-        + z[0] * (x[1] * y[2] - y[1] * x[2])
+        x[0] * (y[1] * z[2] - z[1] * y[2]) + y[0] * (z[1] * x[2] - x[1] * z[2]) + z[0] * (x[1] * y[2] - y[1] * x[2])
     )
     return np.abs(volume) <= FLAT
 

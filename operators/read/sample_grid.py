@@ -17,13 +17,17 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.surface import Surface
+from ...core.mesh.surface import Surface
 from .reading import float64_matrix
 
 BLOCK = 1 << 21  # voxels that are sampled at a time
 MOST = 1 << 29  # voxels that are sampled at all
-KINDS = {"FLOAT": ("FLOAT", np.float32), "INT": ("INT", np.int32), "BOOLEAN": ("BOOLEAN", np.bool_),
-         "MASK": ("BOOLEAN", np.bool_)}
+KINDS = {
+    "FLOAT": ("FLOAT", np.float32),
+    "INT": ("INT", np.int32),
+    "BOOLEAN": ("BOOLEAN", np.bool_),
+    "MASK": ("BOOLEAN", np.bool_),
+}
 
 
 class SampledGrid:
@@ -33,8 +37,10 @@ class SampledGrid:
 
     def __init__(self, obj, depsgraph, grid, bound_box) -> None:
         if grid.data_type not in KINDS or (bpy.app.version < (5, 0) and grid.data_type != "FLOAT"):
-            raise ValueError("Its grid “{:s}” holds values of a kind that can only be read with the openvdb module, "
-                             "which this Blender lacks; convert it to floats.".format(grid.name))
+            raise ValueError(
+                "Its grid “{:s}” holds values of a kind that can only be read with the openvdb module, "
+                "which this Blender lacks; convert it to floats.".format(grid.name)
+            )
         self._obj, self._depsgraph, self._name = obj, depsgraph, grid.name
         self._kind, self._dtype = KINDS[grid.data_type]
         self.to_object = float64_matrix(grid.matrix_object)
@@ -43,8 +49,10 @@ class SampledGrid:
         low, high = np.floor(index.min(axis=0)).astype(np.int64) - 1, np.ceil(index.max(axis=0)).astype(np.int64) + 1
         self.low, self.shape = low, high - low + 1
         if np.prod(self.shape.astype(float)) > MOST:
-            raise ValueError("Its grid “{:s}” has {:d} x {:d} x {:d} voxels, which is too many without the openvdb "
-                             "module, which this Blender lacks.".format(grid.name, *self.shape.tolist()))
+            raise ValueError(
+                "Its grid “{:s}” has {:d} x {:d} x {:d} voxels, which is too many without the openvdb "
+                "module, which this Blender lacks.".format(grid.name, *self.shape.tolist())
+            )
         with self._sampler() as sample:
             self.background = float(sample(low - 2, (1, 1, 1))[0, 0, 0])
 
@@ -57,8 +65,10 @@ class SampledGrid:
                 yield (start, 0, 0), sample(self.low + (start, 0, 0), shape)
 
     def polygons(self) -> Surface:
-        raise ValueError("A level set cannot be told from a density without the openvdb module, which this Blender "
-                         "lacks; use the node Grid to Mesh, and measure that.")
+        raise ValueError(
+            "A level set cannot be told from a density without the openvdb module, which this Blender "
+            "lacks; use the node Grid to Mesh, and measure that."
+        )
 
     @contextmanager
     def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
@@ -110,9 +120,18 @@ def _fill(tree, obj, name: str, kind: str) -> None:
     """The nodes: the values of the object's named grid at the vertices, as the attribute "value"."""
     for direction in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
-    start, end, info, named, sample, place, store = (tree.nodes.new(node) for node in (
-        "NodeGroupInput", "NodeGroupOutput", "GeometryNodeObjectInfo", "GeometryNodeGetNamedGrid",
-        "GeometryNodeSampleGrid", "GeometryNodeInputPosition", "GeometryNodeStoreNamedAttribute"))
+    start, end, info, named, sample, place, store = (
+        tree.nodes.new(node)
+        for node in (
+            "NodeGroupInput",
+            "NodeGroupOutput",
+            "GeometryNodeObjectInfo",
+            "GeometryNodeGetNamedGrid",
+            "GeometryNodeSampleGrid",
+            "GeometryNodeInputPosition",
+            "GeometryNodeStoreNamedAttribute",
+        )
+    )
     info.inputs["Object"].default_value = obj
     named.data_type = sample.data_type = store.data_type = kind
     store.domain = "POINT"
@@ -123,7 +142,11 @@ def _fill(tree, obj, name: str, kind: str) -> None:
     else:
         sample.inputs["Interpolation"].default_value = "Nearest Neighbor"
     for source, target in (
-            (start.outputs[0], store.inputs["Geometry"]), (info.outputs["Geometry"], named.inputs["Volume"]),
-            (named.outputs["Grid"], sample.inputs["Grid"]), (place.outputs[0], sample.inputs["Position"]),
-            (sample.outputs[0], store.inputs["Value"]), (store.outputs[0], end.inputs[0])):
+        (start.outputs[0], store.inputs["Geometry"]),
+        (info.outputs["Geometry"], named.inputs["Volume"]),
+        (named.outputs["Grid"], sample.inputs["Grid"]),
+        (place.outputs[0], sample.inputs["Position"]),
+        (sample.outputs[0], store.inputs["Value"]),
+        (store.outputs[0], end.inputs[0]),
+    ):
         tree.links.new(source, target)

@@ -17,8 +17,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.graded import own_axes
-from ...core.surface import Surface
+from ...core.mesh.surface import Surface
+from ...core.numerics.rotations import own_axes
 from .mesh import from_edit_mesh, mesh_surface
 from .objects import placed, read_object
 from .reading import Reading, Unreadable
@@ -68,8 +68,16 @@ def read_section(obj, depsgraph) -> SectionReading:
         warnings.append("What its modifiers make of Blender's fill was measured.")
     surface = reading.joined()
     return SectionReading(
-        obj.name, "All Faces", surface.points, surface.triangles, surface.triangle_faces,
-        float(np.linalg.norm(surface.coordinate_error)), _axes(reading), reading.location, warnings=warnings)
+        obj.name,
+        "All Faces",
+        surface.points,
+        surface.triangles,
+        surface.triangle_faces,
+        float(np.linalg.norm(surface.coordinate_error)),
+        _axes(reading),
+        reading.location,
+        warnings=warnings,
+    )
 
 
 def _axes(reading: Reading) -> NDArray[np.float64]:
@@ -94,13 +102,23 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     warnings = []
     acting = [modifier for modifier in obj.modifiers if modifier.show_viewport]
     if acting:
-        warnings.append("The faces being edited were measured, without its modifiers: {:s}.".format(
-            ", ".join("“{:s}”".format(modifier.name) for modifier in acting)))
+        warnings.append(
+            "The faces being edited were measured, without its modifiers: {:s}.".format(
+                ", ".join("“{:s}”".format(modifier.name) for modifier in acting)
+            )
+        )
     count = int(np.count_nonzero(chosen))
     return SectionReading(
-        obj.name, "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count), surface.points, triangles,
-        surface.triangle_faces[inside], float(np.linalg.norm(surface.coordinate_error)), _axes(place),
-        place.location, warnings=warnings)
+        obj.name,
+        "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count),
+        surface.points,
+        triangles,
+        surface.triangle_faces[inside],
+        float(np.linalg.norm(surface.coordinate_error)),
+        _axes(place),
+        place.location,
+        warnings=warnings,
+    )
 
 
 def _outlines(obj, depsgraph) -> SectionReading:
@@ -109,8 +127,12 @@ def _outlines(obj, depsgraph) -> SectionReading:
         obj.update_from_editmode()
     local, loops, open_splines = _wire(obj)
     if not loops:
-        raise Unreadable(obj.name, "It has no closed outline; write a text." if obj.type == "FONT" else
-                         "It has no closed outline; close its splines (Toggle Cyclic).")
+        raise Unreadable(
+            obj.name,
+            "It has no closed outline; write a text."
+            if obj.type == "FONT"
+            else "It has no closed outline; close its splines (Toggle Cyclic).",
+        )
     place = placed(obj, depsgraph)
     linear = place.matrix[:3, :3]
     facing = np.cross(linear[:, 0], linear[:, 1]) * np.sign(np.linalg.det(linear) or 1.0)
@@ -134,9 +156,19 @@ def _outlines(obj, depsgraph) -> SectionReading:
             drawn = float(np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum() / 2.0 * np.sqrt(facing @ facing))
     _require_finite(obj, surface.points)
     return SectionReading(
-        obj.name, "Text" if obj.type == "FONT" else "Curve", surface.points, triangles, faces,
-        float(np.linalg.norm(surface.coordinate_error)), _axes(place), place.location, loops, facing,
-        drawn, warnings)
+        obj.name,
+        "Text" if obj.type == "FONT" else "Curve",
+        surface.points,
+        triangles,
+        faces,
+        float(np.linalg.norm(surface.coordinate_error)),
+        _axes(place),
+        place.location,
+        loops,
+        facing,
+        drawn,
+        warnings,
+    )
 
 
 def _said(obj, corners: int, open_splines: int) -> Iterator[str]:
@@ -146,8 +178,10 @@ def _said(obj, corners: int, open_splines: int) -> Iterator[str]:
         yield "It is not filled; its outlines were measured as if it were."
     resolution = _resolution(obj)
     if resolution:
-        yield ("Its curves were measured as the polygons that Blender draws, {:d} corners at a resolution of {:s}; "
-               "twice the resolution brings them four times as near.").format(corners, resolution)
+        yield (
+            "Its curves were measured as the polygons that Blender draws, {:d} corners at a resolution of {:s}; "
+            "twice the resolution brings them four times as near."
+        ).format(corners, resolution)
     rendered = obj.data.render_resolution_u
     if resolution and rendered not in (0, obj.data.resolution_u):
         yield "Its resolution is {:d} in the render; that of the viewport was used.".format(rendered)
@@ -156,11 +190,13 @@ def _said(obj, corners: int, open_splines: int) -> Iterator[str]:
 def _require_flat_outlines(obj) -> None:
     curve = obj.data
     if obj.type == "CURVE" and curve.dimensions != "2D":
-        raise Unreadable(obj.name, "It is a 3D curve, which encloses no region of a plane; make it 2D in its Shape "
-                                   "panel.")
+        raise Unreadable(
+            obj.name, "It is a 3D curve, which encloses no region of a plane; make it 2D in its Shape panel."
+        )
     if curve.extrude or curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object):
-        raise Unreadable(obj.name, "Its extrusion or bevel makes it a body; set Extrude and Bevel Depth to 0 to "
-                                   "measure its outline.")
+        raise Unreadable(
+            obj.name, "Its extrusion or bevel makes it a body; set Extrude and Bevel Depth to 0 to measure its outline."
+        )
     if curve.offset:
         raise Unreadable(obj.name, "Its Offset moves the outline that is filled; set it to 0, or convert it to a mesh.")
 
@@ -187,7 +223,7 @@ def _wire(obj) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
     loops = [np.arange(first, last + 1) for last, first in closing if last - first >= 2]
     inside = np.zeros(len(points), bool)
     for last, first in closing:
-        inside[first:last + 1] = True
+        inside[first : last + 1] = True
     steps = edges[edges[:, 1] == edges[:, 0] + 1]
     loose = int(np.count_nonzero(~inside)) - int(np.count_nonzero(~inside[steps[:, 0]]))
     return points, loops, loose
@@ -214,5 +250,6 @@ def _resolution(obj) -> str:
 
 def _require_finite(obj, points: NDArray) -> None:
     if not np.isfinite(points).all():
-        raise Unreadable(obj.name, "Some of its points have coordinates that are not finite; delete them, or mend what "
-                                   "made them.")
+        raise Unreadable(
+            obj.name, "Some of its points have coordinates that are not finite; delete them, or mend what made them."
+        )

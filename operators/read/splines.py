@@ -15,10 +15,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.blender_knots import blender_space, display_parameters, display_table
-from ...core.bspline import Space
-from ...core.moments import HALF_ULP
-from ...core.patch import Patch
+from ...core.moments.moments import HALF_ULP
+from ...core.numerics.bspline import Space
+from ...core.nurbs.blender_knots import blender_space, display_parameters, display_table
+from ...core.nurbs.patch import Patch
 from .deformation import deformed, is_deformed, spline_modifiers
 from .reading import SplineReading
 
@@ -53,10 +53,19 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
             left_out += 1
             continue
         shape = (spline.point_count_v, spline.point_count_u)
-        patches.append(Patch(spaces, places[start:end].reshape(*shape, 3),
-                             coordinates[start:end, 3].astype(np.float64).reshape(shape)))
-        samples.append(tuple(display_table(space, display_parameters(space, resolution))
-                             for space, resolution in zip(spaces, (spline.resolution_v, spline.resolution_u))))
+        patches.append(
+            Patch(
+                spaces,
+                places[start:end].reshape(*shape, 3),
+                coordinates[start:end, 3].astype(np.float64).reshape(shape),
+            )
+        )
+        samples.append(
+            tuple(
+                display_table(space, display_parameters(space, resolution))
+                for space, resolution in zip(spaces, (spline.resolution_v, spline.resolution_u))
+            )
+        )
     if not patches:
         return None
     largest = float(np.abs(places).max())
@@ -64,8 +73,10 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     stored = HALF_ULP * (1.8 * largest + (2.0 * size if any(patch.weights is not None for patch in patches) else 0.0))
     notes = []
     if left_out:
-        notes.append("{:d} of its {:d} splines show no surface and are left out: they have too few points for their "
-                     "order, or for Bézier ends.".format(left_out, len(splines)))
+        notes.append(
+            "{:d} of its {:d} splines show no surface and are left out: they have too few points for their "
+            "order, or for Bézier ends.".format(left_out, len(splines))
+        )
     if mesh is not None:
         shown = np.empty(3 * len(mesh.vertices), np.float32)
         mesh.attributes["position"].data.foreach_get("vector", shown)
@@ -74,8 +85,10 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
             return None
         if proved is not patches:
             patches, stored = proved, stored + RECOVERED * size
-            notes.append("Its control points were recovered from the display mesh, to about 6 digits, as Blender does "
-                         "not tell where its modifiers or keys move them.")
+            notes.append(
+                "Its control points were recovered from the display mesh, to about 6 digits, as Blender does "
+                "not tell where its modifiers or keys move them."
+            )
     return SplineReading(tuple(patches), stored, tuple(notes))
 
 
@@ -93,22 +106,29 @@ def weighted_points(spline) -> NDArray[np.float32]:
 
 def _spaces(spline) -> tuple[Space, Space] | None:
     """The spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
-    spaces = (blender_space(spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v,
-                            spline.use_endpoint_v),
-              blender_space(spline.point_count_u, spline.order_u, spline.use_cyclic_u, spline.use_bezier_u,
-                            spline.use_endpoint_u))
+    spaces = (
+        blender_space(
+            spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v, spline.use_endpoint_v
+        ),
+        blender_space(
+            spline.point_count_u, spline.order_u, spline.use_cyclic_u, spline.use_bezier_u, spline.use_endpoint_u
+        ),
+    )
     return None if None in spaces else spaces
 
 
-def _proved(patches: list[Patch], samples: list[tuple[NDArray, NDArray]], shown: NDArray, tolerance: float
-            ) -> list[Patch] | None:
+def _proved(
+    patches: list[Patch], samples: list[tuple[NDArray, NDArray]], shown: NDArray, tolerance: float
+) -> list[Patch] | None:
     """The patches where they agree with the display mesh, else those that do, else None."""
     counts = [len(v) * len(u) for v, u in samples]
     if sum(counts) != len(shown):
         return None
     # Vertices run along v within each step of u.
-    pieces = [piece.reshape(len(u), len(v), 3).swapaxes(0, 1).astype(np.float64)
-              for piece, (v, u) in zip(np.split(shown, np.cumsum(counts)[:-1]), samples)]
+    pieces = [
+        piece.reshape(len(u), len(v), 3).swapaxes(0, 1).astype(np.float64)
+        for piece, (v, u) in zip(np.split(shown, np.cumsum(counts)[:-1]), samples)
+    ]
     if all(_agrees(patch, sample, piece, tolerance) for patch, sample, piece in zip(patches, samples, pieces)):
         return patches
     solved = [_solved(patch, sample, piece) for patch, sample, piece in zip(patches, samples, pieces)]

@@ -13,7 +13,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ...core.surface import Surface
+from ...core.mesh.surface import Surface
 from .mesh import mesh_surface
 
 
@@ -67,6 +67,10 @@ def _mesh(points: np.ndarray, triangles: np.ndarray) -> bpy.types.Mesh:
 
 
 def _remove(data: bpy.types.ID) -> None:
-    collection = {"Mesh": bpy.data.meshes, "Object": bpy.data.objects, "Collection": bpy.data.collections,
-                  "Scene": bpy.data.scenes}[data.bl_rna.identifier]
+    collection = {
+        "Mesh": bpy.data.meshes,
+        "Object": bpy.data.objects,
+        "Collection": bpy.data.collections,
+        "Scene": bpy.data.scenes,
+    }[data.bl_rna.identifier]
     collection.remove(data)

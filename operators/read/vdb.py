@@ -17,7 +17,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.surface import Surface
+from ...core.mesh.surface import Surface
 
 NODE = 128  # voxels along a side of the blocks that are read
 ROOT = 4096  # along a side of the largest nodes
@@ -53,12 +53,17 @@ class VdbGrid:
             raise ValueError("Its grid “{:s}” cannot be read: {:s}.".format(name, str(error).rstrip("."))) from error
         self._dtype = DTYPES.get(self._grid.valueTypeName)
         if self._dtype is None:
-            raise ValueError("Its grid “{:s}” holds values of the kind {:s}, which is no density; choose another "
-                             "grid.".format(name, self._grid.valueTypeName))
+            raise ValueError(
+                "Its grid “{:s}” holds values of the kind {:s}, which is no density; choose another grid.".format(
+                    name, self._grid.valueTypeName
+                )
+            )
         transform = self._grid.transform
         if not transform.isLinear:
-            raise ValueError("Its grid “{:s}” is seen through a camera (a frustum), not placed by a linear "
-                             "transform; resample it.".format(name))
+            raise ValueError(
+                "Its grid “{:s}” is seen through a camera (a frustum), not placed by a linear "
+                "transform; resample it.".format(name)
+            )
         self.background = float(self._grid.background)
         self.level_set = self._grid.gridClass == "level set"
         corner = np.array(transform.indexToWorld((0, 0, 0)), np.float64)
@@ -73,11 +78,14 @@ class VdbGrid:
             low, high = np.zeros(3, np.int64), np.full(3, -1)
         self.low, self.shape = low, high - low + 1
         if np.prod(high // ROOT - low // ROOT + 1.0) > MOST_ROOTS:
-            raise ValueError("The voxels of its grid “{:s}” are spread over {:d} x {:d} x {:d}; remove those that "
-                             "stand far from the others.".format(name, *self.shape.tolist()))
+            raise ValueError(
+                "The voxels of its grid “{:s}” are spread over {:d} x {:d} x {:d}; remove those that "
+                "stand far from the others.".format(name, *self.shape.tolist())
+            )
         if np.abs([low, high]).max() > FARTHEST:
-            raise ValueError("The voxels of its grid “{:s}” stand too far from its origin; begin to count them near "
-                             "it.".format(name))
+            raise ValueError(
+                "The voxels of its grid “{:s}” stand too far from its origin; begin to count them near it.".format(name)
+            )
 
     def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
         """The voxels that are there, as blocks, each with where it begins in the box."""
@@ -108,9 +116,11 @@ class VdbGrid:
     def polygons(self) -> Surface:
         """The surface where a level set is zero, in the object's coordinates, facing outward."""
         points, triangles, quads = self._grid.convertToPolygons(isovalue=0.0, adaptivity=0.0)
-        return Surface(np.ascontiguousarray(points, np.float32),
-                       triangles=np.ascontiguousarray(triangles[:, ::-1], np.int32),
-                       quads=np.ascontiguousarray(quads[:, ::-1], np.int32))
+        return Surface(
+            np.ascontiguousarray(points, np.float32),
+            triangles=np.ascontiguousarray(triangles[:, ::-1], np.int32),
+            quads=np.ascontiguousarray(quads[:, ::-1], np.int32),
+        )
 
 
 def _cells(low: NDArray, end: NDArray, size: int) -> Iterator[tuple[int, int, int]]:

@@ -40,18 +40,19 @@ def measurable(obj) -> bool:
         # As a wire it needs none, and as a shell what closed curves bound is one.
         settings = getattr(obj, "body_moments", None)
         return _curve_has_surface(obj) or (settings is not None and settings.kind != "SOLID")
-    return (
-        obj.type in SURFACE_TYPES
-        or obj.type == "VOLUME"
-        or (obj.type in GEOMETRY_TYPES and _has_nodes(obj))
-    )
+    return obj.type in SURFACE_TYPES or obj.type == "VOLUME" or (obj.type in GEOMETRY_TYPES and _has_nodes(obj))
 
 
 def shows_flat_region(obj) -> bool:
     """Whether all that a curve object may show is the flat region that its curves bound."""
     curve = obj.data
-    return not (curve.extrude or curve.bevel_depth or curve.offset or curve.bevel_object
-                or any(modifier.show_viewport for modifier in obj.modifiers))
+    return not (
+        curve.extrude
+        or curve.bevel_depth
+        or curve.offset
+        or curve.bevel_object
+        or any(modifier.show_viewport for modifier in obj.modifiers)
+    )
 
 
 def measurable_objects(view_layer) -> list:
@@ -65,18 +66,14 @@ def measurable_objects(view_layer) -> list:
     # A view layer that has not been updated knows neither its new objects nor what of them is
     # shown.
     view_layer.update()
-    objects = [
-        obj for obj in view_layer.objects if measurable(obj) and not instanced_by_parent(obj)
-    ]
+    objects = [obj for obj in view_layer.objects if measurable(obj) and not instanced_by_parent(obj)]
     mothers = {family[0] for family in metaball_families(view_layer)}
     objects = [obj for obj in objects if obj.type != "META" or obj in mothers]
     hidden = {obj for obj in objects if not obj.visible_get(view_layer=view_layer)}
     if hidden:
-        instanced = {
-            obj.instance_collection
-            for obj in view_layer.objects
-            if obj.instance_type == "COLLECTION"
-        } - {None}
+        instanced = {obj.instance_collection for obj in view_layer.objects if obj.instance_type == "COLLECTION"} - {
+            None
+        }
         hidden &= {member for collection in instanced for member in collection.all_objects}
         objects = [obj for obj in objects if obj not in hidden]
     return sorted(objects, key=lambda obj: (obj.name, obj.library.filepath if obj.library else ""))
@@ -96,9 +93,7 @@ def metaball_families(view_layer) -> list[list]:
     for obj in view_layer.objects:
         if obj.type == "META":
             families.setdefault(_split_name(obj.name)[0], []).append(obj)
-    return [
-        sorted(family, key=lambda obj: _split_name(obj.name)[1]) for family in families.values()
-    ]
+    return [sorted(family, key=lambda obj: _split_name(obj.name)[1]) for family in families.values()]
 
 
 def require_kind(obj) -> None:
@@ -106,15 +101,11 @@ def require_kind(obj) -> None:
     if obj.type in GEOMETRY_TYPES or obj.instance_type == "COLLECTION":
         return
     if obj.type == "EMPTY":
-        raise Unreadable(
-            obj.name, "It is an empty that instances nothing; give it a collection to instance."
-        )
+        raise Unreadable(obj.name, "It is an empty that instances nothing; give it a collection to instance.")
     kind = obj.bl_rna.properties["type"].enum_items[obj.type].name
     raise Unreadable(
         obj.name,
-        "It is of the kind “{:s}”, which has no geometry; select an object with a surface.".format(
-            kind
-        ),
+        "It is of the kind “{:s}”, which has no geometry; select an object with a surface.".format(kind),
     )
 
 
@@ -154,15 +145,9 @@ def hidden_reason(obj, depsgraph) -> str | None:
     if obj.visible_get(view_layer=depsgraph.view_layer):
         return None
     homes = set(obj.users_collection)
-    branches = [
-        path
-        for path in _branches(depsgraph.view_layer.layer_collection)
-        if path[-1].collection in homes
-    ]
+    branches = [path for path in _branches(depsgraph.view_layer.layer_collection) if path[-1].collection in homes]
     if not branches:
-        return "It is not in the scene “{:s}”; link it to one of the scene's collections.".format(
-            depsgraph.scene.name
-        )
+        return "It is not in the scene “{:s}”; link it to one of the scene's collections.".format(depsgraph.scene.name)
     if obj.hide_viewport:
         return "It is disabled in viewports; turn on its monitor icon in the Outliner."
     found, barred = [], set()
@@ -194,11 +179,7 @@ def hidden_reason(obj, depsgraph) -> str | None:
 
 def edit_modifiers(obj) -> list:
     """The modifiers that act while the object's mesh is in Edit Mode."""
-    return [
-        modifier
-        for modifier in obj.modifiers
-        if modifier.show_viewport and modifier.show_in_editmode
-    ]
+    return [modifier for modifier in obj.modifiers if modifier.show_viewport and modifier.show_in_editmode]
 
 
 def blends_keys(obj) -> bool:
@@ -213,11 +194,7 @@ def _has_nodes(obj) -> bool:
 def _curve_has_surface(obj) -> bool:
     curve = obj.data
     filled = curve.dimensions == "2D" and curve.fill_mode != "NONE"
-    thick = (
-        curve.extrude != 0.0
-        or curve.bevel_depth != 0.0
-        or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
-    )
+    thick = curve.extrude != 0.0 or curve.bevel_depth != 0.0 or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
     return bool(filled or thick or obj.modifiers)
 
 

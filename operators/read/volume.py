@@ -19,8 +19,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.rotation import rotation_matrix
-from ...core.surface import Surface
+from ...core.mesh.surface import Surface
+from ...core.numerics.rotations import rotation_matrix
 from .decisions import modifier_decisions
 from .reading import Unreadable, float64_matrix
 from .sample_grid import SampledGrid
@@ -85,9 +85,21 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
         with _opened(obj, volume, chosen, depsgraph, warnings) as source:
             location, rotation, _ = evaluated.matrix_world.decompose()
             yield VolumeReading(
-                obj.name, obj.type, matrix, rotation_matrix(rotation), np.array(location[:], np.float64), chosen.name,
-                source.level_set, source.to_object, source.low, tuple(source.shape.tolist()), source.background,
-                source.blocks, source.polygons, warnings)
+                obj.name,
+                obj.type,
+                matrix,
+                rotation_matrix(rotation),
+                np.array(location[:], np.float64),
+                chosen.name,
+                source.level_set,
+                source.to_object,
+                source.low,
+                tuple(source.shape.tolist()),
+                source.background,
+                source.blocks,
+                source.polygons,
+                warnings,
+            )
     except ValueError as error:
         raise Unreadable(obj.name, str(error)) from error
 
@@ -112,8 +124,12 @@ def _volume(obj, depsgraph):
     # A saved file turns an empty path into that of a folder.
     folder = os.path.isdir(bpy.path.abspath(volume.filepath, library=obj.data.library))
     if not volume.grids.load() and not folder:
-        raise Unreadable(obj.name, "Its file cannot be read: {:s}; give it another one.".format(
-            volume.grids.error_message.rstrip(".") or "it is missing or damaged"))
+        raise Unreadable(
+            obj.name,
+            "Its file cannot be read: {:s}; give it another one.".format(
+                volume.grids.error_message.rstrip(".") or "it is missing or damaged"
+            ),
+        )
     if not len(volume.grids):
         if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:
             return None
@@ -139,16 +155,21 @@ def _chosen(obj, volume: _Kept, name: str, warnings: list[str]):
         if name not in grids:
             raise Unreadable(obj.name, "It has no grid “{:s}”; it has: {:s}.".format(name, listing))
         if grids[name].data_type not in SCALARS:
-            raise Unreadable(obj.name, "Its grid “{:s}” does not hold plain numbers and is no density; choose another "
-                                       "one.".format(name))
+            raise Unreadable(
+                obj.name,
+                "Its grid “{:s}” does not hold plain numbers and is no density; choose another one.".format(name),
+            )
         return grids[name]
     scalars = {one: grid for one, grid in grids.items() if grid.data_type in SCALARS}
     if not scalars:
         raise Unreadable(obj.name, "None of its grids holds plain numbers; it has: {:s}.".format(listing))
     chosen = scalars.get(PREFERRED) or next(iter(scalars.values()))
     if len(grids) > 1:
-        warnings.append("Of its grids “{:s}” is measured; left out: {:s}.".format(
-            chosen.name, ", ".join("“{:s}”".format(one) for one in grids if one != chosen.name)))
+        warnings.append(
+            "Of its grids “{:s}” is measured; left out: {:s}.".format(
+                chosen.name, ", ".join("“{:s}”".format(one) for one in grids if one != chosen.name)
+            )
+        )
     return chosen
 
 
@@ -157,9 +178,12 @@ def _opened(obj, volume: _Kept, grid, depsgraph, warnings: list[str]) -> Iterato
     path = "" if openvdb() is None else _unchanged_file(obj, volume)
     render = depsgraph.scene.render
     if not path and render.use_simplify and render.simplify_volumes < 1.0:
-        warnings.append("The scene's Simplify makes its voxels coarser in the viewport, at {:.3g} % of their "
-                        "resolution, and so they were measured; turn it off for all of them.".format(
-                            100.0 * render.simplify_volumes))
+        warnings.append(
+            "The scene's Simplify makes its voxels coarser in the viewport, at {:.3g} % of their "
+            "resolution, and so they were measured; turn it off for all of them.".format(
+                100.0 * render.simplify_volumes
+            )
+        )
     if openvdb() is None:
         yield SampledGrid(obj, depsgraph, grid, obj.evaluated_get(depsgraph).bound_box)
         return

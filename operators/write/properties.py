@@ -15,10 +15,10 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.mass import MassProperties
+from ...core.inertia.mass_properties import MassProperties
+from ...core.inertia.principal_frame import PrincipalFrame
 from ...core.measurement import Measurement
-from ...core.pose import PrincipalFrame
-from ...core.rotation import quaternion, rotation_matrix
+from ...core.numerics.rotations import quaternion, rotation_matrix
 from .record import TENSOR
 
 DESCRIPTIONS = {
@@ -28,11 +28,11 @@ DESCRIPTIONS = {
     "body_area": "Surface area in m²",
     "body_center_of_mass": "Center of mass in the object's frame (location and rotation, unit scale), in m",
     "body_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the center of mass, along the object's axes, "
-                    "in kg·m² (xy = −∫xy dm)",
+    "in kg·m² (xy = −∫xy dm)",
     "body_principal_moments": "Principal moments of inertia, ascending, in kg·m²",
     "body_principal_axes": "Quaternion w, x, y, z that turns the object's axes into the principal axes",
     "body_error_bound": "What rounding may have changed: volume, area, center of mass, inertia; "
-                        "then the same four for what storing coordinates as float32 may have",
+    "then the same four for what storing coordinates as float32 may have",
     "body_density_from": "Where the density came from",
     "body_materials": "The materials that were looked at for the density, one a line",
     "body_method": "How the numbers came about",
@@ -41,8 +41,17 @@ DESCRIPTIONS = {
     "body_display_volume": "What the display mesh of a NURBS surface would have given as its volume, in m³",
     "body_fingerprint": "What the numbers were computed from",
 }
-LENGTHS = {"body_mass": 0, "body_density": 0, "body_volume": 0, "body_area": 0, "body_center_of_mass": 3,
-           "body_inertia": 6, "body_principal_moments": 3, "body_principal_axes": 4, "body_error_bound": 8}
+LENGTHS = {
+    "body_mass": 0,
+    "body_density": 0,
+    "body_volume": 0,
+    "body_area": 0,
+    "body_center_of_mass": 3,
+    "body_inertia": 6,
+    "body_principal_moments": 3,
+    "body_principal_axes": 4,
+    "body_error_bound": 8,
+}
 OPTIONAL = ("body_length", "body_display_volume")  # of wires, and of what was measured without its display mesh
 BOUNDED = ("volume", "area", "center_of_mass", "inertia")
 ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
@@ -91,8 +100,11 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
             values[key] = value
         elif key in obj:
             del obj[key]
-    varying = {} if measurement.one_density else {
-        "body_density_from": measurement.density_from, "body_materials": "\n".join(measurement.materials)}
+    varying = (
+        {}
+        if measurement.one_density
+        else {"body_density_from": measurement.density_from, "body_materials": "\n".join(measurement.materials)}
+    )
     for key in ("body_density_from", "body_materials"):
         if varying.get(key):
             values[key] = varying[key]
@@ -110,8 +122,10 @@ def require_storable(obj: bpy.types.Object) -> None:
     if not obj.is_editable:
         raise RuntimeError("It is linked from another file; make it local to store results on it.")
     if obj.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
-        raise RuntimeError("It is a library override, which would lose its results with the file; make it local to "
-                           "store results on it.")
+        raise RuntimeError(
+            "It is a library override, which would lose its results with the file; make it local to "
+            "store results on it."
+        )
 
 
 def clear(obj: bpy.types.Object) -> bool:
@@ -177,10 +191,12 @@ def stored(rows: tuple[tuple[float, ...], ...]) -> Stored:
     tensor = np.zeros((3, 3))
     tensor[ROWS, COLUMNS] = tensor[COLUMNS, ROWS] = entries
     axes = rotation_matrix(turn) if any(turn) else np.eye(3)
-    rounding, inputs = (dict(zip(BOUNDED, bounds[i:i + 4])) for i in (0, 4))
+    rounding, inputs = (dict(zip(BOUNDED, bounds[i : i + 4])) for i in (0, 4))
     frame = PrincipalFrame(np.array(moments), axes, symmetry="", unique=False, note="")
-    error, moved = ({"mass": bound["volume"] * density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
-                    for bound in (rounding, inputs))
+    error, moved = (
+        {"mass": bound["volume"] * density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
+        for bound in (rounding, inputs)
+    )
     body = MassProperties(mass, np.array(center), tensor, frame, error, moved)
     return Stored(density, volume, area, body, {**rounding, "input": inputs})
 

@@ -23,9 +23,9 @@ from typing import Any
 
 import numpy as np
 
-from ...core.mass import MassProperties, combined
+from ...core.inertia.mass_properties import MassProperties, combined
 from ...core.measurement import Measurement
-from ...core.moments import Moments, monomials
+from ...core.moments.moments import Moments, monomials
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
@@ -102,9 +102,7 @@ def total(measurements: Sequence[Measurement], warnings: Sequence[str] = ()) -> 
         "mass": math.fsum(one.mass_properties.mass for one in measurements),
         "volume": math.fsum(one.volume for one in measurements),
         "area": math.fsum(one.area for one in measurements),
-        **dict.fromkeys(
-            ("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry")
-        ),
+        **dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry")),
     }
     if measurements:
         with suppress(ValueError):  # together they have no mass, and so no center
@@ -159,14 +157,8 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> str:
     for one in documents:
         place = {"file": one["file"], "frame": one["frame"]}
         rows += [{**place, **_columns(entry)} for entry in one["objects"]]
-        rows += [
-            {**place, "name": entry["name"], "error": entry["reason"]} for entry in one["errors"]
-        ]
-    header = list(
-        dict.fromkeys(
-            [*_COLUMNS, *(name for row in rows for name in row if name not in _LAST), *_LAST]
-        )
-    )
+        rows += [{**place, "name": entry["name"], "error": entry["reason"]} for entry in one["errors"]]
+    header = list(dict.fromkeys([*_COLUMNS, *(name for row in rows for name in row if name not in _LAST), *_LAST]))
     text = io.StringIO()
     table = csv.DictWriter(text, header, lineterminator="\n")
     table.writeheader()
@@ -206,19 +198,14 @@ def _inertial(properties: MassProperties) -> dict[str, Any]:
     }
 
 
-def _about_origin(
-    moments: Moments, order: int, measurement: Measurement, frame: str
-) -> dict[str, float]:
+def _about_origin(moments: Moments, order: int, measurement: Measurement, frame: str) -> dict[str, float]:
     """World-frame moments by exponents, about the origin of the frame and along its axes."""
     moments = moments.truncated(order)
     if frame == "object":
         moments = moments.in_frame(measurement.rotation, measurement.location)
     else:
         moments = moments.shifted(np.zeros(3))
-    return {
-        ",".join(map(str, powers)): value
-        for powers, value in zip(monomials(order), moments.raw, strict=True)
-    }
+    return {",".join(map(str, powers)): value for powers, value in zip(monomials(order), moments.raw, strict=True)}
 
 
 _COLUMNS = (
@@ -236,16 +223,12 @@ _LAST = ("warnings", "error")
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
     """A record as one flat row; what a list or a table holds gets a column each."""
     row = {name: entry[name] for name in (*_COLUMNS, *_SOMETIMES) if name in entry}
-    row |= {
-        f"center_of_mass_{axis}": value
-        for axis, value in zip("xyz", entry["center_of_mass"], strict=True)
-    }
+    row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["center_of_mass"], strict=True)}
     row |= {f"inertia_{name}": entry["inertia"][i][j] for name, i, j in TENSOR}
     for number in range(3):
         row[f"principal_moment_{number + 1}"] = entry["principal_moments"][number]
         row |= {
-            f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number]
-            for i, axis in enumerate("xyz")
+            f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number] for i, axis in enumerate("xyz")
         }
     row |= _nested("display_mesh", entry.get("display_mesh", {}))
     row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"])
@@ -271,11 +254,7 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
 def _nested(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
     row = {}
     for name, value in values.items():
-        row |= (
-            _nested(f"{prefix}_{name}", value)
-            if isinstance(value, dict)
-            else {f"{prefix}_{name}": value}
-        )
+        row |= _nested(f"{prefix}_{name}", value) if isinstance(value, dict) else {f"{prefix}_{name}": value}
     return row
 
 

@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from ...core.decimal import decimal
-from ...core.mass import MassProperties, combined
+from ...core.inertia.mass_properties import MassProperties, combined
+from ...core.numerics.float32 import decimal
 from . import properties
 from .record import TENSOR, document, plain
 
@@ -86,10 +86,7 @@ def text(document: dict[str, Any]) -> str:
         lines += ["", heading, *_body(document["total"], "world")]
     if document["errors"]:
         lines += ["", "Not measured"]
-        lines += [
-            "{}{}: {}".format(INDENT, one["name"] or "File", one["reason"])
-            for one in document["errors"]
-        ]
+        lines += ["{}{}: {}".format(INDENT, one["name"] or "File", one["reason"]) for one in document["errors"]]
     return "\n".join(lines) + "\n"
 
 
@@ -122,15 +119,17 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     yield _line("Volume", _number(entry["volume"]), "m³")
     yield _line("Surface area", _number(entry["area"]), "m²")
     if "display_mesh" in entry:
-        yield _line("Its display mesh", "{} m³, {:+.3g} %".format(
-            _number(entry["display_mesh"]["volume"]),
-            100.0 * entry["display_mesh"]["difference"] / entry["volume"] if entry["volume"] else 0.0))
+        yield _line(
+            "Its display mesh",
+            "{} m³, {:+.3g} %".format(
+                _number(entry["display_mesh"]["volume"]),
+                100.0 * entry["display_mesh"]["difference"] / entry["volume"] if entry["volume"] else 0.0,
+            ),
+        )
     if entry["center_of_mass"] is None or entry["inertia"] is None:
         return
     size = abs(entry["volume"] or 0.0) ** (1.0 / 3.0)
-    yield _line(
-        "Center of mass", _vector(entry["center_of_mass"], size), "m, {} frame".format(frame)
-    )
+    yield _line("Center of mass", _vector(entry["center_of_mass"], size), "m, {} frame".format(frame))
     yield from _principal(entry)
     yield from _tensor(entry["inertia"], frame)
     yield from _bounds(entry.get("error_bound", {}))
@@ -157,10 +156,7 @@ def _tensor(inertia: list[list[float]], frame: str) -> Iterable[str]:
     )
     values = _clean([inertia[i][j] for _, i, j in TENSOR])
     for row in (slice(0, 3), slice(3, 6)):
-        cells = [
-            "I{} {:<16}".format(name, _number(value))
-            for (name, *_), value in zip(TENSOR[row], values[row])
-        ]
+        cells = ["I{} {:<16}".format(name, _number(value)) for (name, *_), value in zip(TENSOR[row], values[row])]
         yield _line("", "".join(cells).rstrip())
 
 
@@ -195,9 +191,7 @@ def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | No
     size.
     """
     largest = max([size, *(abs(value) for value in values if value is not None)])
-    return [
-        0.0 if value is not None and abs(value) <= NOISE * largest else value for value in values
-    ]
+    return [0.0 if value is not None and abs(value) <= NOISE * largest else value for value in values]
 
 
 def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[str, Any]:

@@ -15,12 +15,24 @@ from math import degrees
 import bpy
 import numpy as np
 
-from ...core.section import Plane, Section
+from ...core.plane.section import Plane, Section
 
 KEY = "body_section"
 BOUNDED = ("area", "perimeter", "centroid", "second")
-LENGTHS = {"area": 1, "perimeter": 1, "origin": 3, "axes": 9, "off": 1, "centroid": 2, "second": 3, "reach": 4,
-           "counts": 2, "error": 4, "input": 4, "unit": 1}
+LENGTHS = {
+    "area": 1,
+    "perimeter": 1,
+    "origin": 3,
+    "axes": 9,
+    "off": 1,
+    "centroid": 2,
+    "second": 3,
+    "reach": 4,
+    "counts": 2,
+    "error": 4,
+    "input": 4,
+    "unit": 1,
+}
 WORDS = ("what", "named", "warnings", "fingerprint")
 ABOUT = ("x", "y", "1", "2")
 DIGITS = 7
@@ -38,17 +50,27 @@ class StoredSection:
     unit: float
 
 
-def store(obj: bpy.types.Object, section: Section, what: str, warnings: tuple[str, ...], fingerprint: str,
-          unit: float) -> None:
+def store(
+    obj: bpy.types.Object, section: Section, what: str, warnings: tuple[str, ...], fingerprint: str, unit: float
+) -> None:
     """Writes the section on the object, in place of an older one."""
     plane = section.plane
     obj[KEY] = {
-        "area": [section.area], "perimeter": [section.perimeter], "origin": plane.origin.tolist(),
-        "axes": plane.axes.T.ravel().tolist(), "off": [plane.off], "centroid": section.centroid.tolist(),
-        "second": section.second.tolist(), "reach": section.reach.tolist(),
+        "area": [section.area],
+        "perimeter": [section.perimeter],
+        "origin": plane.origin.tolist(),
+        "axes": plane.axes.T.ravel().tolist(),
+        "off": [plane.off],
+        "centroid": section.centroid.tolist(),
+        "second": section.second.tolist(),
+        "reach": section.reach.tolist(),
         "counts": [float(section.outlines), float(section.holes)],
-        "error": [section.error[name] for name in BOUNDED], "input": [section.input[name] for name in BOUNDED],
-        "unit": [unit], "what": what, "named": plane.named, "warnings": "\n".join(warnings),
+        "error": [section.error[name] for name in BOUNDED],
+        "input": [section.input[name] for name in BOUNDED],
+        "unit": [unit],
+        "what": what,
+        "named": plane.named,
+        "warnings": "\n".join(warnings),
         "fingerprint": fingerprint,
     }
 
@@ -87,9 +109,16 @@ def _made(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> Sto
     found, (what, named, warnings, fingerprint) = dict(zip(LENGTHS, numbers)), words
     plane = Plane(np.array(found["origin"]), np.array(found["axes"]).reshape(3, 3).T, found["off"][0], named)
     section = Section(
-        plane, found["area"][0], found["perimeter"][0], np.array(found["centroid"]), np.array(found["second"]),
-        np.array(found["reach"]), *map(int, found["counts"]), dict(zip(BOUNDED, found["error"])),
-        dict(zip(BOUNDED, found["input"])))
+        plane,
+        found["area"][0],
+        found["perimeter"][0],
+        np.array(found["centroid"]),
+        np.array(found["second"]),
+        np.array(found["reach"]),
+        *map(int, found["counts"]),
+        dict(zip(BOUNDED, found["error"])),
+        dict(zip(BOUNDED, found["input"])),
+    )
     return StoredSection(section, what, tuple(warnings.splitlines()), fingerprint, found["unit"][0])
 
 
@@ -109,24 +138,41 @@ def _lines(name: str, found: StoredSection, outdated: str) -> Iterator[str]:
     yield _line("Measured", "{}; outer outlines {}, holes {}".format(found.what, section.outlines, section.holes))
     yield _line("Area", "{} m²".format(_number(section.area)))
     yield _line("Perimeter", "{} m".format(_number(section.perimeter)))
-    yield _line("Centroid", "{} m".format(_vector(section.center, section.area ** 0.5)))
-    yield _line("Plane", "normal {}, x {}, y {}; x nearest to the object's {} axis".format(
-        _vector(normal, 1.0), _vector(x, 1.0), _vector(y, 1.0), plane.named))
-    yield _line("Centroid in plane", "{} m, from the foot of the object's origin".format(
-        _vector(section.centroid, section.area ** 0.5)))
+    yield _line("Centroid", "{} m".format(_vector(section.center, section.area**0.5)))
+    yield _line(
+        "Plane",
+        "normal {}, x {}, y {}; x nearest to the object's {} axis".format(
+            _vector(normal, 1.0), _vector(x, 1.0), _vector(y, 1.0), plane.named
+        ),
+    )
+    yield _line(
+        "Centroid in plane",
+        "{} m, from the foot of the object's origin".format(_vector(section.centroid, section.area**0.5)),
+    )
     yield _line("Second moments", "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)")
     for label, value in zip(("Ix", "Iy", "Ixy"), _clean(section.second, section.polar)):
         yield _line("  " + label, _number(value))
     yield _line("  Polar Jp", "{} = Ix + Iy; not the torsion constant".format(_number(section.polar)))
     first, second = section.principal
-    yield _line("Principal", "I1 {}, I2 {} m⁴; {}".format(
-        _number(first), _number(second), "every axis through the centroid is principal" if section.free else
-        "axis 1 at {}° from x towards y".format(_number(degrees(section.angle)))))
+    yield _line(
+        "Principal",
+        "I1 {}, I2 {} m⁴; {}".format(
+            _number(first),
+            _number(second),
+            "every axis through the centroid is principal"
+            if section.free
+            else "axis 1 at {}° from x towards y".format(_number(degrees(section.angle))),
+        ),
+    )
     yield _line("Radii of gyration", _each("i", section.radii) + " m")
     yield _line("Section moduli", _each("W", section.moduli) + " m³ (elastic, outermost corner)")
     for label, bound in (("Rounding, at most", section.error), ("float32 coordinates", section.input)):
-        yield _line(label, "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} m⁴".format(
-            *(bound[name] for name in BOUNDED)))
+        yield _line(
+            label,
+            "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} m⁴".format(
+                *(bound[name] for name in BOUNDED)
+            ),
+        )
     for warning in found.warnings:
         yield _line("Warning", warning)
 

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.spectrum import Spectrum
+from ...core.fourier.spectrum import Spectrum
 from .whole_file import whole_file
 
 MARK = "body_fourier"  # on the images that are ours to overwrite: their name
@@ -22,8 +22,15 @@ def save(path: Path, spectrum: Spectrum, frame: str) -> None:
     """Write an .npz file, whole or not at all: q (M, 3) in rad/m, F (M,) complex in m³ or m², error (M,) and input,
     what rounding and storing coordinates as float32 may have changed, method and frame. Raises OSError."""
     with whole_file(path) as file:
-        np.savez(file, q=spectrum.q, F=spectrum.values, error=spectrum.error, input=spectrum.input,
-                 method=spectrum.method, frame=frame)
+        np.savez(
+            file,
+            q=spectrum.q,
+            F=spectrum.values,
+            error=spectrum.error,
+            input=spectrum.input,
+            method=spectrum.method,
+            frame=frame,
+        )
 
 
 def picture(name: str, values: NDArray[np.complex128], count: int) -> bpy.types.Image:
@@ -38,7 +45,7 @@ def picture(name: str, values: NDArray[np.complex128], count: int) -> bpy.types.
     gray = np.zeros((count, 3 * count + 2 * GAP))
     for i, slice_ in enumerate((size[:, :, half], size[:, half, :], size[half, :, :])):
         decades = np.log10(np.maximum(slice_.T / largest, 10.0**-DECADES))
-        gray[:, i * (count + GAP):][:, :count] = 1.0 + decades / DECADES
+        gray[:, i * (count + GAP) :][:, :count] = 1.0 + decades / DECADES
     pixels = np.ones((*gray.shape, 4), np.float32)
     pixels[..., :3] = gray[..., None]
     image = next((image for image in bpy.data.images if image.get(MARK) == name and image.is_editable), None)

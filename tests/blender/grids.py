@@ -13,8 +13,9 @@ from body_moments.operators.read.vdb import openvdb
 GRIDS = {"f4": "FloatGrid", "f8": "DoubleGrid", "i4": "Int32Grid", "i8": "Int64Grid", "b1": "BoolGrid"}
 
 
-def vdb_grid(values: np.ndarray, name: str = "density", matrix: np.ndarray | None = None, offset=(0, 0, 0),
-             background=0):
+def vdb_grid(
+    values: np.ndarray, name: str = "density", matrix: np.ndarray | None = None, offset=(0, 0, 0), background=0
+):
     """An OpenVDB grid of the values' own type. matrix: (4, 4) from voxels, column vectors."""
     module = openvdb()
     cls = getattr(module, GRIDS[values.dtype.str[1:]])

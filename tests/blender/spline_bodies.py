@@ -6,8 +6,17 @@ import bpy
 import numpy as np
 
 
-def surface(points, weights=None, *, orders=(4, 4), cyclic=(False, False), bezier=(False, False),
-            endpoint=(True, True), resolution=(3, 3), name="Surface"):
+def surface(
+    points,
+    weights=None,
+    *,
+    orders=(4, 4),
+    cyclic=(False, False),
+    bezier=(False, False),
+    endpoint=(True, True),
+    resolution=(3, 3),
+    name="Surface",
+):
     """A surface object in the scene, active. points: (count_v, count_u, 3); the pairs are for u and v."""
     points = np.asarray(points, np.float32)
     rows, columns = points.shape[:2]

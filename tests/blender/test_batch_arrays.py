@@ -27,8 +27,18 @@ def box(dtype="f4", value=1.0):
 
 def test_a_box_of_voxels_has_the_inertia_of_a_box(tmp_path):
     np.save(tmp_path / "box.npy", box())
-    code, document = run(tmp_path, tmp_path / "box.npy", "--spacing", "0.5,0.5,0.5", "--origin", "-1,0,10",
-                         "--density-scale", "2", "--order", "2")
+    code, document = run(
+        tmp_path,
+        tmp_path / "box.npy",
+        "--spacing",
+        "0.5,0.5,0.5",
+        "--origin",
+        "-1,0,10",
+        "--density-scale",
+        "2",
+        "--order",
+        "2",
+    )
     assert code == 0 and document["errors"] == []
     (entry,) = document["objects"]
     assert (entry["name"], entry["type"], entry["kind"], entry["method"]) == ("box", "ARRAY", "solid", "grid exact")
@@ -54,9 +64,11 @@ def test_cubic_splines_reproduce_the_paper(tmp_path):
 
 
 def test_scans_bring_their_own_units_and_places(tmp_path):
-    files = [written(tmp_path / "a.nii", nifti(box("i2"), spacing=(2, 2, 2), slope=3.0)),
-             written(tmp_path / "b.nii.gz", gzip.compress(nifti(box("u1"), spacing=(2, 2, 2)))),
-             written(tmp_path / "c.nrrd", nrrd(box(), "spacings: 2 2 2", 'units: "mm" "mm" "mm"', encoding="gzip"))]
+    files = [
+        written(tmp_path / "a.nii", nifti(box("i2"), spacing=(2, 2, 2), slope=3.0)),
+        written(tmp_path / "b.nii.gz", gzip.compress(nifti(box("u1"), spacing=(2, 2, 2)))),
+        written(tmp_path / "c.nrrd", nrrd(box(), "spacings: 2 2 2", 'units: "mm" "mm" "mm"', encoding="gzip")),
+    ]
     code, documents = run(tmp_path, *files)
     assert code == 0
     masses = [document["objects"][0]["mass"] for document in documents]
@@ -77,14 +89,17 @@ def test_given_mass_object_names_and_notes(tmp_path):
     assert any("1 unit is taken" in warning for warning in warnings)
 
 
-@pytest.mark.parametrize("data, options, text", [
-    (b"nonsense", (), "does not begin"),
-    (nrrd(-box()), (), "Write densities into the file first"),
-    (nrrd(box("f4", 0.0)), (), "Every voxel"),
-    (nrrd(box("f4", np.nan)), (), "not finite"),
-    (nrrd(box()), ("--kind", "shell"), "no sheet"),
-    (nrrd(box()), ("--write",), "Only a .blend"),
-])
+@pytest.mark.parametrize(
+    "data, options, text",
+    [
+        (b"nonsense", (), "does not begin"),
+        (nrrd(-box()), (), "Write densities into the file first"),
+        (nrrd(box("f4", 0.0)), (), "Every voxel"),
+        (nrrd(box("f4", np.nan)), (), "not finite"),
+        (nrrd(box()), ("--kind", "shell"), "no sheet"),
+        (nrrd(box()), ("--write",), "Only a .blend"),
+    ],
+)
 def test_what_cannot_be_measured_is_an_error_and_no_crash(tmp_path, data, options, text):
     code, document = run(tmp_path, written(tmp_path / "a.nrrd", data), *options)
     assert code == 1
@@ -92,8 +107,17 @@ def test_what_cannot_be_measured_is_an_error_and_no_crash(tmp_path, data, option
     assert error["name"] is None and text in error["reason"]
 
 
-@pytest.mark.parametrize("words", [("--spacing", "1,2"), ("--spacing", "1,0,2"), ("--origin", "1,nan,2"),
-                                   ("--spline-order", "0"), ("--spline-order", "2.5"), ("--density-scale", "-1")])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--spacing", "1,2"),
+        ("--spacing", "1,0,2"),
+        ("--origin", "1,nan,2"),
+        ("--spline-order", "0"),
+        ("--spline-order", "2.5"),
+        ("--density-scale", "-1"),
+    ],
+)
 def test_impossible_options_are_wrong_usage(tmp_path, words):
     np.save(tmp_path / "a.npy", box())
     assert batch.main(["measure", str(tmp_path / "a.npy"), *words], channel=2, file_needed=True) == 2
@@ -107,8 +131,20 @@ def test_a_scene_with_a_cloud_goes_through_every_option(tmp_path):
     values = np.random.default_rng(0).random((5, 6, 9)).astype("f4")
     volume_object(tmp_path / "a.vdb", vdb_grid(values))
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
-    code, document = run(tmp_path, tmp_path / "a.blend", "--order", "4", "--surface-moments", "--pose", "--signature",
-                         "--density", "2", "--frame", "object", "--write")
+    code, document = run(
+        tmp_path,
+        tmp_path / "a.blend",
+        "--order",
+        "4",
+        "--surface-moments",
+        "--pose",
+        "--signature",
+        "--density",
+        "2",
+        "--frame",
+        "object",
+        "--write",
+    )
     assert code == 0 and document["errors"] == []
     (entry,) = document["objects"]
     assert (entry["type"], entry["method"]) == ("VOLUME", "grid exact")

@@ -14,9 +14,7 @@ from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured, reason, run
 
 pytestmark = pytest.mark.usefixtures("registered")
-needs_usd = pytest.mark.skipif(
-    not bpy.app.usd.supported, reason="this Blender is built without USD"
-)
+needs_usd = pytest.mark.skipif(not bpy.app.usd.supported, reason="this Blender is built without USD")
 
 
 @pytest.mark.parametrize(
@@ -181,9 +179,7 @@ def test_scripts_inside_a_blend_file_do_not_run(tmp_path):
     box = files.add_box()
     sentinel = tmp_path / "it_ran"
     script = bpy.data.texts.new("startup.py")
-    script.write(
-        f"open({str(sentinel)!r}, 'w')\nimport bpy\nbpy.data.objects[0].scale = (9, 9, 9)\n"
-    )
+    script.write(f"open({str(sentinel)!r}, 'w')\nimport bpy\nbpy.data.objects[0].scale = (9, 9, 9)\n")
     script.use_module = True
     driver = box.driver_add("location", 0).driver
     driver.expression = f"len(open({str(sentinel)!r}, 'w').name)"

@@ -30,12 +30,12 @@ def moments_of(*words):
 
 def box_surface_moment(powers, low, high):
     """Of the six sides of a box."""
+
     def one(i, n):
         return (high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1)
 
     return sum(
-        (low[i] ** powers[i] + high[i] ** powers[i])
-        * math.prod(one(j, powers[j]) for j in range(3) if j != i)
+        (low[i] ** powers[i] + high[i] ** powers[i]) * math.prod(one(j, powers[j]) for j in range(3) if j != i)
         for i in range(3)
     )
 

@@ -210,9 +210,9 @@ def test_settings_stored_in_a_blend_file_are_used(tmp_path):
     box.body_moments.mass_from, box.body_moments.mass = "MASS", 7.0
     shell = files.add_box("Shell")
     shell.body_moments.kind, shell.body_moments.thickness = "SHELL", 0.5
-    solid, sheet = sorted(
-        document(files.save(tmp_path / "part.blend"))["objects"], key=lambda entry: entry["kind"]
-    )[::-1]
+    solid, sheet = sorted(document(files.save(tmp_path / "part.blend"))["objects"], key=lambda entry: entry["kind"])[
+        ::-1
+    ]
     assert solid["kind"] == "solid" and solid["mass"] == pytest.approx(7.0)
     assert sheet["kind"] == "shell" and sheet["method"] == "shell"
     assert sheet["mass"] == pytest.approx(22.0 * 0.5 * 1000.0)
@@ -266,23 +266,17 @@ def test_the_frame_is_the_worlds_or_the_objects_own():
 
 def box_moment(powers, center=files.CENTER, size=(1, 2, 3)):
     bounds = [(c - s / 2, c + s / 2) for c, s in zip(center, size, strict=True)]
-    return math.prod(
-        (b ** (n + 1) - a ** (n + 1)) / (n + 1) for (a, b), n in zip(bounds, powers, strict=True)
-    )
+    return math.prod((b ** (n + 1) - a ** (n + 1)) / (n + 1) for (a, b), n in zip(bounds, powers, strict=True))
 
 
 def test_moments_are_about_the_frames_origin():
     files.add_box()
     assert "moments" not in measured()
     moments = measured("--order", "3")["moments"]
-    assert (
-        moments["order"] == 3 and moments["about"] == [0.0, 0.0, 0.0] and "surface" not in moments
-    )
+    assert moments["order"] == 3 and moments["about"] == [0.0, 0.0, 0.0] and "surface" not in moments
     assert len(moments["volume"]) == 20
     for key, value in moments["volume"].items():
-        assert value == pytest.approx(
-            box_moment([int(power) for power in key.split(",")]), rel=1e-12
-        )
+        assert value == pytest.approx(box_moment([int(power) for power in key.split(",")]), rel=1e-12)
     own = measured("--order", "2", "--frame", "object")["moments"]["volume"]
     assert own["0,0,0"] == pytest.approx(6.0) and own["1,0,0"] == pytest.approx(0.0, abs=1e-12)
     assert own["0,2,0"] == pytest.approx(6.0 * 4.0 / 12.0)
@@ -295,9 +289,7 @@ def test_surface_moments_are_those_of_the_area():
     surface = {"0,0,0": 24.0, "2,0,0": 4 * (2 * 2 / 3) + 2 * 4.0, "1,0,0": 0.0, "1,1,0": 0.0}
     assert {key: moments["surface"][key] for key in surface} == pytest.approx(surface, abs=1e-12)
     assert moments["volume"]["0,0,0"] == pytest.approx(8.0)
-    assert measured("--surface-moments", "--kind", "shell")["moments"]["surface"][
-        "0,0,0"
-    ] == pytest.approx(24.0)
+    assert measured("--surface-moments", "--kind", "shell")["moments"]["surface"]["0,0,0"] == pytest.approx(24.0)
 
 
 def test_the_surface_moments_of_a_solid_are_its_own_under_uneven_scale():

@@ -79,9 +79,7 @@ def test_a_closed_standard_error_keeps_nothing_from_ending_well(folder, closed, 
 
 
 def test_a_broken_file_gives_1_and_the_others_are_there(folder):
-    ended = script(
-        "measure", "part.glb", "bad.blend", "gone.stl", "part.stl", "--format", "jsonl", cwd=folder
-    )
+    ended = script("measure", "part.glb", "bad.blend", "gone.stl", "part.stl", "--format", "jsonl", cwd=folder)
     found = [json.loads(line) for line in ended.stdout.splitlines()]
     assert ended.returncode == 1
     assert [len(document["objects"]) for document in found] == [1, 0, 0, 1]

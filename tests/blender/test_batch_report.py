@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators.measure import measure_object
+from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.write import report
 from body_moments.operators.write.properties import store
 from mathutils import Euler, Matrix

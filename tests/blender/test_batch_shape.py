@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.core.library import read_library
+from body_moments.core.shape.library import read_library
 from body_moments.operators import batch
 
 from tests.blender.batch_files import add_box, document
@@ -45,8 +45,10 @@ def test_copies_have_one_pose_and_the_matrix_lays_them_on_each_other():
     b = add(mesh_body(), "B", location=(-5, 2, 8), rotation=(1.3, 2.4, -0.5))
     poses = [entry["pose"] for entry in document("--pose")["objects"]]
     assert all(pose["unique"] and pose["symmetry"] == "Cs" for pose in poses)
-    laid = [corners(obj) @ np.array(pose["matrix"])[:3, :3].T + np.array(pose["matrix"])[:3, 3]
-            for obj, pose in zip((a, b), poses)]
+    laid = [
+        corners(obj) @ np.array(pose["matrix"])[:3, :3].T + np.array(pose["matrix"])[:3, 3]
+        for obj, pose in zip((a, b), poses)
+    ]
     assert np.abs(laid[0] - laid[1]).max() < 2e-6  # float32 matrices
     assert np.linalg.det(np.array(poses[0]["matrix"])) == pytest.approx(1.0)
 
@@ -66,8 +68,12 @@ def test_a_pose_is_a_row_of_columns_in_csv(tmp_path):
     add_box()
     path = tmp_path / "out.csv"
     with open(os.devnull, "wb") as sink:
-        assert batch.main(["measure", "--pose", "--signature", "--format", "csv", "--output", str(path)],
-                          channel=sink.fileno()) == 0
+        assert (
+            batch.main(
+                ["measure", "--pose", "--signature", "--format", "csv", "--output", str(path)], channel=sink.fileno()
+            )
+            == 0
+        )
     header, row = path.read_text(encoding="utf-8").splitlines()[:2]
     assert "pose_matrix_14" in header and "pose_symmetry" in header and "D2h" in row
 
@@ -85,16 +91,19 @@ def test_similar_tells_copies_mirror_images_and_sizes(tmp_path):
     # An L is its own mirror image across its plane: a hand needs a third direction.
     for name, scale in (("Hand", (1, 1, 1)), ("Other hand", (-1, 1, 1)), ("Big hand", (2, 2, 2))):
         mesh = bpy.data.meshes.new(name)
-        mesh.from_pydata([(0, 0, 0), (1, 0.2, 0), (0.3, 2, 0.1), (0.2, 0.4, 3)], [],
-                         [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
+        mesh.from_pydata(
+            [(0, 0, 0), (1, 0.2, 0), (0.3, 2, 0.1), (0.2, 0.4, 3)], [], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        )
         add(mesh, name, location=(4, 5, 6), rotation=(1, 0, 2), scale=scale)
     add_box("Box")
     path, code = shape_file(tmp_path)
     assert code == 0
     code, text = ask(tmp_path, path, "--to", "Hand")
     assert code == 0
-    rows = {line.split()[-1] if "Other" not in line and "Big" not in line else " ".join(line.split()[-2:]): line
-            for line in text.splitlines()[1:]}
+    rows = {
+        line.split()[-1] if "Other" not in line and "Big" not in line else " ".join(line.split()[-2:]): line
+        for line in text.splitlines()[1:]
+    }
     assert " mirror image " in rows["Other hand"] and " scaled copy " in rows["Big hand"]
     assert "different" in rows["Box"]
     order = [line.split()[-1] for line in text.splitlines()[1:]]

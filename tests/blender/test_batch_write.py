@@ -62,7 +62,7 @@ def test_settings_workspaces_and_other_scenes_are_still_there(tmp_path):
 
 def test_what_is_written_is_not_out_of_date_when_the_file_is_opened(tmp_path):
     """The options that the numbers came from are written as settings with them."""
-    from body_moments.operators import staleness
+    from body_moments.operators.session import staleness
 
     path = files.box_file(tmp_path / "part.blend")
     measured(path, "--write", "--density", "5.123456789")
@@ -99,9 +99,7 @@ def test_a_file_that_cannot_be_replaced_is_left_as_it_was(tmp_path, monkeypatch)
     assert [entry["name"] for entry in found["objects"]] == [files.BOX_NAME]
     (error,) = found["errors"]
     assert error["name"] is None and "No space left" in error["reason"]
-    assert path.read_bytes() == before and [file.name for file in tmp_path.iterdir()] == [
-        "part.blend"
-    ]
+    assert path.read_bytes() == before and [file.name for file in tmp_path.iterdir()] == ["part.blend"]
 
 
 def test_a_link_to_a_file_stays_a_link(tmp_path):

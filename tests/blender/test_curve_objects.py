@@ -7,8 +7,9 @@ import json
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.measure import MeasureOptions, measure_object
+from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read import Unreadable, measurable
+from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write.record import record, to_json
 
 from tests.blender.bodies import add, measured, only
@@ -140,8 +141,9 @@ def test_hooks_and_keys_bend_a_wire_with_a_bevel_and_without():
     obj.shape_key_add(name="Basis")
     key = obj.shape_key_add(name="Large")
     for point in key.data:
-        point.co, point.handle_left, point.handle_right = (3.0 * np.array(value) for value in (
-            point.co, point.handle_left, point.handle_right))
+        point.co, point.handle_left, point.handle_right = (
+            3.0 * np.array(value) for value in (point.co, point.handle_left, point.handle_right)
+        )
     key.value = 0.5
     hook = add(None, "Hook", select=False)
     modifier = obj.modifiers.new("Hook", "HOOK")
@@ -169,13 +171,17 @@ def with_nodes(obj, kind, **values):
     obj.modifiers.new("Nodes", "NODES").node_group = group
 
 
-@pytest.mark.parametrize("kind, node, values, length", [
-    ("bezier", "GeometryNodeSetSplineCyclic", {"Cyclic": False}, 0.75 * 6.2837897149),
-    ("nurbs", "GeometryNodeSetSplineCyclic", {"Cyclic": False}, 1.5 * np.pi),
-    ("bezier", "GeometryNodeCurveSplineType", {"spline_type": "POLY"}, 4.0 * np.sqrt(2.0)),
-    ("nurbs", "GeometryNodeCurveSplineType", {"spline_type": "POLY"}, 8.0),
-    ("bezier", "GeometryNodeTrimCurve", {"End": 0.5}, 6.2837897149 / 2.0),
-    ("bezier", "GeometryNodeResampleCurve", {"Count": 4}, 4.0 * np.sqrt(2.0))])
+@pytest.mark.parametrize(
+    "kind, node, values, length",
+    [
+        ("bezier", "GeometryNodeSetSplineCyclic", {"Cyclic": False}, 0.75 * 6.2837897149),
+        ("nurbs", "GeometryNodeSetSplineCyclic", {"Cyclic": False}, 1.5 * np.pi),
+        ("bezier", "GeometryNodeCurveSplineType", {"spline_type": "POLY"}, 4.0 * np.sqrt(2.0)),
+        ("nurbs", "GeometryNodeCurveSplineType", {"spline_type": "POLY"}, 8.0),
+        ("bezier", "GeometryNodeTrimCurve", {"End": 0.5}, 6.2837897149 / 2.0),
+        ("bezier", "GeometryNodeResampleCurve", {"Count": 4}, 4.0 * np.sqrt(2.0)),
+    ],
+)
 def test_a_wire_is_the_curve_that_nodes_make_of_it(kind, node, values, length):
     """Also where they leave the number of its points as it is."""
     obj = circle(kind)
@@ -202,8 +208,10 @@ def test_a_wire_through_its_points_is_as_long_as_what_blender_shows(kind):
 def test_a_spline_with_knots_of_its_own_is_refused(bevel, tmp_path):
     """Blender's OBJ importer makes such ones, and no interface tells them."""
     path = tmp_path / "curve.obj"
-    path.write_text("v 0 0 0\nv 1 2 0\nv 3 2 0\nv 4 0 0\nv 5 -1 0\ncstype bspline\ndeg 3\ncurv 0 1 1 2 3 4 5\n"
-                    "parm u 0 0 0 0 0.1 1 1 1 1\nend\n")
+    path.write_text(
+        "v 0 0 0\nv 1 2 0\nv 3 2 0\nv 4 0 0\nv 5 -1 0\ncstype bspline\ndeg 3\ncurv 0 1 1 2 3 4 5\n"
+        "parm u 0 0 0 0 0.1 1 1 1 1\nend\n"
+    )
     bpy.ops.wm.obj_import(filepath=str(path))
     (obj,) = bpy.context.selected_objects
     obj.body_moments.kind, obj.data.bevel_depth = "WIRE", bevel
@@ -268,7 +276,7 @@ def test_a_flat_region_takes_the_density_that_is_not_one_value_and_says_what_was
 
 @pytest.mark.parametrize("source", ["POLYNOMIAL", "MATERIALS"])
 def test_a_wire_has_its_linear_density_and_is_up_to_date_whatever_its_density_comes_from(source):
-    from body_moments.operators import staleness
+    from body_moments.operators.session import staleness
 
     obj = circle()
     obj.body_moments.kind, obj.body_moments.density_from = "WIRE", source

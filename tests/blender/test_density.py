@@ -8,10 +8,11 @@ import math
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.mass import combined
-from body_moments.operators import staleness
-from body_moments.operators.measure import MeasureOptions, measure_object
+from body_moments.core.inertia.mass_properties import combined
+from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read import Unreadable
+from body_moments.operators.session import staleness
+from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties, record, report
 
 from tests.blender import batch_files
@@ -72,8 +73,10 @@ def test_a_dumbbell_of_two_materials():
     assert found.mass_moments[0].of == "mass" and found.volume == pytest.approx(2.0)
 
 
-@pytest.mark.parametrize("transform", [
-    {"scale": (-1, 1, 1)}, {"scale": (2, 0.5, 3)}, {"location": (1e4, 0, 0), "rotation_euler": (0.3, 0.5, -1.0)}])
+@pytest.mark.parametrize(
+    "transform",
+    [{"scale": (-1, 1, 1)}, {"scale": (2, 0.5, 3)}, {"location": (1e4, 0, 0), "rotation_euler": (0.3, 0.5, -1.0)}],
+)
 def test_materials_follow_every_transform(transform):
     """The truth is the sum of two bodies of one density each."""
     obj = dumbbell(**transform)
@@ -122,8 +125,9 @@ def test_a_shell_of_materials_follows_every_transform(transform):
 
 
 def test_a_part_that_mixes_materials_is_named_and_takes_the_mean_by_area():
-    obj = by_material(add(box((0, 0, 0), (1, 1, 1))), material("Cork", CORK), material("Steel", STEEL),
-                      faces=[1, 0, 0, 0, 0, 0])
+    obj = by_material(
+        add(box((0, 0, 0), (1, 1, 1))), material("Cork", CORK), material("Steel", STEEL), faces=[1, 0, 0, 0, 0, 0]
+    )
     found = measure(obj)
     mean = (5 * CORK + STEEL) / 6
     assert found.mass_properties.mass == pytest.approx(mean, rel=1e-14)
@@ -160,8 +164,9 @@ def test_faces_without_a_density_take_the_objects_and_it_is_said():
     by_material(obj, material("Steel", STEEL), material("Paint"), faces=[0] * 6 + [1] * 6, others=500.0)
     found = measure(obj)
     assert found.mass_properties.mass == pytest.approx(STEEL + 500.0, rel=1e-14)
-    assert found.warnings == ("6 of its 12 faces have no material with a density and take the object's 500 kg/m³ "
-                              "(“Paint” has none).",)
+    assert found.warnings == (
+        "6 of its 12 faces have no material with a density and take the object's 500 kg/m³ (“Paint” has none).",
+    )
     assert found.density_from == "materials: Steel 7820 kg/m³; others 500 kg/m³"
     obj.body_moments.density = 0.0
     with pytest.raises(Unreadable, match="its own density is zero"):
@@ -172,8 +177,12 @@ def test_faces_without_a_density_take_the_objects_and_it_is_said():
 
 
 def test_an_empty_slot_takes_the_objects_density_and_a_slot_too_far_the_last_ones():
-    obj = by_material(add(box((0, 0, 0), (1, 1, 1)), box((4, 0, 0), (5, 1, 1))), material("Steel", STEEL),
-                      material("Cork", CORK), faces=[0] * 6 + [7] * 6)
+    obj = by_material(
+        add(box((0, 0, 0), (1, 1, 1)), box((4, 0, 0), (5, 1, 1))),
+        material("Steel", STEEL),
+        material("Cork", CORK),
+        faces=[0] * 6 + [7] * 6,
+    )
     assert measure(obj).mass_properties.mass == pytest.approx(STEEL + CORK, rel=1e-14)
     obj.data.materials[1] = None
     bpy.context.view_layer.update()
@@ -182,13 +191,18 @@ def test_an_empty_slot_takes_the_objects_density_and_a_slot_too_far_the_last_one
 
 def test_a_cavity_takes_away_the_material_around_it_and_an_insert_adds_up():
     hole = box((1, 1, 1), (3, 3, 3), turned=True)
-    obj = by_material(add(box((0, 0, 0), (4, 4, 4)), hole), material("Steel", STEEL), material("Cork", CORK),
-                      faces=[0] * 6 + [1] * 6)
+    obj = by_material(
+        add(box((0, 0, 0), (4, 4, 4)), hole), material("Steel", STEEL), material("Cork", CORK), faces=[0] * 6 + [1] * 6
+    )
     found = measure(obj)
     assert found.mass_properties.mass == pytest.approx(STEEL * 56, rel=1e-14)
     assert any(one.startswith("A cavity takes away") for one in found.warnings)
-    insert = by_material(add(box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3))), bpy.data.materials["Steel"],
-                         bpy.data.materials["Cork"], faces=[0] * 6 + [1] * 6)
+    insert = by_material(
+        add(box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3))),
+        bpy.data.materials["Steel"],
+        bpy.data.materials["Cork"],
+        faces=[0] * 6 + [1] * 6,
+    )
     found = measure(insert)
     assert found.mass_properties.mass == pytest.approx(STEEL * 64 + CORK * 8, rel=1e-14)
     assert any("densities add up" in one for one in found.warnings)
@@ -353,10 +367,18 @@ def boxes_mass(low, high, density):
     return area * weight.sum(), (weight * z).sum() / weight.sum()
 
 
-@pytest.mark.parametrize("frame, scale, place", [
-    ("OBJECT", (1, 1, 1), (10, 20, 30)), ("WORLD", (1, 1, 1), (10, 20, 30)), ("OBJECT", (1, 1, 2), (0, 0, 5)),
-    ("WORLD", (1, 2, 4), (0, 0, 5)), ("OBJECT", (-1, 1, 1), (0, 0, 7)), ("OBJECT", (1, 1, -1), (0, 0, 7)),
-    ("WORLD", (1, 1, -1), (0, 0, 7))])
+@pytest.mark.parametrize(
+    "frame, scale, place",
+    [
+        ("OBJECT", (1, 1, 1), (10, 20, 30)),
+        ("WORLD", (1, 1, 1), (10, 20, 30)),
+        ("OBJECT", (1, 1, 2), (0, 0, 5)),
+        ("WORLD", (1, 2, 4), (0, 0, 5)),
+        ("OBJECT", (-1, 1, 1), (0, 0, 7)),
+        ("OBJECT", (1, 1, -1), (0, 0, 7)),
+        ("WORLD", (1, 1, -1), (0, 0, 7)),
+    ],
+)
 def test_coordinates_are_the_objects_own_or_the_worlds(frame, scale, place):
     """Own coordinates are metres along the axes as they are drawn: scaled they are not, mirrored they are."""
     obj = by_polynomial(add(box((0, 0, 1), (1, 2, 3)), location=place, scale=scale), "5 + z**2", frame)
@@ -500,9 +522,14 @@ def test_a_sheet_with_a_density_that_rises_along_x(scale):
     assert found.error_bound["input"]["center_of_mass"] > 0.0
 
 
-@pytest.mark.parametrize("value, told", [(-1.0, "is negative at 2 of its vertices: 0, 3"),
-                                         (float("nan"), "is not finite at 2 of its vertices: 0, 3"),
-                                         (float("inf"), "is not finite")])
+@pytest.mark.parametrize(
+    "value, told",
+    [
+        (-1.0, "is negative at 2 of its vertices: 0, 3"),
+        (float("nan"), "is not finite at 2 of its vertices: 0, 3"),
+        (float("inf"), "is not finite"),
+    ],
+)
 def test_values_that_are_no_density_are_refused(value, told):
     obj, points = sheet()
     values = np.ones(len(points))
@@ -629,7 +656,7 @@ def test_a_material_from_the_table_sets_one_value_but_leaves_materials():
 
 
 def test_the_command_lines_density_makes_the_setting_one_value():
-    from body_moments.operators import settings
+    from body_moments.operators.settings import properties as settings
 
     obj = by_polynomial(add(box()), "1000 + z")
     settings.keep(obj.body_moments, MeasureOptions(density=5.0), bpy.context.scene)

@@ -7,12 +7,12 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.core import fourier_body
+from body_moments.core.fourier import instances as fourier_body
 from body_moments.operators import batch
+from body_moments.operators.bodies.fourier import object_transform
 from body_moments.operators.command import fourier as command
-from body_moments.operators.fourier_body import object_transform
-from body_moments.operators.measure import MeasureOptions
 from body_moments.operators.read import Unreadable
+from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender import batch_files as files
 from tests.blender import bodies
@@ -153,8 +153,7 @@ def test_flipped_faces_are_turned_and_holes_capped_as_they_are_for_the_mass():
 
 def test_what_cannot_be_closed_is_refused_with_the_remedy():
     mesh = bpy.data.meshes.new("Fins")
-    mesh.from_pydata([(0, 0, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, -1, 0)], [],
-                     [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
+    mesh.from_pydata([(0, 0, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, -1, 0)], [], [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
     obj = bodies.add(mesh)
     with pytest.raises(Unreadable, match="open.*shell.*area"):
         transform(obj)
@@ -222,20 +221,37 @@ def test_a_file_that_cannot_be_written_is_an_error(tmp_path, wave_vectors, monke
     assert [path.name for path in tmp_path.iterdir()] == ["q.npy"]
 
 
-@pytest.mark.parametrize("words", [
-    ["--q", "Q"], ["--grid", "8"], ["--qmax", "1"], ["--fourier", "OUT"], ["--fourier", "OUT", "--grid", "8"],
-    ["--fourier", "OUT", "--qmax", "8"], ["--fourier", "OUT", "--q", "Q", "--grid", "8", "--qmax", "1"],
-    ["--fourier", "OUT", "--q", "Q", "--qmax", "1"],
-    ["--fourier", "OUT", "--grid", "1", "--qmax", "1"], ["--fourier", "OUT", "--grid", "x", "--qmax", "1"],
-    ["--fourier", "OUT", "--grid", str(command.LARGEST_GRID + 1), "--qmax", "1"],
-    ["--fourier", "OUT", "--grid", "8", "--qmax", "0"], ["--fourier", "OUT", "--grid", "8", "--qmax", "inf"],
-    ["--fourier", "OUT", "--q", "none.npy"], ["--fourier", "OUT", "--q", "TEXT"], ["--fourier", "OUT", "--q", "FLAT"],
-    ["--fourier", "OUT", "--q", "NAN"], ["--fourier", "OUT", "--q", "OBJECTS"], ["--fourier", "OUT", "--q", "NPZ"],
-    ["--fourier", "Q", "--q", "Q"], ["--fourier", "OUT", "--q", "Q", "--output", "OUT"],
-    ["--fourier", "no/such/folder/out.npz", "--q", "Q"], ["--fourier", ".", "--q", "Q"],
-    ["--fourier", "OUT", "--q", "Q", "--object", "a", "--object", "b"],
-    ["--fourier", "OUT", "--q", "Q", "a.stl", "b.stl"],
-], ids=" ".join)
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--q", "Q"],
+        ["--grid", "8"],
+        ["--qmax", "1"],
+        ["--fourier", "OUT"],
+        ["--fourier", "OUT", "--grid", "8"],
+        ["--fourier", "OUT", "--qmax", "8"],
+        ["--fourier", "OUT", "--q", "Q", "--grid", "8", "--qmax", "1"],
+        ["--fourier", "OUT", "--q", "Q", "--qmax", "1"],
+        ["--fourier", "OUT", "--grid", "1", "--qmax", "1"],
+        ["--fourier", "OUT", "--grid", "x", "--qmax", "1"],
+        ["--fourier", "OUT", "--grid", str(command.LARGEST_GRID + 1), "--qmax", "1"],
+        ["--fourier", "OUT", "--grid", "8", "--qmax", "0"],
+        ["--fourier", "OUT", "--grid", "8", "--qmax", "inf"],
+        ["--fourier", "OUT", "--q", "none.npy"],
+        ["--fourier", "OUT", "--q", "TEXT"],
+        ["--fourier", "OUT", "--q", "FLAT"],
+        ["--fourier", "OUT", "--q", "NAN"],
+        ["--fourier", "OUT", "--q", "OBJECTS"],
+        ["--fourier", "OUT", "--q", "NPZ"],
+        ["--fourier", "Q", "--q", "Q"],
+        ["--fourier", "OUT", "--q", "Q", "--output", "OUT"],
+        ["--fourier", "no/such/folder/out.npz", "--q", "Q"],
+        ["--fourier", ".", "--q", "Q"],
+        ["--fourier", "OUT", "--q", "Q", "--object", "a", "--object", "b"],
+        ["--fourier", "OUT", "--q", "Q", "a.stl", "b.stl"],
+    ],
+    ids=" ".join,
+)
 def test_wrong_usage_ends_with_2_and_writes_nothing(words, tmp_path, capsys):
     np.save(tmp_path / "Q", Q)
     np.save(tmp_path / "FLAT", Q[:, :2])

@@ -5,9 +5,10 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators import staleness
-from body_moments.operators.measure import MeasureOptions, measure_object
+from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read import Unreadable
+from body_moments.operators.session import staleness
+from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties
 
 from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object
@@ -57,8 +58,13 @@ def test_a_box_around_whole_voxels_weighs_them(tmp_path, mirror):
 
 
 def test_a_uniform_grid_is_a_plain_density_wherever_both_stand(tmp_path):
-    volume = cloud(tmp_path, np.full((40, 40, 40), 3.0, np.float32), location=(-5, -6, -7),
-                   rotation_euler=(0.1, 0.2, 0.3), scale=(0.5, 0.75, 0.6))
+    volume = cloud(
+        tmp_path,
+        np.full((40, 40, 40), 3.0, np.float32),
+        location=(-5, -6, -7),
+        rotation_euler=(0.1, 0.2, 0.3),
+        scale=(0.5, 0.75, 0.6),
+    )
     volume.body_moments.value_density = 2.0
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, location=(3, 3, 3))
     ball = bpy.context.object
@@ -69,7 +75,8 @@ def test_a_uniform_grid_is_a_plain_density_wherever_both_stand(tmp_path):
     found = measure(ball)
     assert found.mass_properties.mass == pytest.approx(plain.mass_properties.mass, rel=1e-11)
     assert np.abs(found.mass_properties.inertia - plain.mass_properties.inertia).max() <= 1e-9 * np.trace(
-        plain.mass_properties.inertia)
+        plain.mass_properties.inertia
+    )
     assert 0.0 < found.error_bound["inertia"] < 1e-6
 
 

@@ -8,11 +8,12 @@ import tempfile
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators import staleness
-from body_moments.operators.measure import MeasureOptions, measure_object
+from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read import Unreadable, sample_grid, vdb
 from body_moments.operators.read import volume as volume_module
 from body_moments.operators.read.volume import volume_reading
+from body_moments.operators.session import staleness
+from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties
 
 from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object
@@ -132,8 +133,10 @@ def test_both_ways_measure_the_same(monkeypatch, tmp_path):
 
 
 def snapshot():
-    return {name: [(block.name, block.users, block.session_uid) for block in getattr(bpy.data, name)]
-            for name in ("objects", "meshes", "node_groups", "scenes", "volumes", "collections", "worlds")}
+    return {
+        name: [(block.name, block.users, block.session_uid) for block in getattr(bpy.data, name)]
+        for name in ("objects", "meshes", "node_groups", "scenes", "volumes", "collections", "worlds")
+    }
 
 
 @pytest.mark.parametrize("nodes", [False, True])
@@ -210,8 +213,9 @@ def test_a_sheared_parent_and_the_unit_scale(tmp_path):
 def test_a_uniform_fog_is_a_box():
     """Values of one half in 4 x 2 x 6 voxels of 0.5: a box of 2 x 1 x 3 m."""
     with tempfile.TemporaryDirectory() as folder:
-        obj = volume_object(folder + "/a.vdb", vdb_grid(np.full((4, 2, 6), 0.5, np.float32),
-                                                        matrix=np.diag([0.5, 0.5, 0.5, 1.0])))
+        obj = volume_object(
+            folder + "/a.vdb", vdb_grid(np.full((4, 2, 6), 0.5, np.float32), matrix=np.diag([0.5, 0.5, 0.5, 1.0]))
+        )
         obj.body_moments.value_density = 4.0
         found = measure(obj)
     body = found.mass_properties
@@ -346,7 +350,7 @@ def test_what_cannot_be_measured_says_why(tmp_path):
         measure(flat)
     far = np.zeros((2, 2, 2), np.float32)
     far[0, 0, 0] = 1.0
-    grid = vdb_grid(far, offset=(-2**30, -2**30, -2**30))
+    grid = vdb_grid(far, offset=(-(2**30), -(2**30), -(2**30)))
     grid.fill((2**30,) * 3, (2**30,) * 3, 1.0)
     with pytest.raises(Unreadable, match="spread over"):
         measure(volume_object(tmp_path / "d.vdb", grid))
@@ -367,8 +371,9 @@ def test_a_mesh_that_its_nodes_turn_into_a_volume():
     tree = bpy.data.node_groups.new("Fog", "GeometryNodeTree")
     for direction in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
-    start, end, fog = (tree.nodes.new(name) for name in (
-        "NodeGroupInput", "NodeGroupOutput", "GeometryNodeMeshToVolume"))
+    start, end, fog = (
+        tree.nodes.new(name) for name in ("NodeGroupInput", "NodeGroupOutput", "GeometryNodeMeshToVolume")
+    )
     tree.links.new(start.outputs[0], fog.inputs[0])
     tree.links.new(fog.outputs[0], end.inputs[0])
     cube.modifiers.new("Fog", "NODES").node_group = tree

@@ -5,10 +5,11 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.scans import placed, read_scan
-from body_moments.operators.array_body import ArrayOptions, measure_array
-from body_moments.operators.measure import MeasureOptions, measure_object
+from body_moments.core.scans.formats import placed, read_scan
+from body_moments.operators.bodies.array import ArrayOptions, measure_array
+from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read.volume import volume_reading
+from body_moments.operators.settings.options import MeasureOptions
 
 from tests.core.scan_files import nifti, nrrd, written
 
@@ -65,8 +66,9 @@ def test_samples_that_float32_cannot_hold_stay_exact(tmp_path):
 def test_a_raw_file_by_hand_and_a_spacing(tmp_path):
     values = samples("u2")
     path = written(tmp_path / "a.raw", values.astype(">u2").tobytes(order="F"))
-    obj = imported(path, raw_shape=(5, 6, 7), raw_type="uint16", raw_big_endian=True, use_spacing=True,
-                   spacing=(0.01, 0.01, 0.02))
+    obj = imported(
+        path, raw_shape=(5, 6, 7), raw_type="uint16", raw_big_endian=True, use_spacing=True, spacing=(0.01, 0.01, 0.02)
+    )
     bpy.context.view_layer.update()
     assert measure(obj).mass_properties.mass == pytest.approx(values.sum() * 2e-6, rel=1e-12)
 
@@ -114,7 +116,7 @@ def test_a_volume_is_written_whole_or_not_at_all(tmp_path, monkeypatch, capfd):
     imported(path)
     assert ".." not in capfd.readouterr().out
     kept = (tmp_path / "a.vdb").read_bytes()
-    from body_moments.operators import import_scan
+    from body_moments.operators.actions.setup import import_scan
 
     class Failing:
         """openvdb on a full disk."""

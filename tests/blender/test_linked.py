@@ -48,8 +48,14 @@ def run(operator, **options):
     return getattr(bpy.ops.object, "body_moments_" + operator)(**options)
 
 
-ALL = [("measure", {}), ("find_symmetry", {}), ("set_material", {"material": "Water"}),
-       ("set_rigid_body_mass", {"add": True}), ("align_to_world", {}), ("origin_to_center", {})]
+ALL = [
+    ("measure", {}),
+    ("find_symmetry", {}),
+    ("set_material", {"material": "Water"}),
+    ("set_rigid_body_mass", {"add": True}),
+    ("align_to_world", {}),
+    ("origin_to_center", {}),
+]
 
 
 @pytest.mark.parametrize(("operator", "options"), ALL)
@@ -99,7 +105,7 @@ def test_the_panel_says_that_settings_of_an_override_are_not_kept(overridden):
 
 
 def test_the_density_of_a_linked_material_cannot_be_set_by_its_local_namesake(tmp_path):
-    from body_moments.panels.materials import density_row
+    from body_moments.panels.material_menus import density_row
 
     from tests.blender.test_panel import Layout
 

@@ -7,8 +7,9 @@ from fractions import Fraction
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.measure import MeasureOptions, measure_object
+from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read import Unreadable
+from body_moments.operators.settings.options import MeasureOptions
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -273,11 +274,14 @@ def test_sentences_about_members_of_a_collection_name_them_and_their_own_faces()
     assert found.method == "capped" and found.volume == pytest.approx(2.0)
     assert found.warnings == (
         "“Bad”: Face 2 is flipped and was measured as if turned. Recalculate Outside mends it.",
-        "“Bad”: One flat hole was capped (20 % of the area). Fill it for a closed body.")
+        "“Bad”: One flat hole was capped (20 % of the area). Fill it for a closed body.",
+    )
     good, bad = add(unit, name="Fine"), add(with_flipped(unit, 2, 4), name="Worse", location=(0.5, 0, 0))
     found = measure(collection_of(good, bad))  # as shells of one mesh, as they overlap
-    assert found.warnings[0] == ("2 faces are flipped and were measured as if turned: 2 of “Worse”, 4 of “Worse”. "
-                                 "Recalculate Outside mends them.")
+    assert found.warnings[0] == (
+        "2 faces are flipped and were measured as if turned: 2 of “Worse”, 4 of “Worse”. "
+        "Recalculate Outside mends them."
+    )
     parent = add(with_flipped(box((0, 0, 5), (1, 1, 6)), 0), name="Parent")
     child = add(box((0, 0, 0), (0.1, 0.1, 0.1)), name="Child", parent=parent)
     parent.instance_type = "VERTS"
@@ -288,16 +292,17 @@ def test_sentences_about_members_of_a_collection_name_them_and_their_own_faces()
     assert measure(parent).warnings[0].startswith("Face 0 is flipped") and not measure(child).warnings
     inverted = add(box((0, 0, 0), (1, 1, 1), turned=True), name="Inverted")
     assert measure(collection_of(inverted)).warnings == (
-        "“Inverted”: It is inside out, and measured as if turned. Recalculate Outside mends that.",)
+        "“Inverted”: It is inside out, and measured as if turned. Recalculate Outside mends that.",
+    )
 
 
 def test_what_several_members_have_in_common_is_said_once_with_their_names():
     open_box = without(box((0, 0, 0), (1, 1, 1)), 0)
-    found = measure(collection_of(*(add(open_box, name="Open {:02d}".format(i), location=(3 * i, 0, 0))
-                                    for i in range(12))))
+    found = measure(
+        collection_of(*(add(open_box, name="Open {:02d}".format(i), location=(3 * i, 0, 0)) for i in range(12)))
+    )
     names = ", ".join("“Open {:02d}”".format(i) for i in range(8))
-    assert found.warnings == (
-        names + ", …: One flat hole was capped (20 % of the area). Fill it for a closed body.",)
+    assert found.warnings == (names + ", …: One flat hole was capped (20 % of the area). Fill it for a closed body.",)
 
 
 @pytest.mark.parametrize("overlap", [False, True])
@@ -368,7 +373,7 @@ def test_a_unit_scale_is_used_in_double_precision():
 
 
 def test_out_of_date_names_what_has_changed():
-    from body_moments.operators import staleness
+    from body_moments.operators.session import staleness
 
     scene, obj = bpy.context.scene, add(box())
     obj.select_set(True)

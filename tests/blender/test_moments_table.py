@@ -45,15 +45,18 @@ def compute(order=4):
 
 
 def rows():
-    from body_moments.operators import moments_table
+    from body_moments.operators.actions.measure import moments as moments_table
 
     group = bpy.context.scene.body_moments
-    text = moments_table.as_csv(moments_table.found(bpy.context.object), group.moments_of, group.moments_about,
-                                group.frame)
+    text = moments_table.as_csv(
+        moments_table.found(bpy.context.object), group.moments_of, group.moments_about, group.frame
+    )
     comment, *lines = text.splitlines()
     assert comment.startswith("# ")
-    return {tuple(int(row[axis]) for axis in "pqr"): tuple(float(row[key]) for key in ("moment", "rounding", "float32"))
-            for row in csv.DictReader(lines)}
+    return {
+        tuple(int(row[axis]) for axis in "pqr"): tuple(float(row[key]) for key in ("moment", "rounding", "float32"))
+        for row in csv.DictReader(lines)
+    }
 
 
 def assert_box(found, size, center, tolerance=3e-7):
@@ -114,7 +117,7 @@ def test_the_copy_goes_to_the_clipboard_and_is_reported_in_background(box):
 
 
 def test_what_was_computed_is_called_out_of_date_when_the_object_changes(box):
-    from body_moments.operators import moments_table
+    from body_moments.operators.actions.measure import moments as moments_table
 
     def reason():
         bpy.context.view_layer.update()
@@ -138,7 +141,7 @@ def test_what_was_computed_is_called_out_of_date_when_the_object_changes(box):
 
 
 def test_computing_leaves_the_object_and_the_undo_stack_alone(box):
-    from body_moments.operators.moments_table import CLASSES
+    from body_moments.operators.actions.measure.moments import CLASSES
 
     compute()
     assert "body_volume" not in box and "body_fingerprint" not in box
@@ -200,7 +203,7 @@ def test_warnings_follow_as_sentences(box, capfd):
 
 
 def test_only_the_last_objects_are_kept(box, monkeypatch):
-    from body_moments.operators import moments_table
+    from body_moments.operators.actions.measure import moments as moments_table
 
     monkeypatch.setattr(moments_table, "KEPT", 2)
     others = [files.add_box(center=(5 * i, 0, 0)) for i in range(3)]
@@ -211,7 +214,8 @@ def test_only_the_last_objects_are_kept(box, monkeypatch):
 
 
 def test_a_script_gets_the_moments_of_an_object_as_the_readme_says(box):
-    from body_moments.operators.measure import MeasureOptions, measure_object
+    from body_moments.operators.bodies.measure_object import measure_object
+    from body_moments.operators.settings.options import MeasureOptions
 
     options = MeasureOptions(order=12, surface=True)
     one = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get(), options)
@@ -255,7 +259,7 @@ def test_moments_beyond_the_range_of_numbers_are_refused_not_shown(box, capfd):
 
 
 def test_moments_of_what_undo_took_back_are_out_of_date(box):
-    from body_moments.operators import moments_table
+    from body_moments.operators.actions.measure import moments as moments_table
 
     bpy.ops.ed.undo_push(message="As it was")
     bpy.ops.object.mode_set(mode="EDIT")

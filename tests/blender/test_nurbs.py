@@ -7,11 +7,12 @@ from itertools import product
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.blender_knots import blender_space, display_parameters, display_table
-from body_moments.core.patch import Patch
-from body_moments.operators import live
-from body_moments.operators.measure import MeasureOptions, measure_object
+from body_moments.core.nurbs.blender_knots import blender_space, display_parameters, display_table
+from body_moments.core.nurbs.patch import Patch
+from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read import Unreadable
+from body_moments.operators.session import live
+from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write.record import record
 
 from tests.blender.bodies import add, measured, only, place
@@ -35,10 +36,14 @@ def shown(obj):
 
 
 def spaces_of(spline):
-    return (blender_space(spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v,
-                          spline.use_endpoint_v),
-            blender_space(spline.point_count_u, spline.order_u, spline.use_cyclic_u, spline.use_bezier_u,
-                          spline.use_endpoint_u))
+    return (
+        blender_space(
+            spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v, spline.use_endpoint_v
+        ),
+        blender_space(
+            spline.point_count_u, spline.order_u, spline.use_cyclic_u, spline.use_bezier_u, spline.use_endpoint_u
+        ),
+    )
 
 
 FLAGS = list(product((False, True), repeat=3))
@@ -55,8 +60,15 @@ def test_the_display_mesh_is_reproduced_for_all_flags_orders_and_weights(along_u
         points = rng.uniform(-1.0, 1.0, (count_v, count_u, 3)).astype(np.float32)
         weights = rng.uniform(0.3, 2.0, points.shape[:2]).astype(np.float32) if number % 2 else None
         cyclic, bezier, endpoint = zip(along_u, along_v)
-        obj = surface(points, weights, orders=orders, cyclic=cyclic, bezier=bezier, endpoint=endpoint,
-                      resolution=rng.integers(1, 5, 2).tolist())
+        obj = surface(
+            points,
+            weights,
+            orders=orders,
+            cyclic=cyclic,
+            bezier=bezier,
+            endpoint=endpoint,
+            resolution=rng.integers(1, 5, 2).tolist(),
+        )
         (spline,) = obj.data.splines
         assert [spline.order_u, spline.order_v] == orders
         vertices, spaces = shown(obj), spaces_of(spline)
@@ -64,8 +76,10 @@ def test_the_display_mesh_is_reproduced_for_all_flags_orders_and_weights(along_u
             assert not len(vertices)
         else:
             valid += 1
-            tables = [display_table(space, display_parameters(space, resolution))
-                      for space, resolution in zip(spaces, (spline.resolution_v, spline.resolution_u))]
+            tables = [
+                display_table(space, display_parameters(space, resolution))
+                for space, resolution in zip(spaces, (spline.resolution_v, spline.resolution_u))
+            ]
             found = Patch(spaces, points, weights).combined(*tables).swapaxes(0, 1).reshape(-1, 3)
             assert np.abs(found - vertices).max() <= 2e-6
         bpy.data.objects.remove(obj)
@@ -216,8 +230,9 @@ def test_a_muted_key_and_one_alone_are_what_is_shown():
     assert measured(obj).volume == pytest.approx(8.0 * plain, rel=1e-12)
 
 
-@pytest.mark.parametrize("falloff", ["NONE", "SMOOTH", "SHARP", "ROOT", "LINEAR", "SPHERE", "CONSTANT",
-                                     "INVERSE_SQUARE", "CURVE"])
+@pytest.mark.parametrize(
+    "falloff", ["NONE", "SMOOTH", "SHARP", "ROOT", "LINEAR", "SPHERE", "CONSTANT", "INVERSE_SQUARE", "CURVE"]
+)
 def test_hooks_move_the_surface(falloff):
     obj = primitive("sphere")
     obj.scale = (1.0, 1.0, 2.0)
@@ -280,14 +295,21 @@ def test_splines_that_show_nothing_are_left_out_and_said():
 
 def loaf():
     """A cube of six patches of different resolution in one object."""
+
     def side(u, v, origin, count):
         s, t = np.meshgrid(np.linspace(0, 1, count[0]), np.linspace(0, 1, count[1]), indexing="ij")
         return s[..., None] * v + t[..., None] * u + origin
 
     x, y, z = np.eye(3)
     corner = np.array([3.0, 1.0, -2.0])
-    sides = [side(x, y, corner, (3, 4)), side(x, y, corner + z, (4, 3)), side(y, z, corner, (3, 3)),
-             side(y, z, corner + x, (5, 4)), side(z, x, corner, (3, 3)), side(z, x, corner + y, (4, 4))]
+    sides = [
+        side(x, y, corner, (3, 4)),
+        side(x, y, corner + z, (4, 3)),
+        side(y, z, corner, (3, 3)),
+        side(y, z, corner + x, (5, 4)),
+        side(z, x, corner, (3, 3)),
+        side(z, x, corner + y, (4, 4)),
+    ]
     objects = [surface(points, orders=(2, 3)) for points in sides]
     only(*objects)
     bpy.ops.object.join()
@@ -343,8 +365,10 @@ def test_instances_of_a_surface_are_measured_as_it_is():
 
 def test_a_union_needs_polygons_and_says_so():
     obj = primitive("sphere")
-    assert measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(overlap="union")).method == \
-        "NURBS exact"
+    assert (
+        measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(overlap="union")).method
+        == "NURBS exact"
+    )
     other = primitive("sphere")
     other.location.x = 1.0
     only(obj, other)
@@ -364,7 +388,8 @@ def test_weights_of_zero_leave_the_display_mesh():
     found = measured(obj)
     assert not found.method.startswith("NURBS") and found.warnings[0] == (
         "Display mesh instead of the surface, as fine as the viewport's resolution, as weights of its control points "
-        "(1) are not positive; raise them above zero.")
+        "(1) are not positive; raise them above zero."
+    )
 
 
 def test_weights_of_zero_that_show_no_number_are_named():
@@ -446,8 +471,11 @@ def test_live_numbers_follow_what_was_renamed_and_the_linked_one_of_two_with_one
 def test_live_numbers_of_other_settings_are_out_of_date():
     obj, scene = primitive("sphere"), bpy.context.scene
     bpy.ops.object.body_moments_live()
-    for data, name, value in ((obj.body_moments, "kind", "SHELL"), (obj.body_moments, "density", 2500.0),
-                              (scene.unit_settings, "scale_length", 0.5)):
+    for data, name, value in (
+        (obj.body_moments, "kind", "SHELL"),
+        (obj.body_moments, "density", 2500.0),
+        (scene.unit_settings, "scale_length", 0.5),
+    ):
         setattr(data, name, value)
         assert live.is_outdated(obj, scene)
         live.follow(obj, bpy.context.evaluated_depsgraph_get())

@@ -50,9 +50,7 @@ def test_the_empty_is_the_principal_frame_and_there_is_one(parent):
     only(obj)
     assert bpy.ops.object.body_moments_add_empty(parent=parent) == {"CANCELLED"}
     obj.location.x += 5.0
-    assert bpy.ops.object.body_moments_add_empty(parent=parent) == (
-        {"CANCELLED"} if parent else {"FINISHED"}
-    )
+    assert bpy.ops.object.body_moments_add_empty(parent=parent) == ({"CANCELLED"} if parent else {"FINISHED"})
     assert np.abs(place(empty)[:3, 3] - measured(obj).mass_properties.center).max() < 1e-5
     assert len([one for one in bpy.data.objects if one.type == "EMPTY"]) == 1
 
@@ -151,11 +149,7 @@ def test_an_orientation_is_created_or_its_absence_is_explained():
     obj = add(mesh_body(), rotation=(0.3, 0.4, 0.5))
     outcome = bpy.ops.object.body_moments_create_orientation(name="Mine")
     slot = bpy.context.scene.transform_orientation_slots[0]
-    if any(
-        area.type == "VIEW_3D"
-        for window in bpy.context.window_manager.windows
-        for area in window.screen.areas
-    ):
+    if any(area.type == "VIEW_3D" for window in bpy.context.window_manager.windows for area in window.screen.areas):
         assert outcome == {"FINISHED"}
         assert slot.custom_orientation.name == "Mine"
         axes = measured(obj).mass_properties.principal.axes
@@ -185,7 +179,7 @@ def test_no_faults_stays_in_object_mode_and_says_so():
 
 def test_no_faults_in_edit_mode_leaves_mode_and_selection_as_they_were():
     import bmesh
-    from body_moments.operators import staleness
+    from body_moments.operators.session import staleness
 
     obj = add(mesh_body())
     bpy.ops.object.mode_set(mode="EDIT")
@@ -232,8 +226,12 @@ def test_undo_leads_back_from_the_faults_to_the_measurement_and_from_there_to_th
 
     def state():
         objects = bpy.context.view_layer.objects
-        return (bpy.context.mode, sorted(obj.name for obj in objects.selected), objects.active.name,
-                "body_volume" in bpy.data.objects["Bad"])
+        return (
+            bpy.context.mode,
+            sorted(obj.name for obj in objects.selected),
+            objects.active.name,
+            "body_volume" in bpy.data.objects["Bad"],
+        )
 
     bpy.ops.ed.undo_push(message="start")
     if mode == "EDIT":
@@ -279,8 +277,8 @@ def test_faults_of_a_result_of_modifiers_are_not_selected_in_the_mesh():
 
 
 def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets_it():
-    from body_moments.core.decimal import decimal
-    from body_moments.core.materials import BY_NAME
+    from body_moments.core.density.materials import BY_NAME
+    from body_moments.core.numerics.float32 import decimal
 
     one, other = add(mesh_body(), "One"), add(mesh_body(), "Other")
     only(one, other)
@@ -301,10 +299,7 @@ def test_settings_are_copied_to_the_other_selected_objects():
     one.body_moments.kind = "SHELL"
     one.body_moments.thickness = 0.02
     assert bpy.ops.object.body_moments_copy_settings() == {"FINISHED"}
-    assert (
-        other.body_moments.kind == "SHELL"
-        and other.body_moments.thickness == one.body_moments.thickness
-    )
+    assert other.body_moments.kind == "SHELL" and other.body_moments.thickness == one.body_moments.thickness
     assert bpy.ops.object.body_moments_copy_settings() == {"CANCELLED"}
 
 
@@ -320,14 +315,30 @@ def test_ones_own_presets_are_kept_loaded_and_removed():
 
 
 def test_presets_keep_every_setting_that_is_no_object():
-    from body_moments.core.materials import MATERIALS
-    from body_moments.operators.settings import COPIED
+    from body_moments.core.density.materials import MATERIALS
+    from body_moments.operators.settings.properties import COPIED
 
-    changed = {"kind": "WIRE", "wall": "INWARD", "thickness": 0.25, "mass_from": "MASS",
-               "density": MATERIALS[0].density, "linear_density": 0.5, "material": MATERIALS[0].name, "mass": 3.0,
-               "overlap": "UNION", "density_from": "POLYNOMIAL", "density_polynomial": "1 + x",
-               "density_frame": "WORLD", "density_attribute": "rho", "grid": "density", "grid_as": "SOLID",
-               "values_from": "TABLE", "value_density": 2.0, "transfer_table": "0, 1, 2, 3", "spline_order": 4}
+    changed = {
+        "kind": "WIRE",
+        "wall": "INWARD",
+        "thickness": 0.25,
+        "mass_from": "MASS",
+        "density": MATERIALS[0].density,
+        "linear_density": 0.5,
+        "material": MATERIALS[0].name,
+        "mass": 3.0,
+        "overlap": "UNION",
+        "density_from": "POLYNOMIAL",
+        "density_polynomial": "1 + x",
+        "density_frame": "WORLD",
+        "density_attribute": "rho",
+        "grid": "density",
+        "grid_as": "SOLID",
+        "values_from": "TABLE",
+        "value_density": 2.0,
+        "transfer_table": "0, 1, 2, 3",
+        "spline_order": 4,
+    }
     assert {*changed, "density_volume"} == {*COPIED}
     one = add(mesh_body())
     for name, value in changed.items():
@@ -342,7 +353,7 @@ def test_presets_keep_every_setting_that_is_no_object():
 
 
 def test_materials_are_many_sourced_and_plausible():
-    from body_moments.core.materials import BY_NAME, MATERIALS
+    from body_moments.core.density.materials import BY_NAME, MATERIALS
 
     assert len(MATERIALS) >= 40 and len(BY_NAME) == len(MATERIALS)
     for material in MATERIALS:
@@ -381,7 +392,7 @@ def test_materials_are_many_sourced_and_plausible():
     ],
 )
 def test_numbers_are_shown_in_the_scenes_units(system, length, mass, expected):
-    from body_moments.operators.units import Units
+    from body_moments.operators.write.units import Units
 
     units = Units(system, length, mass, 1.0)
     values = (
@@ -397,15 +408,17 @@ def test_numbers_are_shown_in_the_scenes_units(system, length, mass, expected):
 
 def test_without_a_unit_system_lengths_are_the_scenes_and_masses_are_kilograms():
     """Else a density beside a volume in the scene's units would seem to give another mass than the one shown."""
-    from body_moments.operators.units import Units
+    from body_moments.operators.write.units import Units
 
     units = Units("NONE", "ADAPTIVE", "ADAPTIVE", 0.001)
     values = (("length", 0.002), ("volume", 8e-9), ("mass", 8e-6), ("density", 1000.0), ("inertia", 5e-12))
     assert [units.text(*value) for value in values] == ["2", "8", "8e−6 kg", "1000 kg/m³", "5e−12 kg·m²"]
 
 
-@pytest.mark.parametrize(("system", "scale", "told"), [("METRIC", 0.01, True), ("IMPERIAL", 0.3048, True),
-                                                       ("METRIC", 1.0, False), ("NONE", 0.01, False)])
+@pytest.mark.parametrize(
+    ("system", "scale", "told"),
+    [("METRIC", 0.01, True), ("IMPERIAL", 0.3048, True), ("METRIC", 1.0, False), ("NONE", 0.01, False)],
+)
 def test_what_blender_shows_of_a_rigid_bodys_mass_is_told_where_it_is_scaled(system, scale, told, capfd):
     settings = bpy.context.scene.unit_settings
     settings.system, settings.scale_length = system, scale
@@ -418,7 +431,7 @@ def test_what_blender_shows_of_a_rigid_bodys_mass_is_told_where_it_is_scaled(sys
 
 
 def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():
-    from body_moments.operators.units import Units, number
+    from body_moments.operators.write.units import Units, number
 
     assert [number(value) for value in (0.0, 1e-9, 123456789.0, -0.5, 1.23456789e-3, 1e12)] == [
         "0",
@@ -454,7 +467,7 @@ def test_where_no_object_can_have_a_symmetry_it_is_told(capfd):
 
 
 def test_sentences_of_a_report_have_one_period_each():
-    from body_moments.operators.selection import one_line
+    from body_moments.operators.write.text import one_line
 
     assert one_line(["Measured 1 object"]) == "Measured 1 object"
     assert one_line(["Laid 1 object", "It is open.", "It is mended."]) == "Laid 1 object. It is open. It is mended."

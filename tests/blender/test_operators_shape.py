@@ -202,9 +202,14 @@ def test_similar_objects_are_found_listed_and_selected():
     assert selected() == {"Wanted", "Copy"}
 
 
-@pytest.mark.parametrize("options, more", [
-    ({"mirrored": True}, {"Image"}), ({"scaled": True}, {"Big"}),
-    ({"mirrored": True, "scaled": True}, {"Image", "Big"})])
+@pytest.mark.parametrize(
+    "options, more",
+    [
+        ({"mirrored": True}, {"Image"}),
+        ({"scaled": True}, {"Big"}),
+        ({"mirrored": True, "scaled": True}, {"Image", "Big"}),
+    ],
+)
 def test_mirror_images_and_other_sizes_are_selected_where_asked_for(options, more):
     scene_of_shapes()
     run("find_similar", **options)
@@ -233,9 +238,9 @@ def test_copies_whose_hands_rounding_hides_are_held_against_the_surface():
     wanted = prism("Wanted", [(0, 0), (3, 0), (1, 1)])
     prism("Copy", [(0, 0), (3, 0), (1, 1)], location=(9, 0, 0))
     only(wanted)
-    from body_moments.core.library import verdict
-    from body_moments.core.signature import compared
-    from body_moments.operators.shape import surface_shape_of
+    from body_moments.core.shape.library import verdict
+    from body_moments.core.shape.signature import compared
+    from body_moments.operators.bodies.shape import surface_shape_of
 
     depsgraph = bpy.context.evaluated_depsgraph_get()
     first, second = (surface_shape_of(bpy.data.objects[name], depsgraph).signature(12) for name in ("Wanted", "Copy"))
@@ -256,8 +261,10 @@ def test_a_library_measured_in_batch_is_searched(tmp_path):
     scene_of_shapes()
     path = tmp_path / "library.jsonl"
     with open(tmp_path / "sink", "wb") as sink:
-        assert batch.main(["measure", "--signature", "--format", "jsonl", "--output", str(path)],
-                          channel=sink.fileno()) == 0
+        assert (
+            batch.main(["measure", "--signature", "--format", "jsonl", "--output", str(path)], channel=sink.fileno())
+            == 0
+        )
     for name in ("Copy", "Image", "Big", "Other"):
         bpy.data.objects.remove(bpy.data.objects[name])
     assert run("find_in_library", filepath=str(path)) == {"FINISHED"}
@@ -282,15 +289,18 @@ def test_what_was_found_survives_saving_and_loading(tmp_path):
     assert "any more" in refused("select_found", name="Nobody")
 
 
-@pytest.mark.parametrize("make, group", [
-    (lambda: bpy.ops.mesh.primitive_cube_add(), "Oh"),
-    (lambda: bpy.ops.mesh.primitive_cylinder_add(vertices=12), "D12h"),
-    (lambda: bpy.ops.mesh.primitive_cylinder_add(vertices=256), "D∞h"),
-    (lambda: bpy.ops.mesh.primitive_cone_add(vertices=5), "C5v"),
-    (lambda: bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2), "Ih"),
-    (lambda: bpy.ops.mesh.primitive_torus_add(major_segments=48, minor_segments=12), "D48h"),
-    (lambda: bpy.ops.mesh.primitive_monkey_add(), "Cs"),
-])
+@pytest.mark.parametrize(
+    "make, group",
+    [
+        (lambda: bpy.ops.mesh.primitive_cube_add(), "Oh"),
+        (lambda: bpy.ops.mesh.primitive_cylinder_add(vertices=12), "D12h"),
+        (lambda: bpy.ops.mesh.primitive_cylinder_add(vertices=256), "D∞h"),
+        (lambda: bpy.ops.mesh.primitive_cone_add(vertices=5), "C5v"),
+        (lambda: bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2), "Ih"),
+        (lambda: bpy.ops.mesh.primitive_torus_add(major_segments=48, minor_segments=12), "D48h"),
+        (lambda: bpy.ops.mesh.primitive_monkey_add(), "Cs"),
+    ],
+)
 def test_the_symmetry_of_what_blender_adds(make, group):
     make()
     obj = bpy.context.object
@@ -333,7 +343,7 @@ def test_nothing_of_the_objects_is_touched():
 
 
 def test_a_symmetry_is_out_of_date_after_an_edit_and_not_after_a_motion():
-    from body_moments.operators import staleness
+    from body_moments.operators.session import staleness
 
     obj = wedge()
     run("measure")
@@ -380,7 +390,7 @@ def test_the_panel_shows_what_was_found(panel):
 
 
 def test_a_signature_goes_beyond_order_20_by_quadrature():
-    from body_moments.operators.shape import shape_of
+    from body_moments.operators.bodies.shape import shape_of
 
     shape = shape_of(wedge(location=(1, 2, 3), scale=2.0), bpy.context.evaluated_depsgraph_get())
     long, short = shape.signature(26), shape.signature()
@@ -389,7 +399,7 @@ def test_a_signature_goes_beyond_order_20_by_quadrature():
 
 
 def test_a_shell_has_a_pose_and_a_signature_of_its_sheet():
-    from body_moments.operators.shape import shape_of
+    from body_moments.operators.bodies.shape import shape_of
 
     obj = wedge(location=(1, 2, 3))
     obj.body_moments.kind = "SHELL"
@@ -400,8 +410,8 @@ def test_a_shell_has_a_pose_and_a_signature_of_its_sheet():
 
 
 def test_instances_are_part_of_the_shape():
-    from body_moments.core.signature import compared
-    from body_moments.operators.shape import shape_of
+    from body_moments.core.shape.signature import compared
+    from body_moments.operators.bodies.shape import shape_of
 
     obj = wedge()
     array = obj.modifiers.new("Array", "ARRAY")
@@ -430,8 +440,8 @@ def test_clearing_takes_the_symmetry_away():
 
 @pytest.mark.parametrize("body", ["wedge", "sliver", "sphere"])
 def test_distances_from_a_skin_are_those_from_all_triangles_and_decide_alike(body):
-    from body_moments.core.distance import triangle_distances
-    from body_moments.operators.shape import Skin, shape_of
+    from body_moments.core.mesh.point_triangle import triangle_distances
+    from body_moments.operators.bodies.shape import Skin, shape_of
 
     if body == "sphere":
         bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, location=(1, 2, 3))

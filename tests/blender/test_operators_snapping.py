@@ -91,9 +91,7 @@ def test_a_mirrored_body_keeps_its_faces_outward(name):
 
 
 @pytest.mark.parametrize("name", REFRAMING)
-@pytest.mark.parametrize(
-    "mode", ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "QUATERNION", "AXIS_ANGLE"]
-)
+@pytest.mark.parametrize("mode", ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "QUATERNION", "AXIS_ANGLE"])
 def test_every_rotation_mode_and_deltas(name, mode):
     obj = add(mesh_body())
     obj.rotation_mode = mode
@@ -112,16 +110,14 @@ def test_every_rotation_mode_and_deltas(name, mode):
 @pytest.mark.parametrize("mode", ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"])
 @pytest.mark.parametrize("cosine", [0.0, 1e-7, 1e-5, 1e-3, 0.5])
 def test_euler_angles_rebuild_the_rotation_even_beside_gimbal_lock(mode, cosine):
-    from body_moments.operators.channels import euler_angles, euler_matrix
+    from body_moments.operators.scene.transforms import euler_angles, euler_matrix
 
     middle = "XYZ".index(mode[1])
     angles = np.array([0.3, -0.8, 1.1])
     angles[middle] = np.pi / 2.0 - cosine
     rotation = euler_matrix(angles, mode)
     found = euler_angles(rotation, mode, np.array([4.0, -7.0, 0.5]))
-    assert (
-        np.abs(euler_matrix(found.astype(np.float32).astype(float), mode) - rotation).max() < 1e-6
-    )
+    assert np.abs(euler_matrix(found.astype(np.float32).astype(float), mode) - rotation).max() < 1e-6
     from mathutils import Euler
 
     assert np.abs(np.array(Euler(found, mode).to_matrix()) - rotation).max() < 1e-6
@@ -147,9 +143,7 @@ def test_parents_are_respected(name):
     parent = add(None, "Parent", location=(10, 20, 30), rotation=(0.5, 0.6, 0.7), scale=(2, 2, 2))
     obj = add(mesh_body(), location=(1, 0, 0), rotation=(0.1, 0.9, 0))
     obj.parent = parent
-    obj.matrix_parent_inverse = Matrix.LocRotScale(
-        (3, 2, 1), Matrix.Rotation(0.4, 3, "Y"), (0.5, 0.5, 0.5)
-    )
+    obj.matrix_parent_inverse = Matrix.LocRotScale((3, 2, 1), Matrix.Rotation(0.4, 3, "Y"), (0.5, 0.5, 0.5))
     only(obj)
     before = seen(obj)
     assert run(name) == {"FINISHED"}
@@ -512,13 +506,9 @@ def test_bodies_that_leave_a_choice_are_stable(name, make):
     if make == "cube":
         bpy.ops.mesh.primitive_cube_add(location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
     elif make == "sphere":
-        bpy.ops.mesh.primitive_ico_sphere_add(
-            subdivisions=2, location=(1, 2, 3), rotation=(0.3, 0.4, 0.5)
-        )
+        bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2, location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
     else:
-        bpy.ops.mesh.primitive_cylinder_add(
-            vertices=12, location=(1, 2, 3), rotation=(0.3, 0.4, 0.5)
-        )
+        bpy.ops.mesh.primitive_cylinder_add(vertices=12, location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
     obj = bpy.context.object
     run(name)
     matrix, points = place(obj), seen(obj)
@@ -543,15 +533,11 @@ def test_one_undo_brings_everything_back(name):
     bpy.ops.ed.undo()
     obj, child = bpy.data.objects["Body"], bpy.data.objects["Child"]
     assert len(bpy.data.objects) == count and len(bpy.data.meshes) == 1
-    assert (
-        (seen(obj) == before).all()
-        and (place(obj) == matrix).all()
-        and (place(child) == at_child).all()
-    )
+    assert (seen(obj) == before).all() and (place(obj) == matrix).all() and (place(child) == at_child).all()
 
 
 def test_stored_results_are_kept_up_to_date():
-    from body_moments.operators import staleness
+    from body_moments.operators.session import staleness
 
     obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.1, 0.2, 0.3))
     bpy.ops.object.body_moments_measure()
@@ -615,7 +601,7 @@ def test_a_round_body_turned_within_its_object_stays():
 @pytest.mark.parametrize("cuts", [1, 5])
 def test_faces_change_neither_the_frame_that_is_snapped_to_nor_what_is_told_of_it(cuts, monkeypatch):
     """Measure looks at moments beyond third order up to a number of faces only, and says so beyond."""
-    from body_moments.operators import measure
+    from body_moments.operators.bodies import measure_object as measure
     from body_moments.operators.write import properties
 
     monkeypatch.setattr(measure, "AT_ONCE", 100)
@@ -642,8 +628,11 @@ def test_faces_change_neither_the_frame_that_is_snapped_to_nor_what_is_told_of_i
 
 @pytest.mark.parametrize("name", [AXES, ALIGN])
 def test_the_strict_rule_poses_what_it_can_and_refuses_the_rest(name):
-    add(mesh_body(points=[(0, 0, 0), (3, 0, 0), (3.5, 1, 0), (1, 1, 0), (1, 2.5, 0), (0, 2, 0)]),
-        location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
+    add(
+        mesh_body(points=[(0, 0, 0), (3, 0, 0), (3.5, 1, 0), (1, 1, 0), (1, 2.5, 0), (0, 2, 0)]),
+        location=(1, 2, 3),
+        rotation=(0.3, 0.4, 0.5),
+    )
     assert run(name, strict=True) == {"FINISHED"}
     assert run(name, strict=True) == {"CANCELLED"}
     bpy.ops.mesh.primitive_cube_add()

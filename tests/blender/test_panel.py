@@ -216,7 +216,7 @@ def test_values_are_shown_with_units_and_copied_with_all_digits():
 @pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])
 @pytest.mark.parametrize("unit", [1.0, 0.001])
 def test_the_frame_shown_is_the_frame_chosen(frame, unit):
-    from body_moments.operators import results
+    from body_moments.operators.session import results
 
     scene = bpy.context.scene
     scene.unit_settings.scale_length = unit
@@ -233,7 +233,7 @@ def test_the_frame_shown_is_the_frame_chosen(frame, unit):
 
 def test_the_total_tells_what_may_be_no_part_of_it(capfd):
     """Without a window there is no clipboard: the whole report goes to the standard output."""
-    from body_moments.operators import results
+    from body_moments.operators.session import results
 
     body, cutter = add(mesh_body(), "Body"), add(mesh_body(), "Cutter", location=(1, 1, 1))
     cutter.display_type = "WIRE"
@@ -254,7 +254,7 @@ def test_the_total_tells_what_may_be_no_part_of_it(capfd):
 
 
 def test_the_total_tells_that_an_open_body_makes_it_stand_on_nothing(capfd):
-    from body_moments.operators import results
+    from body_moments.operators.session import results
 
     only(add(mesh_body(), "Body"), add(strip_mesh(), "Strip"))
     bpy.ops.object.body_moments_measure()
@@ -270,22 +270,20 @@ def test_what_is_rounding_in_a_totals_center_is_told_as_0():
     bpy.ops.object.select_all(action="SELECT")
     bpy.ops.object.body_moments_measure()
     told = labels(drawn())
-    assert told[told.index("Center of Mass (World)"):][1:6:2] == ["X", "Y", "Z"]
-    assert told[told.index("Center of Mass (World)"):][2:7:2] == ["0 m", "0 m", "0 m"]
+    assert told[told.index("Center of Mass (World)") :][1:6:2] == ["X", "Y", "Z"]
+    assert told[told.index("Center of Mass (World)") :][2:7:2] == ["0 m", "0 m", "0 m"]
 
 
 def test_totals_have_parallel_axis_terms():
-    from body_moments.operators import results
+    from body_moments.operators.session import results
 
-    objects = [
-        add(mesh_body(), str(i), location=(10 * i, 2 * i, -i), rotation=(i, 0, 0)) for i in range(3)
-    ]
+    objects = [add(mesh_body(), str(i), location=(10 * i, 2 * i, -i), rotation=(i, 0, 0)) for i in range(3)]
     only(*objects)
     bpy.ops.object.body_moments_measure()
     add(mesh_body(), "Not Measured")
     for obj in objects:
         obj.select_set(True)
-    from body_moments.core.mass import combined
+    from body_moments.core.inertia.mass_properties import combined
 
     truth = combined([measured(obj).mass_moments for obj in objects])
     total = results.total(bpy.context)
@@ -314,10 +312,7 @@ def test_damaged_results_are_not_shown():
 def test_warnings_are_wrapped_and_complete():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
-    sentence = (
-        "This is a long warning that does not fit into one line of a narrow panel, whatever its "
-        "font is"
-    )
+    sentence = "This is a long warning that does not fit into one line of a narrow panel, whatever its font is"
     obj["body_warnings"] = sentence
     found = labels(drawn())
     lines = found[found.index("Warnings (1)") + 1 :]
@@ -409,7 +404,7 @@ def test_numbers_are_whole_in_the_narrowest_sidebar(monkeypatch):
 
 
 def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
-    from body_moments.operators import measure
+    from body_moments.operators.bodies import measure_object as measure
 
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
@@ -507,19 +502,14 @@ def test_a_file_saved_after_an_edit_is_out_of_date_when_opened(tmp_path):
 
 
 def test_the_presets_panel_draws_without_presets(monkeypatch):
-    from body_moments.panels.materials import (
-        OBJECT_MT_body_moments_materials,
-        OBJECT_PT_body_moments_presets,
-    )
+    from body_moments.panels.material_menus import OBJECT_MT_body_moments_materials, OBJECT_PT_body_moments_presets
 
     monkeypatch.setattr(bpy.utils, "preset_paths", lambda _: [])
     add(mesh_body())
     for cls in (OBJECT_MT_body_moments_materials, OBJECT_PT_body_moments_presets):
         layout = Layout()
         cls.draw(
-            SimpleNamespace(
-                layout=layout, preset_add_operator=getattr(cls, "preset_add_operator", "")
-            ),
+            SimpleNamespace(layout=layout, preset_add_operator=getattr(cls, "preset_add_operator", "")),
             bpy.context,
         )
         assert layout.record
@@ -560,7 +550,7 @@ def test_the_panel_says_where_the_density_came_from():
 
 
 def test_a_materials_panel_draws_its_density():
-    from body_moments.panels.materials import MATERIAL_PT_body_moments
+    from body_moments.panels.material_menus import MATERIAL_PT_body_moments
 
     made = bpy.data.materials.new("Steel")
     for density, told in ((0.0, "None: the object's density is taken"), (7820.0, None)):
@@ -573,13 +563,14 @@ def test_a_materials_panel_draws_its_density():
 
 
 def test_the_menus_set_the_material_that_the_layout_points_at():
-    from body_moments.panels.materials import CATEGORY_MENUS
+    from body_moments.panels.material_menus import CATEGORY_MENUS
 
     made = bpy.data.materials.new("Steel")
     for target, wanted in ((None, "object.body_moments_set_material"), (made, "material.body_moments_set_density")):
         layout = Layout()
-        CATEGORY_MENUS[0].draw(SimpleNamespace(layout=layout, bl_label="Metals"),
-                               SimpleNamespace(body_moments_material=target))
+        CATEGORY_MENUS[0].draw(
+            SimpleNamespace(layout=layout, bl_label="Metals"), SimpleNamespace(body_moments_material=target)
+        )
         buttons = [entry for entry in layout.record if entry[0] == "operator"]
         assert buttons and {entry[1] for entry in buttons} == {wanted}
         if target:

@@ -9,7 +9,7 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from body_moments.operators.read import Unreadable, measurable_objects, read_object  # noqa: E402
+from body_moments.operators.read import Unreadable, measurable_objects, read_object
 
 from tests.blender.read_bodies import (  # noqa: E402
     collection,
@@ -54,9 +54,7 @@ def empty(name, instances=None):
 
 
 def grid(tree, side):
-    return node(tree, "GeometryNodeMeshGrid", {"Vertices X": side, "Vertices Y": side}).outputs[
-        "Mesh"
-    ]
+    return node(tree, "GeometryNodeMeshGrid", {"Vertices X": side, "Vertices Y": side}).outputs["Mesh"]
 
 
 def on_points(tree, points, instance, scale=(1.0, 1.0, 1.0)):
@@ -101,19 +99,11 @@ def test_instances_may_be_objects_collections_and_geometry():
     host = placed(cube("Host"))
 
     def build(tree, _source):
-        one = node(tree, "GeometryNodeObjectInfo", {"Object": source, "As Instance": True}).outputs[
-            "Geometry"
-        ]
-        real = node(
-            tree, "GeometryNodeObjectInfo", {"Object": source, "As Instance": False}
-        ).outputs["Geometry"]
+        one = node(tree, "GeometryNodeObjectInfo", {"Object": source, "As Instance": True}).outputs["Geometry"]
+        real = node(tree, "GeometryNodeObjectInfo", {"Object": source, "As Instance": False}).outputs["Geometry"]
         whole = node(tree, "GeometryNodeCollectionInfo", {"Collection": members}).outputs[0]
-        each = node(
-            tree, "GeometryNodeCollectionInfo", {"Collection": members, "Separate Children": True}
-        ).outputs[0]
-        moved = node(
-            tree, "GeometryNodeTransform", {"Translation": (3.0, 3.0, 3.0)}, Geometry=whole
-        ).outputs[0]
+        each = node(tree, "GeometryNodeCollectionInfo", {"Collection": members, "Separate Children": True}).outputs[0]
+        moved = node(tree, "GeometryNodeTransform", {"Translation": (3.0, 3.0, 3.0)}, Geometry=whole).outputs[0]
         return on_points(tree, grid(tree, 2), join(tree, one, real, whole, each, moved))
 
     nodes(host, build)
@@ -285,9 +275,7 @@ def test_the_places_are_products_in_float64():
     (part,) = read_object(host, depsgraph()).parts
     geometry = host.evaluated_get(depsgraph()).evaluated_geometry()
     cloud = geometry.instances_pointcloud()
-    for matrix, item in zip(
-        part.matrices, cloud.attributes["instance_transform"].data, strict=True
-    ):
+    for matrix, item in zip(part.matrices, cloud.attributes["instance_transform"].data, strict=True):
         exact = [
             [
                 sum(float(a) * float(b) for a, b in zip(row, column, strict=True))

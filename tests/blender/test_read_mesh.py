@@ -8,8 +8,8 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 import bmesh  # noqa: E402
-from body_moments.operators.read import read_object  # noqa: E402
-from body_moments.operators.read.mesh import mesh_surface  # noqa: E402
+from body_moments.operators.read import read_object
+from body_moments.operators.read.mesh import mesh_surface
 
 from tests.blender.read_bodies import (  # noqa: E402
     CUBE,
@@ -31,9 +31,7 @@ RNG = np.random.default_rng(7)
 
 def prism(sides, wobble=0.0):
     angle = np.arange(sides) * 2.0 * np.pi / sides
-    ring = (
-        np.stack([np.cos(angle), np.sin(angle)], 1) * (1.0 + 0.6 * (np.arange(sides) % 2))[:, None]
-    )
+    ring = np.stack([np.cos(angle), np.sin(angle)], 1) * (1.0 + 0.6 * (np.arange(sides) % 2))[:, None]
     points = np.concatenate([np.c_[ring, np.zeros(sides)], np.c_[ring, np.ones(sides)]])
     points += RNG.uniform(-wobble, wobble, points.shape)
     i = np.arange(sides)
@@ -122,9 +120,7 @@ def test_a_modified_mesh_is_read_as_evaluated():
     plain = link("Subdivided", mesh("Body", *mixed()))
     plain.modifiers.new("Subdivision", "SUBSURF").levels = 2
     for each in (obj, plain):
-        assert surface_triangles(
-            read_object(each, depsgraph()).parts[0].surface
-        ) == bmesh_triangles(each)
+        assert surface_triangles(read_object(each, depsgraph()).parts[0].surface) == bmesh_triangles(each)
 
 
 def test_reading_leaves_no_data_block_and_no_byte_changed():

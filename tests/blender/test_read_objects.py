@@ -10,7 +10,7 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from body_moments.operators.read import Unreadable, measurable, measurable_objects, read_object  # noqa: E402
+from body_moments.operators.read import Unreadable, measurable, measurable_objects, read_object
 from mathutils import Matrix  # noqa: E402
 
 from tests.blender.read_bodies import (  # noqa: E402
@@ -81,9 +81,7 @@ def ball():
     return metaball("Ball")
 
 
-@pytest.mark.parametrize(
-    "make", [cube, bevelled, text, nurbs, shaped, ball], ids=lambda make: make.__name__
-)
+@pytest.mark.parametrize("make", [cube, bevelled, text, nurbs, shaped, ball], ids=lambda make: make.__name__)
 def test_every_kind_that_shows_a_surface_is_read(make):
     obj = make()
     reading = read(obj)
@@ -197,8 +195,9 @@ def test_a_curve_that_only_carries_instances_has_no_polygons_to_speak_of():
 
     def build(tree, source):
         points = node(tree, "GeometryNodeCurveToPoints", {}, Curve=source).outputs[0]
-        made = node(tree, "GeometryNodeInstanceOnPoints", Points=points,
-                    Instance=node(tree, "GeometryNodeMeshCube").outputs[0])
+        made = node(
+            tree, "GeometryNodeInstanceOnPoints", Points=points, Instance=node(tree, "GeometryNodeMeshCube").outputs[0]
+        )
         return made.outputs[0]
 
     nodes(obj, build)
@@ -213,9 +212,7 @@ def test_the_metaball_with_the_lowest_number_holds_its_familys_polygons():
     assert measurable_objects(bpy.context.view_layer) == [mother, other]
 
 
-@pytest.mark.parametrize(
-    "kind", ["LIGHT", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"]
-)
+@pytest.mark.parametrize("kind", ["LIGHT", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"])
 def test_kinds_without_geometry_are_refused_by_name(kind):
     adders = {
         "LIGHT": lambda: bpy.ops.object.light_add(type="SUN"),
@@ -262,9 +259,7 @@ def test_what_has_no_faces_is_refused_with_what_it_has():
 
 def test_a_point_cloud_with_a_surface_from_nodes_is_read():
     obj = link("Cloud", bpy.data.pointclouds.new("Cloud"))
-    nodes(
-        obj, lambda tree, source: join(tree, source, node(tree, "GeometryNodeMeshCube").outputs[0])
-    )
+    nodes(obj, lambda tree, source: join(tree, source, node(tree, "GeometryNodeMeshCube").outputs[0]))
     assert measurable(obj)
     assert len(read(obj).parts[0].surface.quads) == 6
 
@@ -394,13 +389,10 @@ def test_different_levels_for_the_render_are_said():
     reading = read(obj)
     assert len(reading.parts[0].surface.quads) == 24
     assert reading.warnings == [
-        "Read as the viewport shows it; the render differs: "
-        "“Smooth” has 1 in the viewport, 3 in the render."
+        "Read as the viewport shows it; the render differs: “Smooth” has 1 in the viewport, 3 in the render."
     ]
     bpy.context.scene.render.use_simplify = True
-    bpy.context.scene.render.simplify_subdivision = (
-        bpy.context.scene.render.simplify_subdivision_render
-    ) = 1
+    bpy.context.scene.render.simplify_subdivision = bpy.context.scene.render.simplify_subdivision_render = 1
     assert read(obj).warnings == []
 
 
@@ -458,9 +450,7 @@ def test_errors_of_nodes_are_said():
     def build(tree, source):
         warning = node(tree, "GeometryNodeWarning", {"Show": True, "Message": "no good"})
         warning.warning_type = "ERROR"
-        gone = node(
-            tree, "GeometryNodeDeleteGeometry", {}, Geometry=source, Selection=warning.outputs[0]
-        )
+        gone = node(tree, "GeometryNodeDeleteGeometry", {}, Geometry=source, Selection=warning.outputs[0])
         return join(tree, source, gone.outputs[0])
 
     nodes(obj, build)
@@ -576,9 +566,7 @@ def test_linked_objects_and_collections_are_read(tmp_path):
     assert len(measurable_objects(bpy.context.view_layer)) == 3
 
 
-@pytest.mark.parametrize(
-    "mode", ["SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "EDIT", "OBJECT"]
-)
+@pytest.mark.parametrize("mode", ["SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "EDIT", "OBJECT"])
 def test_reading_keeps_mode_selection_and_active_object(mode):
     obj, other = doubled("Body"), cube("Other")
     activate(obj)
@@ -622,12 +610,15 @@ def test_multires_levels_that_sculpting_shows_are_refused_as_they_cannot_be_seen
     assert np.array_equal(read(asked).parts[0].surface.box, whole)
 
 
-@pytest.mark.parametrize("blended, edited, half, said", [
-    (False, 0, 1.0, "The shape key “Basis” is edited, and was read alone."),
-    (False, 1, 2.0, "The shape key “Big” is edited, and was read alone."),
-    (True, 0, 1.5, "Read in Edit Mode, with its shape keys."),
-    (True, 1, 1.5, "Read in Edit Mode, with its shape keys."),
-])
+@pytest.mark.parametrize(
+    "blended, edited, half, said",
+    [
+        (False, 0, 1.0, "The shape key “Basis” is edited, and was read alone."),
+        (False, 1, 2.0, "The shape key “Big” is edited, and was read alone."),
+        (True, 0, 1.5, "Read in Edit Mode, with its shape keys."),
+        (True, 1, 1.5, "Read in Edit Mode, with its shape keys."),
+    ],
+)
 def test_edit_mode_reads_the_shape_keys_that_it_shows(blended, edited, half, said):
     obj = cube()
     obj.shape_key_add(name="Basis")

@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators import staleness
+from body_moments.operators.session import staleness
 from body_moments.operators.write import properties
 from mathutils import Matrix
 
@@ -188,8 +188,15 @@ def test_a_thin_shell_is_balanced_by_its_area():
 def test_faces_that_bend_are_measured_as_they_are_cut_afterwards():
     mesh = bpy.data.meshes.new("Crate")
     corners = [(x, y, z) for z in (0, 1, 2) for y in (0, 1) for x in (0, 1)]
-    mesh.from_pydata(corners, [], [(0, 2, 3, 1), (8, 9, 11, 10), *(
-        (a + k, b + k, b + k + 4, a + k + 4) for k in (0, 4) for a, b in ((0, 1), (1, 3), (3, 2), (2, 0)))])
+    mesh.from_pydata(
+        corners,
+        [],
+        [
+            (0, 2, 3, 1),
+            (8, 9, 11, 10),
+            *((a + k, b + k, b + k + 4, a + k + 4) for k in (0, 4) for a, b in ((0, 1), (1, 3), (3, 2), (2, 0))),
+        ],
+    )
     obj = add(mesh)
     edit(obj, lambda co: co.z > 1.5)
     bpy.context.scene.cursor.location = (0.55, 0.45, 0.0)

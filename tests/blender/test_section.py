@@ -28,8 +28,11 @@ def square(x, y, size):
 def flat_mesh(*polygons, height=0.0):
     mesh = bpy.data.meshes.new("Flat")
     starts = np.cumsum([0] + [len(polygon) for polygon in polygons])
-    mesh.from_pydata([(x, y, height) for polygon in polygons for x, y in polygon], [],
-                     [tuple(range(a, b)) for a, b in zip(starts, starts[1:])])
+    mesh.from_pydata(
+        [(x, y, height) for polygon in polygons for x, y in polygon],
+        [],
+        [tuple(range(a, b)) for a, b in zip(starts, starts[1:])],
+    )
     return mesh
 
 
@@ -52,7 +55,7 @@ def text_of(body):
 
 
 def section_of(obj):
-    from body_moments.operators import section
+    from body_moments.operators.write import section
 
     bpy.context.view_layer.update()
     return section.section_of(obj, bpy.context.evaluated_depsgraph_get())
@@ -73,7 +76,7 @@ def stored(obj):
 
 
 def outdated(obj):
-    from body_moments.operators import section
+    from body_moments.operators.write import section
 
     return section.outdated(obj, bpy.context.scene, stored(obj))
 
@@ -200,11 +203,14 @@ def test_outlines_that_touch_are_measured_rightly_where_blender_fills_them_wrong
     assert any("Blender fills its outlines wrongly" in warning for warning in warnings)
 
 
-@pytest.mark.parametrize("outlines", [
-    [[(0, 0), (2, 2), (2, 0), (0, 2)]],
-    [square(0, 0, 4), square(2, 2, 4)],
-    [square(0, 0, 4), square(0, 0, 4)],
-])
+@pytest.mark.parametrize(
+    "outlines",
+    [
+        [[(0, 0), (2, 2), (2, 0), (0, 2)]],
+        [square(0, 0, 4), square(2, 2, 4)],
+        [square(0, 0, 4), square(0, 0, 4)],
+    ],
+)
 def test_outlines_that_cross_or_coincide_are_refused_with_the_remedy(outlines):
     reason = refused(add(curve_of(*outlines)))
     assert "outlines" in reason and ("move them apart" in reason or "remove one" in reason)
@@ -436,7 +442,7 @@ def test_out_of_date_after_a_change_of_shape_place_or_unit_and_not_after_measuri
 
 
 def test_body_and_section_grow_old_apart():
-    from body_moments.operators import staleness
+    from body_moments.operators.session import staleness
 
     obj = add(mesh_body())
     update, scene = bpy.context.view_layer.update, bpy.context.scene
@@ -459,7 +465,7 @@ def test_body_and_section_grow_old_apart():
 
 
 def test_a_section_that_is_refused_leaves_results_up_to_date():
-    from body_moments.operators import staleness
+    from body_moments.operators.session import staleness
 
     obj = add(curve_of(square(0, 0, 4), square(2, 2, 4)))
     obj.body_moments.kind = "SHELL"
@@ -543,10 +549,16 @@ def test_the_report_says_conventions_and_warnings():
     assert bpy.ops.object.body_moments_copy_section() == {"FINISHED"}
 
 
-@pytest.mark.parametrize("system, unit, text", [
-    ("METRIC", "ADAPTIVE", "1.6 m⁴"), ("METRIC", "CENTIMETERS", "1.6e8 cm⁴"), ("IMPERIAL", "FEET", "185.379 ft⁴"),
-    ("NONE", "ADAPTIVE", "1.6")])
+@pytest.mark.parametrize(
+    "system, unit, text",
+    [
+        ("METRIC", "ADAPTIVE", "1.6 m⁴"),
+        ("METRIC", "CENTIMETERS", "1.6e8 cm⁴"),
+        ("IMPERIAL", "FEET", "185.379 ft⁴"),
+        ("NONE", "ADAPTIVE", "1.6"),
+    ],
+)
 def test_second_moments_have_the_scenes_units(system, unit, text):
-    from body_moments.operators.units import Units
+    from body_moments.operators.write.units import Units
 
     assert Units(system, unit, "KILOGRAMS", 1.0).text("area_moment", 1.6).replace("160000000", "1.6e8") == text

@@ -5,7 +5,8 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators import reframe, side_by_side
+from body_moments.operators.scene import changes as side_by_side
+from body_moments.operators.scene import reframe
 
 from tests.blender.bodies import add, mesh_body, only, place, seen
 
@@ -18,8 +19,10 @@ def run(name, **options):
 
 
 def bodies(count):
-    return [add(mesh_body(), "Body {:d}".format(i), (5 * i, i, 0), (0.1 * i, 0.2, 0), (1, 1 + 0.1 * i, 1))
-            for i in range(count)]
+    return [
+        add(mesh_body(), "Body {:d}".format(i), (5 * i, i, 0), (0.1 * i, 0.2, 0), (1, 1 + 0.1 * i, 1))
+        for i in range(count)
+    ]
 
 
 @pytest.fixture
@@ -33,8 +36,9 @@ def evaluations():
 
 
 @pytest.mark.parametrize("collected", [False, True])
-@pytest.mark.parametrize("name, options", [*((name, {}) for name in SNAPS), ("add_empty", {}),
-                                           ("set_rigid_body_mass", {"add": True})])
+@pytest.mark.parametrize(
+    "name, options", [*((name, {}) for name in SNAPS), ("add_empty", {}), ("set_rigid_body_mass", {"add": True})]
+)
 def test_many_objects_take_as_few_evaluations_of_the_scene_as_some(name, options, collected, evaluations):
     taken = []
     for count in (3, 12):

@@ -8,8 +8,8 @@ pytest.importorskip("bpy")
 import bmesh
 import body_moments
 import bpy
-from body_moments.operators import staleness
 from body_moments.operators.read import digest, instances
+from body_moments.operators.session import staleness
 
 from tests.blender.bodies import add, mesh_body, only
 
@@ -298,9 +298,12 @@ def test_an_instancer_is_out_of_date_when_what_it_shows_changes(nested):
     other.location.x += 1.0
     update()
     assert reason(outer) == "" and reason(other) == "Transform Changed"
-    for change in (lambda: edit(member), lambda: setattr(member, "location", (5, 0, 0)),
-                   lambda: shown.instance_collection.objects.link(other),
-                   lambda: shown.instance_collection.objects.unlink(other)):
+    for change in (
+        lambda: edit(member),
+        lambda: setattr(member, "location", (5, 0, 0)),
+        lambda: shown.instance_collection.objects.link(other),
+        lambda: shown.instance_collection.objects.unlink(other),
+    ):
         measure(outer)
         change()
         update()
@@ -406,9 +409,17 @@ def test_numbers_of_which_nothing_is_known_are_not_told_as_up_to_date(mark):
     assert reason(obj) == "Fingerprint Damaged"
 
 
-@pytest.mark.parametrize(("key", "value"), [
-    ("body_mass", float("nan")), ("body_volume", float("inf")), ("body_inertia", [float("nan")] * 6),
-    ("body_method", " "), ("body_method", ""), ("body_error_bound", [float("inf")] * 8)])
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("body_mass", float("nan")),
+        ("body_volume", float("inf")),
+        ("body_inertia", [float("nan")] * 6),
+        ("body_method", " "),
+        ("body_method", ""),
+        ("body_error_bound", [float("inf")] * 8),
+    ],
+)
 def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
     from body_moments.operators.write import report
 
@@ -424,7 +435,7 @@ def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
 
 
 def test_the_symmetry_and_the_moments_of_an_instancer_are_out_of_date_too():
-    from body_moments.operators import moments_table
+    from body_moments.operators.actions.measure import moments as moments_table
 
     member = add(mesh_body(), "Member")
     shown = instancer("Instancer", member)

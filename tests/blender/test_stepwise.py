@@ -9,12 +9,13 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators import results, stepwise
-from body_moments.operators.find_similar import OBJECT_OT_body_moments_find_similar
-from body_moments.operators.find_symmetry import OBJECT_OT_body_moments_find_symmetry
-from body_moments.operators.fourier import OBJECT_OT_body_moments_fourier_run
-from body_moments.operators.match_pose import OBJECT_OT_body_moments_match_pose
-from body_moments.operators.measure_selected import OBJECT_OT_body_moments_measure
+from body_moments.operators.actions import modal as stepwise
+from body_moments.operators.actions.measure.fourier import OBJECT_OT_body_moments_fourier_run
+from body_moments.operators.actions.measure.measure_selected import OBJECT_OT_body_moments_measure
+from body_moments.operators.actions.shape.find_similar import OBJECT_OT_body_moments_find_similar
+from body_moments.operators.actions.shape.find_symmetry import OBJECT_OT_body_moments_find_symmetry
+from body_moments.operators.actions.shape.match_pose import OBJECT_OT_body_moments_match_pose
+from body_moments.operators.session import results
 
 from tests.blender.bodies import add, mesh_body, only, place
 
@@ -102,9 +103,14 @@ def test_esc_between_two_objects_leaves_everything_as_it_was(cls, settings, monk
     assert not any("body_mass" in body or body.is_property_set("body_moments_symmetry") for body in bodies)
 
 
-@pytest.mark.parametrize(("cls", "count"), [
-    (OBJECT_OT_body_moments_find_symmetry, 1), (OBJECT_OT_body_moments_match_pose, 2),
-    (OBJECT_OT_body_moments_find_similar, 2)])
+@pytest.mark.parametrize(
+    ("cls", "count"),
+    [
+        (OBJECT_OT_body_moments_find_symmetry, 1),
+        (OBJECT_OT_body_moments_match_pose, 2),
+        (OBJECT_OT_body_moments_find_similar, 2),
+    ],
+)
 def test_esc_within_an_object_leaves_everything_as_it_was(cls, count):
     bodies = three()[:count]
     only(*bodies)

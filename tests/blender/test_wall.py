@@ -5,8 +5,10 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators import staleness, wall_slider
-from body_moments.operators.measure import MeasureOptions, Unreadable, measure_object
+from body_moments.operators.bodies.measure_object import Unreadable, measure_object
+from body_moments.operators.session import staleness
+from body_moments.operators.session import walls as wall_slider
+from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties
 from mathutils import Euler, Matrix
 
@@ -32,9 +34,9 @@ def test_a_cube_is_the_cube_less_the_cube_inside():
     obj = box()
     found = measured(obj)
     assert found.method == "shell" and found.kind == "shell" and found.thickness == 0.125
-    assert abs(found.volume - (1 - 0.75 ** 3)) < 1e-14
-    assert abs(found.mass_properties.mass - 1000 * (1 - 0.75 ** 3)) < 1e-11
-    inertia = 1000 * (1 - 0.75 ** 5) / 6
+    assert abs(found.volume - (1 - 0.75**3)) < 1e-14
+    assert abs(found.mass_properties.mass - 1000 * (1 - 0.75**3)) < 1e-11
+    inertia = 1000 * (1 - 0.75**5) / 6
     assert np.abs(found.mass_properties.inertia - inertia * np.eye(3)).max() < 1e-10
     assert np.abs(found.mass_properties.center - 0.5).max() < 1e-14
     assert found.area == 6.0
@@ -42,8 +44,9 @@ def test_a_cube_is_the_cube_less_the_cube_inside():
     assert 0.0 < found.error_bound["volume"] < 1e-12
 
 
-@pytest.mark.parametrize(("wall", "low", "high"), [
-    ("INWARD", 0.1, 0.0), ("OUTWARD", 0.0, 0.1), ("CENTERED", 0.05, 0.05)])
+@pytest.mark.parametrize(
+    ("wall", "low", "high"), [("INWARD", 0.1, 0.0), ("OUTWARD", 0.0, 0.1), ("CENTERED", 0.05, 0.05)]
+)
 @pytest.mark.parametrize("mirror", [1.0, -1.0])
 def test_thickness_is_a_length_in_the_world_whatever_the_scale(wall, low, high, mirror):
     obj = box(wall=wall, thickness=0.1, location=(30, -20, 10), rotation=(0.3, 0.5, 0.7), scale=(2 * mirror, 3, 4))
@@ -70,7 +73,7 @@ def test_thickness_follows_the_scenes_unit():
     bpy.context.scene.unit_settings.scale_length = 0.01
     found = measured(box(thickness=0.125))
     assert found.thickness == pytest.approx(0.00125, rel=1e-12)
-    assert found.volume == pytest.approx(1e-6 * (1 - 0.75 ** 3), rel=1e-12)
+    assert found.volume == pytest.approx(1e-6 * (1 - 0.75**3), rel=1e-12)
 
 
 def test_a_given_mass_is_spread_over_the_material():
@@ -78,7 +81,7 @@ def test_a_given_mass_is_spread_over_the_material():
     obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.0
     found = measured(obj)
     assert abs(found.mass_properties.mass - 3.0) < 1e-13
-    assert abs(found.density - 3.0 / (1 - 0.75 ** 3)) < 1e-12
+    assert abs(found.density - 3.0 / (1 - 0.75**3)) < 1e-12
 
 
 def test_thin_stays_area_times_thickness():
@@ -113,14 +116,15 @@ def test_a_flipped_face_is_turned_before_and_told():
     obj.data.polygons[0].flip()
     obj.data.update()
     found = measured(obj)
-    assert abs(found.volume - (1 - 0.75 ** 3)) < 1e-14
+    assert abs(found.volume - (1 - 0.75**3)) < 1e-14
     assert any("turned outward" in warning for warning in found.warnings)
 
 
 def test_an_open_surface_whose_faces_disagree_is_refused():
     mesh = bpy.data.meshes.new("Sheet")
-    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0), (2, 1, 0)], [],
-                     [(0, 1, 2, 3), (1, 2, 5, 4)])
+    mesh.from_pydata(
+        [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0), (2, 1, 0)], [], [(0, 1, 2, 3), (1, 2, 5, 4)]
+    )
     obj = add(mesh)
     obj.body_moments.kind, obj.body_moments.wall = "SHELL", "INWARD"
     with pytest.raises(Unreadable, match="Recalculate Outside"):
@@ -226,7 +230,7 @@ def test_an_open_cup_says_that_its_faces_tell_what_is_inward():
     work.to_mesh(obj.data)
     work.free()
     found = measured(obj)
-    assert abs(found.volume - (1 - 0.75 ** 2 * 0.875)) < 1e-14  # the rim stays in the plane of the top
+    assert abs(found.volume - (1 - 0.75**2 * 0.875)) < 1e-14  # the rim stays in the plane of the top
     assert any("not closed" in warning for warning in found.warnings)
     assert not any("not closed" in warning for warning in measured(box()).warnings)
 
@@ -234,9 +238,9 @@ def test_an_open_cup_says_that_its_faces_tell_what_is_inward():
 def test_the_command_line_uses_the_objects_wall_and_its_own_thickness():
     box()
     found = document("--thickness", "0.25", "--order", "2")["objects"][0]
-    assert found["volume"] == pytest.approx(1 - 0.5 ** 3, rel=1e-13)
+    assert found["volume"] == pytest.approx(1 - 0.5**3, rel=1e-13)
     assert found["method"] == "shell" and found["thickness"] == 0.25
-    assert found["moments"]["volume"]["0,0,0"] == pytest.approx(1 - 0.5 ** 3, rel=1e-13)
+    assert found["moments"]["volume"]["0,0,0"] == pytest.approx(1 - 0.5**3, rel=1e-13)
     assert any("real material" in warning for warning in found["warnings"])
     surface = document("--surface-moments", "--order", "2")["objects"][0]
     assert surface["moments"]["surface"]["0,0,0"] == pytest.approx(6.0, rel=1e-13)
@@ -272,7 +276,7 @@ def test_another_side_is_stored_at_once_too():
     obj = box()
     press(obj)
     obj.body_moments.wall = "OUTWARD"
-    assert abs(stored(obj).volume - (1.25 ** 3 - 1)) < 1e-13
+    assert abs(stored(obj).volume - (1.25**3 - 1)) < 1e-13
     assert staleness.reason(obj, bpy.context.scene) == ""
     obj.body_moments.wall = "THIN"
     assert staleness.reason(obj, bpy.context.scene) == "Settings Changed"
@@ -303,7 +307,7 @@ def test_a_thickness_that_folds_leaves_the_numbers_and_says_how_thick_it_may_be(
     assert properties.numbers(obj) == before and wall_slider.folds(obj)
     assert staleness.reason(obj, bpy.context.scene) == "Settings Changed"
     obj.body_moments.thickness = 0.25
-    assert abs(stored(obj).volume - (1 - 0.5 ** 3)) < 1e-13
+    assert abs(stored(obj).volume - (1 - 0.5**3)) < 1e-13
 
 
 def test_the_slider_says_that_it_did_not_look_for_walls_that_meet():
@@ -325,7 +329,7 @@ def test_after_loading_a_file_the_slider_waits_for_measure(tmp_path):
     obj.body_moments.thickness = 0.2
     assert staleness.reason(obj, bpy.context.scene) == "Settings Changed"
     press(obj)
-    assert abs(stored(obj).volume - (1 - 0.6 ** 3)) < 1e-6
+    assert abs(stored(obj).volume - (1 - 0.6**3)) < 1e-6
 
 
 def test_an_edit_after_the_slider_is_noticed():

@@ -5,7 +5,7 @@
 import math
 
 import numpy as np
-from body_moments.core.surface import Surface
+from body_moments.core.mesh.surface import Surface
 
 CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
 SIDES = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
@@ -25,8 +25,10 @@ def box(low=(0, 0, 0), high=(1, 1, 1)):
 def joined(*parts):
     """Several bodies in one mesh, each with vertices of its own."""
     shift = np.cumsum([0] + [len(points) for points, _ in parts])
-    return (np.concatenate([points for points, _ in parts]),
-            np.concatenate([triangles + k for (_, triangles), k in zip(parts, shift)]))
+    return (
+        np.concatenate([points for points, _ in parts]),
+        np.concatenate([triangles + k for (_, triangles), k in zip(parts, shift)]),
+    )
 
 
 def inverted(part):
@@ -135,13 +137,21 @@ def mesh(points, faces, dtype=np.float64):
         for a, b in zip(face, [*face[1:], face[0]]):
             corner_edges.append(edges.setdefault((min(a, b), max(a, b)), len(edges)))
     quads = [face for face in faces if len(face) == 4]
-    fans = [(k, (face[0], face[i], face[i + 1])) for k, face in enumerate(faces) if len(face) != 4
-            for i in range(1, len(face) - 1)]
+    fans = [
+        (k, (face[0], face[i], face[i + 1]))
+        for k, face in enumerate(faces)
+        if len(face) != 4
+        for i in range(1, len(face) - 1)
+    ]
     return Surface(
-        np.asarray(points, dtype), triangles=np.array([fan for _, fan in fans], int).reshape(-1, 3),
-        quads=np.array(quads, int).reshape(-1, 4), triangle_faces=np.array([k for k, _ in fans], int),
+        np.asarray(points, dtype),
+        triangles=np.array([fan for _, fan in fans], int).reshape(-1, 3),
+        quads=np.array(quads, int).reshape(-1, 4),
+        triangle_faces=np.array([k for k, _ in fans], int),
         quad_faces=np.array([k for k, face in enumerate(faces) if len(face) == 4], int),
-        corner_vertices=np.concatenate(faces), corner_edges=np.array(corner_edges))
+        corner_vertices=np.concatenate(faces),
+        corner_edges=np.array(corner_edges),
+    )
 
 
 def volume(part):

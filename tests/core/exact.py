@@ -47,7 +47,7 @@ def volume_moments(points, triangles, about=(0.0, 0.0, 0.0), order: int = 3, abs
 def area_moments(points, triangles, about=(0.0, 0.0, 0.0), digits: int = 40, order: int = 3) -> list[Fraction]:
     """The moments ∫ x^p y^q z^r dA, right to `digits` digits (areas are square roots)."""
     integers, scale = _integers(points, about)
-    root = 10 ** digits
+    root = 10**digits
     table = monomials(order)
     sums = [0] * len(table)
     for triangle in triangles:
@@ -76,9 +76,11 @@ def _means(a, b, c, exponents) -> list[int]:
     table = {(0, 0, 0): 1, **{m: 0 for m in exponents[1:]}}
     for vertex in (a, b, c):
         for p, q, r in exponents[1:]:  # in this order the lower ones are already multiplied
-            table[p, q, r] += ((vertex[0] * table[p - 1, q, r] if p else 0)
-                               + (vertex[1] * table[p, q - 1, r] if q else 0)
-                               + (vertex[2] * table[p, q, r - 1] if r else 0))
+            table[p, q, r] += (
+                (vertex[0] * table[p - 1, q, r] if p else 0)
+                + (vertex[1] * table[p, q - 1, r] if q else 0)
+                + (vertex[2] * table[p, q, r - 1] if r else 0)
+            )
     return [factorial(p) * factorial(q) * factorial(r) * table[p, q, r] for p, q, r in exponents]
 
 
@@ -107,8 +109,13 @@ def box_moments(low, high, order: int = 3) -> list[Fraction]:
 def corner_tetrahedron_moments(a, b, c, order: int = 3) -> list[Fraction]:
     """The volume moments of the tetrahedron (0,0,0), (a,0,0), (0,b,0), (0,0,c): Dirichlet's integral."""
     a, b, c = Fraction(a), Fraction(b), Fraction(c)
-    return [Fraction(factorial(p) * factorial(q) * factorial(r), factorial(p + q + r + 3))
-            * a ** (p + 1) * b ** (q + 1) * c ** (r + 1) for p, q, r in monomials(order)]
+    return [
+        Fraction(factorial(p) * factorial(q) * factorial(r), factorial(p + q + r + 3))
+        * a ** (p + 1)
+        * b ** (q + 1)
+        * c ** (r + 1)
+        for p, q, r in monomials(order)
+    ]
 
 
 BOX_QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]

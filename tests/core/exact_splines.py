@@ -11,9 +11,9 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
-from body_moments.core.blender_knots import blender_space
-from body_moments.core.bspline import Space
-from body_moments.core.patch import Patch
+from body_moments.core.numerics.bspline import Space
+from body_moments.core.nurbs.blender_knots import blender_space
+from body_moments.core.nurbs.patch import Patch
 
 HALF = np.sqrt(0.5)
 
@@ -57,7 +57,7 @@ def flux_moment(patch: Patch, exponents: tuple[int, int, int]) -> Fraction:
             for factor, power in ((x, p), (y, q), (z, r + 1)):
                 for _ in range(power):
                     integrand = _times(integrand, factor)
-            total += _integral(integrand, s_space.knots[j:j + 2], t_space.knots[k:k + 2])
+            total += _integral(integrand, s_space.knots[j : j + 2], t_space.knots[k : k + 2])
     return total / (r + 1)
 
 
@@ -73,7 +73,7 @@ def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     result = np.full((a.shape[0] + b.shape[0] - 1, a.shape[1] + b.shape[1] - 1), Fraction(0), object)
     for (i, j), value in np.ndenumerate(b):
         if value:
-            result[i:i + a.shape[0], j:j + a.shape[1]] += value * a
+            result[i : i + a.shape[0], j : j + a.shape[1]] += value * a
     return result
 
 
@@ -94,8 +94,11 @@ def _integral(a: np.ndarray, s, t) -> Fraction:
         low, high = (Fraction(float(bound)) for bound in bounds)
         return [(high ** (n + 1) - low ** (n + 1)) / (n + 1) for n in range(count)]
 
-    return sum(value * along * across for along, row in zip(powers(s, a.shape[0]), a)
-               for across, value in zip(powers(t, a.shape[1]), row))
+    return sum(
+        value * along * across
+        for along, row in zip(powers(s, a.shape[0]), a)
+        for across, value in zip(powers(t, a.shape[1]), row)
+    )
 
 
 def circle() -> tuple[np.ndarray, np.ndarray]:
@@ -119,8 +122,9 @@ def sphere() -> Patch:
 def torus(major: float = 0.75, minor: float = 0.25) -> Patch:
     """A torus about the z axis, outward."""
     around, weights = circle()
-    points = np.array([[(x * (major + minor * u), y * (major + minor * u), minor * v) for u, v in around]
-                       for x, y in around])
+    points = np.array(
+        [[(x * (major + minor * u), y * (major + minor * u), minor * v) for u, v in around] for x, y in around]
+    )
     return Patch((ROUND, ROUND), points, np.outer(weights, weights))
 
 

@@ -36,14 +36,19 @@ def pulled_back(exponents, start, vectors):
             for powers, value in polynomial.items():
                 image[powers] += value * start[axis]
                 for i in range(d):
-                    image[(*powers[:i], powers[i] + 1, *powers[i + 1:])] += value * vectors[i][axis]
+                    image[(*powers[:i], powers[i] + 1, *powers[i + 1 :])] += value * vectors[i][axis]
             polynomial = image
     return polynomial
 
 
 def unit_simplex(polynomial, d):
-    return sum((value * Fraction(prod(factorial(k) for k in powers), factorial(sum(powers) + d))
-                for powers, value in polynomial.items()), Fraction(0))
+    return sum(
+        (
+            value * Fraction(prod(factorial(k) for k in powers), factorial(sum(powers) + d))
+            for powers, value in polynomial.items()
+        ),
+        Fraction(0),
+    )
 
 
 def enclosed(points, simplices, exponents, about=None, signs=None):

@@ -6,7 +6,7 @@
 from math import factorial
 
 import numpy as np
-from body_moments.core.moments import Moments, index, monomials
+from body_moments.core.moments.moments import Moments, index, monomials
 
 
 def moments(part, order, about=None):
@@ -22,6 +22,7 @@ def moments(part, order, about=None):
                 lower = row.copy()
                 lower[axis] -= 1
                 table[index(*row)] += corner[axis] * table[index(*lower)]
-    weight = [factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 3)
-              for p, q, r in monomials(order).tolist()]
+    weight = [
+        factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 3) for p, q, r in monomials(order).tolist()
+    ]
     return Moments(np.array(weight) * (table @ det), about)

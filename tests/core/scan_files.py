@@ -10,8 +10,17 @@ from pathlib import Path
 
 import numpy as np
 
-NRRD_NAMES = {"u1": "uchar", "i1": "int8", "u2": "unsigned short", "i2": "short", "i4": "int", "u4": "uint32_t",
-              "i8": "long long int", "f4": "float", "f8": "double"}
+NRRD_NAMES = {
+    "u1": "uchar",
+    "i1": "int8",
+    "u2": "unsigned short",
+    "i2": "short",
+    "i4": "int",
+    "u4": "uint32_t",
+    "i8": "long long int",
+    "f4": "float",
+    "f8": "double",
+}
 NIFTI_CODES = {"u1": 2, "i2": 4, "i4": 8, "f4": 16, "f8": 64, "i1": 256, "u2": 512, "u4": 768, "i8": 1024}
 
 
@@ -19,15 +28,32 @@ def nrrd(values: np.ndarray, *lines: str, encoding: str = "raw", head: bool = Tr
     """values: (nx, ny, nz). lines: further fields."""
     order = ">" if values.dtype.byteorder == ">" else "<"
     data = values.astype(values.dtype.newbyteorder(order)).tobytes(order="F")
-    fields = ["NRRD0004", "# made for a test", "type: " + NRRD_NAMES[values.dtype.str[1:]], "dimension: 3",
-              "sizes: {} {} {}".format(*values.shape), "encoding: " + encoding,
-              "endian: " + ("big" if order == ">" else "little"), *lines]
+    fields = [
+        "NRRD0004",
+        "# made for a test",
+        "type: " + NRRD_NAMES[values.dtype.str[1:]],
+        "dimension: 3",
+        "sizes: {} {} {}".format(*values.shape),
+        "encoding: " + encoding,
+        "endian: " + ("big" if order == ">" else "little"),
+        *lines,
+    ]
     packed = gzip.compress(data) if encoding == "gzip" else data
     return "\n".join(fields).encode() + b"\n\n" + (packed if head else b"")
 
 
-def nifti(values: np.ndarray, *, spacing=(1, 1, 1), unit: int = 2, sform=None, quaternion=None, qfac: float = 1.0,
-          slope: float = 0.0, intercept: float = 0.0, dims: int = 3) -> bytes:
+def nifti(
+    values: np.ndarray,
+    *,
+    spacing=(1, 1, 1),
+    unit: int = 2,
+    sform=None,
+    quaternion=None,
+    qfac: float = 1.0,
+    slope: float = 0.0,
+    intercept: float = 0.0,
+    dims: int = 3,
+) -> bytes:
     """values: (nx, ny, nz). sform: (3, 4) rows. quaternion: b, c, d, x, y, z."""
     order = ">" if values.dtype.byteorder == ">" else "<"
     head = bytearray(352)

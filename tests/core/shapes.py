@@ -22,7 +22,7 @@ def prism(n, height=1.7, top=1.0, twist=0.0):
 def antiprism(n, height=1.0):
     points, triangles = prism(n, height, twist=np.pi / n)
     sides = [t for i in range(n) for j in [(i + 1) % n] for t in ((i, j, n + i), (j, n + j, n + i))]
-    return points, np.concatenate([triangles[:2 * (n - 2)], sides])
+    return points, np.concatenate([triangles[: 2 * (n - 2)], sides])
 
 
 def hull(points):
@@ -63,7 +63,7 @@ def distance(part, points):
     a, b, c = (part[0][part[1][:, k]] for k in range(3))
     best = np.full(len(points), np.inf)
     for start in range(0, len(points), 256):
-        best[start:start + 256] = _distances(points[start:start + 256, None], a[None], b[None], c[None]).min(axis=1)
+        best[start : start + 256] = _distances(points[start : start + 256, None], a[None], b[None], c[None]).min(axis=1)
     return best
 
 
@@ -79,33 +79,53 @@ def _distances(p, a, b, c):
     return np.where(inside, np.abs(((p - a) * normal).sum(-1)), result)
 
 
-PHI = (1 + 5 ** 0.5) / 2
+PHI = (1 + 5**0.5) / 2
 TETRAHEDRON = hull([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)])
 ICOSAHEDRON = hull([np.roll((0, a, b * PHI), k) for a in (1, -1) for b in (1, -1) for k in range(3)])
-WEDGE = (np.array([[0, 0, 0], [1, 0.2, 0], [0.3, 2, 0.1], [0.2, 0.4, 3]]),
-         np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+WEDGE = (
+    np.array([[0, 0, 0], [1, 0.2, 0], [0.3, 2, 0.1], [0.2, 0.4, 3]]),
+    np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]),
+)
 SHEARED = bodies.moved(bodies.box((0, 0, 0), (3, 2, 1)), [[1, 0.4, 0], [0, 1, 0], [0, 0, 1]])
 L_PRISM = bodies.joined(bodies.box((0, 0, 0), (3, 1, 1)), bodies.box((0, 1, 0), (1, 4, 1)))
-THREE_BOXES = bodies.joined(bodies.box((0, 0, 0), (4, 1, 1)), bodies.box((0, 1, 0), (1, 3, 1)),
-                            bodies.box((0, 0, 1), (1, 1, 2.5)))
+THREE_BOXES = bodies.joined(
+    bodies.box((0, 0, 0), (4, 1, 1)), bodies.box((0, 1, 0), (1, 3, 1)), bodies.box((0, 0, 1), (1, 1, 2.5))
+)
 # An S: two arms reach out to opposite sides. Half a turn about the stroke's normal, and no other, leaves it as it is.
-S_PRISM = bodies.joined(bodies.box((0, 0, 0), (1, 6, 1)), bodies.box((1, 5, 0), (3, 6, 1)),
-                        bodies.box((-2, 0, 0), (0, 1, 1)))
+S_PRISM = bodies.joined(
+    bodies.box((0, 0, 0), (1, 6, 1)), bodies.box((1, 5, 0), (3, 6, 1)), bodies.box((-2, 0, 0), (0, 1, 1))
+)
 STEPPED = bodies.joined(bodies.box((-1, -1, -1), (1, 1, 1)), bodies.box((-0.5, -0.5, 1), (0.5, 0.5, 2)))
 
-ASYMMETRIC = {"wedge": WEDGE, "three boxes": THREE_BOXES,
-              "blob": bodies.moved(bodies.sphere(2), [[1, 0.2, 0], [0, 2, 0.3], [0.1, 0, 3]])}
+ASYMMETRIC = {
+    "wedge": WEDGE,
+    "three boxes": THREE_BOXES,
+    "blob": bodies.moved(bodies.sphere(2), [[1, 0.2, 0], [0, 2, 0.3], [0.1, 0, 3]]),
+}
 ASYMMETRIC["blob"] = (ASYMMETRIC["blob"][0] + 0.2 * ASYMMETRIC["blob"][0][:, [1, 2, 0]] ** 2, ASYMMETRIC["blob"][1])
 SYMMETRIC = {
-    "L prism": (L_PRISM, "Cs"), "box": (bodies.box((0, 0, 0), (3, 2, 1)), "D2h"), "S prism": (S_PRISM, "C2h"),
-    "sheared box": (SHEARED, "C2h"), "cube": (bodies.box(), "Oh"), "square prism": (prism(4), "D4h"),
-    "flat square prism": (prism(4, 0.5), "D4h"), "triangular prism": (prism(3), "D3h"),
-    "pentagonal prism": (prism(5), "D5h"), "hexagonal prism": (prism(6), "D6h"), "stepped cube": (STEPPED, "C4v"),
-    "frustum": (prism(4, top=0.5), "C4v"), "tetrahedron": (TETRAHEDRON, "Td"), "octahedron": (bodies.sphere(0), "Oh"),
-    "icosahedron": (ICOSAHEDRON, "Ih"), "twisted square prism": (prism(4, twist=0.3), "D4"),
+    "L prism": (L_PRISM, "Cs"),
+    "box": (bodies.box((0, 0, 0), (3, 2, 1)), "D2h"),
+    "S prism": (S_PRISM, "C2h"),
+    "sheared box": (SHEARED, "C2h"),
+    "cube": (bodies.box(), "Oh"),
+    "square prism": (prism(4), "D4h"),
+    "flat square prism": (prism(4, 0.5), "D4h"),
+    "triangular prism": (prism(3), "D3h"),
+    "pentagonal prism": (prism(5), "D5h"),
+    "hexagonal prism": (prism(6), "D6h"),
+    "stepped cube": (STEPPED, "C4v"),
+    "frustum": (prism(4, top=0.5), "C4v"),
+    "tetrahedron": (TETRAHEDRON, "Td"),
+    "octahedron": (bodies.sphere(0), "Oh"),
+    "icosahedron": (ICOSAHEDRON, "Ih"),
+    "twisted square prism": (prism(4, twist=0.3), "D4"),
     "antiprism": (antiprism(4), "D4d"),
 }
-ROUND = {"torus": (bodies.torus(12, 6), "D∞h", "D12h"), "prism of 12 sides": (prism(12), "D∞h", "D12h"),
-         "pyramid of 9 sides": (prism(9, top=0.3), "C∞v", "C9v"),
-         "twisted prism": (prism(9, twist=0.1), "D∞h", "D9"),
-         "antiprism of 8": (antiprism(8), "D∞h", "D8d")}
+ROUND = {
+    "torus": (bodies.torus(12, 6), "D∞h", "D12h"),
+    "prism of 12 sides": (prism(12), "D∞h", "D12h"),
+    "pyramid of 9 sides": (prism(9, top=0.3), "C∞v", "C9v"),
+    "twisted prism": (prism(9, twist=0.1), "D∞h", "D9"),
+    "antiprism of 8": (antiprism(8), "D∞h", "D8d"),
+}

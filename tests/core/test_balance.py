@@ -4,10 +4,10 @@
 
 import numpy as np
 import pytest
-from body_moments.core.balance import _Fans, balance
-from body_moments.core.gradient import area_gradient, volume_gradient
-from body_moments.core.polyhedron import solid_and_area
-from body_moments.core.surface import Surface
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.polyhedron.third_order import solid_and_area
+from body_moments.core.statics.balance import _Fans, balance
+from body_moments.core.statics.gradient import area_gradient, volume_gradient
 
 from tests.core import bodies
 
@@ -171,8 +171,11 @@ def test_the_diagonals_that_cut_a_face_do_not_show_in_what_the_moves_follow(shel
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     points = np.concatenate([np.column_stack([ring, np.full(sides, z)]) for z in (0.0, 1.0, 2.0)])
     faces = [list(range(sides))[::-1], list(range(2 * sides, 3 * sides))]
-    faces += [[k + i, k + (i + 1) % sides, k + sides + (i + 1) % sides, k + sides + i]
-              for k in (0, sides) for i in range(sides)]
+    faces += [
+        [k + i, k + (i + 1) % sides, k + sides + (i + 1) % sides, k + sides + i]
+        for k in (0, sides)
+        for i in range(sides)
+    ]
     fans = _Fans(bodies.mesh(points, faces), shell)
     gradient = fans.center_gradient(np.array([0.0, 0.0, 1.0]))
     mirror = np.concatenate([k + (-np.arange(sides)) % sides for k in (0, sides, 2 * sides)])  # y → -y

@@ -7,19 +7,22 @@ from math import comb
 
 import numpy as np
 import pytest
-from body_moments.core import bezier
-from body_moments.core.bezier import cells_of
-from body_moments.core.blender_knots import blender_space
-from body_moments.core.bspline import Space, clamped
-from body_moments.core.patch import Patch
-from body_moments.core.patch_moments import flux_sums
-from body_moments.core.quadrature import gauss
+from body_moments.core.numerics.bspline import Space, clamped
+from body_moments.core.numerics.quadrature import gauss
+from body_moments.core.nurbs import bezier
+from body_moments.core.nurbs.bezier import cells_of
+from body_moments.core.nurbs.blender_knots import blender_space
+from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.patch_moments import flux_sums
 
 from tests.core.exact_splines import span_polynomials
 
 SPACES = [clamped(order, (0.25, 0.5, 0.5)) for order in range(1, 7)] + [
-    Space((0.0, 0.5, 1.0, 1.5, 3.0, 3.25, 4.0), 3, 4), blender_space(6, 4, True, False, False),
-    blender_space(3, 3, True, False, False), blender_space(5, 3, True, False, True)]
+    Space((0.0, 0.5, 1.0, 1.5, 3.0, 3.25, 4.0), 3, 4),
+    blender_space(6, 4, True, False, False),
+    blender_space(3, 3, True, False, False),
+    blender_space(5, 3, True, False, True),
+]
 ABOUT = np.array([0.25, -0.5, 0.125])
 
 
@@ -30,10 +33,13 @@ def test_blossoms_are_the_bernstein_coefficients_of_the_exact_polynomials(space)
         low, high = Fraction(space.knots[j]), Fraction(space.knots[j + 1])
         for column, row in zip(found.T, span_polynomials(space, int(j))):
             # in u, t = low + (high - low) u, and from powers to Bernstein's polynomials
-            powers = [sum(value * comb(m, p) * low ** (m - p) for m, value in enumerate(row) if m >= p)
-                      * (high - low) ** p for p in range(n + 1)]
-            exact = [float(sum(Fraction(comb(b, p), comb(n, p)) * powers[p] for p in range(b + 1)))
-                     for b in range(n + 1)]
+            powers = [
+                sum(value * comb(m, p) * low ** (m - p) for m, value in enumerate(row) if m >= p) * (high - low) ** p
+                for p in range(n + 1)
+            ]
+            exact = [
+                float(sum(Fraction(comb(b, p), comb(n, p)) * powers[p] for p in range(b + 1))) for b in range(n + 1)
+            ]
             assert np.abs(column - exact).max() <= 1e-15 * space.order
         assert (found >= 0.0).all() and np.abs(found.sum(axis=1) - 1.0).max() <= 1e-15
 
@@ -57,16 +63,21 @@ def test_values_and_derivatives_are_those_of_the_patch(spaces, few, weighted, mo
     for a, b in spaces[0].intervals:
         for c, d in spaces[1].intervals:
             u, v = a + (b - a) * nodes, c + (d - c) * nodes
-            grid = [patch.grid(u + (b - a) * i * step, v + (d - c) * j * step) - ABOUT
-                    for i, j in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1))]
+            grid = [
+                patch.grid(u + (b - a) * i * step, v + (d - c) * j * step) - ABOUT
+                for i, j in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1))
+            ]
             assert np.abs(s[:, :, count].transpose(1, 2, 0) - grid[0]).max() <= 1e-14
             differences = [(grid[1] - grid[2]) / 2, (grid[3] - grid[4]) / 2]
             for own, value in zip(first, differences):
                 assert np.abs(own[:, :, count].transpose(1, 2, 0) - value / step).max() <= 1e-5
-            second = [grid[1] - 2 * grid[0] + grid[2], (grid[5] + grid[6] - grid[7] - grid[8]) / 4,
-                      grid[3] - 2 * grid[0] + grid[4]]
+            second = [
+                grid[1] - 2 * grid[0] + grid[2],
+                (grid[5] + grid[6] - grid[7] - grid[8]) / 4,
+                grid[3] - 2 * grid[0] + grid[4],
+            ]
             for own, value in zip((ss, st, tt), second):
-                assert np.abs(own[:, :, count].transpose(1, 2, 0) - value / step ** 2).max() <= 1e-4
+                assert np.abs(own[:, :, count].transpose(1, 2, 0) - value / step**2).max() <= 1e-4
             count += 1
     assert count == len(cells)
 

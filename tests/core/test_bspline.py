@@ -7,15 +7,17 @@ from itertools import product
 
 import numpy as np
 import pytest
-from body_moments.core.blender_knots import blender_knots, blender_space, is_valid
-from body_moments.core.bspline import Space, clamped
-from body_moments.core.quadrature import gauss
+from body_moments.core.numerics.bspline import Space, clamped
+from body_moments.core.numerics.quadrature import gauss
+from body_moments.core.nurbs.blender_knots import blender_knots, blender_space, is_valid
 
 from tests.core.exact_splines import span_polynomials
 
 SPACES = [clamped(order, (0.25, 0.5, 0.5)) for order in range(2, 7)] + [
-    Space((0.0, 0.5, 1.0, 1.5, 3.0, 3.25, 4.0), 3, 4), blender_space(6, 4, True, False, False),
-    Space((1e6, 1e6, 1e6, 1e6 + 0.5, 1e6 + 1, 1e6 + 1, 1e6 + 1), 3, 4)]
+    Space((0.0, 0.5, 1.0, 1.5, 3.0, 3.25, 4.0), 3, 4),
+    blender_space(6, 4, True, False, False),
+    Space((1e6, 1e6, 1e6, 1e6 + 0.5, 1e6 + 1, 1e6 + 1, 1e6 + 1), 3, 4),
+]
 
 
 @pytest.mark.parametrize("space", SPACES)
@@ -49,8 +51,10 @@ def test_a_cyclic_direction_ends_as_it_begins():
     assert np.abs(first - last).max() <= 4e-16
 
 
-@pytest.mark.parametrize("knots, order, count", [
-    ((0, 0, 1, 1), 2, 3), ((0, 1, 0, 1), 2, 2), ((0, 0, 0, 0), 2, 2), ((0, 0, float("nan"), 1), 2, 2), ((0, 1), 2, 1)])
+@pytest.mark.parametrize(
+    "knots, order, count",
+    [((0, 0, 1, 1), 2, 3), ((0, 1, 0, 1), 2, 2), ((0, 0, 0, 0), 2, 2), ((0, 0, float("nan"), 1), 2, 2), ((0, 1), 2, 1)],
+)
 def test_knots_that_make_no_space_are_refused(knots, order, count):
     with pytest.raises(ValueError, match=r"\.$"):
         Space(tuple(float(knot) for knot in knots), order, count)
@@ -60,20 +64,23 @@ def test_knots_that_make_no_space_are_refused(knots, order, count):
 def test_gauss_is_exact_to_its_degree_and_not_beyond(points):
     nodes, weights = gauss(points)
     for degree in range(2 * points):
-        assert abs(weights @ nodes ** degree - 1.0 / (degree + 1)) <= 1e-15
+        assert abs(weights @ nodes**degree - 1.0 / (degree + 1)) <= 1e-15
     if points <= 5:
         assert abs(weights @ nodes ** (2 * points) - 1.0 / (2 * points + 1)) > 1e-8
 
 
-@pytest.mark.parametrize("settings, knots, domain", [
-    ((6, 4, False, False, False), list(range(10)), (3, 6)),
-    ((6, 4, False, False, True), [0, 0, 0, 0, 1, 2, 3, 3, 3, 3], (0, 3)),
-    ((7, 4, False, True, False), [0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3], (1, 2)),
-    ((7, 4, False, True, True), [0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2], (0, 2)),
-    ((6, 4, True, False, False), None, (3, 9)),
-    ((6, 4, True, True, False), None, (1, 3)),
-    ((5, 3, True, False, True), [0, 1, 1, 2, 3, 4, 5, 5, 6, 7], (1, 5)),
-])
+@pytest.mark.parametrize(
+    "settings, knots, domain",
+    [
+        ((6, 4, False, False, False), list(range(10)), (3, 6)),
+        ((6, 4, False, False, True), [0, 0, 0, 0, 1, 2, 3, 3, 3, 3], (0, 3)),
+        ((7, 4, False, True, False), [0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3], (1, 2)),
+        ((7, 4, False, True, True), [0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2], (0, 2)),
+        ((6, 4, True, False, False), None, (3, 9)),
+        ((6, 4, True, True, False), None, (1, 3)),
+        ((5, 3, True, False, True), [0, 1, 1, 2, 3, 4, 5, 5, 6, 7], (1, 5)),
+    ],
+)
 def test_knots_are_those_that_blender_makes(settings, knots, domain):
     if knots is not None:
         assert blender_knots(*settings).tolist() == knots

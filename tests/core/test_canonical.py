@@ -6,12 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core.canonical import inverted
-from body_moments.core.moments import Moments, monomials
-from body_moments.core.pose import chosen_frame, frames_alike, pose_matrix, principal_frame, strict_frame
-from body_moments.core.recursion import moments_to_order
-from body_moments.core.solid import measure_solid
-from body_moments.core.surface import Surface
+from body_moments.core.inertia.principal_frame import (
+    chosen_frame,
+    frames_alike,
+    pose_matrix,
+    principal_frame,
+    strict_frame,
+)
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import Moments, monomials
+from body_moments.core.moments.symmetric_tensors import inverted
+from body_moments.core.polyhedron.any_order import moments_to_order
+from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.core import bodies, shapes
 from tests.core.recursion import moments
@@ -171,7 +177,8 @@ def test_higher_moments_are_asked_for_only_where_they_are_needed():
 
 def test_a_ball_takes_the_preferred_axes():
     raw = np.zeros(84)
-    from body_moments.core.moments import index
+    from body_moments.core.moments.moments import index
+
     raw[0], raw[[index(2, 0, 0), index(0, 2, 0), index(0, 0, 2)]] = 1.0, 0.2
     for even, value in (((4, 0, 0), 3 / 35), ((2, 2, 0), 1 / 35)):
         for powers in {(even[i], even[j], even[k]) for i, j, k in ((0, 1, 2), (2, 0, 1), (1, 2, 0))}:
@@ -202,8 +209,10 @@ def test_noise_of_storage_never_flips_a_frame_that_nearly_equal_moments_hardly_f
     if name == "prism":
         angle = 2.0 * np.pi * np.arange(3) / 3.0
         end = np.stack([np.cos(angle), 0.8 * np.sin(angle), 0.0 * angle], axis=1)
-        part = (np.concatenate([end, end + [0.0, 0.0, np.sqrt(1.5) * (1.0 + 1.5e-6)]]),
-                np.array([[0, 2, 1], [3, 4, 5], [0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 0, 3], [2, 3, 5]]))
+        part = (
+            np.concatenate([end, end + [0.0, 0.0, np.sqrt(1.5) * (1.0 + 1.5e-6)]]),
+            np.array([[0, 2, 1], [3, 4, 5], [0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 0, 3], [2, 3, 5]]),
+        )
     elif name == "ball":
         part = bodies.moved(bodies.sphere(2), np.diag([1.0, 1.0, 1.0005]))
     else:
@@ -213,7 +222,8 @@ def test_noise_of_storage_never_flips_a_frame_that_nearly_equal_moments_hardly_f
         turn = bodies.rotation(seed)
         points, triangles = bodies.moved(part, turn)
         body = measure_solid(Surface(points.astype(np.float32), triangles))
-        frame = principal_frame(body.volume, turn, body.refined, (
-            lambda body=body: moments_to_order(body.mended, 6)[0]) if higher else None)
+        frame = principal_frame(
+            body.volume, turn, body.refined, (lambda body=body: moments_to_order(body.mended, 6)[0]) if higher else None
+        )
         found.append(turn.T @ frame.axes)
     assert np.abs(np.array(found) - found[0]).max() < 0.2

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.caps import find_loops, join_sides
+from body_moments.core.solid.holes import find_loops, join_sides
 
 from tests.core.bodies import rotation
 
@@ -22,8 +22,23 @@ def polygon(points):
 
 @pytest.mark.parametrize("seed", range(5))
 def test_a_flat_loop_that_is_not_convex_has_its_true_area_and_no_height(seed):
-    comb = np.array([[0, 0, 0], [5, 0, 0], [5, 3, 0], [4, 3, 0], [4, 1, 0], [3, 1, 0], [3, 3, 0], [2, 3, 0], [2, 1, 0],
-                     [1, 1, 0], [1, 3, 0], [0, 3, 0]], float)
+    comb = np.array(
+        [
+            [0, 0, 0],
+            [5, 0, 0],
+            [5, 3, 0],
+            [4, 3, 0],
+            [4, 1, 0],
+            [3, 1, 0],
+            [3, 3, 0],
+            [2, 3, 0],
+            [2, 1, 0],
+            [1, 1, 0],
+            [1, 3, 0],
+            [0, 3, 0],
+        ],
+        float,
+    )
     loops = polygon(comb @ rotation(seed).T + [3, 4, 5])
     assert len(loops.flat) == 1 and loops.complete[0]
     assert loops.flat[0] == pytest.approx(11.0, rel=1e-14)

@@ -7,11 +7,11 @@ from math import comb
 
 import numpy as np
 import pytest
-from body_moments.core.bspline import Space, clamped
-from body_moments.core.curve import Curve
-from body_moments.core.curve_moments import length_moments, plane_moments
-from body_moments.core.mass import MassProperties
-from body_moments.core.plane_region import plane_region
+from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.numerics.bspline import Space, clamped
+from body_moments.core.nurbs.curve import Curve
+from body_moments.core.nurbs.curve_moments import length_moments, plane_moments
+from body_moments.core.nurbs.planar_region import plane_region
 
 from tests.core.exact_splines import ROUND, circle
 
@@ -61,8 +61,12 @@ def test_a_wire_with_a_cusp_has_an_estimate_that_holds():
     cusp = Curve(clamped(4), [(0, 0, 0), (1, 1, 0), (0, 1, 0), (1, 0, 0)])  # symmetric, its speed zero half-way
     moments = length_moments([cusp], 0)
     t = (np.arange(2_000_000) + 0.5) / 2_000_000
-    speed = np.linalg.norm(3 * ((1 - t)**2)[:, None] * [1, 1, 0] + (6 * t * (1 - t))[:, None] * [-1, 0, 0]
-                           + (3 * t**2)[:, None] * [1, -1, 0], axis=1)
+    speed = np.linalg.norm(
+        3 * ((1 - t) ** 2)[:, None] * [1, 1, 0]
+        + (6 * t * (1 - t))[:, None] * [-1, 0, 0]
+        + (3 * t**2)[:, None] * [1, -1, 0],
+        axis=1,
+    )
     assert abs(moments.total - speed.mean()) <= moments.error[0] + 1e-11
     assert moments.error[0] <= 1e-9
 
@@ -114,12 +118,16 @@ def test_a_reversed_curve_is_the_same_run_backwards():
         assert np.abs(curve.samples(5)[::-1] - curve.reversed().samples(5)).max() <= 1e-14
 
 
-@pytest.mark.parametrize("curves, reason", [
-    ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 0)])], "not closed"),
-    ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0), (0, 0, 0)])], "one plane"),
-    ([polyline([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0)])], "cross"),
-    ([polyline([(1, 0, 0), (1, 0, 0)])], "point"),  # a closed curve of one point
-    ([ring(), ring(1.0, (0.5, 0.0, 0.0))], "cross")])
+@pytest.mark.parametrize(
+    "curves, reason",
+    [
+        ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 0)])], "not closed"),
+        ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0), (0, 0, 0)])], "one plane"),
+        ([polyline([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0)])], "cross"),
+        ([polyline([(1, 0, 0), (1, 0, 0)])], "point"),  # a closed curve of one point
+        ([ring(), ring(1.0, (0.5, 0.0, 0.0))], "cross"),
+    ],
+)
 def test_curves_that_bound_no_region_are_refused(curves, reason):
     with pytest.raises(ValueError, match=reason):
         plane_region(curves)
@@ -142,8 +150,8 @@ def test_heavy_and_light_weights_are_measured_to_rounding(weight):
     nodes, parts = np.polynomial.legendre.leggauss(30)
     size = np.diff(steps)[:, None]
     t = steps[:-1, None] + size * (nodes + 1.0) / 2.0
-    bottom = (1 - t)**2 + 2 * weight * t * (1 - t) + t**2
-    speed = 2.0 * np.hypot(t * (1 - t) + weight * t**2, weight * (1 - t)**2 + t * (1 - t)) / bottom**2
+    bottom = (1 - t) ** 2 + 2 * weight * t * (1 - t) + t**2
+    speed = 2.0 * np.hypot(t * (1 - t) + weight * t**2, weight * (1 - t) ** 2 + t * (1 - t)) / bottom**2
     exact = (speed * parts * size).sum() + 1.5 * np.pi  # its other half is as long
     moments = length_moments([Curve(ROUND, ring().points, weights)], 0)
     assert abs(moments.total - exact) <= 1e-12
@@ -157,8 +165,14 @@ def test_the_length_of_lines_that_turn_back_has_an_estimate_that_holds():
         order = int(rng.integers(3, 6))
         x = rng.uniform(-1.0, 1.0, order)
         line = Curve(clamped(order), np.stack([x, 0.0 * x, 0.0 * x], axis=1))
-        slope = sum(c * (order - 1) * comb(order - 2, i) * np.polynomial.Polynomial([0, 1]) ** i
-                    * np.polynomial.Polynomial([1, -1]) ** (order - 2 - i) for i, c in enumerate(np.diff(x)))
+        slope = sum(
+            c
+            * (order - 1)
+            * comb(order - 2, i)
+            * np.polynomial.Polynomial([0, 1]) ** i
+            * np.polynomial.Polynomial([1, -1]) ** (order - 2 - i)
+            for i, c in enumerate(np.diff(x))
+        )
         turns = slope.roots()
         turns = np.sort(turns.real[(np.abs(turns.imag) < 1e-12) & (turns.real > 0.0) & (turns.real < 1.0)])
         places = slope.integ()(np.concatenate([[0.0], turns, [1.0]]))

@@ -6,13 +6,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core import density
-from body_moments.core.density import Trivariate, density_moments, grid_moments
-from body_moments.core.density_tables import Axis
-from body_moments.core.mass import MassProperties
-from body_moments.core.moments import monomials
-
-from .trivariate import exact_moments
+from body_moments.core.density import spline_grid as density
+from body_moments.core.density.spline_grid import Trivariate, density_moments, grid_moments
+from body_moments.core.density.spline_tables import Axis
+from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.moments.moments import monomials
+from body_moments.tests.core.trivariate import exact_moments
 
 
 def knots(rng, order: int, count: int) -> np.ndarray:
@@ -177,8 +176,11 @@ def test_a_change_that_does_not_fit_changes_nothing():
     coefficients, axes = spline((2, 2, 2))
     live = Trivariate(coefficients, axes)
     before = live.moments.raw
-    for start, values in (((3, 0, 0), np.ones((2, 1, 1))), ((-1, 0, 0), np.ones((1, 1, 1))),
-                          ((0, 0, 0), np.full((1, 1, 1), np.nan))):
+    for start, values in (
+        ((3, 0, 0), np.ones((2, 1, 1))),
+        ((-1, 0, 0), np.ones((1, 1, 1))),
+        ((0, 0, 0), np.full((1, 1, 1), np.nan)),
+    ):
         with pytest.raises(ValueError):
             live.set_block(start, values)
     with pytest.raises(ValueError, match="finite"):

@@ -6,14 +6,28 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core import density_inside
-from body_moments.core.density_inside import inside_moments
-from body_moments.core.moments import monomials
-from body_moments.core.polyhedron import solid_moments
-from body_moments.core.surface import Surface
+from body_moments.core.density import voxel_fill as density_inside
+from body_moments.core.density.voxel_fill import inside_moments
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import monomials
+from body_moments.core.polyhedron.third_order import solid_moments
 
-CUBE = np.array([(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6),
-                 (0, 6, 4), (1, 5, 7), (1, 7, 3)])
+CUBE = np.array(
+    [
+        (0, 1, 3),
+        (0, 3, 2),
+        (4, 6, 7),
+        (4, 7, 5),
+        (0, 4, 5),
+        (0, 5, 1),
+        (2, 3, 7),
+        (2, 7, 6),
+        (0, 2, 6),
+        (0, 6, 4),
+        (1, 5, 7),
+        (1, 7, 3),
+    ]
+)
 
 
 def box(low, high):
@@ -46,9 +60,17 @@ def exact_box(low, high, densities, order, about):
     return total
 
 
-@pytest.mark.parametrize("low, high", [
-    ((0, 0, 0), (4, 5, 6)), ((1, 1, 1), (2, 3, 4)), ((0.25, 0.5, 0.125), (3.5, 4.75, 5.5)),
-    ((-3, 0.5, -2), (9, 2.5, 11)), ((1.25, 1.5, 3.25), (1.5, 1.75, 3.5)), ((-2, -2, 2.5), (7, 8, 30))])
+@pytest.mark.parametrize(
+    "low, high",
+    [
+        ((0, 0, 0), (4, 5, 6)),
+        ((1, 1, 1), (2, 3, 4)),
+        ((0.25, 0.5, 0.125), (3.5, 4.75, 5.5)),
+        ((-3, 0.5, -2), (9, 2.5, 11)),
+        ((1.25, 1.5, 3.25), (1.5, 1.75, 3.5)),
+        ((-2, -2, 2.5), (7, 8, 30)),
+    ],
+)
 def test_boxes_are_exact(low, high):
     densities = random_densities()
     found, volume = inside_moments(box(low, high), densities, 4)
@@ -68,8 +90,9 @@ def blob(seed=0, count=24):
     points[:, 1:-1] *= rng.uniform(0.8, 1.2, (count, count - 2, 1))
     points = 2.3 * points + 3.1
     points[:, 0], points[:, -1] = points[0, 0], points[0, -1]
-    corners = [(points, np.roll(points, -1, axis=0))[i][:, j:count - 1 + j] for i, j in
-               ((0, 0), (0, 1), (1, 1), (1, 0))]
+    corners = [
+        (points, np.roll(points, -1, axis=0))[i][:, j : count - 1 + j] for i, j in ((0, 0), (0, 1), (1, 1), (1, 0))
+    ]
     quads = np.stack(corners, axis=2).reshape(-1, 4, 3)
     return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 

@@ -7,11 +7,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.density_tables import Axis, full_supports
-from body_moments.core.moments import U
-from body_moments.core.soldea import integral_of_basis
-
-from .trivariate import integral
+from body_moments.core.density.spline_tables import Axis, full_supports
+from body_moments.core.moments.moments import U
+from body_moments.core.papers.soldea_elber_rivlin_2002_theorem_4_2 import integral_of_basis
+from body_moments.tests.core.trivariate import integral
 
 DEGREE = 6
 
@@ -116,13 +115,16 @@ def test_a_uniform_function_has_variance_k_twelfths(order):
     assert table == pytest.approx([g, 0.0, g * k * g**2 / 12, 0.0, g * g**4 * k * (5 * k - 2) / 240], rel=1e-14)
 
 
-@pytest.mark.parametrize("knots, order, domain, text", [
-    ([0.0, 1.0], 2, None, "at least 3 knots"),
-    ([0.0, 2.0, 1.0], 1, None, "ascending"),
-    ([0.0, np.nan, 1.0], 1, None, "finite"),
-    ([0.0, 1.0], 0, None, "order of a spline"),
-    ([0.0, 1.0], 1, (1.0, 1.0), "empty"),
-])
+@pytest.mark.parametrize(
+    "knots, order, domain, text",
+    [
+        ([0.0, 1.0], 2, None, "at least 3 knots"),
+        ([0.0, 2.0, 1.0], 1, None, "ascending"),
+        ([0.0, np.nan, 1.0], 1, None, "finite"),
+        ([0.0, 1.0], 0, None, "order of a spline"),
+        ([0.0, 1.0], 1, (1.0, 1.0), "empty"),
+    ],
+)
 def test_impossible_knots_are_refused(knots, order, domain, text):
     with pytest.raises(ValueError, match=text):
         Axis(np.array(knots), order, domain)

@@ -4,15 +4,25 @@
 
 import numpy as np
 import pytest
-from body_moments.core.distance import triangle_distances
+from body_moments.core.mesh.point_triangle import triangle_distances
 
 RIGHT = np.array([[[0.0, 0, 0], [4, 0, 0], [0, 3, 0]]])
 
 
-@pytest.mark.parametrize("point, distance", [
-    ((1, 1, 2), 2.0), ((1, 1, -2), 2.0), ((1, 0.5, 0), 0.0),  # over the inside, and in it
-    ((2, -3, 4), 5.0), ((-3, 1, 4), 5.0), ((4, 3, 0), 2.4),  # beyond each edge
-    ((-3, -4, 0), 5.0), ((7, -4, 0), 5.0), ((-3, 7, 12), 13.0)])  # beyond each corner
+@pytest.mark.parametrize(
+    "point, distance",
+    [
+        ((1, 1, 2), 2.0),
+        ((1, 1, -2), 2.0),
+        ((1, 0.5, 0), 0.0),  # over the inside, and in it
+        ((2, -3, 4), 5.0),
+        ((-3, 1, 4), 5.0),
+        ((4, 3, 0), 2.4),  # beyond each edge
+        ((-3, -4, 0), 5.0),
+        ((7, -4, 0), 5.0),
+        ((-3, 7, 12), 13.0),
+    ],
+)  # beyond each corner
 def test_planes_edges_and_corners(point, distance):
     for corners in (RIGHT, RIGHT[:, ::-1], np.roll(RIGHT, 1, axis=1)):
         assert triangle_distances(point, corners)[0] == pytest.approx(distance, abs=1e-15)

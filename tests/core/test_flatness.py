@@ -7,10 +7,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core import polyhedron
-from body_moments.core.flatness import FLAT, NO_AREA, Witness
-from body_moments.core.solid import measure_solid
-from body_moments.core.surface import Surface
+from body_moments.core.mesh.planarity import FLAT, NO_AREA, Witness
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.polyhedron import third_order as polyhedron
+from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.core.bodies import mesh, ring, rotation
 
@@ -37,7 +37,7 @@ def one_by_one(surface, error):
         volume = abs(dot(span(b, a), normal)) if len(corners) == 4 else 0
         if square <= longest * (error**2 + NO_AREA**2 * longest):
             bare.append(face)
-        elif volume > square ** 0.5 * (8.0 * error + FLAT * square ** 0.25):
+        elif volume > square**0.5 * (8.0 * error + FLAT * square**0.25):
             bent, spread = bent + 1, spread + volume / 6
     return bent, float(spread), bare
 
@@ -129,7 +129,7 @@ def test_in_a_large_mesh_a_face_without_area_has_its_own_number_and_polygons_the
     assert measure_solid(replace(surface, points=flat)).health.faults.degenerate_faces.tolist() == [701]
 
 
-@pytest.mark.parametrize("scale", [2.0 ** -120, 2.0 ** 120])
+@pytest.mark.parametrize("scale", [2.0**-120, 2.0**120])
 def test_sizes_beyond_the_range_of_the_sums_do_not_matter(scale):
     surface = quads("some", np.float64)
     plain, scaled = (Witness(replace(surface, points=surface.points * s), 0.0) for s in (1.0, scale))
@@ -137,4 +137,4 @@ def test_sizes_beyond_the_range_of_the_sums_do_not_matter(scale):
         polyhedron.solid_and_area(witness.surface, witness=witness)
     plain, scaled = plain.flatness(), scaled.flatness()
     assert scaled.not_flat == plain.not_flat > 200
-    assert scaled.spread == pytest.approx(plain.spread * scale ** 3, rel=1e-12)
+    assert scaled.spread == pytest.approx(plain.spread * scale**3, rel=1e-12)

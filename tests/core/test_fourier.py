@@ -7,20 +7,26 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from body_moments.core import fourier
-from body_moments.core.fourier import Transform, finished, solid_transform, surface_transform
-from body_moments.core.polyhedron import solid_and_area, solid_moments
-from body_moments.core.surface import Surface
-from body_moments.core.waves import Grid
+from body_moments.core.fourier import transform as fourier
+from body_moments.core.fourier.transform import Transform, finished, solid_transform, surface_transform
+from body_moments.core.fourier.wave_vectors import Grid
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.polyhedron.third_order import solid_and_area, solid_moments
 
 from tests.core import bodies, exact
 
 U = 2.0**-53
-TETRAHEDRON = (np.array([[0, 0, 0], [1, 0, 0], [0.5, 0.75**0.5, 0], [0.5, 0.75**0.5 / 3, (2 / 3) ** 0.5]]),
-               np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))
+TETRAHEDRON = (
+    np.array([[0, 0, 0], [1, 0, 0], [0.5, 0.75**0.5, 0], [0.5, 0.75**0.5 / 3, (2 / 3) ** 0.5]]),
+    np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]),
+)
 BOX = bodies.box((0, 0, 0), (1, 1.5, 0.7))
-BODIES = {"tetrahedron": TETRAHEDRON, "box": BOX, "box off center": bodies.moved(BOX, None, (10, -7, 5)),
-          "sphere": bodies.sphere(1)}
+BODIES = {
+    "tetrahedron": TETRAHEDRON,
+    "box": BOX,
+    "box off center": bodies.moved(BOX, None, (10, -7, 5)),
+    "sphere": bodies.sphere(1),
+}
 SIZES = (1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.5, 1.5, 3.0, 5.0, 20.0, 100.0, 1000.0)
 
 
@@ -150,8 +156,14 @@ def test_the_taylor_coefficients_are_the_moments():
     q = np.random.default_rng(6).normal(size=(30, 3))
     q *= 1e-3 / np.linalg.norm(q, axis=1)[:, None]
     found = solid_transform(bodies.surface(part), q).values
-    order = [sum((-1j) ** n * np.prod(q ** np.array(m), axis=1) / np.prod([math.factorial(k) for k in m]) * raw[m]
-                 for m in exact.MONOMIALS if sum(m) == n) for n in range(4)]
+    order = [
+        sum(
+            (-1j) ** n * np.prod(q ** np.array(m), axis=1) / np.prod([math.factorial(k) for k in m]) * raw[m]
+            for m in exact.MONOMIALS
+            if sum(m) == n
+        )
+        for n in range(4)
+    ]
     size = raw[0, 0, 0]
     # real parts hold even orders only, imaginary ones odd orders: what is left is of fourth and of fifth order
     assert np.abs(found.real - (order[0] + order[2]).real).max() <= 1e-12 * size
@@ -183,7 +195,7 @@ def test_a_long_list_in_any_order_is_the_single_ones():
     found, some = solid_transform(surface, q), rng.integers(0, 5000, 12)
     assert np.array_equal(found.q, q)
     for i in some:
-        assert abs(solid_transform(surface, q[i:i + 1]).values[0] - found.values[i]) <= 2e-15
+        assert abs(solid_transform(surface, q[i : i + 1]).values[0] - found.values[i]) <= 2e-15
 
 
 def test_points_that_no_face_uses_cost_no_digits():
@@ -202,10 +214,12 @@ def test_threads_change_nothing():
 
 def test_quads_are_cut_where_the_moments_cut_them():
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0.5], [0, 1, 0], [0.5, 0.5, -1]], np.float32)
-    surface = Surface(points, triangles=np.array([[1, 0, 4], [2, 1, 4], [3, 2, 4], [0, 3, 4]]),
-                      quads=np.array([[0, 1, 2, 3]]))
+    surface = Surface(
+        points, triangles=np.array([[1, 0, 4], [2, 1, 4], [3, 2, 4], [0, 3, 4]]), quads=np.array([[0, 1, 2, 3]])
+    )
     assert solid_transform(surface, [[0.0, 0.0, 1e-9]]).values[0].real == pytest.approx(
-        solid_moments(surface).total, rel=1e-14)
+        solid_moments(surface).total, rel=1e-14
+    )
 
 
 def test_the_shells_of_one_surface_add():
@@ -228,8 +242,12 @@ def test_what_storing_as_float32_may_have_changed_is_told():
 
 def test_an_open_surface_is_refused_and_an_unwelded_one_is_not():
     sphere = bodies.sphere(2)
-    for part in (bodies.without(sphere, 3), bodies.without(BOX, *bodies.TOP), bodies.grid(3),
-                 bodies.with_flipped(sphere, 5)):
+    for part in (
+        bodies.without(sphere, 3),
+        bodies.without(BOX, *bodies.TOP),
+        bodies.grid(3),
+        bodies.with_flipped(sphere, 5),
+    ):
         with pytest.raises(ValueError, match="not closed"):
             solid_transform(bodies.surface(part), [[1.0, 0.0, 0.0]])
     tube = bodies.without(BOX, 0, 1, *bodies.TOP)  # its faces' normals add up to zero
@@ -240,8 +258,18 @@ def test_an_open_surface_is_refused_and_an_unwelded_one_is_not():
     assert abs(apart - whole) <= 1e-15
 
 
-@pytest.mark.parametrize("q", [[1.0, 2.0, 3.0], [[1.0, 2.0]], [["a", "b", "c"]], [[1j, 0, 0]], [[np.nan, 0, 0]],
-                               [[np.inf, 0, 0]], [[[0.0, 0.0, 0.0]]]])
+@pytest.mark.parametrize(
+    "q",
+    [
+        [1.0, 2.0, 3.0],
+        [[1.0, 2.0]],
+        [["a", "b", "c"]],
+        [[1j, 0, 0]],
+        [[np.nan, 0, 0]],
+        [[np.inf, 0, 0]],
+        [[[0.0, 0.0, 0.0]]],
+    ],
+)
 def test_wave_vectors_that_are_none_are_refused(q):
     with pytest.raises(ValueError, match="[Ww]ave vectors"):
         solid_transform(bodies.surface(BOX), q)
@@ -252,8 +280,9 @@ def test_no_wave_vectors_give_no_values():
     assert found.values.shape == found.error.shape == (0,)
 
 
-@pytest.mark.parametrize("part", [
-    (BOX[0], BOX[1] + 3), (BOX[0], -BOX[1] - 1), (BOX[0] * [1, np.nan, 1], BOX[1]), (BOX[0], BOX[1][:0])])
+@pytest.mark.parametrize(
+    "part", [(BOX[0], BOX[1] + 3), (BOX[0], -BOX[1] - 1), (BOX[0] * [1, np.nan, 1], BOX[1]), (BOX[0], BOX[1][:0])]
+)
 def test_broken_surfaces_are_refused(part):
     for transform in (solid_transform, surface_transform):
         with pytest.raises(ValueError, match=r"^[A-Z].*\.$"):
@@ -307,7 +336,7 @@ def test_it_is_no_worse_than_libformfactor(truth):
 
 
 def test_quads_that_name_no_point_are_refused():
-    for index in (8, -1, 2 ** 40):
+    for index in (8, -1, 2**40):
         quads = bodies.SIDES.astype(np.int64)
         quads[3, 2] = index
         with pytest.raises(ValueError, match="does not exist"):
@@ -317,7 +346,7 @@ def test_quads_that_name_no_point_are_refused():
 @pytest.mark.parametrize("scale", [1e-59, 1e-40, 1e40, 1e49])
 def test_bodies_of_any_size_have_a_transform_at_rest_and_at_their_own_frequencies(scale):
     body = Surface.from_triangles(bodies.box()[0] * scale, bodies.box()[1])
-    values = solid_transform(body, np.array([[0.0, 0.0, 0.0], [1.0 / scale, 0.0, 0.0]])).values / scale ** 3
+    values = solid_transform(body, np.array([[0.0, 0.0, 0.0], [1.0 / scale, 0.0, 0.0]])).values / scale**3
     np.testing.assert_allclose(values, [1.0, np.sin(1.0) - 1j * (1.0 - np.cos(1.0))], rtol=1e-13)
 
 

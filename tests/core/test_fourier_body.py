@@ -4,10 +4,10 @@
 
 import numpy as np
 import pytest
-from body_moments.core import fourier_body
-from body_moments.core.fourier import finished, solid_transform, surface_transform
-from body_moments.core.fourier_body import BodyTransform
-from body_moments.core.waves import Grid
+from body_moments.core.fourier import instances as fourier_body
+from body_moments.core.fourier.instances import BodyTransform
+from body_moments.core.fourier.transform import finished, solid_transform, surface_transform
+from body_moments.core.fourier.wave_vectors import Grid
 
 from tests.core import bodies
 
@@ -24,8 +24,14 @@ def places(*maps):
 
 SHEARED = np.array([[1, 0.4, 0], [0, 0.7, 0], [0.1, 0, 1.5]])
 MIRRORED = np.diag([1.0, -1.0, 2.0])
-MAPS = places((np.eye(3), (0, 0, 0)), (np.eye(3), (5, -3, 2)), (SHEARED, (1, 2, 3)), (MIRRORED, (-4, 0, 0)),
-              (SHEARED, (0, 0, 70)), (bodies.rotation(2), (0, 0, 0)))
+MAPS = places(
+    (np.eye(3), (0, 0, 0)),
+    (np.eye(3), (5, -3, 2)),
+    (SHEARED, (1, 2, 3)),
+    (MIRRORED, (-4, 0, 0)),
+    (SHEARED, (0, 0, 70)),
+    (bodies.rotation(2), (0, 0, 0)),
+)
 
 
 @pytest.mark.parametrize("of, alone", [("volume", solid_transform), ("area", surface_transform)])

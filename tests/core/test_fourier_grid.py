@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from body_moments.core import fourier_grid
-from body_moments.core.fourier import finished, solid_transform, surface_transform
-from body_moments.core.fourier_grid import GridTransform
-from body_moments.core.nufft import Spreading, aliasing
-from body_moments.core.polyhedron import solid_and_area
-from body_moments.core.quadrature import triangle_rule
-from body_moments.core.waves import Grid
+from body_moments.core.fourier import grid as fourier_grid
+from body_moments.core.fourier.grid import GridTransform
+from body_moments.core.fourier.nufft import Spreading, aliasing
+from body_moments.core.fourier.transform import finished, solid_transform, surface_transform
+from body_moments.core.fourier.wave_vectors import Grid
+from body_moments.core.numerics.quadrature import triangle_rule
+from body_moments.core.polyhedron.third_order import solid_and_area
 
 from tests.core import bodies
 
@@ -57,9 +57,12 @@ def cube(n):
 
 
 LOPSIDED = bodies.moved(bodies.torus(36, 16), [[1, 0.2, 0], [0, 0.7, 0], [0.1, 0, 1.5]], (3, -2, 5))
-CASES = {"torus": (LOPSIDED, Grid(18, 18.0), (1e-4, 1e-7)), "torus, low": (LOPSIDED, Grid(17, 0.5), (1e-4, 1e-7)),
-         "cube, waves as long as its squares": (cube(12), Grid(24, 2 * np.pi * 12 / 2), (1e-4, 1e-6)),
-         "sphere, waves shorter than its triangles": (bodies.sphere(3), Grid(20, 60.0), (1e-3, 1e-4))}
+CASES = {
+    "torus": (LOPSIDED, Grid(18, 18.0), (1e-4, 1e-7)),
+    "torus, low": (LOPSIDED, Grid(17, 0.5), (1e-4, 1e-7)),
+    "cube, waves as long as its squares": (cube(12), Grid(24, 2 * np.pi * 12 / 2), (1e-4, 1e-6)),
+    "sphere, waves shorter than its triangles": (bodies.sphere(3), Grid(20, 60.0), (1e-3, 1e-4)),
+}
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -138,7 +141,7 @@ def test_the_rules_on_triangles_are_exact_to_their_degree(n):
     for p in range(2 * n):
         for q in (0, (2 * n - 1 - p) // 2, 2 * n - 1 - p):
             true = math.factorial(p) * math.factorial(q) / math.factorial(p + q + 2)
-            assert (weights * places[1]**p * places[2]**q).sum() == pytest.approx(true, rel=1e-12)
+            assert (weights * places[1] ** p * places[2] ** q).sum() == pytest.approx(true, rel=1e-12)
 
 
 def test_the_bound_of_the_points_holds():
@@ -146,8 +149,11 @@ def test_the_bound_of_the_points_holds():
     for span in (0.1, 1.0, 3.0, 6.0, 12.0):
         for n in range(1, 9):
             places, weights = triangle_rule(n)
-            bounded = [tolerance for tolerance in 10.0 ** np.arange(-14, 3)
-                       if fourier_grid._points(np.array([span]), tolerance)[0] <= n]
+            bounded = [
+                tolerance
+                for tolerance in 10.0 ** np.arange(-14, 3)
+                if fourier_grid._points(np.array([span]), tolerance)[0] <= n
+            ]
             if not bounded:
                 continue
             phases = rng.uniform(0.0, span, (200, 3))

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.fourier_polygon import polygon_transform
+from body_moments.core.fourier.polygon import polygon_transform
 
 OUTLINE = np.array([[0, 0], [3, 0], [3.5, 1], [1, 1], [1, 2.5], [0, 2]])
 HOLE = np.array([[0.2, 0.3], [0.4, 0.9], [0.7, 0.4]])
@@ -32,8 +32,12 @@ def test_a_polygon_with_a_hole_is_right_to_1e_14_of_its_area_at_any_frequency(of
 
 def test_a_rectangle_has_its_closed_form_at_zero_and_everywhere():
     low, high = np.array([0.5, -1.0]), np.array([2.0, 3.0])
-    q = np.concatenate([[[0, 0], [1e-30, 1e-31], [1e-300, 0]],
-                        np.random.default_rng(0).normal(size=(60, 2)) * np.logspace(-15, 3, 60)[:, None]])
+    q = np.concatenate(
+        [
+            [[0, 0], [1e-30, 1e-31], [1e-300, 0]],
+            np.random.default_rng(0).normal(size=(60, 2)) * np.logspace(-15, 3, 60)[:, None],
+        ]
+    )
     sides = (high - low) * np.sinc(q * (high - low) / (2 * np.pi))
     true = np.prod(sides * np.exp(-0.5j * q * (low + high)), axis=1)
     loop = [low, (high[0], low[1]), high, (low[0], high[1])]
@@ -54,8 +58,9 @@ def test_opposite_frequencies_are_conjugate_and_long_lists_are_their_parts():
     assert abs(values[777] - polygon_transform([OUTLINE, HOLE], q[777:778]).values[0]) <= 1e-15
 
 
-@pytest.mark.parametrize("loops", [[], [[[0, 0], [1, 0]]], [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]],
-                                   [[[0, 0], [1, 0], [0, np.nan]]]])
+@pytest.mark.parametrize(
+    "loops", [[], [[[0, 0], [1, 0]]], [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], [[[0, 0], [1, 0], [0, np.nan]]]]
+)
 def test_loops_that_are_none_are_refused(loops):
     with pytest.raises(ValueError, match=r"^[A-Z].*\.$"):
         polygon_transform(loops, [[1.0, 2.0]])

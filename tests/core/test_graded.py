@@ -7,18 +7,23 @@ from math import comb
 
 import numpy as np
 import pytest
-from body_moments.core.density_sign import winding
-from body_moments.core.graded import graded_sum, own_axes, own_fields
-from body_moments.core.mass import MassProperties
-from body_moments.core.moments import Moments, map_sum
-from body_moments.core.polynomial import Polynomial, parse
+from body_moments.core.density.polynomial import Polynomial, parse
+from body_moments.core.density.polynomial_mass import graded_sum, own_fields
+from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.mesh.winding import winding
+from body_moments.core.moments.moments import Moments, map_sum
+from body_moments.core.numerics.rotations import own_axes
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.core import bodies, exact
 
-PRISM = ([(0.0, 0.0), (3.0, 0.0), (3.5, 1.0), (1.0, 1.0), (1.0, 2.5), (0.0, 2.0)], -0.25, 0.5,
-         [(0, 1, 2, 3), (0, 3, 4, 5)])
+PRISM = (
+    [(0.0, 0.0), (3.0, 0.0), (3.5, 1.0), (1.0, 1.0), (1.0, 2.5), (0.0, 2.0)],
+    -0.25,
+    0.5,
+    [(0, 1, 2, 3), (0, 3, 4, 5)],
+)
 DENSITIES = ["1000 + 20*z", "7", "3 - x/4 + x*y + z**2/8", "(1 + x + y + z)**4", "x**6 + y**5*z**2 + 1/3", "0"]
 
 
@@ -50,13 +55,17 @@ def truth(points, triangles, terms, about):
                     for n, m, a in zip(powers, lower, about):
                         factor *= comb(n, m) * a ** (n - m)
                     local[lower] = local.get(lower, 0) + factor
-    return [sum(value * volume[tuple(a + b for a, b in zip(row, powers))] for powers, value in local.items())
-            for row in exact.MONOMIALS]
+    return [
+        sum(value * volume[tuple(a + b for a, b in zip(row, powers))] for powers, value in local.items())
+        for row in exact.MONOMIALS
+    ]
 
 
 def within(found, expected):
-    return all(abs(Fraction(value) - true) <= Fraction(bound)
-               for value, true, bound in zip(found.raw.tolist(), expected, found.error.tolist()))
+    return all(
+        abs(Fraction(value) - true) <= Fraction(bound)
+        for value, true, bound in zip(found.raw.tolist(), expected, found.error.tolist())
+    )
 
 
 @pytest.mark.parametrize("text", DENSITIES)
@@ -114,9 +123,11 @@ def test_a_density_in_world_coordinates_stays_where_it_is_when_the_body_moves(na
 
 
 @settings(deadline=None, max_examples=40)
-@given(st.lists(st.floats(-1e3, 1e3, width=32), min_size=1, max_size=56),
-       st.lists(st.integers(-24, 24), min_size=9, max_size=9),
-       st.lists(st.integers(-2**12, 2**12), min_size=3, max_size=3))
+@given(
+    st.lists(st.floats(-1e3, 1e3, width=32), min_size=1, max_size=56),
+    st.lists(st.integers(-24, 24), min_size=9, max_size=9),
+    st.lists(st.integers(-(2**12), 2**12), min_size=3, max_size=3),
+)
 def test_the_bound_holds_for_any_density_and_any_map(coefficients, linear, offset):
     """Maps of eighths and a body of quarters: images need no rounding, and the truth is rational."""
     matrix = np.eye(4)
@@ -168,8 +179,10 @@ def test_many_images_are_the_sum_of_each_and_a_constant_is_a_factor():
     maps[:, :3, 3] = rng.normal(size=(1500, 3)) * 10.0
     density = parse("50 + x*y - z**2/1000")
     together = graded_sum(volume, density, maps, about=(0, 0, 0))
-    each = [graded_sum(volume, density, maps[part], about=(0, 0, 0)) for part in (
-        slice(0, 1), slice(1, 2), slice(2, 600), slice(600, None))]
+    each = [
+        graded_sum(volume, density, maps[part], about=(0, 0, 0))
+        for part in (slice(0, 1), slice(1, 2), slice(2, 600), slice(600, None))
+    ]
     total = np.sum([one.raw for one in each], axis=0)
     bound = together.error + np.sum([one.error for one in each], axis=0)
     assert (np.abs(together.raw - total) <= bound).all() and (bound < 1e-9 * np.abs(total).max()).all()

@@ -6,17 +6,18 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.gradient import area_gradient, volume_gradient
-from body_moments.core.mass import MassProperties
-from body_moments.core.moments import index, monomials
-from body_moments.core.polyhedron import solid_and_area
+from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.moments.moments import index, monomials
+from body_moments.core.polyhedron.third_order import solid_and_area
+from body_moments.core.statics.gradient import area_gradient, volume_gradient
 
 from tests.core import bodies, exact
 
 EYE = np.eye(3, dtype=int)
 SHEAR = np.array([[1.0, 0.4, -0.2], [0.1, 0.7, 0.3], [0.0, -0.25, 1.5]])
 BODIES = {
-    "ball": bodies.sphere(2), "torus": bodies.moved(bodies.torus(9, 7), SHEAR, (0.5, -0.25, 0.125)),
+    "ball": bodies.sphere(2),
+    "torus": bodies.moved(bodies.torus(9, 7), SHEAR, (0.5, -0.25, 0.125)),
     "far": bodies.moved(bodies.sphere(1), SHEAR, (1000.0, -500.0, 250.0)),
     "tiny": bodies.moved(bodies.torus(6, 5), 1e-4 * SHEAR, (1e-3, 0.0, 0.0)),
     "hollow": bodies.joined(bodies.box(high=(3, 3, 3)), bodies.inverted(bodies.box((1, 1, 1), (2, 2, 2)))),
@@ -93,9 +94,10 @@ def test_volume_derivatives_are_those_of_rational_arithmetic(name):
     about = np.array([0.25, -0.5, 0.125])
     gradient = volume_gradient(bodies.surface((points, triangles)), about)
     bound = gradient.error()
-    h = 2.0 ** -6
+    h = 2.0**-6
     for vertex in (0, len(points) // 2, len(points) - 1):
         for axis in range(3):
+
             def at(steps, vertex=vertex, axis=axis):
                 moved = points.copy()
                 moved[vertex, axis] += steps * h
@@ -114,9 +116,10 @@ def test_area_derivatives_are_those_of_many_digits(name):
     about = np.array([0.25, -0.5, 0.125])
     gradient = area_gradient(bodies.surface((points, triangles)), about)
     bound = gradient.error()
-    h = 2.0 ** -20
+    h = 2.0**-20
     for vertex in (0, len(points) - 1):
         for axis in range(3):
+
             def at(steps, vertex=vertex, axis=axis):
                 moved = points.copy()
                 moved[vertex, axis] += steps * h
@@ -168,8 +171,9 @@ def test_quads_are_derived_as_they_are_cut():
 def test_the_corner_of_a_box_changes_its_volume_by_a_third_of_its_three_sides():
     points, triangles = bodies.box(high=(3, 2, 1))
     gradient = volume_gradient(bodies.surface((points, triangles)), np.zeros(3)).by_vertex[:, 0]
-    normals = np.cross(points[triangles[:, 1]] - points[triangles[:, 0]],
-                       points[triangles[:, 2]] - points[triangles[:, 0]])
+    normals = np.cross(
+        points[triangles[:, 1]] - points[triangles[:, 0]], points[triangles[:, 2]] - points[triangles[:, 0]]
+    )
     for vertex in range(8):
         assert np.abs(gradient[vertex] - normals[(triangles == vertex).any(axis=1)].sum(axis=0) / 6).max() < 1e-15
 
@@ -179,8 +183,10 @@ def test_a_triangle_without_area_and_a_loose_vertex_give_nothing():
     points = np.concatenate([points, [[9.0, 9.0, 9.0]]])
     more = np.concatenate([triangles, [[0, 0, 1], [2, 2, 2]]])
     for derive in KINDS.values():
-        one, other = derive(bodies.surface((points, triangles)), np.zeros(3)), derive(
-            bodies.surface((points, more)), np.zeros(3))
+        one, other = (
+            derive(bodies.surface((points, triangles)), np.zeros(3)),
+            derive(bodies.surface((points, more)), np.zeros(3)),
+        )
         assert np.array_equal(one.by_vertex, other.by_vertex)
         assert not one.by_vertex[-1].any()
         assert np.isfinite(other.error()).all()

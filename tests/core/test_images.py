@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.images import area_of_images
-from body_moments.core.surface import Surface
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.polyhedron.sheared_areas import area_of_images
 
 from tests.core import exact
 
@@ -67,7 +67,7 @@ def test_what_float32_may_have_moved_is_bounded():
 
 
 def test_many_maps_and_faces_go_in_blocks(monkeypatch):
-    from body_moments.core import images
+    from body_moments.core.polyhedron import sheared_areas as images
 
     points, linear = RNG.standard_normal((8, 3)), RNG.standard_normal((7, 3, 3))
     surface = Surface.from_triangles(points, TRIANGLES)

@@ -6,17 +6,19 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.mass import MassProperties, combined
-from body_moments.core.moments import Moments, monomials, sum_moments
-from body_moments.core.solid import measure_solid
-from body_moments.core.surface import Surface
+from body_moments.core.inertia.mass_properties import MassProperties, combined
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import Moments, monomials, sum_moments
+from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.core import exact
 
 
 def box(low, high):
-    raw = [np.prod([(high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1) for i, n in enumerate(row)])
-           for row in monomials(3).tolist()]
+    raw = [
+        np.prod([(high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1) for i, n in enumerate(row)])
+        for row in monomials(3).tolist()
+    ]
     return Moments(np.array(raw), np.zeros(3))
 
 
@@ -43,8 +45,10 @@ def test_density_scales_mass_and_inertia_and_leaves_the_center():
 def test_the_parallel_axis_theorem_holds():
     body = MassProperties.from_moments(box((0, 0, 0), (1, 2, 3)), 2.0)
     # About its corner: I_xx = m (b² + c²) / 3, I_xy = -m a b / 4.
-    assert np.allclose(body.inertia_about((0, 0, 0)),
-                       12 * np.array([[13 / 3, -2 / 4, -3 / 4], [-2 / 4, 10 / 3, -6 / 4], [-3 / 4, -6 / 4, 5 / 3]]))
+    assert np.allclose(
+        body.inertia_about((0, 0, 0)),
+        12 * np.array([[13 / 3, -2 / 4, -3 / 4], [-2 / 4, 10 / 3, -6 / 4], [-3 / 4, -6 / 4, 5 / 3]]),
+    )
 
 
 def test_a_frame_turns_center_tensor_and_axes_together():
@@ -98,13 +102,15 @@ def test_the_bounds_hold_against_rationals_for_perturbed_moments():
     center = [x / mass for x in truth[1:4]]
     second = {(0, 0): 4, (0, 1): 5, (0, 2): 6, (1, 1): 7, (1, 2): 8, (2, 2): 9}
     central = {key: truth[k] - center[key[0]] * center[key[1]] * mass for key, k in second.items()}
-    inertia = {(i, j): (sum(central[k, k] for k in range(3)) - central[i, i]) if i == j else -central[i, j]
-               for i, j in central}
+    inertia = {
+        (i, j): (sum(central[k, k] for k in range(3)) - central[i, i]) if i == j else -central[i, j] for i, j in central
+    }
     for _ in range(200):
         delta = np.array([float(x) for x in truth]) * rng.uniform(0, 1e-6, 20)
         off = delta * rng.uniform(-1, 1, 20)
         body = MassProperties.from_moments(
-            Moments(np.array([float(x) for x in truth]) + off, np.zeros(3), error=np.abs(delta)))
+            Moments(np.array([float(x) for x in truth]) + off, np.zeros(3), error=np.abs(delta))
+        )
         assert abs(body.mass - float(mass)) <= body.error["mass"]
         assert np.linalg.norm(body.center - [float(x) for x in center]) <= body.error["center"]
         assert all(abs(body.inertia[key] - float(value)) <= body.error["inertia"] for key, value in inertia.items())
@@ -119,7 +125,10 @@ def test_the_bounds_hold_at_any_size(exponent):
     body = MassProperties.from_moments(measure_solid(Surface.from_triangles(points, triangles)).volume)
     raw = exact.volume_moments(points, triangles)
     center = [x / raw[0] for x in raw[1:4]]
-    product, moment = raw[5] - raw[0] * center[0] * center[1], raw[7] + raw[9] - raw[0] * (center[1]**2 + center[2]**2)
+    product, moment = (
+        raw[5] - raw[0] * center[0] * center[1],
+        raw[7] + raw[9] - raw[0] * (center[1] ** 2 + center[2] ** 2),
+    )
     assert 0.0 < body.error["inertia"] < 1e-12 * body.inertia[0, 0]
     assert abs(Fraction(body.inertia[0, 0]) - moment) <= Fraction(body.error["inertia"])
     assert abs(Fraction(body.inertia[0, 1]) + product) <= Fraction(body.error["inertia"])

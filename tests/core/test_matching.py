@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core import matching
+from body_moments.core.shape import registration as matching
 
 from tests.core import bodies, shapes
 from tests.core.recursion import moments

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.moments import (
+from body_moments.core.moments.moments import (
     Moments,
     are_similarities,
     index,
@@ -22,9 +22,11 @@ ORDER = 4
 
 def box_moments(low, high, order=ORDER, about=(0, 0, 0)):
     """Exact: the product of one-dimensional integrals."""
+
     def one(i, n):
         a, b = Fraction(low[i]) - Fraction(about[i]), Fraction(high[i]) - Fraction(about[i])
         return (b ** (n + 1) - a ** (n + 1)) / (n + 1)
+
     return [one(0, p) * one(1, q) * one(2, r) for p, q, r in monomials(order).tolist()]
 
 
@@ -38,8 +40,11 @@ def mapped_exactly(exact, matrix, about, order=ORDER):
     """The image of exact moments (about 0) under an affine map, by expanding the polynomials term by term."""
     linear = [[Fraction(float(x)) for x in row] for row in np.asarray(matrix)[:3, :3]]
     offset = [Fraction(float(t)) - Fraction(float(o)) for t, o in zip(np.asarray(matrix)[:3, 3], about)]
-    det = sum(linear[0][i] * (linear[1][(i + 1) % 3] * linear[2][(i + 2) % 3]
-                              - linear[1][(i + 2) % 3] * linear[2][(i + 1) % 3]) for i in range(3))
+    det = sum(
+        linear[0][i]
+        * (linear[1][(i + 1) % 3] * linear[2][(i + 2) % 3] - linear[1][(i + 2) % 3] * linear[2][(i + 1) % 3])
+        for i in range(3)
+    )
 
     def times(polynomial, i):
         out = {}
@@ -61,8 +66,12 @@ def mapped_exactly(exact, matrix, about, order=ORDER):
 
 
 def floats(exact, about=(0, 0, 0), of="volume"):
-    return Moments(np.array([float(x) for x in exact]), np.array(about, float), of,
-                   error=np.array([float(abs(Fraction(float(x)) - x)) for x in exact]))
+    return Moments(
+        np.array([float(x) for x in exact]),
+        np.array(about, float),
+        of,
+        error=np.array([float(abs(Fraction(float(x)) - x)) for x in exact]),
+    )
 
 
 def assert_within_bound(moments, exact):
@@ -74,8 +83,18 @@ def test_monomials_are_stored_where_index_says():
     table = monomials(6)
     assert len(table) == monomial_count(6) == 84
     assert [index(*row) for row in table.tolist()] == list(range(84))
-    assert table[:10].tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [2, 0, 0], [1, 1, 0], [1, 0, 1],
-                                   [0, 2, 0], [0, 1, 1], [0, 0, 2]]
+    assert table[:10].tolist() == [
+        [0, 0, 0],
+        [1, 0, 0],
+        [0, 1, 0],
+        [0, 0, 1],
+        [2, 0, 0],
+        [1, 1, 0],
+        [1, 0, 1],
+        [0, 2, 0],
+        [0, 1, 1],
+        [0, 0, 2],
+    ]
 
 
 def test_tensors_are_symmetric_and_hold_each_moment():
@@ -191,7 +210,7 @@ def test_normalized_moments_have_no_unit_and_know_no_place(by, size):
     n = monomials(order).sum(axis=1)
     central = np.array([float(x) for x in central_box(sides, order)])
     gyration = np.sqrt(14.0 / 12.0)
-    expected = central / 6.0 ** (1 + n / 3) if by == "size" else central / 6.0 / gyration ** n
+    expected = central / 6.0 ** (1 + n / 3) if by == "size" else central / 6.0 / gyration**n
     assert found.raw[0] == pytest.approx(1.0, rel=1e-14) and not found.about.any()
     assert (np.abs(found.raw - expected) <= found.error + 1e-14 * np.abs(expected)).all()
     assert np.allclose(found.raw, expected, rtol=1e-7, atol=1e-7)
@@ -202,7 +221,7 @@ def test_normalized_moments_have_no_unit_and_know_no_place(by, size):
 
 def test_areas_are_normalized_to_an_area_of_one():
     body = Moments(np.array([4.0, 0, 0, 0, 8.0, 0, 0, 2.0, 0, 0]), np.zeros(3), "area")
-    assert body.normalized().raw[4] == pytest.approx(8.0 / 4.0 ** 2)
+    assert body.normalized().raw[4] == pytest.approx(8.0 / 4.0**2)
     assert body.normalized("gyration")[2, 0, 0] == pytest.approx(0.8)
 
 

@@ -4,11 +4,13 @@
 
 import numpy as np
 import pytest
-from body_moments.core import nesting, shell_tree
-from body_moments.core.nesting import decide, overlapping_boxes, relate
-from body_moments.core.shell_tree import Tree, sort_shells
-from body_moments.core.solid import measure_solid
-from body_moments.core.surface import Surface
+from body_moments.core.mesh import bvh as shell_tree
+from body_moments.core.mesh.boxes import overlapping_boxes
+from body_moments.core.mesh.bvh import Tree, sort_shells
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.solid import nesting
+from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.nesting import decide, relate
 
 from tests.core.bodies import box, inverted, joined, moved, rotation, sphere, torus
 
@@ -41,8 +43,9 @@ def test_shells_are_measured_one_by_one_in_whatever_order_their_triangles_come()
     for k, part in enumerate(parts):
         np.testing.assert_array_equal(shells.low[k], part[0].min(axis=0))
         np.testing.assert_array_equal(shells.high[k], part[0].max(axis=0))
-        assert set(map(tuple, shells.triangles[shells.start[k]:shells.start[k + 1]])) == set(
-            map(tuple, triangles[shell == k]))
+        assert set(map(tuple, shells.triangles[shells.start[k] : shells.start[k + 1]])) == set(
+            map(tuple, triangles[shell == k])
+        )
 
 
 @pytest.mark.parametrize("seed", range(10))
@@ -51,8 +54,12 @@ def test_overlapping_boxes_are_those_that_comparing_all_finds(seed):
     low = rng.integers(0, 10, size=(60, 3)).astype(float)
     high = low + rng.integers(0, 4, size=(60, 3))
     i, j, skipped = overlapping_boxes(low, high, 1e-9, 10_000)
-    expected = {(a, b) for a in range(60) for b in range(a)
-                if np.all(np.minimum(high[a], high[b]) - np.maximum(low[a], low[b]) > 1e-9)}
+    expected = {
+        (a, b)
+        for a in range(60)
+        for b in range(a)
+        if np.all(np.minimum(high[a], high[b]) - np.maximum(low[a], low[b]) > 1e-9)
+    }
     assert {(max(pair), min(pair)) for pair in zip(i.tolist(), j.tolist())} == expected
     assert len(i) == len(expected) and skipped == 0
 
@@ -81,28 +88,35 @@ def test_winding_numbers_are_those_of_the_bodies(spin):
 
 
 @pytest.mark.parametrize("spin", [None, 3, 4, 5])
-@pytest.mark.parametrize("name, parts, inside, crossing", [
-    ("apart", [box(), box((2, 0, 0), (3, 1, 1))], set(), set()),
-    ("one in another", [OUTER, INNER], {(1, 0)}, set()),
-    ("one in another, listed first", [INNER, OUTER], {(0, 1)}, set()),
-    ("a cavity", [OUTER, inverted(INNER)], {(1, 0)}, set()),
-    ("a cavity that touches the wall", [OUTER, inverted(box((-2, -1, -1), (1, 1, 1)))], {(1, 0)}, set()),
-    ("overlapping by half, faces in common planes", [box(), box((0.5, 0, 0), (1.5, 1, 1))], set(), {(0, 1)}),
-    ("overlapping in a corner", [box(), box((0.5, 0.5, 0.5), (1.5, 1.5, 1.5))], set(), {(0, 1)}),
-    ("crossing bars, no vertex in the other", [box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -0.9), (1, 3, 0.9))],
-     set(), {(0, 1)}),
-    ("crossing bars of one height", [box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -1), (1, 3, 1))], set(), {(0, 1)}),
-    ("the same twice", [box(), box()], set(), {(0, 1)}),
-    ("the same twice, one inverted", [box(), inverted(box())], set(), {(0, 1)}),
-    ("touching in a face", [box(), box((1, 0, 0), (2, 1, 1))], set(), set()),
-    ("touching in a part of a face", [box(), box((1, 0.5, 0.3), (2, 1.5, 1.3))], set(), set()),
-    ("touching in an edge", [box(), box((1, 1, 0), (2, 2, 1))], set(), set()),
-    ("touching in a corner", [box(), box((1, 1, 1), (2, 2, 2))], set(), set()),
-    ("boxes overlap, bodies do not", [torus(), moved(sphere(2), 0.3 * np.eye(3))], set(), set()),
-    ("linked rings", [torus(), moved(torus(), [[1, 0, 0], [0, 0, -1], [0, 1, 0]], (1, 0, 0))], set(), set()),
-    ("a ring through a ring", [torus(), moved(torus(), np.eye(3), (0.9, 0.05, 0.02))], set(), {(0, 1)}),
-    ("three deep", [box((-k, -k, -k), (k, k, k)) for k in (3, 1, 2)], {(1, 0), (1, 2), (2, 0)}, set()),
-])
+@pytest.mark.parametrize(
+    "name, parts, inside, crossing",
+    [
+        ("apart", [box(), box((2, 0, 0), (3, 1, 1))], set(), set()),
+        ("one in another", [OUTER, INNER], {(1, 0)}, set()),
+        ("one in another, listed first", [INNER, OUTER], {(0, 1)}, set()),
+        ("a cavity", [OUTER, inverted(INNER)], {(1, 0)}, set()),
+        ("a cavity that touches the wall", [OUTER, inverted(box((-2, -1, -1), (1, 1, 1)))], {(1, 0)}, set()),
+        ("overlapping by half, faces in common planes", [box(), box((0.5, 0, 0), (1.5, 1, 1))], set(), {(0, 1)}),
+        ("overlapping in a corner", [box(), box((0.5, 0.5, 0.5), (1.5, 1.5, 1.5))], set(), {(0, 1)}),
+        (
+            "crossing bars, no vertex in the other",
+            [box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -0.9), (1, 3, 0.9))],
+            set(),
+            {(0, 1)},
+        ),
+        ("crossing bars of one height", [box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -1), (1, 3, 1))], set(), {(0, 1)}),
+        ("the same twice", [box(), box()], set(), {(0, 1)}),
+        ("the same twice, one inverted", [box(), inverted(box())], set(), {(0, 1)}),
+        ("touching in a face", [box(), box((1, 0, 0), (2, 1, 1))], set(), set()),
+        ("touching in a part of a face", [box(), box((1, 0.5, 0.3), (2, 1.5, 1.3))], set(), set()),
+        ("touching in an edge", [box(), box((1, 1, 0), (2, 2, 1))], set(), set()),
+        ("touching in a corner", [box(), box((1, 1, 1), (2, 2, 2))], set(), set()),
+        ("boxes overlap, bodies do not", [torus(), moved(sphere(2), 0.3 * np.eye(3))], set(), set()),
+        ("linked rings", [torus(), moved(torus(), [[1, 0, 0], [0, 0, -1], [0, 1, 0]], (1, 0, 0))], set(), set()),
+        ("a ring through a ring", [torus(), moved(torus(), np.eye(3), (0.9, 0.05, 0.02))], set(), {(0, 1)}),
+        ("three deep", [box((-k, -k, -k), (k, k, k)) for k in (3, 1, 2)], {(1, 0), (1, 2), (2, 0)}, set()),
+    ],
+)
 def test_known_pairs(name, parts, inside, crossing, spin):
     if spin is not None:
         parts = [moved(part, rotation(spin) * 0.7, (5, -3, 2)) for part in parts]
@@ -132,7 +146,7 @@ def test_random_spheres_are_related_as_their_centres_and_radii_say(seed):
 def test_thousands_of_cavities_are_found_in_one_body():
     holes = [inverted(moved(sphere(1), 0.3 * np.eye(3), place)) for place in np.ndindex(13, 13, 13)]
     inside, crossing, unchecked = relation(*holes, box((-1, -1, -1), (13, 13, 13)))
-    assert len(inside) == 13 ** 3 and not crossing and not unchecked
+    assert len(inside) == 13**3 and not crossing and not unchecked
 
 
 def test_work_that_would_take_too_long_is_left_and_said(monkeypatch):
@@ -140,22 +154,35 @@ def test_work_that_would_take_too_long_is_left_and_said(monkeypatch):
     assert relation(*parts) == ({(1, 0)}, set(), 0)
     monkeypatch.setattr(shell_tree, "MOST_WORK", 1000)
     assert relation(*parts) == (set(), set(), 1)
-    monkeypatch.setattr(shell_tree, "MOST_WORK", 10 ** 9)
+    monkeypatch.setattr(shell_tree, "MOST_WORK", 10**9)
     monkeypatch.setattr(nesting, "MOST_PAIRS", 0)
     inside, crossing, unchecked = relation(*parts)
     assert unchecked > 0 and not inside and not crossing
 
 
-@pytest.mark.parametrize("signs, turned, nested, cavities", [
-    ("+", "-", "-", "-"), ("-", "x", "-", "-"),
-    ("++", "--", "-x", "--"), ("+-", "--", "--", "-x"), ("-+", "xx", "--", "-x"), ("--", "x-", "--", "-x"),
-    ("+-+", "---", "---", "-x-"), ("-+-", "xxx", "---", "-x-"), ("+--", "--x", "---", "-x-"),
-    ("+++", "---", "-xx", "---"), ("+-+-", "----", "----", "-x-x"), ("-+-+", "xxxx", "----", "-x-x"),
-])
+@pytest.mark.parametrize(
+    "signs, turned, nested, cavities",
+    [
+        ("+", "-", "-", "-"),
+        ("-", "x", "-", "-"),
+        ("++", "--", "-x", "--"),
+        ("+-", "--", "--", "-x"),
+        ("-+", "xx", "--", "-x"),
+        ("--", "x-", "--", "-x"),
+        ("+-+", "---", "---", "-x-"),
+        ("-+-", "xxx", "---", "-x-"),
+        ("+--", "--x", "---", "-x-"),
+        ("+++", "---", "-xx", "---"),
+        ("+-+-", "----", "----", "-x-x"),
+        ("-+-+", "xxxx", "----", "-x-x"),
+    ],
+)
 def test_shells_in_shells_are_turned_where_no_material_surrounds_them(signs, turned, nested, cavities):
     count = len(signs)
-    parts = [(inverted if sign == "-" else (lambda part: part))(moved(sphere(1), (count - k) * np.eye(3)))
-             for k, sign in enumerate(signs)]
+    parts = [
+        (inverted if sign == "-" else (lambda part: part))(moved(sphere(1), (count - k) * np.eye(3)))
+        for k, sign in enumerate(signs)
+    ]
     order = np.random.default_rng(count).permutation(count)
     points, shells = shells_of(*[parts[k] for k in order])
     ask = np.ones(count, bool)
@@ -170,8 +197,10 @@ def test_caps_in_one_plane_do_not_pierce_each_other_however_thin_their_triangles
     count = np.array([1000, 12])
     outer, inner = (np.arange(n) for n in count)
     loops = []
-    for k, r, sense in ((outer, 0.7 + 0.3 * np.sin(3.7 * outer**2), 1.0),
-                        (inner, np.where(inner % 2, 0.075, 0.15), -1.0)):
+    for k, r, sense in (
+        (outer, 0.7 + 0.3 * np.sin(3.7 * outer**2), 1.0),
+        (inner, np.where(inner % 2, 0.075, 0.15), -1.0),
+    ):
         angle = 2.0 * np.pi * k / len(k)
         loops.append(np.stack([r * np.cos(angle), sense * r * np.sin(angle)], axis=1))
     walls, area = [], 0.0
@@ -179,8 +208,12 @@ def test_caps_in_one_plane_do_not_pierce_each_other_however_thin_their_triangles
         n, i = len(loop), np.arange(len(loop))
         area += np.cross(np.c_[loop, i * 0], np.c_[np.roll(loop, -1, axis=0), i * 0])[:, 2].sum() / 2.0
         j = np.roll(i, -1)
-        walls.append((np.concatenate([np.c_[loop, i * 0.0], np.c_[loop, i * 0.0 + 1.0]]),
-                      np.concatenate([np.stack([i, j, n + j], axis=1), np.stack([i, n + j, n + i], axis=1)])))
+        walls.append(
+            (
+                np.concatenate([np.c_[loop, i * 0.0], np.c_[loop, i * 0.0 + 1.0]]),
+                np.concatenate([np.stack([i, j, n + j], axis=1), np.stack([i, n + j, n + i], axis=1)]),
+            )
+        )
     points, triangles = moved(joined(*walls), rotation(turn), (0.3, 0.3, 0.3))
     body = measure_solid(Surface(points.astype(np.float32), triangles))
     assert (body.method, body.health.cavities, body.health.overlapping_components) == ("capped", 1, 0)

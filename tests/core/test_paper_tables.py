@@ -6,8 +6,20 @@ import pytest
 
 from tests.paper_tables import ROWS, as_printed, main
 
-COUNTS = {"S1": 7123, "S2": 57747, "S3": 462751, "S4": 17071, "S5": 137059, "S6": 1097911, "C1": 193 * 63,
-          "C2": 793 * 127, "C3": 3205 * 255, "C4": 793 * 63, "C5": 3205 * 127, "C6": 12849 * 255}
+COUNTS = {
+    "S1": 7123,
+    "S2": 57747,
+    "S3": 462751,
+    "S4": 17071,
+    "S5": 137059,
+    "S6": 1097911,
+    "C1": 193 * 63,
+    "C2": 793 * 127,
+    "C3": 3205 * 255,
+    "C4": 793 * 63,
+    "C5": 3205 * 127,
+    "C6": 12849 * 255,
+}
 # mass, discrete moments, trivariate moments; exact but for the last ones' thirds
 NUMBERS = {
     "S1": (111.296875, (396.3046875,), (400.942057291666667,)),

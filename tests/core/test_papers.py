@@ -9,11 +9,13 @@ from math import isqrt
 
 import numpy as np
 import pytest
-from body_moments.core import durso, sheynin_tuzikov, zhang_chen
-from body_moments.core.moments import monomials
-from body_moments.core.polyhedron import solid_moments
-from body_moments.core.recursion import moments_to_order
-from body_moments.core.surface import Surface
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import monomials
+from body_moments.core.papers import durso_2005 as durso
+from body_moments.core.papers import sheynin_tuzikov_2001 as sheynin_tuzikov
+from body_moments.core.papers import zhang_chen_2001 as zhang_chen
+from body_moments.core.polyhedron.any_order import moments_to_order
+from body_moments.core.polyhedron.third_order import solid_moments
 
 from tests.core import exact, rational
 
@@ -46,8 +48,12 @@ def tetrahedron(seed=1):
     points = [tuple(F(rng.randint(-99, 99), rng.randint(1, 99)) for _ in range(3)) for _ in range(4)]
     faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
     a, b, c, d = points
-    if sheynin_tuzikov.dot(sheynin_tuzikov.minus(d, a), sheynin_tuzikov.cross(
-            sheynin_tuzikov.minus(b, a), sheynin_tuzikov.minus(c, a))) < 0:
+    if (
+        sheynin_tuzikov.dot(
+            sheynin_tuzikov.minus(d, a), sheynin_tuzikov.cross(sheynin_tuzikov.minus(b, a), sheynin_tuzikov.minus(c, a))
+        )
+        < 0
+    ):
         faces = [face[::-1] for face in faces]
     return points, faces
 
@@ -128,8 +134,9 @@ def test_surface_moments_are_exact_where_areas_are_rational():
     cut = exact.fan(faces)
     double = []
     for a, b, c in cut:
-        normal = sheynin_tuzikov.cross(sheynin_tuzikov.minus(points[b], points[a]),
-                                       sheynin_tuzikov.minus(points[c], points[a]))
+        normal = sheynin_tuzikov.cross(
+            sheynin_tuzikov.minus(points[b], points[a]), sheynin_tuzikov.minus(points[c], points[a])
+        )
         double.append(exact_root(sheynin_tuzikov.dot(normal, normal)))
     for row, value in zip(rows, values):
         assert value == rational.facets(points, cut, row, double)
@@ -141,8 +148,7 @@ def test_the_moments_about_a_point_are_those_of_the_moved_body():
     points, faces = prism()
     about = (F(1, 3), F(-2), F(5, 7))
     moved = [tuple(x - o for x, o in zip(point, about)) for point in points]
-    assert (sheynin_tuzikov.volume_moments(points, faces, 4, about)
-            == sheynin_tuzikov.volume_moments(moved, faces, 4))
+    assert sheynin_tuzikov.volume_moments(points, faces, 4, about) == sheynin_tuzikov.volume_moments(moved, faces, 4)
 
 
 def test_many_triangles_at_once_in_floats_agree_with_fractions_and_with_the_add_on():

@@ -4,12 +4,12 @@
 
 import numpy as np
 import pytest
-from body_moments.core import patch_moments
-from body_moments.core.bezier import cells_of
-from body_moments.core.bspline import Space, clamped
-from body_moments.core.moments import monomials
-from body_moments.core.patch import Patch
-from body_moments.core.patch_moments import (
+from body_moments.core.moments.moments import monomials
+from body_moments.core.numerics.bspline import Space, clamped
+from body_moments.core.nurbs import patch_moments
+from body_moments.core.nurbs.bezier import cells_of
+from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.patch_moments import (
     area_moments,
     exact_points,
     sheet_moments,
@@ -110,9 +110,14 @@ def test_a_sphere_stored_in_float32_encloses_what_its_weights_say():
     assert abs(moments.total / (4.0 * np.pi / 3.0) - 1.0) < 1e-6
 
 
-@pytest.mark.parametrize("matrix", [
-    np.diag([2.0, 3.0, 0.5, 1.0]), np.diag([1e-6, 1e-6, 1e-6, 1.0]),
-    np.array([[1, 0.3, 0, 5], [0, 1, -0.7, -2], [0.2, 0, 1, 1], [0, 0, 0, 1.0]])])
+@pytest.mark.parametrize(
+    "matrix",
+    [
+        np.diag([2.0, 3.0, 0.5, 1.0]),
+        np.diag([1e-6, 1e-6, 1e-6, 1.0]),
+        np.array([[1, 0.3, 0, 5], [0, 1, -0.7, -2], [0.2, 0, 1, 1], [0, 0, 0, 1.0]]),
+    ],
+)
 def test_moments_of_a_mapped_patch_are_the_mapped_moments(matrix):
     plain, _ = volume_moments([torus()])
     mapped, _ = volume_moments([torus().mapped(matrix)])
@@ -140,8 +145,9 @@ def truth(patch, order, pieces=4, points=40):
     cells = next(cells_of([patch], ORIGIN))
     for _ in range(pieces):
         cells = cells.split()
-    return sum(fixed_flux(cells[k:k + 64], points, order) for k in range(0, len(cells), 64)) / (
-        monomials(order).sum(axis=1) + 3.0)
+    return sum(fixed_flux(cells[k : k + 64], points, order) for k in range(0, len(cells), 64)) / (
+        monomials(order).sum(axis=1) + 3.0
+    )
 
 
 def random_rational(rng, spread):
@@ -279,7 +285,7 @@ def test_a_patch_far_from_the_point_is_as_exact_as_its_bound_says(weighted, far)
     """Its tangents must not be differences of what is as large as the distance, nor its rules disagree by it."""
     rng = np.random.default_rng(1)
     shape = (6, 5)
-    points = rng.integers(-2**20, 2**20, (*shape, 3)) / 2.0**20  # with the distance added still exact
+    points = rng.integers(-(2**20), 2**20, (*shape, 3)) / 2.0**20  # with the distance added still exact
     weights = 10.0 ** rng.uniform(-0.5, 0.5, shape) if weighted else None
     spaces = clamped(4, (0.25, 0.5)), clamped(3, (0.125, 0.75))
     here, _ = volume_moments(closed_by_cones(Patch(spaces, points, weights)), 2, ORIGIN)
@@ -305,7 +311,7 @@ def closed_by_cones(patch, place=0.0):
     for axis, end, forward in ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False)):
         curve = patch.side(axis, end)
         rim = np.round(curve.points * 2.0**20) / 2.0**20  # as they were
-        ends = (np.full_like(rim, place), rim)[::1 if forward else -1]
+        ends = (np.full_like(rim, place), rim)[:: 1 if forward else -1]
         weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
         found.append(Patch((curve.space, clamped(2)), np.stack(ends, axis=1), weights))
     return found

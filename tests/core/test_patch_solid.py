@@ -6,15 +6,15 @@ from math import prod
 
 import numpy as np
 import pytest
-from body_moments.core import closure
-from body_moments.core.bspline import Space, clamped
-from body_moments.core.closure import close_patches
-from body_moments.core.creases import sharpest_crease
-from body_moments.core.curve import Curve
-from body_moments.core.moments import monomials
-from body_moments.core.patch import Patch
-from body_moments.core.patch_solid import measure_patches, measure_sheet
-from body_moments.core.plane_region import plane_region
+from body_moments.core.moments.moments import monomials
+from body_moments.core.numerics.bspline import Space, clamped
+from body_moments.core.nurbs import patch_topology as closure
+from body_moments.core.nurbs.creases import sharpest_crease
+from body_moments.core.nurbs.curve import Curve
+from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.patch_topology import close_patches
+from body_moments.core.nurbs.planar_region import plane_region
+from body_moments.core.nurbs.solid import measure_patches, measure_sheet
 
 from tests.core.exact_splines import sphere, torus, tube
 
@@ -25,8 +25,10 @@ def flat(corners, orders=(2, 2), inner=((), ())):
     """A bilinear patch over four corners (00, 10, 11, 01), of higher order and with more knots if asked: its control
     points are at the Greville abscissae, so that its parameters stay even."""
     spaces = tuple(clamped(order, knots) for order, knots in zip(orders, inner))
-    steps = [np.array([sum(space.knots[i + 1:i + space.order]) / (space.order - 1) for i in range(space.count)])
-             for space in spaces]
+    steps = [
+        np.array([sum(space.knots[i + 1 : i + space.order]) / (space.order - 1) for i in range(space.count)])
+        for space in spaces
+    ]
     a, b, c, d = (np.asarray(corner, float) for corner in corners)
     s, t = steps[0][:, None, None], steps[1][None, :, None]
     return Patch(spaces, (1 - s) * (1 - t) * a + s * (1 - t) * b + s * t * c + (1 - s) * t * d)
@@ -58,8 +60,14 @@ def test_moments_to_sixth_order_of_a_ball_a_capped_cylinder_and_a_box():
         p, q, r = powers
         even = p % 2 == q % 2 == 0
         round_ = odd_factorial(p - 1) * odd_factorial(q - 1) * even
-        truth = 4.0 * np.pi * round_ * odd_factorial(r - 1) * (r % 2 == 0) / (
-            odd_factorial(p + q + r + 1) * (p + q + r + 3))
+        truth = (
+            4.0
+            * np.pi
+            * round_
+            * odd_factorial(r - 1)
+            * (r % 2 == 0)
+            / (odd_factorial(p + q + r + 1) * (p + q + r + 3))
+        )
         assert abs(ball[p, q, r] - truth) <= 1e-14
         disk = 2.0 * np.pi * round_ / (2 ** ((p + q) // 2) * prod(range(1, (p + q) // 2 + 1)) * (p + q + 2))
         assert abs(rod[p, q, r] - disk * (r % 2 == 0) * 2.0 / (r + 1)) <= 1e-13
@@ -152,8 +160,9 @@ def test_round_sides_coincide_wherever_they_begin(turn):
     lids = []
     for end, top in ((0, -2.0), (1, 2.0)):
         around = np.concatenate([out[end] @ [[c, s], [-s, c]], np.full((8, 1), wall.points[0, end, 2])], axis=1)
-        lids.append(Patch(wall.spaces, np.stack([around, np.broadcast_to([0.0, 0.0, top], (8, 3))], axis=1),
-                          wall.weights))
+        lids.append(
+            Patch(wall.spaces, np.stack([around, np.broadcast_to([0.0, 0.0, top], (8, 3))], axis=1), wall.weights)
+        )
     found = measure_patches([wall, lids[0].turned(), lids[1]])
     assert (found.method, found.warnings, found.health.components) == ("exact", (), 1)
     assert abs(found.volume.total / (2.0 * np.pi + 2.0 * np.pi / 3.0) - 1.0) <= 1e-13
@@ -200,7 +209,8 @@ TOUCHING = {
     "one inside out": (cube(0, 0, 0) + turned(cube(1, 0, 0)), "reoriented"),
     "at an edge, one inside out": (cube(0, 0, 0) + turned(cube(1, 1, 0)), "reoriented"),
     "with one wall": (cube(0, 0, 0) + cube(1, 0, 0)[1:], "capped"),
-    "eight": (sum([cube(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], []), "exact")}
+    "eight": (sum([cube(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], []), "exact"),
+}
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -219,8 +229,9 @@ def test_bodies_that_touch_are_measured_whatever_the_order_of_their_patches(name
 def test_bodies_that_touch_are_told_from_each_other_though_their_patches_face_anyhow(name):
     rng, patches = np.random.default_rng(1), TOUCHING[name][0]
     for _ in range(5):
-        found = measure_patches([patches[k].turned() if rng.random() < 0.5 else patches[k]
-                                 for k in rng.permutation(len(patches))], order=0)
+        found = measure_patches(
+            [patches[k].turned() if rng.random() < 0.5 else patches[k] for k in rng.permutation(len(patches))], order=0
+        )
         assert found.method == "reoriented" and abs(found.volume.total - 2.0) <= 1e-13
         assert any("is a guess" in warning for warning in found.warnings)
 
@@ -299,8 +310,9 @@ def test_stored_float32_is_a_bound_where_caps_are_larger_than_what_they_close():
     assert 1e-7 <= abs(moved.total - exact.total) <= exact.input[0] + exact.error[0] + moved.error[0]
 
 
-@pytest.mark.parametrize("patch", [flat([(5, 0, 0), (6, 0, 0), (6, 1, 0), (5, 1, 0)], (3, 4), ((0.5,), ())), sphere(),
-                                   torus(), tube()])
+@pytest.mark.parametrize(
+    "patch", [flat([(5, 0, 0), (6, 0, 0), (6, 1, 0), (5, 1, 0)], (3, 4), ((0.5,), ())), sphere(), torus(), tube()]
+)
 def test_stored_float32_is_a_bound_of_the_area_too(patch):
     stored = 1e-6
     exact = measure_patches([patch], stored=stored).area
@@ -312,14 +324,33 @@ def test_stored_float32_is_a_bound_of_the_area_too(patch):
     assert exact.input[0] <= 20.0 * stored * patch.points.shape[0]  # so it tells something
 
 
-@pytest.mark.parametrize("patches, degrees", [
-    ([sphere()], 0.0), ([torus()], 0.0), ([tube()], 0.0), (box(), 90.0),
-    ([patch.turned() if k % 2 else patch for k, patch in enumerate(box())], 90.0),
-    ([flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], (2, 3), ((0.5,), (0.5,)))], 0.0),
-    ([flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]), flat([(1, 0, 0), (2, 0, 0.1), (2, 1, 0.1), (1, 1, 0)])],
-     np.degrees(np.arctan(0.1))),
-    ([Patch((Space((0.0, 0.0, 1.0, 2.0, 2.0), 2, 3), clamped(2)),
-            [[(x, y, z) for z in (0, 1)] for x, y in ((1, 0), (0, 0), (0, 1))])], 90.0)])
+@pytest.mark.parametrize(
+    "patches, degrees",
+    [
+        ([sphere()], 0.0),
+        ([torus()], 0.0),
+        ([tube()], 0.0),
+        (box(), 90.0),
+        ([patch.turned() if k % 2 else patch for k, patch in enumerate(box())], 90.0),
+        ([flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], (2, 3), ((0.5,), (0.5,)))], 0.0),
+        (
+            [
+                flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]),
+                flat([(1, 0, 0), (2, 0, 0.1), (2, 1, 0.1), (1, 1, 0)]),
+            ],
+            np.degrees(np.arctan(0.1)),
+        ),
+        (
+            [
+                Patch(
+                    (Space((0.0, 0.0, 1.0, 2.0, 2.0), 2, 3), clamped(2)),
+                    [[(x, y, z) for z in (0, 1)] for x, y in ((1, 0), (0, 0), (0, 1))],
+                )
+            ],
+            90.0,
+        ),
+    ],
+)
 def test_creases_within_patches_and_between_them_are_found(patches, degrees):
     for move in (np.eye(4), np.diag([-1e-4, 1e-4, 1e-4, 1.0])):
         own = [patch.mapped(move) for patch in patches]
@@ -351,8 +382,10 @@ def test_only_sides_between_the_same_ends_are_compared_point_by_point(monkeypatc
     """Of 400 loose patches none: comparing each side with all others took minutes."""
     asked = []
     monkeypatch.setattr(closure, "_astride", lambda *sides: asked.append(sides) or [])
-    points = np.random.default_rng(0).uniform(0.0, 0.5, (4, 4, 3)) + np.stack(
-        np.meshgrid(np.arange(4.0), np.arange(4.0), [0.0], indexing="ij"), axis=-1)[:, :, 0]
+    points = (
+        np.random.default_rng(0).uniform(0.0, 0.5, (4, 4, 3))
+        + np.stack(np.meshgrid(np.arange(4.0), np.arange(4.0), [0.0], indexing="ij"), axis=-1)[:, :, 0]
+    )
     patch = Patch((clamped(4), clamped(4)), points)
     found = measure_patches([patch.mapped(shift) for shift in shifts(20, 3.5)], order=0)
     assert not asked

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.polygon import (
+from body_moments.core.plane.polygon import (
     Flaws,
     area_moments,
     boundary_edges,
@@ -18,7 +18,7 @@ from body_moments.core.polygon import (
     outline_moments,
     winding_numbers,
 )
-from body_moments.core.simplex import multi_indices
+from body_moments.core.polyhedron.n_dimensions import multi_indices
 
 from tests.core import rational
 
@@ -37,7 +37,7 @@ STAR = [(0, 0), (3, 1), (6, 0), (5, 3), (6, 6), (3, 5), (0, 6), (1, 3)]
 HOLED = shape(STAR, rectangle(2, 2, 1, 2)[::-1])
 
 
-@pytest.mark.parametrize("scale, offset", [(1.0, (0, 0)), (2.0 ** -30, (1.0, 2.0)), (0.7, (1e4, -3e4)), (1e6, (5, 5))])
+@pytest.mark.parametrize("scale, offset", [(1.0, (0, 0)), (2.0**-30, (1.0, 2.0)), (0.7, (1e4, -3e4)), (1e6, (5, 5))])
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_moments_to_eighth_order_of_a_star_with_a_hole_are_within_their_bounds(scale, offset, mirrored):
     points, loops = HOLED
@@ -57,8 +57,12 @@ def test_rectangles_have_the_moments_of_products_to_twentieth_order():
     points, loops = shape(rectangle(-1.5, 0.25, 4, 2))
     found = area_moments(points, directed(loops), 20, about=(0.0, 0.0))
     for i, (p, q) in enumerate(multi_indices(2, 20).tolist()):
-        truth = ((Fraction(5, 2) ** (p + 1) - Fraction(-3, 2) ** (p + 1)) / (p + 1)
-                 * (Fraction(9, 4) ** (q + 1) - Fraction(1, 4) ** (q + 1)) / (q + 1))
+        truth = (
+            (Fraction(5, 2) ** (p + 1) - Fraction(-3, 2) ** (p + 1))
+            / (p + 1)
+            * (Fraction(9, 4) ** (q + 1) - Fraction(1, 4) ** (q + 1))
+            / (q + 1)
+        )
         assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.error[i])
         assert abs(found.raw[i] / float(truth) - 1.0) < 1e-14
     assert found[2, 0] == found.raw[3]
@@ -123,12 +127,15 @@ def test_a_hole_that_touches_its_outline_from_within_is_a_hole():
 PENTAGRAM = [(math.cos(4 * math.pi * k / 5), math.sin(4 * math.pi * k / 5)) for k in range(5)]
 
 
-@pytest.mark.parametrize("outlines, crossings", [
-    ([[(0, 0), (2, 2), (2, 0), (0, 2)]], 1),
-    ([PENTAGRAM], 5),
-    ([rectangle(0, 0, 4, 4), rectangle(2, 2, 4, 4)], 2),
-    ([rectangle(0, 1, 9, 1), rectangle(4, -3, 1, 9)], 4),
-])
+@pytest.mark.parametrize(
+    "outlines, crossings",
+    [
+        ([[(0, 0), (2, 2), (2, 0), (0, 2)]], 1),
+        ([PENTAGRAM], 5),
+        ([rectangle(0, 0, 4, 4), rectangle(2, 2, 4, 4)], 2),
+        ([rectangle(0, 1, 9, 1), rectangle(4, -3, 1, 9)], 4),
+    ],
+)
 @pytest.mark.parametrize("offset", [0.0, 1e5])
 def test_outlines_that_cross_are_found(outlines, crossings, offset):
     points, loops = shape(*outlines)
@@ -168,13 +175,16 @@ def test_what_is_gone_round_the_other_way_counts_negative():
 
 
 @pytest.mark.parametrize("turn, offset", [(0.0, 0.0), (0.3, 0.0), (0.7, 1e3)])
-@pytest.mark.parametrize("outlines, shared", [
-    ([rectangle(0, 0, 2, 2), rectangle(2, 0, 1, 1), rectangle(2, 1, 1, 1)], 3.0),
-    ([rectangle(0, 0, 2, 3), rectangle(2, 2, 2, 3)], 1.0),
-    ([rectangle(0, 0, 4, 4), rectangle(0, 1, 2, 2)], 2.0),
-    ([rectangle(0, 0, 4, 4), rectangle(0, 0, 2, 2)], 4.0),
-    ([rectangle(0, 0, 1, 1), rectangle(1, 1, 1, 1), rectangle(3, 0, 1, 1)], 0.0),
-])
+@pytest.mark.parametrize(
+    "outlines, shared",
+    [
+        ([rectangle(0, 0, 2, 2), rectangle(2, 0, 1, 1), rectangle(2, 1, 1, 1)], 3.0),
+        ([rectangle(0, 0, 2, 3), rectangle(2, 2, 2, 3)], 1.0),
+        ([rectangle(0, 0, 4, 4), rectangle(0, 1, 2, 2)], 2.0),
+        ([rectangle(0, 0, 4, 4), rectangle(0, 0, 2, 2)], 4.0),
+        ([rectangle(0, 0, 1, 1), rectangle(1, 1, 1, 1), rectangle(3, 0, 1, 1)], 0.0),
+    ],
+)
 def test_the_length_that_outlines_share_is_known(outlines, shared, turn, offset):
     points, loops = shape(*outlines)
     points = points @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]]) + offset
@@ -188,7 +198,7 @@ def test_outlines_on_one_another_are_refused():
 
 
 def test_the_search_for_crossings_tells_when_it_gives_up(monkeypatch):
-    from body_moments.core import polygon
+    from body_moments.core.plane import polygon
 
     monkeypatch.setattr(polygon, "PAIRS", 2)
     points, loops = shape(STAR)

@@ -7,8 +7,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core import blocks, polyhedron
-from body_moments.core.surface import Surface, flipped_quads, joined
+from body_moments.core.mesh.surface import Surface, flipped_quads, joined
+from body_moments.core.polyhedron import third_order as polyhedron
+from body_moments.core.polyhedron import third_order_kernel as blocks
 
 from tests.core import exact
 
@@ -108,7 +109,8 @@ def test_l_prism_has_the_published_inertia(path):
     assert inertia[0, 1] == pytest.approx(1.8, rel=4e-15)
     third = polyhedron.third_moments_exact(Surface(np.array(points, float), np.array(exact.fan(faces)))).about_center()
     assert [third[3, 0, 0], third[0, 3, 0], third[2, 1, 0], third[1, 2, 0], third[0, 0, 3]] == pytest.approx(
-        [2.16, 2.16, -0.84, -0.84, 0.0], abs=2e-14)
+        [2.16, 2.16, -0.84, -0.84, 0.0], abs=2e-14
+    )
 
 
 def test_box_with_one_face_subdivided_has_the_same_moments(path):
@@ -124,10 +126,17 @@ def test_box_with_one_face_subdivided_has_the_same_moments(path):
 def test_a_surface_takes_whole_numbers_of_every_kind_and_refuses_what_is_none():
     points, triangles = exact.box((0, 0, 0), (2, 3, 5)), exact.fan(exact.BOX_QUADS)
     for kind in (np.uint8, np.int16, np.uint32, np.int64, np.uint64, ">i4", "<i8", ">u2"):
-        assert_exact(Surface.from_triangles(np.array(points, int), np.array(triangles, kind)),
-                     exact.box_moments((0, 0, 0), (2, 3, 5)))
-    wrong = [(np.array(points)[:, :2], triangles), (points, exact.BOX_QUADS), (points, np.array(triangles, float)),
-             (points, np.array(triangles) - 1), (points[:-1], triangles)]
+        assert_exact(
+            Surface.from_triangles(np.array(points, int), np.array(triangles, kind)),
+            exact.box_moments((0, 0, 0), (2, 3, 5)),
+        )
+    wrong = [
+        (np.array(points)[:, :2], triangles),
+        (points, exact.BOX_QUADS),
+        (points, np.array(triangles, float)),
+        (points, np.array(triangles) - 1),
+        (points[:-1], triangles),
+    ]
     for these, corners in wrong:
         with pytest.raises(ValueError):
             Surface.from_triangles(these, corners)
@@ -143,8 +152,7 @@ def test_cavity_subtracts(path):
     assert second[1, 1] + second[2, 2] == pytest.approx(496 / 3, rel=1e-15)
 
 
-SHAPES = {
-    "round": (1.0, 1.0, 1.0), "flat": (1.0, 1.0, 1e-9), "needle": (1.0, 1e-7, 1e-7), "sheet": (1e3, 1.0, 1e-6)}
+SHAPES = {"round": (1.0, 1.0, 1.0), "flat": (1.0, 1.0, 1e-9), "needle": (1.0, 1e-7, 1e-7), "sheet": (1e3, 1.0, 1e-6)}
 PLACES = {"centred": 0.0, "near": 1.0, "far": 1e4, "very far": 1e8}
 SIZES = {"unit": 1.0, "tiny": 1e-9, "huge": 1e12, "extreme": 1e-60}
 
@@ -211,9 +219,9 @@ def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
 
 def test_the_half_ulp_of_the_largest_numbers_is_a_number():
     largest = np.finfo(np.float32).max
-    surface = Surface(np.array([[0, 1, largest], [-largest, 3, 2.0 ** 127]], np.float32))
+    surface = Surface(np.array([[0, 1, largest], [-largest, 3, 2.0**127]], np.float32))
     with np.errstate(all="raise"):
-        assert surface.coordinate_error.tolist() == [2.0 ** 103, 2.0 ** -23, 2.0 ** 103]
+        assert surface.coordinate_error.tolist() == [2.0**103, 2.0**-23, 2.0**103]
 
 
 def test_float64_points_have_no_input_bound():
@@ -234,7 +242,7 @@ def test_a_brick_one_kilometre_away_is_as_right_as_float32_lets_it_be():
 @pytest.mark.parametrize("factor", [1e4, 1e6])
 def test_relative_errors_stay_below_1e_14_far_from_the_origin(factor):
     points, quads = grid_torus(40, 30, noise=1e-2)
-    points = np.round((points + factor * np.array([1.0, -2.0, 3.0])) * 2.0 ** 20) / 2.0 ** 20
+    points = np.round((points + factor * np.array([1.0, -2.0, 3.0])) * 2.0**20) / 2.0**20
     triangles = Surface(points, quads=quads).all_triangles()[0]
     moments = polyhedron.solid_moments(Surface(points, triangles))
     truth = exact.volume_moments(points, triangles, moments.about)
@@ -365,8 +373,9 @@ def test_sums_do_not_depend_on_where_blocks_end(path, count):
 @pytest.mark.parametrize("second", range(3))
 def test_pairs_of_triangles_are_found_however_their_corners_are_turned(path, first, second):
     points, quads = grid_torus(noise=0.05)
-    triangles = np.stack([np.roll(quads[:, [0, 1, 2]], first, axis=1), np.roll(quads[:, [0, 2, 3]], second, axis=1)],
-                         axis=1).reshape(-1, 3)
+    triangles = np.stack(
+        [np.roll(quads[:, [0, 1, 2]], first, axis=1), np.roll(quads[:, [0, 2, 3]], second, axis=1)], axis=1
+    ).reshape(-1, 3)
     assert polyhedron.pairs(triangles) is not None
     paired = polyhedron.solid_moments(Surface(points, triangles))
     assert_within(paired, exact.volume_moments(points, triangles, paired.about))
@@ -384,8 +393,11 @@ def test_halves_of_quads_are_found_where_all_first_ones_come_first(monkeypatch, 
     monkeypatch.setattr(polyhedron, "BLOCK", 100)
     monkeypatch.setattr(polyhedron, "PAIRED", 0)
     corners, block = [], blocks.Faces.block
-    monkeypatch.setattr(blocks.Faces, "block", lambda faces, part, *more, **named: (
-        corners.append(len(part)), block(faces, part, *more, **named)))
+    monkeypatch.setattr(
+        blocks.Faces,
+        "block",
+        lambda faces, part, *more, **named: (corners.append(len(part)), block(faces, part, *more, **named)),
+    )
     assert_bounds_hold(Surface(points, np.concatenate(halves)))
     assert set(corners) == {4}
     assert_bounds_hold(Surface(points, np.concatenate([*halves, quads[:1, :3]])))  # one has no other half
@@ -416,8 +428,9 @@ def test_threads_give_the_serial_result_to_the_bit(monkeypatch):
     assert flipped_quads(points, quads[200:]).sum() > 64
     mixed = Surface(points, quads[:200, [0, 1, 2]], quads=quads[200:])
     for threads in (2, 3, 8, 100):
-        for serial, threaded in zip(polyhedron.solid_and_area(mixed, 1, True),
-                                    polyhedron.solid_and_area(mixed, threads, True)):
+        for serial, threaded in zip(
+            polyhedron.solid_and_area(mixed, 1, True), polyhedron.solid_and_area(mixed, threads, True)
+        ):
             for key in ("raw", "error", "input"):
                 np.testing.assert_array_equal(getattr(serial, key), getattr(threaded, key))
 
@@ -488,7 +501,8 @@ def test_area_of_slivers_keeps_its_digits():
     for height in (1e-6, 1e-8, 1e-12):
         points = np.array([(0, 0, 0), (1, 0, 0), (0.37, height, 0)])
         assert polyhedron.solid_and_area(Surface(points, np.array([[0, 1, 2]])))[1].total == pytest.approx(
-            height / 2, rel=1e-15)
+            height / 2, rel=1e-15
+        )
 
 
 def test_memory_is_bounded_by_blocks():

@@ -5,14 +5,16 @@ taken nearest to the preferred axes and said."""
 
 import numpy as np
 import pytest
-from body_moments.core.moments import Moments, monomials, sum_moments
-from body_moments.core.pose import principal_frame
+from body_moments.core.inertia.principal_frame import principal_frame
+from body_moments.core.moments.moments import Moments, monomials, sum_moments
 
 
 def box(low, high):
     """Moments to order 3 of a box, about the origin."""
-    raw = [np.prod([(high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1) for i, n in enumerate(row)])
-           for row in monomials(3).tolist()]
+    raw = [
+        np.prod([(high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1) for i, n in enumerate(row)])
+        for row in monomials(3).tolist()
+    ]
     return Moments(np.array(raw), np.zeros(3))
 
 
@@ -29,6 +31,7 @@ def random_motion(rng, mirrored=False):
 def tetrahedron():
     """A generic tetrahedron: the unit simplex under a shear, all products of inertia different (Tonon 2004's kind)."""
     import math
+
     f = math.factorial
     raw = [f(p) * f(q) * f(r) / f(p + q + r + 3) for p, q, r in monomials(3).tolist()]
     shear = [[1, 0.3, -0.2, 0], [0.1, 2, 0.5, 0], [0.4, 0, 3, 0], [0, 0, 0, 1]]

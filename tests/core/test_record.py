@@ -13,9 +13,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from body_moments.core.mass import MassProperties
+from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.measurement import Measurement
-from body_moments.core.moments import Moments, monomials
+from body_moments.core.moments.moments import Moments, monomials
 from body_moments.operators.write import record
 
 HEALTH = {
@@ -31,9 +31,7 @@ QUARTER_TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])  #
 
 def box_moment(low, high, powers):
     """∫ x^p y^q z^r over a box with its sides along the axes."""
-    return math.prod(
-        (h ** (n + 1) - l ** (n + 1)) / (n + 1) for l, h, n in zip(low, high, powers, strict=True)
-    )
+    return math.prod((h ** (n + 1) - l ** (n + 1)) / (n + 1) for l, h, n in zip(low, high, powers, strict=True))
 
 
 def box(
@@ -98,9 +96,7 @@ def test_a_box_of_one_by_two_by_three_has_its_closed_form():
     ixx, iyy, izz = 6000 / 12 * (4 + 9), 6000 / 12 * (1 + 9), 6000 / 12 * (1 + 4)
     np.testing.assert_allclose(entry["inertia"], np.diag([ixx, iyy, izz]), rtol=1e-14, atol=1e-11)
     np.testing.assert_allclose(entry["principal_moments"], [izz, iyy, ixx], rtol=1e-14)
-    np.testing.assert_allclose(
-        np.abs(entry["principal_axes"]), [[0, 0, 1], [0, 1, 0], [1, 0, 0]], atol=1e-15
-    )
+    np.testing.assert_allclose(np.abs(entry["principal_axes"]), [[0, 0, 1], [0, 1, 0], [1, 0, 0]], atol=1e-15)
     assert entry["symmetry"] == "asymmetric"
     assert entry["health"] == HEALTH
     assert entry["error_bound"] == {"volume": 1e-15, "input": {"volume": 1e-7}}
@@ -114,9 +110,7 @@ def test_the_axes_are_the_columns_of_the_principal_axes():
     entry = record.record(body)
     axes, inertia = np.array(entry["principal_axes"]), np.array(entry["inertia"])
     for number, moment in enumerate(entry["principal_moments"]):
-        np.testing.assert_allclose(
-            inertia @ axes[:, number], moment * axes[:, number], rtol=1e-12, atol=1e-9
-        )
+        np.testing.assert_allclose(inertia @ axes[:, number], moment * axes[:, number], rtol=1e-12, atol=1e-9)
     assert np.linalg.det(axes) == pytest.approx(1.0)
 
 
@@ -124,9 +118,7 @@ def test_the_object_frame_turns_and_moves_what_has_a_direction_and_nothing_else(
     body = box(rotation=QUARTER_TURN, location=(10, 0, 0))
     world, own = record.record(body), record.record(body, "object")
     assert own["center_of_mass"] == pytest.approx([1.0, 9.5, 1.5], rel=1e-14)  # x' = y, y' = 10 - x
-    np.testing.assert_allclose(
-        np.diag(own["inertia"]), np.diag(world["inertia"])[[1, 0, 2]], rtol=1e-14
-    )
+    np.testing.assert_allclose(np.diag(own["inertia"]), np.diag(world["inertia"])[[1, 0, 2]], rtol=1e-14)
     for name in ("mass", "volume", "area", "density", "principal_moments", "health"):
         assert own[name] == world[name]
 
@@ -134,17 +126,11 @@ def test_the_object_frame_turns_and_moves_what_has_a_direction_and_nothing_else(
 @pytest.mark.parametrize("order", [0, 1, 2, 3])
 def test_moments_are_about_the_worlds_origin(order):
     entry = record.record(box(low=(1, 2, 3), high=(2, 4, 6)), order=order)["moments"]
-    assert (
-        entry["order"] == order
-        and entry["about"] == [0, 0, 0]
-        and set(entry) == {"order", "about", "volume"}
-    )
+    assert entry["order"] == order and entry["about"] == [0, 0, 0] and set(entry) == {"order", "about", "volume"}
     assert list(entry["volume"]) == [",".join(map(str, powers)) for powers in monomials(order)]
     for powers in monomials(order):
         key = ",".join(map(str, powers))
-        assert entry["volume"][key] == pytest.approx(
-            box_moment((1, 2, 3), (2, 4, 6), powers), rel=1e-14
-        )
+        assert entry["volume"][key] == pytest.approx(box_moment((1, 2, 3), (2, 4, 6), powers), rel=1e-14)
 
 
 def test_moments_in_the_object_frame_are_about_the_objects_origin_along_its_axes():
@@ -182,19 +168,13 @@ def test_the_total_weighs_each_object_by_its_own_density():
     assert total["mass"] == 4.0
     assert total["center_of_mass"] == pytest.approx([2.0, 0.5, 0.5], rel=1e-14)
     # Two cubes, each m/6, and arms of 1.5 and 0.5 m.
-    assert total["inertia"][2][2] == pytest.approx(
-        4.0 / 6.0 + 1.0 * 1.5**2 + 3.0 * 0.5**2, rel=1e-13
-    )
+    assert total["inertia"][2][2] == pytest.approx(4.0 / 6.0 + 1.0 * 1.5**2 + 3.0 * 0.5**2, rel=1e-13)
 
 
 def test_the_total_of_nothing_has_no_center():
     total = record.total([])
     assert total["mass"] == total["volume"] == total["area"] == 0
-    assert (
-        total["center_of_mass"] is None
-        and total["inertia"] is None
-        and total["principal_axes"] is None
-    )
+    assert total["center_of_mass"] is None and total["inertia"] is None and total["principal_axes"] is None
 
 
 def test_the_total_says_that_it_stays_in_the_world_frame():
@@ -211,9 +191,7 @@ def test_objects_are_sorted_by_name():
 
 
 def test_what_is_not_finite_is_null():
-    body = replace(
-        box(), density=math.nan, error_bound={"volume": math.inf, "input": {"volume": -math.inf}}
-    )
+    body = replace(box(), density=math.nan, error_bound={"volume": math.inf, "input": {"volume": -math.inf}})
     text = record.to_json([one_document(body)])
     entry = json.loads(text, parse_constant=lambda word: pytest.fail(word))["objects"][0]
     assert entry["density"] is None and entry["error_bound"] == {
@@ -223,9 +201,7 @@ def test_what_is_not_finite_is_null():
 
 
 def test_plain_values_are_pythons_own():
-    value = record.plain(
-        {"a": np.float64(0.1), "b": np.array([[1, 2]]), "c": (np.bool_(True), np.int32(3)), 4: None}
-    )
+    value = record.plain({"a": np.float64(0.1), "b": np.array([[1, 2]]), "c": (np.bool_(True), np.int32(3)), 4: None})
     assert value == {"a": 0.1, "b": [[1, 2]], "c": [True, 3], "4": None}
     assert type(value["a"]) is float and type(value["c"][0]) is bool and type(value["c"][1]) is int
 
@@ -262,20 +238,12 @@ def test_csv_has_one_row_an_object_under_one_header():
     assert [row["name"] for row in table] == ["a", 'b, "quoted"\nline', "c"]
     row, entry = table[0], documents[0]["objects"][0]
     assert row["file"] == "part.stl" and row["kind"] == "solid" and row["method"] == "exact"
-    assert (
-        float(row["mass"]) == entry["mass"]
-        and float(row["center_of_mass_z"]) == entry["center_of_mass"][2]
-    )
-    assert (
-        float(row["inertia_xy"]) == entry["inertia"][0][1]
-        and float(row["inertia_zz"]) == entry["inertia"][2][2]
-    )
+    assert float(row["mass"]) == entry["mass"] and float(row["center_of_mass_z"]) == entry["center_of_mass"][2]
+    assert float(row["inertia_xy"]) == entry["inertia"][0][1] and float(row["inertia_zz"]) == entry["inertia"][2][2]
     assert float(row["principal_moment_3"]) == entry["principal_moments"][2]
     assert float(row["principal_axis_1_z"]) == entry["principal_axes"][2][0]
     assert row["health_closed"] == "true" and row["health_boundary_edges"] == "0"
-    assert (
-        float(row["error_bound_volume"]) == 1e-15 and float(row["error_bound_input_volume"]) == 1e-7
-    )
+    assert float(row["error_bound_volume"]) == 1e-15 and float(row["error_bound_input_volume"]) == 1e-7
     assert row["warnings"] == "It is a box" and row["error"] == ""
     assert all(None not in row for row in table)
 
@@ -294,9 +262,7 @@ def test_csv_has_a_row_with_the_reason_for_what_could_not_be_measured():
 
 def test_csv_of_nothing_is_a_header():
     text = record.to_csv([one_document()])
-    assert text.count("\n") == 1 and text.startswith(
-        "file,frame,name,type,kind,method,density,mass,volume,area,"
-    )
+    assert text.count("\n") == 1 and text.startswith("file,frame,name,type,kind,method,density,mass,volume,area,")
 
 
 def test_csv_has_a_column_for_each_moment_that_was_asked_for():

@@ -8,10 +8,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core import levels, polyhedron, recursion
-from body_moments.core.moments import monomial_count, monomials
-from body_moments.core.recursion import moments_to_order
-from body_moments.core.surface import Surface
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import monomial_count, monomials
+from body_moments.core.polyhedron import any_order as recursion
+from body_moments.core.polyhedron import any_order_kernel as levels
+from body_moments.core.polyhedron import third_order as polyhedron
+from body_moments.core.polyhedron.any_order import moments_to_order
 
 from tests.core import exact
 from tests.core.test_polyhedron import PLACES, SHAPES, SIZES, grid_torus
@@ -57,8 +59,10 @@ def assert_within(moments, truth, error=None):
 
 def share(moments, truth, absolute):
     """The largest error as a share of the absolute moment."""
-    return max(float(abs(Fraction(float(value)) - right) / scale)
-               for value, right, scale in zip(moments.raw, truth, absolute, strict=True))
+    return max(
+        float(abs(Fraction(float(value)) - right) / scale)
+        for value, right, scale in zip(moments.raw, truth, absolute, strict=True)
+    )
 
 
 def test_all_1771_moments_to_order_20_are_right_to_2e_15_of_the_absolute_moment():
@@ -105,7 +109,7 @@ def test_the_bounds_are_not_vacuous(order):
     points, quads = grid_torus(100, 60)
     volume, area = moments_to_order(Surface(points, quads=quads), order, area=True)
     degree = monomials(order).sum(axis=1)
-    reach = 1.4 ** degree
+    reach = 1.4**degree
     assert (volume.error <= 1e-12 * volume.total * reach).all()
     assert (area.error <= 1e-12 * area.total * reach).all()
     even = (monomials(order) % 2 == 0).all(axis=1)  # whose moments do not cancel, and mostly lie far inside the box
@@ -297,14 +301,15 @@ def test_a_stream_is_never_in_memory_as_a_whole():
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 12e6  # one block's scratch is most of it
-    assert volume.total == pytest.approx(2 * np.pi ** 2 * 0.4 ** 2, rel=2e-4)
-    assert volume[0, 0, 2] == pytest.approx(np.pi ** 2 / 2 * 0.4 ** 4, rel=4e-4)
+    assert volume.total == pytest.approx(2 * np.pi**2 * 0.4**2, rel=2e-4)
+    assert volume[0, 0, 2] == pytest.approx(np.pi**2 / 2 * 0.4**4, rel=4e-4)
 
 
 def grid_torus_strip(n, m, start, count):
     """Some of the rings of quads of `grid_torus(n, m)`."""
-    u, v = np.meshgrid((start + np.arange(count + 1)) % n * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m),
-                       indexing="ij")
+    u, v = np.meshgrid(
+        (start + np.arange(count + 1)) % n * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij"
+    )
     points = np.stack([(1 + 0.4 * np.cos(v)) * np.cos(u), (1 + 0.4 * np.cos(v)) * np.sin(u), 0.4 * np.sin(v)], axis=-1)
     i, j = np.meshgrid(np.arange(count), np.arange(m), indexing="ij")
     corners = [(i, j), (i + 1, j), (i + 1, (j + 1) % m), (i, (j + 1) % m)]

@@ -12,9 +12,9 @@ from math import comb, gamma, prod
 
 import numpy as np
 import pytest
-from body_moments.core.moments import monomials
-from body_moments.core.recursion import moments_to_order
-from body_moments.core.surface import Surface
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import monomials
+from body_moments.core.polyhedron.any_order import moments_to_order
 
 from tests.core import exact
 
@@ -58,13 +58,15 @@ def cone_volume(p, q, r, radius=0.8, height=1.2):
 
 
 def torus_volume(p, q, r, major=1.0, minor=0.4):
-    return circle(p, q) * sum(comb(p + q + 1, k) * major ** (p + q + 1 - k) * disc(k, r, minor)
-                              for k in range(p + q + 2))
+    return circle(p, q) * sum(
+        comb(p + q + 1, k) * major ** (p + q + 1 - k) * disc(k, r, minor) for k in range(p + q + 2)
+    )
 
 
 def torus_surface(p, q, r, major=1.0, minor=0.4):
-    return circle(p, q) * sum(comb(p + q + 1, k) * major ** (p + q + 1 - k) * minor ** (k + r + 1) * circle(k, r)
-                              for k in range(p + q + 2))
+    return circle(p, q) * sum(
+        comb(p + q + 1, k) * major ** (p + q + 1 - k) * minor ** (k + r + 1) * circle(k, r) for k in range(p + q + 2)
+    )
 
 
 def slice_volume(p, q, r, radius=1.0, low=-0.5, high=0.75):
@@ -72,8 +74,9 @@ def slice_volume(p, q, r, radius=1.0, low=-0.5, high=0.75):
     if p % 2 or q % 2:
         return 0.0
     m = (p + q + 2) // 2
-    return disc(p, q, 1.0) * sum(comb(m, k) * (-1) ** k * radius ** (2 * (m - k)) * between(low, high, 2 * k + r)
-                                 for k in range(m + 1))
+    return disc(p, q, 1.0) * sum(
+        comb(m, k) * (-1) ** k * radius ** (2 * (m - k)) * between(low, high, 2 * k + r) for k in range(m + 1)
+    )
 
 
 def lathe(profile, n):
@@ -120,8 +123,11 @@ def torus(n):
 
 BODIES = {
     "ellipsoid": (ellipsoid, ellipsoid_volume, None),
-    "sphere": (lambda n: ellipsoid(n, (1.0, 1.0, 1.0)), lambda p, q, r: ellipsoid_volume(p, q, r, (1, 1, 1)),
-               sphere_surface),
+    "sphere": (
+        lambda n: ellipsoid(n, (1.0, 1.0, 1.0)),
+        lambda p, q, r: ellipsoid_volume(p, q, r, (1, 1, 1)),
+        sphere_surface,
+    ),
     "cylinder": (cylinder, cylinder_volume, None),
     "cone": (cone, cone_volume, None),
     "torus": (torus, torus_volume, torus_surface),

@@ -4,14 +4,14 @@
 
 import numpy as np
 import pytest
-from body_moments.core.blender_knots import blender_space
-from body_moments.core.bspline import clamped
-from body_moments.core.following import FollowedBody
-from body_moments.core.patch import Patch
-from body_moments.core.patch_moments import area_moments, volume_moments
-from body_moments.core.patch_solid import measure_patches
-from body_moments.core.phi import phi, phi_moments
-from body_moments.core.reevaluation import Evaluator
+from body_moments.core.numerics.bspline import clamped
+from body_moments.core.nurbs.blender_knots import blender_space
+from body_moments.core.nurbs.incremental import Evaluator
+from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.patch_moments import area_moments, volume_moments
+from body_moments.core.nurbs.solid import measure_patches
+from body_moments.core.nurbs.tracked_solid import FollowedBody
+from body_moments.core.papers.soldea_elber_rivlin_2002_phi import phi, phi_moments
 
 from tests.core import exact
 from tests.core.exact_splines import flux_moment, sphere, torus, tube
@@ -78,8 +78,14 @@ def test_rational_patches_are_re_evaluated_to_rounding(patch):
     assert np.abs(Evaluator(patch, 2, ABOUT).moments(patch.points, patch.weights).raw - anew.raw).max() <= 1e-13
 
 
-@pytest.mark.parametrize("spaces", [
-    (clamped(3), clamped(3)), (clamped(3), clamped(2, (0.25,))), (blender_space(3, 3, True, False, False), clamped(3))])
+@pytest.mark.parametrize(
+    "spaces",
+    [
+        (clamped(3), clamped(3)),
+        (clamped(3), clamped(2, (0.25,))),
+        (blender_space(3, 3, True, False, False), clamped(3)),
+    ],
+)
 def test_the_papers_tensors_give_the_exact_moments(spaces):
     rng = np.random.default_rng(5)
     points = rng.integers(-8, 9, (spaces[0].count, spaces[1].count, 3)) / 8.0
@@ -142,8 +148,14 @@ def assert_same(body, anew):
     """What a followed body is, and what is said of it, is what measuring anew tells."""
     found = body.measure
     assert (found.method, found.warnings) == (anew.method, anew.warnings)
-    for name in ("closed", "boundary_edges", "inverted_components", "nested_components", "cavities",
-                 "overlapping_components"):
+    for name in (
+        "closed",
+        "boundary_edges",
+        "inverted_components",
+        "nested_components",
+        "cavities",
+        "overlapping_components",
+    ):
         assert getattr(found.health, name) == getattr(anew.health, name)
     there = anew.volume.shifted(found.volume.about)
     assert (np.abs(found.volume.raw - there.raw) <= found.volume.error + there.error).all()
@@ -163,12 +175,19 @@ def bent(patch):
     return Patch(patch.spaces, points, patch.weights)
 
 
-@pytest.mark.parametrize("before, after", [
-    ([sphere(), moved(sphere(), 0.4).turned()], [sphere(), moved(sphere(), 0.4, (3.0, 0.0, 0.0)).turned()]),
-    ([sphere(), moved(sphere(), 1.0, (3.0, 0.0, 0.0))], [sphere(), moved(sphere(), 1.0, (1.0, 0.0, 0.0))]),
-    ([sphere(), moved(sphere(), 0.5, (3.0, 0.0, 0.0))],
-     [sphere(), moved(sphere().mapped(np.diag([0.5, 0.5, -0.5, 1.0])), 1.0, (3.0, 0.0, 0.0))]),
-    ([tube()], [bent(tube())])], ids=["a cavity leaves", "parts meet", "a part turns inside out", "a rim bends"])
+@pytest.mark.parametrize(
+    "before, after",
+    [
+        ([sphere(), moved(sphere(), 0.4).turned()], [sphere(), moved(sphere(), 0.4, (3.0, 0.0, 0.0)).turned()]),
+        ([sphere(), moved(sphere(), 1.0, (3.0, 0.0, 0.0))], [sphere(), moved(sphere(), 1.0, (1.0, 0.0, 0.0))]),
+        (
+            [sphere(), moved(sphere(), 0.5, (3.0, 0.0, 0.0))],
+            [sphere(), moved(sphere().mapped(np.diag([0.5, 0.5, -0.5, 1.0])), 1.0, (3.0, 0.0, 0.0))],
+        ),
+        ([tube()], [bent(tube())]),
+    ],
+    ids=["a cavity leaves", "parts meet", "a part turns inside out", "a rim bends"],
+)
 def test_what_was_decided_of_a_followed_body_does_not_outlive_it(before, after):
     body = FollowedBody(before)
     assert body.follow(after)
@@ -273,8 +292,10 @@ def test_the_estimate_of_a_followed_body_holds_that_was_flat_or_a_needle():
 def test_arrays_that_are_written_to_again_change_no_patch():
     """Else the body that is followed would see no difference, and a patch whose weights were steady would stay so."""
     spaces = clamped(2), clamped(2)
-    nets = [np.array([[corners[0], corners[3]], [corners[1], corners[2]]])
-            for corners in np.array(exact.box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))[exact.BOX_QUADS]]
+    nets = [
+        np.array([[corners[0], corners[3]], [corners[1], corners[2]]])
+        for corners in np.array(exact.box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))[exact.BOX_QUADS]
+    ]
     body = FollowedBody([Patch(spaces, net) for net in nets])
     for net in nets:
         net[..., 0] *= 2.0

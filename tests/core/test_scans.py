@@ -10,10 +10,9 @@ import zipfile
 
 import numpy as np
 import pytest
-from body_moments.core.array_files import read_raw
-from body_moments.core.scans import SUFFIXES, placed, read_scan, suffix
-
-from .scan_files import NIFTI_CODES, NRRD_NAMES, nifti, nrrd, written
+from body_moments.core.scans.formats import SUFFIXES, placed, read_scan, suffix
+from body_moments.core.scans.numpy_files import read_raw
+from body_moments.tests.core.scan_files import NIFTI_CODES, NRRD_NAMES, nifti, nrrd, written
 
 
 def values(dtype="f4", shape=(3, 4, 5)):
@@ -65,9 +64,18 @@ def test_nifti_scales_and_has_a_fourth_dimension_of_one(tmp_path):
 
 
 def test_nrrd_places(tmp_path):
-    scan = read_scan(written(tmp_path / "a.nrrd", nrrd(
-        values(), "space: left-posterior-superior", "space directions: (0.5,0,0) (0.25,-2,0) (0,0.125,3)",
-        "space origin: (-9,8,7)", 'space units: "mm" "mm" "mm"')))
+    scan = read_scan(
+        written(
+            tmp_path / "a.nrrd",
+            nrrd(
+                values(),
+                "space: left-posterior-superior",
+                "space directions: (0.5,0,0) (0.25,-2,0) (0,0.125,3)",
+                "space origin: (-9,8,7)",
+                'space units: "mm" "mm" "mm"',
+            ),
+        )
+    )
     assert np.array_equal(scan.matrix[:3], [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]])
     assert scan.placed and scan.unit == 1e-3
     scan = read_scan(written(tmp_path / "b.nrrd", nrrd(values(), "spacings: 0.5 2 3", "axis mins: 1 2 3")))
@@ -112,14 +120,17 @@ def test_numpy_arrays(tmp_path, layout):
     assert scan.notes == ("Of its arrays “density” is measured; left out: “other”.",)
 
 
-@pytest.mark.parametrize("array, text", [
-    (np.ones((3, 3)), "2 dimensions"),
-    (np.ones((2, 3, 3, 3)), "4 dimensions"),
-    (np.ones((3, 3, 3), complex), "complex128"),
-    (np.ones((0, 3, 3)), "no samples"),
-    (np.zeros((2, 2, 2), "U3"), "real number"),
-    (np.zeros((2, 2, 2), object), "no whole array"),
-])
+@pytest.mark.parametrize(
+    "array, text",
+    [
+        (np.ones((3, 3)), "2 dimensions"),
+        (np.ones((2, 3, 3, 3)), "4 dimensions"),
+        (np.ones((3, 3, 3), complex), "complex128"),
+        (np.ones((0, 3, 3)), "no samples"),
+        (np.zeros((2, 2, 2), "U3"), "real number"),
+        (np.zeros((2, 2, 2), object), "no whole array"),
+    ],
+)
 def test_arrays_that_are_no_densities(tmp_path, array, text):
     np.save(tmp_path / "a.npy", array)
     with pytest.raises(ValueError, match=text):
@@ -152,25 +163,28 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
     return bytes(data)
 
 
-@pytest.mark.parametrize("data, text", [
-    (b"", "cut short"),
-    (b"x" * 400, "does not begin"),
-    (nifti(values())[:-1], "cut short"),
-    (nifti_with(344, "4s", b"ni1\0"), "pair"),
-    (nifti_with(40, "h", 9), "9 dimensions"),
-    (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), "4 dimensions"),
-    (nifti_with(42, "h", -3), "impossible"),
-    (nifti_with(42, "3h", 32767, 32767, 32767), "cut short"),
-    (nifti_with(70, "h", 32), "data type 32"),
-    (nifti_with(72, "h", 7), "contradicts"),
-    (nifti_with(108, "f", float("nan")), "impossible place"),
-    (nifti_with(108, "f", 1e30), "impossible place"),
-    (nifti_with(112, "f", float("inf")), "not finite"),
-    (nifti_with(80, "f", 0.0), "impossible spacing"),
-    (nifti(values(), sform=np.zeros((3, 4))), "one plane"),
-    (nifti(values(), sform=np.full((3, 4), np.nan)), "one plane"),
-    (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "rotation that is none"),
-])
+@pytest.mark.parametrize(
+    "data, text",
+    [
+        (b"", "cut short"),
+        (b"x" * 400, "does not begin"),
+        (nifti(values())[:-1], "cut short"),
+        (nifti_with(344, "4s", b"ni1\0"), "pair"),
+        (nifti_with(40, "h", 9), "9 dimensions"),
+        (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), "4 dimensions"),
+        (nifti_with(42, "h", -3), "impossible"),
+        (nifti_with(42, "3h", 32767, 32767, 32767), "cut short"),
+        (nifti_with(70, "h", 32), "data type 32"),
+        (nifti_with(72, "h", 7), "contradicts"),
+        (nifti_with(108, "f", float("nan")), "impossible place"),
+        (nifti_with(108, "f", 1e30), "impossible place"),
+        (nifti_with(112, "f", float("inf")), "not finite"),
+        (nifti_with(80, "f", 0.0), "impossible spacing"),
+        (nifti(values(), sform=np.zeros((3, 4))), "one plane"),
+        (nifti(values(), sform=np.full((3, 4), np.nan)), "one plane"),
+        (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "rotation that is none"),
+    ],
+)
 def test_damaged_nifti_files_say_what_is_wrong(tmp_path, data, text):
     with pytest.raises(ValueError, match=text):
         read_scan(written(tmp_path / "a.nii", data))
@@ -182,31 +196,34 @@ def nrrd_with(old: str, new: str) -> bytes:
     return data.replace(old.encode(), new.encode())
 
 
-@pytest.mark.parametrize("data, text", [
-    (b"", "does not begin"),
-    (nrrd(values())[:-1], "cut short"),
-    (nrrd(values())[:60], "do not agree"),
-    (nrrd_with("type: float\n", ""), "lacks the field “type”"),
-    (nrrd_with("type: float", "type: block"), "no real number"),
-    (nrrd_with("sizes: 3 4 5", "sizes: 3 4"), "do not agree"),
-    (nrrd_with("sizes: 3 4 5", "sizes: 3 4 x"), "no row of numbers"),
-    (nrrd_with("sizes: 3 4 5", "sizes: 3 4 -5"), "impossible"),
-    (nrrd_with("sizes: 3 4 5", "sizes: 3 4 5000000000000"), "impossible|cut short"),
-    (nrrd_with("dimension: 3", "dimension: 4"), "do not agree"),
-    (nrrd_with("encoding: raw", "encoding: bzip2"), "not supported"),
-    (nrrd_with("encoding: raw", "encoding: gzip"), "unpacked"),
-    (nrrd_with("endian: little\n", ""), "endian"),
-    (nrrd(values(), "spacings: 1 0 1"), "spacings"),
-    (nrrd(values(), "spacings: nan nan nan"), "spacings"),
-    (nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)"), "one plane"),
-    (nrrd(values(), "space directions: (1,0,0) (0,1,0)"), "three vectors"),
-    (nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0)"), "not three numbers"),
-    (nrrd(values(), "data file: nowhere.raw"), "not there"),
-    (nrrd(values(), "data file: slice%03d.raw 1 9 1"), "several files"),
-    (nrrd(values(), "byte skip: a"), "no row of numbers"),
-    (nrrd(values(), "byte skip: -7"), "not one number"),
-    (nrrd(values(), "line skip: 9999"), "cut short"),
-])
+@pytest.mark.parametrize(
+    "data, text",
+    [
+        (b"", "does not begin"),
+        (nrrd(values())[:-1], "cut short"),
+        (nrrd(values())[:60], "do not agree"),
+        (nrrd_with("type: float\n", ""), "lacks the field “type”"),
+        (nrrd_with("type: float", "type: block"), "no real number"),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4"), "do not agree"),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 x"), "no row of numbers"),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 -5"), "impossible"),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 5000000000000"), "impossible|cut short"),
+        (nrrd_with("dimension: 3", "dimension: 4"), "do not agree"),
+        (nrrd_with("encoding: raw", "encoding: bzip2"), "not supported"),
+        (nrrd_with("encoding: raw", "encoding: gzip"), "unpacked"),
+        (nrrd_with("endian: little\n", ""), "endian"),
+        (nrrd(values(), "spacings: 1 0 1"), "spacings"),
+        (nrrd(values(), "spacings: nan nan nan"), "spacings"),
+        (nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)"), "one plane"),
+        (nrrd(values(), "space directions: (1,0,0) (0,1,0)"), "three vectors"),
+        (nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0)"), "not three numbers"),
+        (nrrd(values(), "data file: nowhere.raw"), "not there"),
+        (nrrd(values(), "data file: slice%03d.raw 1 9 1"), "several files"),
+        (nrrd(values(), "byte skip: a"), "no row of numbers"),
+        (nrrd(values(), "byte skip: -7"), "not one number"),
+        (nrrd(values(), "line skip: 9999"), "cut short"),
+    ],
+)
 def test_damaged_nrrd_files_say_what_is_wrong(tmp_path, data, text):
     with pytest.raises(ValueError, match=text):
         read_scan(written(tmp_path / "a.nrrd", data))
@@ -241,9 +258,15 @@ def test_an_archive_cannot_promise_more_than_it_holds(tmp_path, shape):
 
 
 SEEDS = {
-    ".npy": npy_bytes(), ".npz": npz_bytes(),
-    ".nrrd": nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0,1)", "space origin: (0,0,0)", "byte skip: 0",
-                  'space units: "mm" "mm" "mm"'),
+    ".npy": npy_bytes(),
+    ".npz": npz_bytes(),
+    ".nrrd": nrrd(
+        values(),
+        "space directions: (1,0,0) (0,1,0) (0,0,1)",
+        "space origin: (0,0,0)",
+        "byte skip: 0",
+        'space units: "mm" "mm" "mm"',
+    ),
     ".nrrd gzip": nrrd(values(), "spacings: 1 1 1", encoding="gzip"),
     ".nii": nifti(values(), quaternion=(0, 0, 0.5, 1, 2, 3)),
     ".nii.gz": gzip.compress(nifti(values())),
@@ -268,7 +291,7 @@ def test_damage_anywhere_gives_a_sentence_or_an_array(tmp_path, name):
             elif action == 2:
                 damaged[place:place] = rng.choice((b"9", b"-", b"\n", b"\0", b"99999999", b"nan", b"(", b"\xff"))
             elif len(damaged) > 1:
-                del damaged[place:place + rng.choice((1, 4, 100))]
+                del damaged[place : place + rng.choice((1, 4, 100))]
             if not damaged:
                 damaged = bytearray(b"0")
         path.write_bytes(damaged)

@@ -7,8 +7,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.polygon import Flaws, flaws, nested
-from body_moments.core.section import Plane, fit_plane, measure_section
+from body_moments.core.plane.polygon import Flaws, flaws, nested
+from body_moments.core.plane.section import Plane, fit_plane, measure_section
 
 from tests.core import bodies, rational
 from tests.core.test_polygon import rectangle, shape
@@ -59,9 +59,11 @@ def test_a_rectangle(offset):
 def test_a_rectangle_with_a_hole_that_is_off_its_center(offset):
     section = measured(rectangle(0, 0, 6, 10), rectangle(1, 1, 2, 3), offset=offset)
     area, x, y = 54.0, (60 * 3 - 6 * 2) / 54, (60 * 5 - 6 * 2.5) / 54
-    truth = (6 * 10**3 / 12 + 60 * (5 - y) ** 2 - 2 * 3**3 / 12 - 6 * (2.5 - y) ** 2,
-             10 * 6**3 / 12 + 60 * (3 - x) ** 2 - 3 * 2**3 / 12 - 6 * (2 - x) ** 2,
-             60 * (3 - x) * (5 - y) - 6 * (2 - x) * (2.5 - y))
+    truth = (
+        6 * 10**3 / 12 + 60 * (5 - y) ** 2 - 2 * 3**3 / 12 - 6 * (2.5 - y) ** 2,
+        10 * 6**3 / 12 + 60 * (3 - x) ** 2 - 3 * 2**3 / 12 - 6 * (2 - x) ** 2,
+        60 * (3 - x) * (5 - y) - 6 * (2 - x) * (2.5 - y),
+    )
     assert close(section.area, area) and (section.outlines, section.holes) == (1, 1)
     assert section.centroid == pytest.approx(np.add((x, y), offset), rel=1e-14)
     assert section.second == pytest.approx(truth, rel=1e-13 + 1e-15 * max(map(abs, offset)))

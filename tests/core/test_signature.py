@@ -6,8 +6,8 @@ import json
 
 import numpy as np
 import pytest
-from body_moments.core.library import SAME, verdict
-from body_moments.core.signature import HANDED, Signature, compared, signature
+from body_moments.core.shape.library import SAME, verdict
+from body_moments.core.shape.signature import HANDED, Signature, compared, signature
 from body_moments.operators.write.record import plain
 
 from tests.core import bodies, shapes
@@ -43,8 +43,12 @@ def test_size_is_told_apart_from_shape(scale):
 
 
 def test_a_mirror_image_differs_in_its_hand_alone():
-    for part in (shapes.WEDGE, shapes.THREE_BOXES, shapes.SYMMETRIC["twisted square prism"][0],
-                 shapes.prism(3, twist=0.3)):
+    for part in (
+        shapes.WEDGE,
+        shapes.THREE_BOXES,
+        shapes.SYMMETRIC["twisted square prism"][0],
+        shapes.prism(3, twist=0.3),
+    ):
         first = signed(part)
         image = signed(bodies.moved(shapes.mirrored(part), bodies.rotation(4), (1, 2, 3)))
         for name in PARTS[:3]:

@@ -8,14 +8,14 @@ from itertools import permutations
 
 import numpy as np
 import pytest
-from body_moments.core.moments import monomials
-from body_moments.core.polyhedron import solid_and_area
-from body_moments.core.simplex import enclosed_moments, facet_moments, multi_indices, place
-from body_moments.core.surface import Surface
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import monomials
+from body_moments.core.polyhedron.n_dimensions import enclosed_moments, facet_moments, multi_indices, place
+from body_moments.core.polyhedron.third_order import solid_and_area
 
 from tests.core import bodies, rational
 
-U = 2.0 ** -53
+U = 2.0**-53
 
 
 def unit_simplex(n):
@@ -72,8 +72,12 @@ def test_the_order_of_the_moments_in_space_is_that_of_all_other_moments():
 def test_unit_simplices_have_dirichlets_moments_to_twelfth_order(n):
     points, facets, signs = unit_simplex(n)
     found = enclosed_moments(points, facets, 12, about=np.zeros(n), signs=signs)
-    truth = np.array([float(Fraction(math.prod(math.factorial(k) for k in row), math.factorial(sum(row) + n)))
-                      for row in multi_indices(n, 12).tolist()])
+    truth = np.array(
+        [
+            float(Fraction(math.prod(math.factorial(k) for k in row), math.factorial(sum(row) + n)))
+            for row in multi_indices(n, 12).tolist()
+        ]
+    )
     assert np.abs(found.raw / truth - 1.0).max() < 4e-15
     assert (np.abs(found.raw - truth) <= found.error).all()
     assert (found.error <= 1000 * U * truth).all()  # and the bound means something
@@ -99,8 +103,12 @@ def test_cubes_have_the_moments_of_products(n):
     order = 12 if n < 5 else 6
     found = enclosed_moments(points * size + offset, facets, order, about=np.zeros(n), signs=signs)
     low, high = [Fraction(x) for x in offset], [Fraction(x) for x in size + offset]
-    truth = np.array([float(math.prod((high[i] ** (k + 1) - low[i] ** (k + 1)) / (k + 1) for i, k in enumerate(row)))
-                      for row in multi_indices(n, order).tolist()])
+    truth = np.array(
+        [
+            float(math.prod((high[i] ** (k + 1) - low[i] ** (k + 1)) / (k + 1) for i, k in enumerate(row)))
+            for row in multi_indices(n, order).tolist()
+        ]
+    )
     assert (np.abs(found.raw - truth) <= found.error).all()
     area = facet_moments(points * size + offset, facets, 0).raw[0]
     assert area == pytest.approx(2 * sum(np.prod(size) / s for s in size), rel=1e-14)
@@ -174,7 +182,7 @@ def test_triangle_meshes_agree_with_the_order_three_kernel_of_bodies():
 
 
 def test_many_blocks_give_what_one_gives(monkeypatch):
-    from body_moments.core import simplex
+    from body_moments.core.polyhedron import n_dimensions as simplex
 
     points, triangles = bodies.torus(60, 40)
     whole = enclosed_moments(points, triangles, 4)
@@ -184,23 +192,32 @@ def test_many_blocks_give_what_one_gives(monkeypatch):
     assert np.abs(whole.raw - parts.raw).max() < 1e-13 * whole.raw[0]
 
 
-@pytest.mark.parametrize("points, simplices, words", [
-    ([[0.0, 0.0], [1.0, np.nan]], [[0, 1]], "finite"),
-    ([[0.0, 0.0], [1.0, 0.0]], [[0, 2]], "not there"),
-    ([[0.0, 0.0], [1.0, 0.0]], [[0, 1, 1]], "n corners"),
-    ([0.0, 1.0], [[0]], "rows"),
-    ([[0.0, 1j], [1.0, 0.0]], [[0, 1]], "real"),
-    ([[0.0, 0.0], [1.0, 0.0]], [[0.0, 1.0]], "whole numbers"),
-    ([[0.0, 0.0], [1.0, 0.0]], [[False, True]], "whole numbers"),
-])
+@pytest.mark.parametrize(
+    "points, simplices, words",
+    [
+        ([[0.0, 0.0], [1.0, np.nan]], [[0, 1]], "finite"),
+        ([[0.0, 0.0], [1.0, 0.0]], [[0, 2]], "not there"),
+        ([[0.0, 0.0], [1.0, 0.0]], [[0, 1, 1]], "n corners"),
+        ([0.0, 1.0], [[0]], "rows"),
+        ([[0.0, 1j], [1.0, 0.0]], [[0, 1]], "real"),
+        ([[0.0, 0.0], [1.0, 0.0]], [[0.0, 1.0]], "whole numbers"),
+        ([[0.0, 0.0], [1.0, 0.0]], [[False, True]], "whole numbers"),
+    ],
+)
 def test_bad_input_is_refused(points, simplices, words):
     with pytest.raises(ValueError, match=words):
         enclosed_moments(points, simplices, 2)
 
 
-@pytest.mark.parametrize(("order", "about", "words"), [
-    (-1, None, "0 or more"), (2.5, None, "whole number"), (2, (0.0, 0.0), "as many"),
-    (2, (0.0, np.nan, 0.0), "finite")])
+@pytest.mark.parametrize(
+    ("order", "about", "words"),
+    [
+        (-1, None, "0 or more"),
+        (2.5, None, "whole number"),
+        (2, (0.0, 0.0), "as many"),
+        (2, (0.0, np.nan, 0.0), "finite"),
+    ],
+)
 def test_what_is_asked_for_is_looked_at_too(order, about, words):
     points, facets, _ = cube(3)
     with pytest.raises(ValueError, match=words):

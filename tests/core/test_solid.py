@@ -8,9 +8,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core import polyhedron, shell_tree
-from body_moments.core.solid import measure_solid
-from body_moments.core.surface import Surface
+from body_moments.core.mesh import bvh as shell_tree
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.polyhedron import third_order as polyhedron
+from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.core.bodies import (
     CORNERS,
@@ -97,7 +98,8 @@ def test_a_flipped_triangle_is_named_and_turned(face):
     assert result.health.faults.flipped_faces.tolist() == [face] == result.health.as_record()["flipped_faces"]
     assert result.health.closed and result.health.inconsistent_edges == 3
     assert result.warnings == (
-        "Face {:d} is flipped and was measured as if turned. Recalculate Outside mends it.".format(face),)
+        "Face {:d} is flipped and was measured as if turned. Recalculate Outside mends it.".format(face),
+    )
 
 
 def test_of_a_mostly_inverted_cube_the_faces_that_point_in_are_named():
@@ -146,16 +148,34 @@ def test_a_doubled_region_counts_once_also_where_its_quads_are_cut_differently()
     assert result.health.non_manifold_edges == 7 == len(result.health.faults.non_manifold_edges)
 
 
-@pytest.mark.parametrize("parts, volume, moment, method, expected", [
-    ([OUTER, inverted(INNER)], 56.0, 496.0 / 3.0, "exact", {"components": 2, "cavities": 1}),
-    ([OUTER, INNER], 72.0, 176.0, "exact", {"components": 2, "nested_components": 1}),
-    ([inverted(OUTER), INNER], 56.0, 496.0 / 3.0, "reoriented",
-     {"components": 2, "cavities": 1, "inverted_components": 2}),
-    ([inverted(OUTER), inverted(INNER)], 56.0, 496.0 / 3.0, "reoriented",
-     {"components": 2, "cavities": 1, "inverted_components": 1}),
-    ([box((-4, -4, -4), (4, 4, 4)), inverted(OUTER), INNER], 456.0, 8.0 ** 5 / 6.0 - 496.0 / 3.0, "exact",
-     {"components": 3, "cavities": 1}),
-])
+@pytest.mark.parametrize(
+    "parts, volume, moment, method, expected",
+    [
+        ([OUTER, inverted(INNER)], 56.0, 496.0 / 3.0, "exact", {"components": 2, "cavities": 1}),
+        ([OUTER, INNER], 72.0, 176.0, "exact", {"components": 2, "nested_components": 1}),
+        (
+            [inverted(OUTER), INNER],
+            56.0,
+            496.0 / 3.0,
+            "reoriented",
+            {"components": 2, "cavities": 1, "inverted_components": 2},
+        ),
+        (
+            [inverted(OUTER), inverted(INNER)],
+            56.0,
+            496.0 / 3.0,
+            "reoriented",
+            {"components": 2, "cavities": 1, "inverted_components": 1},
+        ),
+        (
+            [box((-4, -4, -4), (4, 4, 4)), inverted(OUTER), INNER],
+            456.0,
+            8.0**5 / 6.0 - 496.0 / 3.0,
+            "exact",
+            {"components": 3, "cavities": 1},
+        ),
+    ],
+)
 def test_boxes_in_boxes(parts, volume, moment, method, expected):
     result = verdict(joined(*parts))
     assert result.volume.total == pytest.approx(volume, rel=1e-14)
@@ -166,22 +186,26 @@ def test_boxes_in_boxes(parts, volume, moment, method, expected):
 
 
 @pytest.mark.parametrize("spin", [None, 1, 2])
-@pytest.mark.parametrize("parts, volume, overlapping", [
-    ([CUBE, box((0.5, 0, 0), (1.5, 1, 1))], 2.0, 2),
-    ([box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -0.9), (1, 3, 0.9))], 45.6, 2),
-    ([CUBE, CUBE], 2.0, 2),
-    ([CUBE, CUBE, box((5, 5, 5), (6, 6, 6))], 3.0, 2),
-    ([CUBE, box((1, 0, 0), (2, 1, 1))], 2.0, 0),
-    ([CUBE, box((1, 1, 0), (2, 2, 1))], 2.0, 0),
-])
+@pytest.mark.parametrize(
+    "parts, volume, overlapping",
+    [
+        ([CUBE, box((0.5, 0, 0), (1.5, 1, 1))], 2.0, 2),
+        ([box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -0.9), (1, 3, 0.9))], 45.6, 2),
+        ([CUBE, CUBE], 2.0, 2),
+        ([CUBE, CUBE, box((5, 5, 5), (6, 6, 6))], 3.0, 2),
+        ([CUBE, box((1, 0, 0), (2, 1, 1))], 2.0, 0),
+        ([CUBE, box((1, 1, 0), (2, 2, 1))], 2.0, 0),
+    ],
+)
 def test_overlap_counts_twice_and_is_said_and_touching_is_not_overlap(parts, volume, overlapping, spin):
     part = joined(*parts) if spin is None else moved(joined(*parts), rotation(spin), (7, 8, 9))
     result = verdict(part, np.float32)
     assert result.method == "exact"
     assert result.volume.total == pytest.approx(volume, rel=1e-5)
     assert result.health.overlapping_components == overlapping
-    assert result.warnings == (("2 parts overlap, so that what they share counts twice. Measure the union instead.",)
-                               if overlapping else ())
+    assert result.warnings == (
+        ("2 parts overlap, so that what they share counts twice. Measure the union instead.",) if overlapping else ()
+    )
 
 
 def test_boxes_welded_along_a_face_or_an_edge_are_closed():
@@ -203,7 +227,8 @@ def test_an_inner_wall_makes_a_box_open():
     assert result.method == "open" and not result.health.closed
     assert result.health.non_manifold_edges == 4 and result.warnings == (
         "It cannot be closed (inner walls, or holes, where more than two faces meet): volume, center and inertia "
-        "depend on the reference point. Delete inner faces and fill holes, or measure a shell.",)
+        "depend on the reference point. Delete inner faces and fill holes, or measure a shell.",
+    )
 
 
 def test_a_fin_on_an_edge_adds_nothing():
@@ -224,18 +249,27 @@ def klein():
 def test_a_one_sided_surface_is_open(part):
     result = verdict(part)
     assert result.method == "open" and not result.health.closed
-    assert result.warnings == ("It cannot be closed (one-sided): volume, center and inertia depend on the reference "
-                               "point. Measure a shell.",)
+    assert result.warnings == (
+        "It cannot be closed (one-sided): volume, center and inertia depend on the reference point. Measure a shell.",
+    )
     assert not any("inside out" in warning for warning in result.warnings)
     beside = verdict(joined(part, box((5, 5, 5), (6, 6, 6))))
     assert beside.method == "open" and "1 of its 2 parts cannot be closed" in beside.warnings[0]
 
 
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
-@pytest.mark.parametrize("part", [
-    grid(20), moved(grid(20), rotation(3), (5, 6, 7)), joined(grid(3), moved(grid(3), None, (0, 0, 1))),
-    (grid(9)[0], np.concatenate([grid(9)[1], grid(9)[1][:, ::-1]])), (np.zeros((3, 3)), np.array([[0, 1, 2]])),
-    (CUBE[0], CUBE[1][:1]), (np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0, 1, 1]]))])
+@pytest.mark.parametrize(
+    "part",
+    [
+        grid(20),
+        moved(grid(20), rotation(3), (5, 6, 7)),
+        joined(grid(3), moved(grid(3), None, (0, 0, 1))),
+        (grid(9)[0], np.concatenate([grid(9)[1], grid(9)[1][:, ::-1]])),
+        (np.zeros((3, 3)), np.array([[0, 1, 2]])),
+        (CUBE[0], CUBE[1][:1]),
+        (np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0, 1, 1]])),
+    ],
+)
 def test_what_is_flat_encloses_nothing(part, dtype):
     result = verdict(part, dtype)
     assert result.method == "open" and not result.volume.raw.any()
@@ -279,8 +313,13 @@ def test_a_bowl_is_closed_with_its_own_rim_and_a_curved_hole_with_a_cone():
 def test_a_hole_that_is_not_convex_has_its_true_share_of_the_area():
     points, triangles = moved(grid(4), None, (0, 0, 1))
     sides = without(CUBE, *TOP)
-    columns = {2 * (4 * i + j) + k for i in range(1, 4) for j in range(1, 4) for k in (0, 1)
-               if (i, j) in ((1, 1), (1, 2), (2, 1))}
+    columns = {
+        2 * (4 * i + j) + k
+        for i in range(1, 4)
+        for j in range(1, 4)
+        for k in (0, 1)
+        if (i, j) in ((1, 1), (1, 2), (2, 1))
+    }
     top = points, np.delete(triangles, sorted(columns), axis=0)
     result = verdict(joined(sides, top))
     check_unit_cube(result, [0.5] * 3, "capped")
@@ -311,8 +350,14 @@ def test_a_box_with_one_side_subdivided_is_closed_in_space(spin, dtype, rel, fli
 
 def test_the_sides_of_a_box_may_all_be_cut_differently():
     """Each side is a grid of its own: along every edge two rows of vertices meet that have only the ends in common."""
-    turns = [np.eye(3), [[1, 0, 0], [0, -1, 0], [0, 0, -1]], [[0, 0, 1], [1, 0, 0], [0, 1, 0]],
-             [[0, 0, -1], [0, 1, 0], [1, 0, 0]], [[1, 0, 0], [0, 0, -1], [0, 1, 0]], [[1, 0, 0], [0, 0, 1], [0, -1, 0]]]
+    turns = [
+        np.eye(3),
+        [[1, 0, 0], [0, -1, 0], [0, 0, -1]],
+        [[0, 0, 1], [1, 0, 0], [0, 1, 0]],
+        [[0, 0, -1], [0, 1, 0], [1, 0, 0]],
+        [[1, 0, 0], [0, 0, -1], [0, 1, 0]],
+        [[1, 0, 0], [0, 0, 1], [0, -1, 0]],
+    ]
     centred = [moved(moved(grid(n), None, (-0.5, -0.5, 0.5)), turn) for n, turn in zip((2, 3, 5, 7, 4, 1), turns)]
     result = verdict(joined(*centred))
     assert result.method == "exact" and result.health.closed
@@ -347,22 +392,36 @@ def test_a_small_open_part_is_not_welded_away():
     assert small.health.boundary_edges == 3
 
 
-@pytest.mark.parametrize("scale", [2.0 ** -100, 1e-9, 1e-3, 1e5, 2.0 ** 100])
-@pytest.mark.parametrize("part", [
-    without(CUBE, *TOP), with_flipped(FAR_CUBE, 2), joined(OUTER, INNER), joined(OUTER, inverted(INNER)), moebius(),
-    grid(3), joined(without(CUBE, *TOP), moved(grid(3), None, (0, 0, 1))), soup(torus())])
+@pytest.mark.parametrize("scale", [2.0**-100, 1e-9, 1e-3, 1e5, 2.0**100])
+@pytest.mark.parametrize(
+    "part",
+    [
+        without(CUBE, *TOP),
+        with_flipped(FAR_CUBE, 2),
+        joined(OUTER, INNER),
+        joined(OUTER, inverted(INNER)),
+        moebius(),
+        grid(3),
+        joined(without(CUBE, *TOP), moved(grid(3), None, (0, 0, 1))),
+        soup(torus()),
+    ],
+)
 def test_the_verdict_does_not_depend_on_the_size(part, scale):
     for dtype in (np.float32, np.float64):
         plain, scaled = verdict(part, dtype), verdict((part[0] * scale, part[1]), dtype)
         assert scaled.method == plain.method and len(scaled.warnings) == len(plain.warnings)
-        assert scaled.volume.total == pytest.approx(plain.volume.total * scale ** 3, rel=1e-6)
+        assert scaled.volume.total == pytest.approx(plain.volume.total * scale**3, rel=1e-6)
         before, after = (replace(result.health, cap_area_share=0).as_record() for result in (plain, scaled))
         assert before == after
 
 
-@pytest.mark.parametrize("points, faces, spread", [
-    (CORNERS, SIDES.tolist(), 0.0),
-    (CORNERS + np.array([[0, 0, 0.5 * (k == 7)] for k in range(8)]), SIDES.tolist(), 0.5 / 6.0)])
+@pytest.mark.parametrize(
+    "points, faces, spread",
+    [
+        (CORNERS, SIDES.tolist(), 0.0),
+        (CORNERS + np.array([[0, 0, 0.5 * (k == 7)] for k in range(8)]), SIDES.tolist(), 0.5 / 6.0),
+    ],
+)
 def test_the_spread_is_what_the_choice_of_diagonals_can_change(points, faces, spread):
     result = measure_solid(mesh(points, faces))
     assert result.health.volume_spread == pytest.approx(spread, rel=1e-14)
@@ -424,20 +483,26 @@ def test_loose_vertices_and_edges_change_nothing():
     points, quads = ring(12, 8)
     plain = mesh(points, quads.tolist())
     result = measure_solid(plain)
-    loose = replace(plain, points=np.concatenate([[[1e6, np.nan, np.inf]], points, [[-1e5, 0, 0]]]),
-                    quads=plain.quads + 1, corner_vertices=plain.corner_vertices + 1,
-                    corner_edges=plain.corner_edges + 1)
+    loose = replace(
+        plain,
+        points=np.concatenate([[[1e6, np.nan, np.inf]], points, [[-1e5, 0, 0]]]),
+        quads=plain.quads + 1,
+        corner_vertices=plain.corner_vertices + 1,
+        corner_edges=plain.corner_edges + 1,
+    )
     other = measure_solid(loose)
     np.testing.assert_array_equal(other.volume.raw, result.volume.raw)
     assert other.health.as_record() == result.health.as_record() and other.warnings == ()
     hole = replace(loose, quads=loose.quads[1:], quad_faces=None, corner_edges=None)
     rim = measure_solid(hole).health.faults.boundary_edges
     assert {tuple(edge) for edge in rim.tolist()} == {
-        tuple(sorted(edge)) for edge in zip(loose.quads[0].tolist(), np.roll(loose.quads[0], -1).tolist())}
+        tuple(sorted(edge)) for edge in zip(loose.quads[0].tolist(), np.roll(loose.quads[0], -1).tolist())
+    }
 
 
-@pytest.mark.parametrize("part", [
-    CUBE, without(CUBE, *TOP), with_flipped(CUBE, 2), joined(OUTER, INNER), soup(torus())])
+@pytest.mark.parametrize(
+    "part", [CUBE, without(CUBE, *TOP), with_flipped(CUBE, 2), joined(OUTER, INNER), soup(torus())]
+)
 def test_the_surface_is_only_read(part):
     for order in "CF":
         given = Surface(np.array(part[0], np.float32, order=order), np.array(part[1], order=order))
@@ -492,8 +557,25 @@ def broken(seed):
     points = points + rng.normal(size=3) * 10 ** rng.uniform(-2, 2) * size
     points = points.astype(np.float32 if rng.random() < 0.7 else np.float64)
     whole, true = (points, triangles), volume((points, triangles))
-    done = set(rng.choice(["holes", "flips", "copies", "turned copies", "no area", "loose", "fin", "soup",
-                           "random faces", "part", "inverted"], size=rng.integers(1, 4), replace=False).tolist())
+    done = set(
+        rng.choice(
+            [
+                "holes",
+                "flips",
+                "copies",
+                "turned copies",
+                "no area",
+                "loose",
+                "fin",
+                "soup",
+                "random faces",
+                "part",
+                "inverted",
+            ],
+            size=rng.integers(1, 4),
+            replace=False,
+        ).tolist()
+    )
     count = len(triangles)
     if "holes" in done:
         triangles = np.delete(triangles, rng.integers(0, count, size=rng.integers(1, count // 20 + 2)), axis=0)
@@ -554,8 +636,15 @@ def test_arbitrary_faces_over_arbitrary_points_are_survived(block):
         points[:, 2] *= rng.random() < 0.7
         points = (points * 10.0 ** rng.integers(-30, 30)).astype(np.float32 if seed % 3 else np.float64)
         quads = rng.integers(0, n, size=(int(rng.integers(0, 40)), 4))
-        result = measure_solid(Surface(points, rng.integers(0, n, size=(m, 3)), quads, triangle_faces=np.arange(m),
-                                       quad_faces=np.arange(m, m + len(quads))))
+        result = measure_solid(
+            Surface(
+                points,
+                rng.integers(0, n, size=(m, 3)),
+                quads,
+                triangle_faces=np.arange(m),
+                quad_faces=np.arange(m, m + len(quads)),
+            )
+        )
         assert np.isfinite(result.volume.raw).all() and result.volume.total >= 0.0, seed
         assert result.method == "open" or result.warnings, seed
 
@@ -635,8 +724,10 @@ def test_caps_are_added_to_what_was_measured(dtype):
     assert quick.health.as_record() == slow.health.as_record()
     np.testing.assert_array_equal(quick.volume.raw, slow.volume.raw)
     exact = volume_moments(quick.mended.points, quick.mended.triangles, quick.volume.about)
-    assert all(abs(Fraction(float(raw)) - truth) <= Fraction(float(error))
-               for raw, truth, error in zip(quick.volume.raw, exact, quick.volume.error))
+    assert all(
+        abs(Fraction(float(raw)) - truth) <= Fraction(float(error))
+        for raw, truth, error in zip(quick.volume.raw, exact, quick.volume.error)
+    )
     assert quick.volume.error[0] <= 1e-12 * quick.volume.total
 
 
@@ -664,8 +755,7 @@ def test_an_outline_that_turns_back_on_itself_closes(apart):
         result = measure_solid(surface(moved(part, offset=(offset, offset, 0.0))))
         assert result.method == "exact" and result.health.closed and result.health.boundary_edges == 0
         assert result.health.non_manifold_edges == 2
-        assert result.warnings == (
-            "Edges meet in 2 gaps whose vertices do not: without area, and counted as closed.",)
+        assert result.warnings == ("Edges meet in 2 gaps whose vertices do not: without area, and counted as closed.",)
         exact = volume_moments(result.mended.points, result.mended.triangles, result.volume.about)
         assert abs(result.volume.total - 3.5) <= result.volume.error[0] and exact[0] == Fraction(7, 2)
     wide = OUTLINE.copy()

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.symmetry import confirmed, symmetry
+from body_moments.core.shape.symmetry import confirmed, symmetry
 
 from tests.core import bodies, shapes
 from tests.core.recursion import moments

@@ -6,17 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core.surface import Surface, flipped_quads
-from body_moments.core.topology import (
-    closed_sides,
-    components,
-    find_edges,
-    first_equal,
-    named_edges,
-    orientation,
-    shells,
-)
-from body_moments.core.weld import equal_positions, face_groups, near_positions
+from body_moments.core.mesh.edges import closed_sides, find_edges, named_edges, orientation, shells
+from body_moments.core.mesh.surface import Surface, flipped_quads
+from body_moments.core.mesh.welding import equal_positions, face_groups, near_positions
+from body_moments.core.numerics.arrays import first_equal
+from body_moments.core.numerics.graph import components
 
 from tests.core.bodies import CORNERS, SIDES, box, joined, mesh, moebius, ring, soup, sphere, welded
 from tests.core.test_polyhedron import grid_torus
@@ -86,14 +80,29 @@ def test_edges_are_those_that_a_dictionary_finds():
 def mixed_mesh():
     """A cube whose top is a fan of four triangles and whose bottom and front are pentagons that share a bent edge."""
     points = np.concatenate([CORNERS, [[0.5, 0.5, 1.0], [0.5, 0.0, 0.0]]])
-    faces = [[0, 2, 3, 1, 9], [2, 6, 7, 3], [0, 9, 1, 5, 4], [0, 4, 6, 2], [1, 3, 7, 5],
-             [4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]]
+    faces = [
+        [0, 2, 3, 1, 9],
+        [2, 6, 7, 3],
+        [0, 9, 1, 5, 4],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [4, 5, 8],
+        [5, 7, 8],
+        [7, 6, 8],
+        [6, 4, 8],
+    ]
     return points, faces
 
 
-@pytest.mark.parametrize("points, faces", [
-    (CORNERS, SIDES.tolist()), mixed_mesh(), (ring(20, 10)[0], ring(20, 10)[1].tolist()),
-    (sphere(2)[0], sphere(2)[1].tolist())])
+@pytest.mark.parametrize(
+    "points, faces",
+    [
+        (CORNERS, SIDES.tolist()),
+        mixed_mesh(),
+        (ring(20, 10)[0], ring(20, 10)[1].tolist()),
+        (sphere(2)[0], sphere(2)[1].tolist()),
+    ],
+)
 def test_a_closed_mesh_is_proven_closed_by_its_own_corners(points, faces):
     surface = mesh(points, faces)
     sides = closed_sides(surface)
@@ -107,8 +116,8 @@ def test_a_closed_mesh_is_proven_closed_by_its_own_corners(points, faces):
 def test_one_hole_or_one_flipped_face_or_one_copy_spoils_the_proof():
     points, faces = mixed_mesh()
     for k in range(len(faces)):
-        assert closed_sides(mesh(points, faces[:k] + faces[k + 1:])) is None
-        assert closed_sides(mesh(points, faces[:k] + [faces[k][::-1]] + faces[k + 1:])) is None
+        assert closed_sides(mesh(points, faces[:k] + faces[k + 1 :])) is None
+        assert closed_sides(mesh(points, faces[:k] + [faces[k][::-1]] + faces[k + 1 :])) is None
         assert closed_sides(mesh(points, faces + [faces[k]])) is None
 
 
@@ -151,7 +160,7 @@ def test_a_moebius_strip_and_a_klein_bottle_have_no_orientation_and_a_torus_besi
         against = edges.upward[one] == edges.upward[other]
         assert against.any()
         turned, twisted = orientation(len(triangles), one // 3, other // 3, against, np.ones(len(triangles)))
-        assert twisted[:len(strip[1])].all() and not twisted[len(strip[1]):].any()
+        assert twisted[: len(strip[1])].all() and not twisted[len(strip[1]) :].any()
         assert not turned.any()
 
 
@@ -196,9 +205,17 @@ def test_positions_within_the_tolerance_are_welded_wherever_the_grid_cuts():
 
 
 def test_faces_on_the_same_vertices_share_a_group_however_they_are_cut_and_turned():
-    triangles = np.array([[0, 1, 2], [0, 2, 3],  # face 0, a quad
-                          [3, 1, 0], [3, 2, 1],  # face 1, the same reversed and cut the other way
-                          [0, 1, 2], [2, 0, 1], [2, 3, 4]])
+    triangles = np.array(
+        [
+            [0, 1, 2],
+            [0, 2, 3],  # face 0, a quad
+            [3, 1, 0],
+            [3, 2, 1],  # face 1, the same reversed and cut the other way
+            [0, 1, 2],
+            [2, 0, 1],
+            [2, 3, 4],
+        ]
+    )
     faces = np.array([0, 0, 1, 1, 2, 3, 4])
     np.testing.assert_array_equal(face_groups(triangles, faces), [0, 0, 0, 0, 2, 2, 4])
 

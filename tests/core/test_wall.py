@@ -7,11 +7,11 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from body_moments.core.mass import MassProperties
-from body_moments.core.moments import monomials
-from body_moments.core.offset import offset_directions
-from body_moments.core.polyhedron import solid_moments
-from body_moments.core.wall import share, sweep
+from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.moments.moments import monomials
+from body_moments.core.offset.directions import offset_directions
+from body_moments.core.offset.walls import share, sweep
+from body_moments.core.polyhedron.third_order import solid_moments
 
 from tests.core import bodies, exact
 
@@ -29,9 +29,12 @@ def wall(part, side, thickness, **more):
 
 def exact_difference(part, vectors, low, high, about):
     """The 20 moments of what is between a closed surface moved by `low` and by `high`, as Fractions."""
+
     def moved(s):
-        points = [[Fraction(float(x)) + Fraction(float(s)) * Fraction(float(d)) for x, d in zip(*row)]
-                  for row in zip(part[0], vectors)]
+        points = [
+            [Fraction(float(x)) + Fraction(float(s)) * Fraction(float(d)) for x, d in zip(*row)]
+            for row in zip(part[0], vectors)
+        ]
         return exact.volume_moments(points, part[1], about)
 
     return [one - other for one, other in zip(moved(high), moved(low))]
@@ -48,8 +51,8 @@ def test_the_shell_of_a_cube_is_the_cube_less_the_smaller_cube(t):
 @pytest.mark.parametrize(("side", "low", "high"), [("outward", 1.0, 1.5), ("centered", 0.75, 1.25)])
 def test_outward_and_centered_shells_of_a_cube_are_mitred(side, low, high):
     body = wall(cube(), side, 0.25)
-    assert abs(body.total - (high ** 3 - low ** 3)) <= 1e-14
-    assert np.abs(bodies.inertia(body) - (high ** 5 - low ** 5) / 6).max() <= 1e-14
+    assert abs(body.total - (high**3 - low**3)) <= 1e-14
+    assert np.abs(bodies.inertia(body) - (high**5 - low**5) / 6).max() <= 1e-14
 
 
 def test_every_cut_of_the_cubes_faces_gives_the_same_directions():
@@ -58,22 +61,38 @@ def test_every_cut_of_the_cubes_faces_gives_the_same_directions():
         again = (part[0], np.roll(part[1], turn, axis=1))
         vectors = offset_directions(*again).vectors
         assert np.abs(vectors - np.sign(part[0])).max() < 1e-14
-    points, triangles = bodies.welded(bodies.joined(*(
-        bodies.moved(bodies.grid(4), turn, offset) for turn, offset in (
-            (np.eye(3), (0, 0, 1)), (np.diag([1, -1, -1]), (0, 1, 0)),
-            (np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]), (1, 0, 0)),
-            (np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]), (0, 0, 0)),
-            (np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0]]), (0, 1, 0)),
-            (np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]), (0, 0, 0))))))
+    points, triangles = bodies.welded(
+        bodies.joined(
+            *(
+                bodies.moved(bodies.grid(4), turn, offset)
+                for turn, offset in (
+                    (np.eye(3), (0, 0, 1)),
+                    (np.diag([1, -1, -1]), (0, 1, 0)),
+                    (np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]), (1, 0, 0)),
+                    (np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]), (0, 0, 0)),
+                    (np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0]]), (0, 1, 0)),
+                    (np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]), (0, 0, 0)),
+                )
+            )
+        )
+    )
     body = wall((points, triangles), "inward", 0.1)
-    assert abs(body.total - (1 - 0.8 ** 3)) <= 1e-14
+    assert abs(body.total - (1 - 0.8**3)) <= 1e-14
 
 
 @pytest.mark.parametrize("side", SIDES)
-@pytest.mark.parametrize("part", [
-    bodies.sphere(2), bodies.torus(9, 7), bodies.moved(bodies.sphere(1), SHEAR, (3.0, -2.0, 5.0)),
-    bodies.moved(cube(), SHEAR), bodies.moved(bodies.torus(6, 5), 1e-3 * SHEAR, (1e-2, 0.0, 0.0)),
-    bodies.joined(cube(2.0), bodies.inverted(cube()))], ids=["ball", "torus", "sheared", "box", "tiny", "hollow"])
+@pytest.mark.parametrize(
+    "part",
+    [
+        bodies.sphere(2),
+        bodies.torus(9, 7),
+        bodies.moved(bodies.sphere(1), SHEAR, (3.0, -2.0, 5.0)),
+        bodies.moved(cube(), SHEAR),
+        bodies.moved(bodies.torus(6, 5), 1e-3 * SHEAR, (1e-2, 0.0, 0.0)),
+        bodies.joined(cube(2.0), bodies.inverted(cube())),
+    ],
+    ids=["ball", "torus", "sheared", "box", "tiny", "hollow"],
+)
 def test_every_moment_is_that_of_the_difference_of_two_closed_bodies(part, side):
     found = sweep(bodies.surface(part))
     size = min(found.largest(side), np.ptp(part[0], axis=0).min())
@@ -109,7 +128,7 @@ def test_the_bound_holds_for_the_directions_too():
     turn = bodies.rotation(7)
     part = bodies.moved(cube(), turn)
     body = wall(part, "inward", 0.1)
-    assert abs(body.total - (1 - 0.8 ** 3)) <= body.error[0] <= 1e-12
+    assert abs(body.total - (1 - 0.8**3)) <= body.error[0] <= 1e-12
 
 
 def test_storing_as_float32_changes_no_more_than_is_said():
@@ -122,8 +141,10 @@ def test_storing_as_float32_changes_no_more_than_is_said():
 
 
 def test_where_more_than_three_planes_meet_the_wall_is_told_to_be_uneven():
-    part = (np.array([[2, 1, 0], [-2, 1, 0], [-2, -1, 0], [2, -1, 0], [0.5, 0.25, 1.0]], float),
-            np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]]))
+    part = (
+        np.array([[2, 1, 0], [-2, 1, 0], [-2, -1, 0], [2, -1, 0], [0.5, 0.25, 1.0]], float),
+        np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]]),
+    )
     found = sweep(bodies.surface(part))
     assert found.uneven == 1 and found.least < 1.0 < found.most
     even = (part[0] * [1, 1, 1] - [0, 0, 0], part[1])
@@ -137,12 +158,12 @@ def test_the_planes_of_a_fine_sphere_are_kept_at_the_thickness():
     found = sweep(bodies.surface(bodies.sphere(4)))
     assert found.least > 0.995 and found.most < 1.005
     thick = found.moments(0.1, 0.0)
-    assert abs(thick.total / (4 / 3 * pi * (1 - 0.9 ** 3)) - 1.0) < 5e-3
+    assert abs(thick.total / (4 / 3 * pi * (1 - 0.9**3)) - 1.0) < 5e-3
 
 
 @pytest.mark.parametrize("level", [2, 3, 4])
 def test_the_shell_of_a_sphere_converges_with_the_square_of_the_faces(level):
-    truth = 4 / 3 * pi * (1 - 0.8 ** 3)
+    truth = 4 / 3 * pi * (1 - 0.8**3)
     errors = [abs(wall(bodies.sphere(k), "inward", 0.2).total - truth) for k in (level, level + 1)]
     assert 3.4 < errors[0] / errors[1] < 4.6
 
@@ -152,7 +173,7 @@ def test_a_flat_sheet_is_a_plate_and_says_nothing_of_an_inside():
     properties = MassProperties.from_moments(body)
     assert abs(body.total - 3.0) < 1e-14
     assert np.abs(properties.center - (1.0, 1.5, 0.0)).max() < 1e-15
-    assert np.abs(np.diag(properties.inertia) - [3 * (9 + .25) / 12, 3 * (4 + .25) / 12, 3 * 13 / 12]).max() < 1e-14
+    assert np.abs(np.diag(properties.inertia) - [3 * (9 + 0.25) / 12, 3 * (4 + 0.25) / 12, 3 * 13 / 12]).max() < 1e-14
 
 
 def test_a_bent_sheet_is_mitred_at_its_crease():
@@ -204,7 +225,7 @@ def test_a_mirrored_body_has_the_same_shell():
 
 
 def test_loose_triangles_are_joined_where_they_meet():
-    assert abs(wall(bodies.soup(cube()), "inward", 0.1).total - (1 - 0.8 ** 3)) <= 1e-14
+    assert abs(wall(bodies.soup(cube()), "inward", 0.1).total - (1 - 0.8**3)) <= 1e-14
 
 
 def test_a_vertex_in_the_middle_of_an_edge_changes_nothing():
@@ -218,7 +239,7 @@ def test_a_vertex_in_the_middle_of_an_edge_changes_nothing():
             forward = start[(start.index(a) + 1) % 3] == b
             halves = [[a, new, c], [new, b, c]] if forward else [[b, new, c], [new, a, c]]
             triangles = np.concatenate([triangles[~(triangles == row).all(axis=1)], halves])
-    assert abs(wall((points, triangles), "inward", 0.1).total - (1 - 0.8 ** 3)) <= 1e-14
+    assert abs(wall((points, triangles), "inward", 0.1).total - (1 - 0.8**3)) <= 1e-14
 
 
 def test_a_face_without_area_is_carried_along():
@@ -230,22 +251,28 @@ def test_a_face_without_area_is_carried_along():
     triangles = np.concatenate([triangles[~(triangles == row).all(axis=1)], [[a, 8, c], [8, b, c], [a, b, 8]]])
     found = sweep(bodies.surface((points, triangles)))
     assert found.ignored == 1
-    assert abs(found.moments(0.1, 0.0).total - (1 - 0.8 ** 3)) <= 1e-14
+    assert abs(found.moments(0.1, 0.0).total - (1 - 0.8**3)) <= 1e-14
 
 
 def test_noise_on_a_flat_side_does_not_send_its_edge_sliding():
     rng = np.random.default_rng(0)
-    part = bodies.welded(bodies.joined(bodies.grid(8), bodies.moved(bodies.grid(8), np.array(
-        [[0, 0, -1], [0, 1, 0], [-1, 0, 0.0]]))))
+    part = bodies.welded(
+        bodies.joined(bodies.grid(8), bodies.moved(bodies.grid(8), np.array([[0, 0, -1], [0, 1, 0], [-1, 0, 0.0]])))
+    )
     part = part[0] + 1e-5 * rng.normal(size=part[0].shape), part[1]
     found = offset_directions(*part)
     assert np.abs(found.vectors).max() < 1.01
 
 
-@pytest.mark.parametrize(("part", "reason"), [
-    (bodies.with_flipped(cube(), 0), "agree"), (bodies.moebius(), "agree"),
-    (bodies.welded(bodies.joined(bodies.box(), bodies.box((0, 1, 1), (1, 2, 2)))), "more than two faces"),
-    ((np.zeros((3, 3)), np.array([[0, 1, 2]])), "no area")])
+@pytest.mark.parametrize(
+    ("part", "reason"),
+    [
+        (bodies.with_flipped(cube(), 0), "agree"),
+        (bodies.moebius(), "agree"),
+        (bodies.welded(bodies.joined(bodies.box(), bodies.box((0, 1, 1), (1, 2, 2)))), "more than two faces"),
+        ((np.zeros((3, 3)), np.array([[0, 1, 2]])), "no area"),
+    ],
+)
 def test_what_has_no_side_is_refused_with_the_remedy(part, reason):
     with pytest.raises(ValueError, match=reason):
         sweep(bodies.surface(part))
@@ -281,11 +308,18 @@ def test_the_wall_of_a_pyramid_of_many_sides_is_the_pyramid_less_a_similar_one()
     apothem = np.cos(np.pi / sides)
     whole = sides / 2 * np.sin(2 * np.pi / sides) * 2 / 3
     left = (2 - t - t * np.hypot(apothem, 2) / apothem) / 2
-    assert abs(body.total - whole * (1 - left ** 3)) < 1e-13
+    assert abs(body.total - whole * (1 - left**3)) < 1e-13
 
 
-@pytest.mark.parametrize("part", [cone(), bodies.torus(24, 12), bodies.sphere(3),
-                                  bodies.moved(cube(), bodies.rotation(1) @ SHEAR, (50.0, 20.0, -30.0))])
+@pytest.mark.parametrize(
+    "part",
+    [
+        cone(),
+        bodies.torus(24, 12),
+        bodies.sphere(3),
+        bodies.moved(cube(), bodies.rotation(1) @ SHEAR, (50.0, 20.0, -30.0)),
+    ],
+)
 @pytest.mark.parametrize("side", ["inward", "centered"])
 @pytest.mark.parametrize("t", [1e-4, 0.05])
 def test_no_float32_rounding_changes_more_than_is_said(part, side, t):
@@ -334,11 +368,14 @@ def test_faces_that_fold_back_on_each_other_have_no_wall():
 
 def fine_box(n, size=(1.0, 1.0, 1.0)):
     """A box whose sides are cut in n x n quads."""
-    faces = [(np.eye(3), (0, 0, 1)), (np.diag([1, -1, -1]), (0, 1, 0)),
-             (np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]), (1, 0, 0)),
-             (np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]), (0, 0, 0)),
-             (np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0]]), (0, 1, 0)),
-             (np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]), (0, 0, 0))]
+    faces = [
+        (np.eye(3), (0, 0, 1)),
+        (np.diag([1, -1, -1]), (0, 1, 0)),
+        (np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]), (1, 0, 0)),
+        (np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]), (0, 0, 0)),
+        (np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0]]), (0, 1, 0)),
+        (np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]), (0, 0, 0)),
+    ]
     part = bodies.welded(bodies.joined(*(bodies.moved(bodies.grid(n), turn, offset) for turn, offset in faces)))
     return part[0] * size, part[1]
 
@@ -381,10 +418,15 @@ def test_needles_alone_are_swept_without_a_direction():
 FAR = 1000.0 * np.array([0.3, 0.7, 0.61])
 
 
-@pytest.mark.parametrize(("part", "share"), [
-    (bodies.moved(bodies.sphere(2), offset=10.0 * FAR), "65 %"),
-    (bodies.moved(bodies.box((0, 0, 0), (1, 1, 0.01)), offset=FAR), "2 %"),
-    (bodies.moved(bodies.sphere(1), 0.05 * np.eye(3), FAR), "100 %")], ids=["ball", "plate", "small"])
+@pytest.mark.parametrize(
+    ("part", "share"),
+    [
+        (bodies.moved(bodies.sphere(2), offset=10.0 * FAR), "65 %"),
+        (bodies.moved(bodies.box((0, 0, 0), (1, 1, 0.01)), offset=FAR), "2 %"),
+        (bodies.moved(bodies.sphere(1), 0.05 * np.eye(3), FAR), "100 %"),
+    ],
+    ids=["ball", "plate", "small"],
+)
 def test_faces_of_which_float32_has_lost_the_direction_make_no_wall(part, share):
     """Their share of the wall was left out, and they were not asked when it folds over."""
     with pytest.raises(ValueError, match=share):
@@ -418,18 +460,21 @@ SHEET = (np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0,
 OUTER, INNER = bodies.box((0, 0, 0), (4, 4, 4)), bodies.box((1, 1, 1), (3, 3, 3))
 
 
-@pytest.mark.parametrize(("part", "side", "apart", "through"), [
-    (bodies.joined(OUTER, bodies.inverted(INNER)), "inward", (0.1, 0.49, 0.5), (0.501, 0.6, 1.0, 1.5)),
-    (bodies.joined(OUTER, bodies.inverted(INNER)), "centered", (0.5, 0.99), (1.01, 1.5)),
-    (bodies.joined(OUTER, bodies.inverted(INNER)), "outward", (0.5, 0.9), ()),
-    (bodies.joined(OUTER, INNER), "outward", (0.5, 0.99), (1.01, 3.0)),
-    (bodies.joined(OUTER, INNER), "inward", (0.5, 0.9), ()),
-    (bodies.joined(bodies.box(), bodies.moved(bodies.box(), offset=(4, 0, 0))), "outward", (1.0, 1.5), (1.51, 5.0)),
-    (clamp(), "outward", (0.05, 0.09), (0.11, 0.15, 0.3)),
-    (bodies.joined(SHEET, bodies.moved(SHEET, offset=(0, 0, 0.25))), "inward", (0.1, 0.25), (0.26, 0.5)),
-    (bodies.joined(SHEET, bodies.moved(SHEET, offset=(0.5, 0.5, 0.25))), "centered", (0.1, 0.25), (0.26, 0.5)),
-    (bodies.joined(SHEET, bodies.moved(SHEET, offset=(2, 0, 0.25))), "outward", (0.1, 0.5), ()),
-])
+@pytest.mark.parametrize(
+    ("part", "side", "apart", "through"),
+    [
+        (bodies.joined(OUTER, bodies.inverted(INNER)), "inward", (0.1, 0.49, 0.5), (0.501, 0.6, 1.0, 1.5)),
+        (bodies.joined(OUTER, bodies.inverted(INNER)), "centered", (0.5, 0.99), (1.01, 1.5)),
+        (bodies.joined(OUTER, bodies.inverted(INNER)), "outward", (0.5, 0.9), ()),
+        (bodies.joined(OUTER, INNER), "outward", (0.5, 0.99), (1.01, 3.0)),
+        (bodies.joined(OUTER, INNER), "inward", (0.5, 0.9), ()),
+        (bodies.joined(bodies.box(), bodies.moved(bodies.box(), offset=(4, 0, 0))), "outward", (1.0, 1.5), (1.51, 5.0)),
+        (clamp(), "outward", (0.05, 0.09), (0.11, 0.15, 0.3)),
+        (bodies.joined(SHEET, bodies.moved(SHEET, offset=(0, 0, 0.25))), "inward", (0.1, 0.25), (0.26, 0.5)),
+        (bodies.joined(SHEET, bodies.moved(SHEET, offset=(0.5, 0.5, 0.25))), "centered", (0.1, 0.25), (0.26, 0.5)),
+        (bodies.joined(SHEET, bodies.moved(SHEET, offset=(2, 0, 0.25))), "outward", (0.1, 0.5), ()),
+    ],
+)
 def test_walls_that_meet_are_found_where_no_edge_pierces_a_face(part, side, apart, through):
     """Skins that have moved past one another, and ones that are flush with each other."""
     swept = sweep(bodies.surface(part))

@@ -6,11 +6,11 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.components import part_densities
-from body_moments.core.mass import MassProperties
-from body_moments.core.solid import measure_solid
-from body_moments.core.surface import Surface
-from body_moments.core.weighted import as_mass, weighted_sheet, weighted_solid
+from body_moments.core.density.part_densities import part_densities
+from body_moments.core.density.piecewise_mass import as_mass, weighted_sheet, weighted_solid
+from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.core import bodies, exact
 
@@ -44,15 +44,18 @@ def linear_truth(points, triangles, density, about):
                 for axis, k in zip(axes, choice):
                     value *= corner[k][axis]
                 counts = [choice.count(k) for k in range(3)]
-                weight = Fraction(factorial(counts[0]) * factorial(counts[1]) * factorial(counts[2]),
-                                  factorial(len(choice) + 2))
+                weight = Fraction(
+                    factorial(counts[0]) * factorial(counts[1]) * factorial(counts[2]), factorial(len(choice) + 2)
+                )
                 sums[at] += double * weight * value
     return sums
 
 
 def within(found, expected):
-    return all(abs(Fraction(value) - true) <= Fraction(bound)
-               for value, true, bound in zip(found.raw.tolist(), expected, found.error.tolist()))
+    return all(
+        abs(Fraction(value) - true) <= Fraction(bound)
+        for value, true, bound in zip(found.raw.tolist(), expected, found.error.tolist())
+    )
 
 
 @pytest.mark.parametrize("offset", [(0, 0, 0), FAR])
@@ -90,7 +93,8 @@ def test_a_square_sheet_with_a_density_that_rises_along_x():
     # to third order: ∫ x · x³ = 1/5, ∫ x · x² y = 1/8, ∫ x · x y² = 1/9, ∫ x y³ = 1/8
     about = found.shifted((0, 0, 0))
     assert [about[3, 0, 0], about[2, 1, 0], about[1, 2, 0], about[0, 3, 0]] == pytest.approx(
-        [1 / 5, 1 / 8, 1 / 9, 1 / 8], rel=1e-13)
+        [1 / 5, 1 / 8, 1 / 9, 1 / 8], rel=1e-13
+    )
 
 
 def test_what_float32_stored_is_within_the_input_bound():
@@ -105,8 +109,11 @@ def test_what_float32_stored_is_within_the_input_bound():
     assert found.input[0] < 1e-2 * found.total
 
 
-PARTS = bodies.joined(bodies.box((0, 0, 0), (1, 2, 3)), bodies.moved(bodies.sphere(1), offset=(5, 0, 0)),
-                      bodies.moved(bodies.torus(12, 8), offset=(0, 6, 0)))
+PARTS = bodies.joined(
+    bodies.box((0, 0, 0), (1, 2, 3)),
+    bodies.moved(bodies.sphere(1), offset=(5, 0, 0)),
+    bodies.moved(bodies.torus(12, 8), offset=(0, 6, 0)),
+)
 
 
 @pytest.mark.parametrize("offset", [(0, 0, 0), FAR])
@@ -144,7 +151,8 @@ def test_a_two_material_dumbbell():
     found = part_densities(parts, np.repeat([7820.0, 680.0], 12))
     assert found.density.tolist() == [7820.0, 680.0] and not found.mixed.any()
     body = MassProperties.from_moments(
-        as_mass(weighted_solid(parts.points, parts.triangles, found.density[parts.part], solid.volume)))
+        as_mass(weighted_solid(parts.points, parts.triangles, found.density[parts.part], solid.volume))
+    )
     assert body.mass == pytest.approx(8500.0, rel=1e-14)
     assert body.center == pytest.approx([(7820 * 0.5 + 680 * 4.5) / 8500, 0.5, 0.5], rel=1e-14)
     arm = 7820 * 680 / 8500 * 16.0
@@ -192,22 +200,30 @@ def test_a_cavity_within_two_materials_takes_the_inner_one_away_and_the_next_the
     """Two nested outward boxes count both; a cavity in the inner one takes that away, a cavity in the cavity the
     other."""
     part = bodies.joined(
-        bodies.box((0, 0, 0), (8, 8, 8)), bodies.box((1, 1, 1), (7, 7, 7)),
-        bodies.inverted(bodies.box((2, 2, 2), (6, 6, 6))), bodies.inverted(bodies.box((3, 3, 3), (5, 5, 5))))
+        bodies.box((0, 0, 0), (8, 8, 8)),
+        bodies.box((1, 1, 1), (7, 7, 7)),
+        bodies.inverted(bodies.box((2, 2, 2), (6, 6, 6))),
+        bodies.inverted(bodies.box((3, 3, 3), (5, 5, 5))),
+    )
     solid = measure_solid(bodies.surface(part))
     found = part_densities(solid.components(), np.repeat([10.0, 3.0, 99.0, 99.0], 12))
     assert found.density.tolist() == [10.0, 3.0, 3.0, 10.0]
 
 
-@pytest.mark.parametrize("make", [
-    lambda: bodies.surface(bodies.with_flipped(PARTS, 0, 30)),
-    lambda: bodies.surface(bodies.inverted(PARTS)),
-    lambda: bodies.surface(bodies.soup(PARTS)),
-    lambda: bodies.surface(bodies.without(PARTS, 5, 40)),
-    lambda: Surface(bodies.CORNERS * 2.0, quads=bodies.SIDES.copy()),
-    lambda: bodies.mesh(np.concatenate([bodies.CORNERS, bodies.CORNERS + (3, 0, 0)]),
-                        [*bodies.SIDES[:, ::-1].tolist(), *(bodies.SIDES + 8).tolist()]),
-])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: bodies.surface(bodies.with_flipped(PARTS, 0, 30)),
+        lambda: bodies.surface(bodies.inverted(PARTS)),
+        lambda: bodies.surface(bodies.soup(PARTS)),
+        lambda: bodies.surface(bodies.without(PARTS, 5, 40)),
+        lambda: Surface(bodies.CORNERS * 2.0, quads=bodies.SIDES.copy()),
+        lambda: bodies.mesh(
+            np.concatenate([bodies.CORNERS, bodies.CORNERS + (3, 0, 0)]),
+            [*bodies.SIDES[:, ::-1].tolist(), *(bodies.SIDES + 8).tolist()],
+        ),
+    ],
+)
 def test_mended_bodies_have_parts_that_add_up_too(make):
     solid = measure_solid(make())
     parts = solid.components()

@@ -6,9 +6,9 @@ from math import gamma, pi, sqrt
 
 import numpy as np
 import pytest
-from body_moments.core.harmonics import coupled, harmonic_moments
-from body_moments.core.moments import monomials
-from body_moments.core.zernike import descriptors, loss, radial_power, zernike_moments, zernike_quadrature
+from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.solid_harmonics import coupled, harmonic_moments
+from body_moments.core.shape.zernike import descriptors, loss, radial_power, zernike_moments, zernike_quadrature
 
 from tests.core import bodies, shapes
 from tests.core.recursion import moments
@@ -16,9 +16,16 @@ from tests.core.recursion import moments
 
 def ball(order, radius=1.0):
     """Raw moments of a ball about its center: Dirichlet's integral."""
-    raw = [0.0 if any(n % 2 for n in row) else
-           2.0 * np.prod([gamma((n + 1) / 2) for n in row]) / gamma((sum(row) + 3) / 2) / (sum(row) + 3)
-           * radius ** (sum(row) + 3) for row in monomials(order).tolist()]
+    raw = [
+        0.0
+        if any(n % 2 for n in row)
+        else 2.0
+        * np.prod([gamma((n + 1) / 2) for n in row])
+        / gamma((sum(row) + 3) / 2)
+        / (sum(row) + 3)
+        * radius ** (sum(row) + 3)
+        for row in monomials(order).tolist()
+    ]
     return np.array(raw)
 
 
@@ -40,8 +47,11 @@ def test_a_smaller_ball_by_the_closed_form(radius):
     """∫_0^a R_n0 r² dr, R_00 = √3, R_20 = √7 (5r² - 3)/2, R_40 = √11 (63r⁴ - 70r² + 15)/8."""
     found = zernike_moments(ball(20, radius), 20)
     a = radius
-    wanted = {0: sqrt(3) * a**3 / 3, 2: sqrt(7) * (a**5 - a**3) / 2,
-              4: sqrt(11) * (9 * a**7 - 14 * a**5 + 5 * a**3) / 8}
+    wanted = {
+        0: sqrt(3) * a**3 / 3,
+        2: sqrt(7) * (a**5 - a**3) / 2,
+        4: sqrt(11) * (9 * a**7 - 14 * a**5 + 5 * a**3) / 8,
+    }
     for n, integral in wanted.items():
         assert found[n, 0][0].real == pytest.approx(sqrt(3) * integral, abs=1e-14)
 
@@ -107,8 +117,14 @@ def test_the_power_of_a_box_is_the_mean_of_its_products_of_sincs():
     z = zernike_moments(moments(body, 20, np.zeros(3)).raw, 20)
     nodes, weights = np.polynomial.legendre.leggauss(40)
     phi = np.arange(80) * 2 * pi / 80
-    direction = np.stack([np.outer(np.sqrt(1 - nodes**2), np.cos(phi)), np.outer(np.sqrt(1 - nodes**2), np.sin(phi)),
-                          np.outer(nodes, np.ones(80))], axis=-1)
+    direction = np.stack(
+        [
+            np.outer(np.sqrt(1 - nodes**2), np.cos(phi)),
+            np.outer(np.sqrt(1 - nodes**2), np.sin(phi)),
+            np.outer(nodes, np.ones(80)),
+        ],
+        axis=-1,
+    )
     q = np.array([1.0, 4.0, 9.0])
     power, bound = radial_power(z, q)
     for i, value in enumerate(q):

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import product
 
 import numpy as np
-from body_moments.core.moments import monomials
+from body_moments.core.moments.moments import monomials
 
 
 def pieces(knots: list[Fraction], i: int, k: int) -> dict[int, list[Fraction]]:
@@ -33,8 +33,9 @@ def pieces(knots: list[Fraction], i: int, k: int) -> dict[int, list[Fraction]]:
     return total
 
 
-def integral(knots: list, i: int, k: int, power: int, low: Fraction | None = None,
-             high: Fraction | None = None) -> Fraction:
+def integral(
+    knots: list, i: int, k: int, power: int, low: Fraction | None = None, high: Fraction | None = None
+) -> Fraction:
     """∫ t^power B_{i,k}(t) dt over [low, high], by default over the whole support."""
     knots = [Fraction(knot) for knot in knots]
     total = Fraction(0)
@@ -42,8 +43,9 @@ def integral(knots: list, i: int, k: int, power: int, low: Fraction | None = Non
         a, b = knots[span], knots[span + 1]
         a, b = (a if low is None else max(a, low)), (b if high is None else min(b, high))
         if a < b:
-            total += sum(c * (b ** (n + power + 1) - a ** (n + power + 1)) / (n + power + 1)
-                         for n, c in enumerate(polynomial))
+            total += sum(
+                c * (b ** (n + power + 1) - a ** (n + power + 1)) / (n + power + 1) for n, c in enumerate(polynomial)
+            )
     return total
 
 
@@ -52,13 +54,20 @@ def exact_moments(coefficients: np.ndarray, axes, order: int, about) -> list[Fra
     tables = []
     for axis, center in zip(axes, about):
         knots = [Fraction(float(knot)) - Fraction(float(center)) for knot in axis.knots]
-        domain = (None, None) if axis.domain is None else [Fraction(end) - Fraction(float(center))
-                                                           for end in axis.domain]
-        tables.append([[integral(knots, i, axis.order, power, *domain) for i in range(axis.count)]
-                       for power in range(order + 1)])
+        domain = (
+            (None, None) if axis.domain is None else [Fraction(end) - Fraction(float(center)) for end in axis.domain]
+        )
+        tables.append(
+            [[integral(knots, i, axis.order, power, *domain) for i in range(axis.count)] for power in range(order + 1)]
+        )
     result = []
     for p, q, r in monomials(order).tolist():
         x, y, z = tables[0][p], tables[1][q], tables[2][r]
-        result.append(sum(Fraction(float(coefficients[i, j, k])) * x[i] * y[j] * z[k]
-                          for i, j, k in product(*map(range, coefficients.shape)) if coefficients[i, j, k]))
+        result.append(
+            sum(
+                Fraction(float(coefficients[i, j, k])) * x[i] * y[j] * z[k]
+                for i, j, k in product(*map(range, coefficients.shape))
+                if coefficients[i, j, k]
+            )
+        )
     return result

@@ -41,9 +41,7 @@ def use(archive: str) -> None:
     import bpy
 
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    outcome = bpy.ops.extensions.package_install_files(
-        filepath=archive, repo="user_default", enable_on_install=True
-    )
+    outcome = bpy.ops.extensions.package_install_files(filepath=archive, repo="user_default", enable_on_install=True)
     assert outcome == {"FINISHED"}
     assert enabled()
     assert MODULE in sys.modules

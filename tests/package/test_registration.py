@@ -12,9 +12,7 @@ body_moments = sys.modules["body_moments"]
 
 def footprint() -> dict[str, set]:
     """Everything that an add-on can leave in Blender and that Blender lets us list."""
-    types = {
-        name: kind for name in dir(bpy.types) if isinstance(kind := getattr(bpy.types, name), type)
-    }
+    types = {name: kind for name in dir(bpy.types) if isinstance(kind := getattr(bpy.types, name), type)}
     properties, menus = set(), set()
     for type_name, kind in types.items():
         if rna := getattr(kind, "bl_rna", None):
@@ -77,9 +75,7 @@ def test_classes_are_unregistered_in_reverse(before, monkeypatch):
     added, removed = [], []
     register, unregister = bpy.utils.register_class, bpy.utils.unregister_class
     monkeypatch.setattr(bpy.utils, "register_class", lambda cls: (added.append(cls), register(cls)))
-    monkeypatch.setattr(
-        bpy.utils, "unregister_class", lambda cls: (removed.append(cls), unregister(cls))
-    )
+    monkeypatch.setattr(bpy.utils, "unregister_class", lambda cls: (removed.append(cls), unregister(cls)))
     body_moments.register()
     body_moments.unregister()
     assert removed == added[::-1]

@@ -16,9 +16,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent.parent
 SHIPPED = [
     ROOT / "__init__.py",
-    *sorted(
-        path for part in ("core", "operators", "panels") for path in (ROOT / part).rglob("*.py")
-    ),
+    *sorted(path for part in ("core", "operators", "panels") for path in (ROOT / part).rglob("*.py")),
 ]
 TREES = {path: ast.parse(path.read_text(encoding="utf-8"), str(path)) for path in SHIPPED}
 
@@ -114,17 +112,11 @@ def test_a_file_uses_nothing_that_reviewers_refuse(path):
 def test_only_the_script_part_of_batch_knows_its_own_place():
     """`__file__`, and whatever calls what reads it, is reached from the main branch alone."""
     tree = TREES[ROOT / "operators" / "batch.py"]
-    used = {
-        top: {node.id for node in ast.walk(top) if isinstance(node, ast.Name)} for top in tree.body
-    }
+    used = {top: {node.id for node in ast.walk(top) if isinstance(node, ast.Name)} for top in tree.body}
     tainted, known = {"__file__"}, 0
     while known != len(tainted):
         known = len(tainted)
-        tainted |= {
-            top.name
-            for top in tree.body
-            if isinstance(top, ast.FunctionDef) and used[top] & tainted
-        }
+        tainted |= {top.name for top in tree.body if isinstance(top, ast.FunctionDef) and used[top] & tainted}
     assert not tainted & {"main", "register", "unregister"}
     for top in tree.body:
         if used[top] & tainted and not isinstance(top, ast.FunctionDef):

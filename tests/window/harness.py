@@ -168,9 +168,7 @@ class Window:
             self.wait("area.spaces.active.show_region_ui")
         self.wait("regions['UI'].width > 100")
         # a tab is known only once it has been drawn, and setting one that is not known raises
-        change = (
-            f"try:\n    regions['UI'].active_panel_category = {name!r}\nexcept TypeError:\n    pass"
-        )
+        change = f"try:\n    regions['UI'].active_panel_category = {name!r}\nexcept TypeError:\n    pass"
         end = time.monotonic() + STEP_LIMIT
         while self.get("regions['UI'].active_panel_category") != name:
             if time.monotonic() > end:

@@ -26,8 +26,10 @@ def test_live_numbers_follow_a_drag_an_escape_an_undo_and_an_animation(window):
     window.open_tab("Moments")
     window.press("object.body_moments_live")
     follows(1.0)
-    window.ask("bpy.ops.object.mode_set(mode='EDIT')\nbpy.ops.curve.select_all(action='SELECT')\n"
-               "bpy.ops.ed.undo_push(message='Edit')")
+    window.ask(
+        "bpy.ops.object.mode_set(mode='EDIT')\nbpy.ops.curve.select_all(action='SELECT')\n"
+        "bpy.ops.ed.undo_push(message='Edit')"
+    )
     window.point_at_view()
     window.type("s", "2")
     follows(8.0)  # while it is dragged
@@ -42,8 +44,10 @@ def test_live_numbers_follow_a_drag_an_escape_an_undo_and_an_animation(window):
     window.type("ctrl+z")
     follows(1.0)
     window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
-    window.ask("obj = bpy.context.object\nfor frame, size in ((1, 1.0), (21, 3.0)):\n"
-               "    obj.scale = (size, 1.0, 1.0)\n    obj.keyframe_insert('scale', frame=frame)")
+    window.ask(
+        "obj = bpy.context.object\nfor frame, size in ((1, 1.0), (21, 3.0)):\n"
+        "    obj.scale = (size, 1.0, 1.0)\n    obj.keyframe_insert('scale', frame=frame)"
+    )
     window.ask("bpy.context.scene.frame_set(21)")
     follows(3.0)
     assert "body_volume" not in window.get("list(bpy.context.object.keys())")

@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Densities of common materials, each with the source of its number. Pure data.
+
+Real materials vary: woods by a fifth, alloys and plastics by some percent. Where the mass of a part
+matters, weigh the part and give its mass instead.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+PNNL = 'PNNL-15870 Rev. 1 (2011), Compendium of Material Composition Data for Radiation Transport Modeling, "{:s}"'
+NIST = 'NIST, Tables of X-Ray Mass Attenuation Coefficients (NISTIR 5632), table 2, "{:s}"'
+INGEO = "NatureWorks, Ingeo Biopolymer 3D850 technical data sheet (ASTM D1505)"
+CURA = 'UltiMaker, material profiles of Cura (fdm_materials), "{:s}"'
+CRC = 'CRC Handbook of Chemistry and Physics, 97th ed. (2016), section 15, Density of Various Solids, "{:s}"'
+
+
+@dataclass(frozen=True)
+class Material:
+    """name: unique; category: one of CATEGORIES; density in kg/m³; source: where the number
+    stands.
+    """
+
+    name: str
+    category: str
+    density: float
+    source: str
+
+
+def _of(category: str, template: str, *rows: tuple[str, float, str]) -> tuple[Material, ...]:
+    return tuple(Material(name, category, density, template.format(entry)) for name, density, entry in rows)
+
+
+MATERIALS: tuple[Material, ...] = (
+    *_of(
+        "Metals",
+        PNNL,
+        ("Aluminum", 2698.9, "Aluminum"),
+        ("Aluminum 6061", 2700.0, "Aluminum, Alloy 6061-O"),
+        ("Aluminum 7075", 2810.0, "Aluminum, Alloy 7075-O"),
+        ("Brass", 8070.0, "Brass (Typical Composition)"),
+        ("Bronze", 8400.0, "Bronze (Typical Composition)"),
+        ("Cast Iron, Gray", 7150.0, "Iron, Cast (Gray)"),
+        ("Chromium", 7180.0, "Chromium"),
+        ("Copper", 8960.0, "Copper"),
+        ("Gold", 19320.0, "Gold"),
+        ("Inconel 718", 8190.0, "Inconel-718"),
+        ("Iron", 7874.0, "Iron"),
+        ("Lead", 11350.0, "Lead"),
+        ("Magnesium", 1740.0, "Magnesium"),
+        ("Nickel", 8902.0, "Nickel"),
+        ("Platinum", 21450.0, "Platinum"),
+        ("Silver", 10500.0, "Silver"),
+        ("Stainless Steel 304", 8000.0, "Steel, Stainless 304"),
+        ("Stainless Steel 440", 7800.0, "Steel, Stainless 440"),
+        ("Steel, Carbon", 7820.0, "Steel, Carbon"),
+        ("Tin", 7310.0, "Tin"),
+        ("Titanium", 4540.0, "Titanium"),
+        ("Titanium Ti-6Al-4V", 4430.0, "Titanium Alloy, Grade 5"),
+        ("Tungsten", 19300.0, "Tungsten"),
+    ),
+    *_of(
+        "Plastics",
+        PNNL,
+        ("Acrylic (PMMA)", 1190.0, "Lucite"),
+        ("Bakelite", 1250.0, "Bakelite"),
+        ("Nylon 6", 1140.0, "Nylon, Type 6 and Type 6/6"),
+        ("PET", 1380.0, "Polyethylene Terephthalate (PET)"),
+        ("Polycarbonate", 1200.0, "Polycarbonate"),
+        ("Polyethylene", 930.0, "Polyethylene, Non-borated"),
+        ("Polyimide (Kapton)", 1420.0, "Kapton Polyimide Film"),
+        ("Polypropylene", 900.0, "Polypropylene (PP)"),
+        ("Polystyrene", 1060.0, "Polystyrene (PS)"),
+        ("PTFE (Teflon)", 2250.0, "Polytetrafluoroethylene (PTFE)"),
+        ("PVC", 1406.0, "Polyvinyl Chloride (PVC)"),
+        ("PVDF (Kynar)", 1790.0, "Kynar"),
+    ),
+    Material("PLA", "Plastics", 1240.0, INGEO),
+    *_of(
+        "Plastics",
+        CURA,
+        ("ABS", 1100.0, "Generic ABS"),
+        ("ASA", 1070.0, "Generic ASA"),
+        ("PETG", 1270.0, "Generic PETG"),
+        ("TPU 95A", 1220.0, "Generic TPU 95A"),
+    ),
+    *_of(
+        "Rubber and Foam",
+        PNNL,
+        ("Polyurethane Foam", 21.0, "Polyurethane Foam (PUR)"),
+        ("Rubber, Butyl", 920.0, "Rubber, Butyl"),
+        ("Rubber, Natural", 920.0, "Rubber, Natural"),
+        ("Rubber, Neoprene", 1230.0, "Rubber, Neoprene"),
+        ("Rubber, Silicone", 1018.5, "Rubber, Silicon"),
+    ),
+    *_of(
+        "Wood",
+        PNNL,
+        ("Ash, White", 670.0, "Wood, Ash (white)"),
+        ("Balsa", 120.0, "Wood, Balsa"),
+        ("Birch", 710.0, "Wood, Birch"),
+        ("Cedar", 350.0, "Wood, Ceder"),
+        ("Cherry", 430.0, "Wood, Cherry"),
+        ("Douglas Fir", 510.0, "Wood, Fir (douglas)"),
+        ("Elm", 560.0, "Wood, Elm"),
+        ("Hardboard", 1300.0, "Masonite"),
+        ("Hickory", 770.0, "Wood, Hickory"),
+        ("Mahogany", 700.0, "Wood, Mahogany"),
+        ("Maple, Sugar", 680.0, "Wood, Maple (sugar)"),
+        ("Oak, Red", 670.0, "Wood, Oak (black or red)"),
+        ("Oak, White", 770.0, "Wood, Oak (white)"),
+        ("Pine, White", 430.0, "Wood, Pine (white)"),
+        ("Pine, Yellow", 710.0, "Wood, Pine (yellow)"),
+    ),
+    *_of(
+        "Stone and Building",
+        PNNL,
+        ("Asphalt Pavement", 2578.4, "Asphalt Pavement"),
+        ("Basalt", 3010.0, "Rock, Basalt"),
+        ("Brick", 1800.0, "Brick, Common Silica"),
+        ("Clay", 2200.0, "Clay"),
+        ("Concrete", 2300.0, "Concrete, Regular"),
+        ("Earth", 1520.0, "Earth, U.S. Average"),
+        ("Granite", 2690.0, "Rock, Granite"),
+        ("Gypsum", 2320.0, "Gypsum (Plaster of Paris)"),
+        ("Limestone", 2610.0, "Rock, Limestone"),
+        ("Sand", 1700.0, "Sand"),
+        ("Sandstone", 2320.0, "Rock, Sandstone"),
+    ),
+    *_of(
+        "Glass and Ceramics",
+        PNNL,
+        ("Alumina", 3970.0, "Aluminum Oxide"),
+        ("Glass Fiber, E", 2565.0, "Fiberglass, Type E"),
+        ("Glass, Lead", 6220.0, "Glass, Lead"),
+        ("Glass, Plate", 2400.0, "Glass, Plate"),
+        ("Graphite", 1700.0, "Carbon, Graphite (Reactor Grade)"),
+        ("Quartz", 2648.0, "Silicon Dioxide (Alpha-quartz)"),
+        ("Silicon", 2330.0, "Silicon"),
+        ("Silicon Carbide", 3210.0, "Silicon Carbide (Hexagonal)"),
+    ),
+    *_of("Glass and Ceramics", NIST, ("Glass, Borosilicate", 2230.0, "Glass, Borosilicate (Pyrex)")),
+    *_of(
+        "Liquids",
+        PNNL,
+        ("Ethanol", 789.3, "Ethyl Alcohol"),
+        ("Gasoline", 721.0, "Gasoline"),
+        ("Glycerol", 1261.3, "Glycerol"),
+        ("Kerosene", 819.0, "Kerosene"),
+        ("Mercury", 13546.0, "Mercury"),
+        ("Oil, Hydraulic", 871.0, "Oil, Hydraulic"),
+        ("Sea Water", 1023.343, "Sea Water, Standard"),
+        ("Water", 998.207, "Water, Liquid"),
+    ),
+    *_of(
+        "Body and Nature",
+        PNNL,
+        ("Blood", 1060.0, "Blood (ICRP)"),
+        ("Bone, Cortical", 1850.0, "Bone, Cortical (ICRP)"),
+        ("Fat", 920.0, "Tissue, Adipose (ICRP)"),
+        ("Felt", 185.0, "Felt"),
+        ("Muscle", 1040.0, "Muscle, Skeletal (ICRP)"),
+        ("Paraffin Wax", 930.0, "Wax, Paraffin"),
+        ("Skin", 1100.0, "Skin (ICRP)"),
+        ("Soft Tissue", 1000.0, "Tissue, Soft (ICRP)"),
+    ),
+    *_of("Body and Nature", CRC, ("Ice", 917.0, "Ice")),
+)
+
+CATEGORIES: tuple[str, ...] = tuple(dict.fromkeys(material.category for material in MATERIALS))
+BY_NAME: dict[str, Material] = {material.name: material for material in MATERIALS}

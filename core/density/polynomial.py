@@ -1,0 +1,282 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polynomials in x, y, z that a person types as a density: read safely, kept exactly, bounded on a box.
+
+Coefficients are rational numbers, so that a polynomial can be developed about any point without rounding: what is
+rounded is one coefficient at a time, at the point where it is used. An expression is parsed by `ast`, and only what is
+named in `parse` is taken; nothing is evaluated.
+
+On a box a polynomial lies between the least and the largest of its Bernstein coefficients (G. T. Cargo and O. Shisha,
+"The Bernstein form of a polynomial", J. Res. Nat. Bur. Standards 70B, 1966); halving the box brings the two closer.
+"""
+
+from __future__ import annotations
+
+import ast
+import heapq
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..moments.moments import U
+from ..moments.monomials import index, monomial_count, monomials, order_of
+
+HIGHEST = 17  # mass moments to order 3 then need those of the body to order 20
+LONGEST = 4096  # bits of a number, and characters of a text
+LARGEST = 664  # powers of two to which numbers may be large, or small: 1e200
+BLOCK = 1 << 15  # points that are evaluated together
+HALVINGS = 600  # boxes that are looked at for a bound
+Exponents = tuple[int, int, int]
+AXES: dict[str, Exponents] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
+CORNERS = tuple(product((0, -1), repeat=3))
+ALLOWED = "numbers, x, y, z, +, -, *, / by a number, ** with a whole number, and parentheses"
+
+
+@dataclass(frozen=True, eq=False)
+class Polynomial:
+    """Σ c x^p y^q z^r. terms: c by (p, q, r), none of them zero."""
+
+    terms: dict[Exponents, Fraction]
+
+    @classmethod
+    def from_coefficients(cls, coefficients: ArrayLike) -> Polynomial:
+        """From the coefficients of 1, x, y, z, x², xy, xz, y², yz, z², … in this order, as many as there are; taken
+        exactly. ValueError where one is not finite, or there are too many."""
+        values = np.asarray(coefficients, float).tolist()
+        if not all(map(math.isfinite, values)):
+            raise ValueError("The coefficients of a polynomial are finite numbers.")
+        return cls(_from_list(list(map(Fraction, values))))
+
+    @property
+    def degree(self) -> int:
+        """The largest p+q+r; 0 where there are no terms."""
+        return max((sum(powers) for powers in self.terms), default=0)
+
+    def coefficients(self) -> NDArray[np.float64]:
+        """(K,) in the order of `moments.monomials`, each rounded once."""
+        values = np.zeros(monomial_count(self.degree))
+        for powers, value in self.rounded().items():
+            values[index(*powers)] = value
+        return values
+
+    def rounded(self) -> dict[Exponents, float]:
+        """The terms, each rounded once. ValueError where one is beyond the range of numbers."""
+        try:
+            return {powers: float(value) for powers, value in self.terms.items()}
+        except OverflowError as error:
+            raise ValueError("The polynomial is beyond the range of numbers there.") from error
+
+    def shifted(self, point: ArrayLike) -> Polynomial:
+        """The polynomial q with q(u) = p(point + u), exactly."""
+        terms = self.terms
+        for axis, value in enumerate(np.asarray(point, float).tolist()):
+            if value:
+                terms = _shifted(terms, axis, Fraction(value))
+        return Polynomial(terms)
+
+    def __call__(self, points: NDArray) -> NDArray[np.float64]:
+        """(n,) the values at (n, 3) points."""
+        points = np.asarray(points, np.float64)
+        coefficients, result = self.coefficients(), np.zeros(len(points))
+        for start in range(0, len(points), BLOCK):
+            part = points[start : start + BLOCK].T
+            powers = [[np.ones(part.shape[1])] for _ in range(3)]
+            for axis, row in zip(powers, part):
+                for _ in range(self.degree):
+                    axis.append(axis[-1] * row)
+            for (p, q, r), value in zip(monomials(self.degree), coefficients):
+                if value:
+                    result[start : start + BLOCK] += value * powers[0][p] * powers[1][q] * powers[2][r]
+        return result
+
+    def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
+        """A number that the polynomial is nowhere below on the box.
+
+        The box is halved as long as that may still prove it not negative, HALVINGS times at most; rounding, some 1e-13
+        of the sum of the terms' sizes, is taken off.
+        """
+        low, high = np.asarray(low, float), np.asarray(high, float)
+        local = self.shifted(low).coefficients()
+        top = monomials(self.degree)
+        net = np.zeros((self.degree + 1,) * 3)
+        net[tuple(top.T)] = local * np.multiply.reduce((high - low) ** top, axis=1)
+        slack = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
+        for axis in range(3):
+            net = np.moveaxis(np.tensordot(_to_bernstein(self.degree), net, (1, axis)), 0, axis)
+        boxes = [(float(net.min()), 0, net)]  # a heap: the least bound first; the number settles ties
+        for number in range(1, 2 * HALVINGS, 2):
+            least, _, net = boxes[0]
+            if least >= -slack or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values
+                break
+            heapq.heappop(boxes)
+            for i, half in enumerate(_halves(net, _most_bent(net))):
+                heapq.heappush(boxes, (float(half.min()), number + i, half))
+        return boxes[0][0] - slack
+
+
+def parse(text: str) -> Polynomial:
+    """The polynomial that an expression such as `1000 + 20*z` means, or a list of coefficients (`1000, 0, 0, 20`) in
+    the order of `Polynomial.from_coefficients`.
+
+    ValueError, in sentences that name the offending part and say what is allowed.
+    """
+    text = text.strip()
+    if not text:
+        raise ValueError("There is no polynomial; type one, such as 1000 + 20*z.")
+    if len(text) > LONGEST:
+        raise ValueError("The polynomial is too long: at most {:d} characters.".format(LONGEST))
+    try:
+        tree = ast.parse(text, mode="eval").body
+    except SyntaxError as error:
+        place = text[max((error.offset or 1) - 1, 0) :][:20] if error.lineno in (None, 1) else ""
+        raise ValueError(
+            "The polynomial cannot be read{:s}; a product needs its *, as in 20*z.".format(
+                " at “{:s}”".format(place) if place else ""
+            )
+        ) from error
+    except (ValueError, RecursionError, MemoryError) as error:
+        raise ValueError("The polynomial cannot be read; it is nested too deeply or holds odd characters.") from error
+    try:
+        if isinstance(tree, (ast.Tuple, ast.List)):
+            return Polynomial(_from_list([_constant(_terms(item, text), item, text) for item in tree.elts]))
+        return Polynomial(_terms(tree, text))
+    except RecursionError as error:
+        raise ValueError("The polynomial cannot be read; it is nested too deeply.") from error
+
+
+def _from_list(values: list[Fraction]) -> dict[Exponents, Fraction]:
+    degree = order_of(len(values))
+    if degree > HIGHEST:
+        raise ValueError("There are too many coefficients: the degree is at most {:d}.".format(HIGHEST))
+    return {tuple(row): value for row, value in zip(monomials(degree).tolist(), values) if value}
+
+
+def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
+    """The terms of a part of an expression."""
+    if isinstance(node, ast.Constant) and type(node.value) in (int, float):
+        if isinstance(node.value, float) and not math.isfinite(node.value):
+            raise ValueError("“{:s}” is too large a number.".format(_part(node, text)))
+        number = Fraction(node.value if isinstance(node.value, int) else str(node.value))  # the decimal that was typed
+        return _checked(_only({(0, 0, 0): number}), node, text)
+    if isinstance(node, ast.Name) and node.id in AXES:
+        return {AXES[node.id]: Fraction(1)}
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.UAdd, ast.USub)):
+        sign = -1 if isinstance(node.op, ast.USub) else 1
+        return {powers: sign * value for powers, value in _terms(node.operand, text).items()}
+    if isinstance(node, ast.BinOp):
+        return _checked(_operation(node, text), node, text)
+    if isinstance(node, ast.Name):
+        raise ValueError("“{:s}” is none of x, y, z.".format(node.id))
+    raise ValueError("“{:s}” cannot be part of a polynomial; it may hold {:s}.".format(_part(node, text), ALLOWED))
+
+
+def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
+    left, right = _terms(node.left, text), _terms(node.right, text)
+    if isinstance(node.op, (ast.Add, ast.Sub)):
+        sign = 1 if isinstance(node.op, ast.Add) else -1
+        return _only(
+            {
+                powers: left.get(powers, Fraction(0)) + sign * right.get(powers, Fraction(0))
+                for powers in (*left, *right)
+            }
+        )
+    if isinstance(node.op, ast.Mult):
+        return _times(left, right, node, text)
+    if isinstance(node.op, ast.Div):
+        divisor = _constant(right, node.right, text)
+        if not divisor:
+            raise ValueError("“{:s}” divides by zero.".format(_part(node, text)))
+        return {powers: value / divisor for powers, value in left.items()}
+    if isinstance(node.op, ast.Pow):
+        return _power(left, _constant(right, node.right, text), node, text)
+    hint = "; a power is written **" if isinstance(node.op, ast.BitXor) else ""
+    raise ValueError(
+        "“{:s}” cannot be part of a polynomial{:s}; it may hold {:s}.".format(_part(node, text), hint, ALLOWED)
+    )
+
+
+def _power(
+    base: dict[Exponents, Fraction], exponent: Fraction, node: ast.BinOp, text: str
+) -> dict[Exponents, Fraction]:
+    if exponent.denominator != 1 or not 0 <= exponent <= HIGHEST:
+        raise ValueError(
+            "“{:s}” has an exponent that is not a whole number from 0 to {:d}.".format(_part(node, text), HIGHEST)
+        )
+    result = {(0, 0, 0): Fraction(1)}
+    for _ in range(int(exponent)):
+        result = _checked(_times(result, base, node, text), node, text)
+    return result
+
+
+def _times(
+    left: dict[Exponents, Fraction], right: dict[Exponents, Fraction], node: ast.expr, text: str
+) -> dict[Exponents, Fraction]:
+    degrees = [max((sum(powers) for powers in terms), default=0) for terms in (left, right)]
+    if sum(degrees) > HIGHEST:
+        raise ValueError("“{:s}” has a degree above {:d}.".format(_part(node, text), HIGHEST))
+    result: dict[Exponents, Fraction] = {}
+    for one, factor in left.items():
+        for other, value in right.items():
+            powers = (one[0] + other[0], one[1] + other[1], one[2] + other[2])
+            result[powers] = result.get(powers, 0) + factor * value
+    return _only(result)
+
+
+def _only(terms: dict[Exponents, Fraction]) -> dict[Exponents, Fraction]:
+    """The terms that are not zero."""
+    return {powers: value for powers, value in terms.items() if value}
+
+
+def _constant(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> Fraction:
+    if set(terms) - {(0, 0, 0)}:
+        raise ValueError("“{:s}” must be a number here, without x, y and z.".format(_part(node, text)))
+    return terms.get((0, 0, 0), Fraction(0))
+
+
+def _checked(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> dict[Exponents, Fraction]:
+    for value in terms.values():
+        above, below = value.numerator.bit_length(), value.denominator.bit_length()
+        if max(above, below) > LONGEST or abs(above - below) > LARGEST:
+            raise ValueError("“{:s}” holds numbers that are too large or too small.".format(_part(node, text)))
+    return terms
+
+
+def _part(node: ast.expr, text: str) -> str:
+    part = ast.get_source_segment(text, node) or text
+    return part if len(part) <= 40 else part[:39] + "…"
+
+
+def _shifted(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dict[Exponents, Fraction]:
+    """The terms with (t + by)^n for t^n along one axis."""
+    result: dict[Exponents, Fraction] = {}
+    for powers, value in terms.items():
+        for k in range(powers[axis] + 1):
+            lower = (*powers[:axis], k, *powers[axis + 1 :])
+            factor = math.comb(powers[axis], k) * by ** (powers[axis] - k)
+            result[lower] = result.get(lower, 0) + value * factor
+    return _only(result)
+
+
+def _to_bernstein(degree: int) -> NDArray[np.float64]:
+    """(n+1, n+1) from the coefficients of t^j to those of the Bernstein polynomials on [0, 1]."""
+    return np.array([[math.comb(i, j) / math.comb(degree, j) for j in range(degree + 1)] for i in range(degree + 1)])
+
+
+def _most_bent(net: NDArray) -> int:
+    """The axis along which the second differences are largest: it is they by which the net is off the polynomial."""
+    return int(np.argmax([np.abs(np.diff(net, 2, axis)).max(initial=0.0) for axis in range(3)]))
+
+
+def _halves(net: NDArray, axis: int) -> tuple[NDArray, NDArray]:
+    """The Bernstein coefficients on both halves of a box, by de Casteljau's scheme."""
+    rows = np.moveaxis(net, axis, 0).copy()
+    last = len(rows) - 1
+    left, right = np.empty_like(rows), np.empty_like(rows)
+    for step in range(last + 1):
+        left[step], right[last - step] = rows[0], rows[last - step]
+        rows[: last - step] = (rows[: last - step] + rows[1 : last - step + 1]) / 2.0
+    return np.moveaxis(left, 0, axis), np.moveaxis(right, 0, axis)

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One-dimensional tables ∫ t^l B_i(t) dt, all that the moments of a trivariate B-spline need.
+
+Soldea, Elber and Rivlin integrate t^l B_{i,k} by l nested sums (Theorem 4.2, kept in `soldea.py` as the reference).
+Over a full support the same integral has a closed form, positive wherever the knots are:
+
+    ∫ t^l B_{i,k} = (t_{i+k} - t_i) / k · h_l(t_i, ..., t_{i+k}) / binomial(k + l, l),
+
+h_l the complete homogeneous polynomial of the k + 1 knots: k B_{i,k} / (t_{i+k} - t_i) is the density of a mean of the
+knots whose weights are uniform on a simplex. Where a domain cuts supports, each span is integrated by Gauss's rule,
+which is exact for as many points as the degree asks for.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.bspline import Space
+from ..numerics.quadrature import gauss
+
+MAX_ORDER = 16  # of the splines: far above any use
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """The spline space of one direction.
+
+    knots: (n + k,) ascending. order: k, the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic.
+    domain: (low, high) where the functions are cut off ("clipped"), None for full supports ("floating ends").
+    """
+
+    knots: NDArray[np.float64]
+    order: int
+    domain: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        knots = np.asarray(self.knots, np.float64)
+        object.__setattr__(self, "knots", knots)
+        if not 1 <= self.order <= MAX_ORDER:
+            raise ValueError("The order of a spline is a number from 1 to {:d}.".format(MAX_ORDER))
+        if knots.ndim != 1 or len(knots) <= self.order:
+            raise ValueError("A spline of order {:d} needs at least {:d} knots.".format(self.order, self.order + 1))
+        if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
+            raise ValueError("The knots must be finite and ascending.")
+        if self.domain is not None and not self.domain[0] < self.domain[1]:
+            raise ValueError("The domain is empty: its lower end must be below its upper end.")
+
+    @classmethod
+    def uniform(cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0) -> Axis:
+        """`count` functions, the i-th centered at origin + i spacing: samples as coefficients, full supports."""
+        return cls(origin + spacing * (np.arange(count + order) - order / 2.0), order)
+
+    def clipped(self) -> Axis:
+        """The same functions cut off where they stop to sum to one: the domain [t_{k-1}, t_n]."""
+        return Axis(self.knots, self.order, (float(self.knots[self.order - 1]), float(self.knots[self.count])))
+
+    @property
+    def count(self) -> int:
+        """How many functions, and so coefficients."""
+        return len(self.knots) - self.order
+
+    @property
+    def middle(self) -> float:
+        """The middle of the knots."""
+        return float((self.knots[0] + self.knots[-1]) / 2.0)
+
+    @property
+    def width(self) -> float:
+        """The widest support."""
+        return float((self.knots[self.order :] - self.knots[: -self.order]).max())
+
+    def reach(self, center: float) -> float:
+        """The largest |t - center| in any support."""
+        return float(np.abs(self.knots[[0, -1]] - center).max())
+
+    def table(self, degree: int, center: float = 0.0) -> NDArray[np.float64]:
+        """(degree + 1, count) ∫ (t - center)^l B_i(t) dt.
+
+        Each entry is off by at most `roundings` units of ∫ B_i times the l-th power of the largest |t - center| in
+        the support.
+        """
+        knots = self.knots - center
+        if self.domain is None:
+            return full_supports(knots, self.order, degree)
+        return cut_supports(knots, self.order, degree, self.domain[0] - center, self.domain[1] - center)
+
+    def roundings(self, degree: int) -> int:
+        """How many units of rounding an entry of the table may be off, see `table`."""
+        return 2 * (self.order + 1) + 3 * degree + 6 if self.domain is None else 16 * self.order + 3 * degree + 64
+
+
+def full_supports(knots: ArrayLike, order: int, degree: int) -> NDArray[np.float64]:
+    """(degree + 1, n) ∫ t^l B_i over full supports, by the closed form. Repeated knots are fine."""
+    knots = np.asarray(knots, np.float64)
+    count = len(knots) - order
+    h = np.zeros((degree + 1, count))
+    h[0] = 1.0
+    for j in range(order + 1):  # times the series of 1 / (1 - t z)
+        for power in range(1, degree + 1):
+            h[power] += knots[j : j + count] * h[power - 1]
+    h *= (knots[order:] - knots[:count]) / order
+    for power in range(1, degree + 1):
+        h[power] /= math.comb(order + power, power)
+    return h
+
+
+def cut_supports(knots: ArrayLike, order: int, degree: int, low: float, high: float) -> NDArray[np.float64]:
+    """(degree + 1, n) ∫ t^l B_i over [low, high], span by span."""
+    knots = np.asarray(knots, np.float64)
+    table = np.zeros((degree + 1, len(knots) - order))
+    # With more knots on both sides as many functions act in each interval; those that they add are left out again.
+    far = np.arange(1, order)
+    longer = np.concatenate([knots[0] - far[::-1], knots, knots[-1] + far])
+    space = Space(tuple(longer.tolist()), order, len(longer) - order)
+    edges = np.clip(space.intervals, low, high)
+    spans, edges = space.spans[edges[:, 0] < edges[:, 1]], edges[edges[:, 0] < edges[:, 1]]
+    nodes, weights = gauss(-(-(order + degree) // 2))
+    length = edges[:, 1:] - edges[:, :1]
+    t = edges[:, :1] + length * nodes
+    basis = space.derivatives(spans[:, None], t, 0)[0]
+    functions = space.controls(spans) - (order - 1)
+    own = (functions >= 0) & (functions < table.shape[1])
+    weight = length * weights
+    for row in table:
+        np.add.at(row, functions[own], (basis * weight[..., None]).sum(axis=1)[own])
+        weight = weight * t
+    return table

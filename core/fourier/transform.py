@@ -1,0 +1,174 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Fourier transform of a body and of a surface, in closed form at any frequency.
+
+Zhang and Chen (2001) add up tetrahedra, whose formula divides by q·a, by q·(a-b) and so on: it fails near every plane
+across an edge. The divergence theorem leaves one division, by q². With N = (b-a) x (c-a) and `triangle_waves`'s D
+
+    ∫ exp(-i q·x) dV = i/q² Σ (q·N) (D - 1/2),    ∫ exp(-i q·x) dA = Σ |N| D.
+
+The N of a closed surface add up to zero; therefore 1/2 may be taken off each D, which leaves what is of the order of
+q·x, and nothing cancels as q goes to 0.
+
+Error. u = 2^-53, A the area, R the reach from the center. A phase is off by a few u |q| R, a D by that or by a few u,
+and |D - 1/2| is below 1 and below |q| R; q·N/q² is at most |N|/|q|. In all that is ERROR u A R whatever q is. N is
+found in twice the precision, or slivers would be worse. So is the phase of the center, which may be far off.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..mesh.surface import Surface
+from ..moments.moments import U
+from ..numerics.compensated import two_sum, wave
+from ..polyhedron.third_order import solid_and_area
+from .spectrum import Spectrum
+from .triangle_kernel import BLOCK, PAIRS, Faces, Means
+from .wave_vectors import Grid, GridWaves, ListWaves, wave_vectors
+
+SHARE = 1 << 20  # pairs of triangles and frequencies that are handed out at a time: about a tenth of a second
+NOTHING = 1e-20  # |q| R below which F is V - i q·∫x dV, to all digits
+OPEN = 1e-6  # of the area: from here on the rims of a surface gape
+ASKEW = np.array([[0.72, 0.9, 0.96]])  # a wave vector that is special to no body, of length 1.5
+ERROR = 64.0
+
+
+def solid_transform(surface: Surface, q: ArrayLike | Grid, threads: int = 1) -> Spectrum:
+    """F(q) = ∫ exp(-i q·x) dV of the body in a closed surface, at wave vectors (M, 3) or on a grid.
+
+    Signed as a volume is: positive for outward faces. Raises ValueError for an open surface, for coordinates and wave
+    vectors that are not finite and for indices that name no point.
+    """
+    return finished(Transform(surface, q, "volume", threads))
+
+
+def surface_transform(surface: Surface, q: ArrayLike | Grid, threads: int = 1) -> Spectrum:
+    """∫ exp(-i q·x) dA over a surface, closed or not, at wave vectors (M, 3) or on a grid."""
+    return finished(Transform(surface, q, "area", threads))
+
+
+def finished(transform: Transform) -> Spectrum:
+    """The outcome of a transform, once all its steps are done here."""
+    for _ in transform.steps():
+        pass
+    return transform.result()
+
+
+class Transform:
+    """A transform under way: `steps` does the work, `result` tells the outcome. of: "volume" or "area"."""
+
+    def __init__(self, surface: Surface, q: ArrayLike | Grid, of: str, threads: int = 1):
+        self.q = q if isinstance(q, Grid) else wave_vectors(q, 3)
+        self.of, self.threads = of, threads
+        self.faces = self.direct = Faces(surface)
+        self.volume, self.area = solid_and_area(surface, threads)
+        self.gap = 0.0
+        if of == "volume":
+            self.gap = float(np.linalg.norm(np.cross(ASKEW[0], self._vector_sum()))) / 1.5
+            if self.gap > OPEN * self.faces.area:
+                raise ValueError("The surface is not closed and bounds no body: close it, or take its area instead.")
+        scale = self.faces.scale
+        self.waves = GridWaves(q, scale) if isinstance(q, Grid) else ListWaves(self.q * scale)
+        self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)
+
+    def _vector_sum(self) -> NDArray[np.complex128]:
+        """(3,) ∫ n exp(-i q·x) dA at ASKEW, parallel to it for a closed surface."""
+        waves, total = ListWaves(ASKEW), np.zeros(3, np.complex128)
+        for run in self.faces.blocks(PAIRS):
+            block = self.faces.block(run)
+            real, imaginary = Means(block, waves, slice(0, 1))(slice(0, 1))
+            total += (block.normals * real).sum(axis=1) + 1j * (block.normals * imaginary).sum(axis=1)
+        return total
+
+    def steps(self) -> Iterator[float]:
+        """Do the work, and tell after each share of it how much is done, from 0 to 1."""
+        shares = self._shares()
+        if self.threads == 1:
+            results = map(self._sum, shares)
+            for done, (part, values) in enumerate(results, 1):
+                self._add(part, values)
+                yield done / len(shares)
+            return
+        with ThreadPoolExecutor(self.threads) as pool:
+            waiting: list[Future] = []
+            try:
+                for done, share in enumerate(shares):
+                    waiting.append(pool.submit(self._sum, share))
+                    if len(waiting) > 2 * self.threads:
+                        self._add(*waiting.pop(0).result())
+                        yield (done - len(waiting)) / len(shares)
+                for future in waiting:
+                    self._add(*future.result())
+                yield 1.0
+            finally:
+                for future in waiting:
+                    future.cancel()
+
+    def _add(self, part: slice, values: NDArray[np.complex128]) -> None:
+        """Add a share's results, without the rounding that thousands of sums would pile up."""
+        self.sums[part], rest = two_sum(self.sums[part], values)
+        self.rest[part] += rest
+
+    def _shares(self) -> list[tuple[slice, slice]]:
+        """Runs of triangles and runs of rows of wave vectors: every pair of them once."""
+        runs = self.direct.blocks()
+        size = max(1, SHARE // (min(BLOCK, max(len(self.direct.triangles), 1)) * self.waves.columns))
+        rows = self.waves.rows
+        return [(run, slice(i, min(i + size, rows))) for run in runs for i in range(0, rows, size)]
+
+    def _sum(self, share: tuple[slice, slice]) -> tuple[slice, NDArray[np.complex128]]:
+        """Where a share's results stand, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there."""
+        run, part = share
+        block, columns = self.direct.block(run), self.waves.columns
+        means = Means(block, self.waves, part)
+        across = self.waves.dot(part, block.normals)
+        size = max(1, PAIRS // (len(block.lengths) * columns))
+        sums = np.empty((part.stop - part.start) * columns, np.complex128)
+        for i in range(part.start, part.stop, size):
+            rows = slice(i, min(i + size, part.stop))
+            real, imaginary = means(rows)
+            weight = block.lengths
+            if self.of == "volume":
+                weight, spare = np.empty_like(real), np.empty_like(real)
+                across(rows, weight, spare)
+            here = slice((rows.start - part.start) * columns, (rows.stop - part.start) * columns)
+            sums.real[here] = np.add.reduce(np.multiply(real, weight, out=real), axis=1)
+            sums.imag[here] = np.add.reduce(np.multiply(imaginary, weight, out=imaginary), axis=1)
+        return slice(part.start * columns, part.stop * columns), sums
+
+    def result(self) -> Spectrum:
+        """The spectrum, when all steps are done."""
+        faces, values = self.faces, self.sums + self.rest
+        if self.of == "area":
+            values, unit, moments = values + faces.area, 2, self.area
+        else:
+            values, unit, moments = self._divided(values), 3, self.volume
+        if isinstance(self.q, Grid):
+            q, values = self.q.vectors(), self.q.whole(values)
+        else:
+            q, ordered = self.q, values
+            values = np.empty_like(ordered)
+            values[self.waves.order] = ordered
+        values *= faces.scale**unit
+        turn = wave(q, faces.center)
+        error = faces.scale**unit * (U * ERROR * faces.area + self.gap)
+        return Spectrum(q, values * turn, error + 8.0 * U * np.abs(values), float(moments.input[0]))
+
+    def _divided(self, sums: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """F in units of the scale: i/q² times the sums, and the moments where q is nothing."""
+        q = self.waves.vectors(slice(0, self.waves.rows))
+        square = (q * q).sum(axis=0)
+        nothing = square <= NOTHING**2
+        values = 1j * sums / np.where(nothing, 1.0, square)
+        volume = self.volume.truncated(1).mapped(
+            np.block([[np.eye(3), -self.faces.center[:, None]], [np.zeros(3), 1.0]])
+        )
+        raw = volume.raw / self.faces.scale ** np.array([3, 4, 4, 4])
+        about = volume.about / self.faces.scale
+        values[nothing] = raw[0] - 1j * (q[:, nothing].T @ (raw[1:4] + raw[0] * about))
+        return values

@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wave vectors, as a list or as a regular grid, and what a sum over faces asks of them: q·v and exp(-i q·x).
+
+On a list every phase costs a sine and a cosine. On a grid exp(-i q·x) is a product of three numbers out of tables, one
+for each axis; their entries are sines and cosines themselves, no recurrence, so that no error grows along an axis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+LARGEST = 1e100  # frequency, whose square is still a number whatever the body's size
+
+# Both fill arrays of shape (wave vectors of some rows, k); the last argument is overwritten.
+Dot = Callable[[slice, NDArray, NDArray], None]  # with q·v
+Wave = Callable[[slice, NDArray, NDArray, NDArray], None]  # with cos(q·x) and sin(q·x)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A regular grid of wave vectors around 0, in the order of `numpy.fft.fftshift`.
+
+    count: frequencies along each axis. largest: rad/m, the largest |q| along each axis. With h = count // 2 the j-th
+    frequency of an axis is (j - h) / h · largest: 0 is always one of them, and an even count leaves out +largest.
+    """
+
+    count: int
+    largest: float
+
+    def __post_init__(self) -> None:
+        if self.count < 2:
+            raise ValueError("A grid needs at least two frequencies along each axis.")
+        if not 0.0 < self.largest <= LARGEST:
+            raise ValueError("The largest frequency of a grid must be a positive number up to 1e100.")
+
+    @property
+    def half(self) -> int:
+        return self.count // 2
+
+    @property
+    def step(self) -> float:
+        """Between neighbours, rad/m."""
+        return self.largest / self.half
+
+    def axis(self) -> NDArray[np.float64]:
+        """(count,) the frequencies along each axis."""
+        return (np.arange(self.count) - self.half) * self.step
+
+    def vectors(self) -> NDArray[np.float64]:
+        """(count³, 3) every wave vector, the last axis fastest."""
+        axis = self.axis()
+        return np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
+
+    def whole(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """(count³,) the values everywhere from those of `GridWaves`, which are at half of the places."""
+        side, n, h = 2 * self.half + 1, self.count, self.half
+        values = values.reshape(side, side, h + 1)
+        full = np.empty((n, n, n), np.complex128)
+        upper = n - h  # 0 and above
+        full[:, :, h:] = values[:n, :n, :upper]
+        full[:, :, :h] = values[::-1, ::-1, :0:-1][:n, :n].conj()
+        return full.reshape(-1)
+
+
+def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
+    """(M, dimension) wave vectors from a user. ValueError where they are none."""
+    q = np.asarray(q)
+    if q.dtype.kind not in "fiu" or q.ndim != 2 or q.shape[1] != dimension:
+        raise ValueError(
+            "Wave vectors are rows of {:d} real numbers; this array has the shape {:s} and the type {:s}.".format(
+                dimension, str(q.shape), str(q.dtype)
+            )
+        )
+    q = q.astype(np.float64)
+    if not np.isfinite(q).all():
+        raise ValueError("Some wave vectors are not finite.")
+    if np.abs(q).max(initial=0.0) > LARGEST:
+        raise ValueError("Some wave vectors are too large: their components may be up to 1e100.")
+    return q
+
+
+class ListWaves:
+    """A list of wave vectors (M, 3), by size, so that those of a block can be treated alike. Rows are single ones."""
+
+    columns = 1
+
+    def __init__(self, q: NDArray[np.float64]):
+        self.order = np.argsort(np.sqrt((q * q).sum(axis=1)), kind="stable")
+        self.q = np.ascontiguousarray(q[self.order].T)
+        self.rows = len(q)
+
+    def vectors(self, rows: slice) -> NDArray[np.float64]:
+        """(3, m) the wave vectors of some rows."""
+        return self.q[:, rows]
+
+    def dot(self, part: slice, vectors: NDArray) -> Dot:
+        """q·v for the rows of a part and vectors (3, k)."""
+
+        def fill(rows: slice, out: NDArray, spare: NDArray) -> None:
+            q = self.q[:, rows]
+            np.multiply(q[0][:, None], vectors[0], out=out)
+            for axis in (1, 2):
+                np.multiply(q[axis][:, None], vectors[axis], out=spare)
+                np.add(out, spare, out=out)
+
+        return fill
+
+    def wave(self, part: slice, points: NDArray) -> Wave:
+        """exp(-i q·x) for the rows of a part and points (3, k)."""
+        dot = self.dot(part, points)
+
+        def fill(rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
+            dot(rows, cosine, spare)
+            np.sin(cosine, out=sine)
+            np.cos(cosine, out=cosine)
+
+        return fill
+
+
+class GridWaves:
+    """The half of a grid with z ≥ 0, times `scale`; the rest follows from F(-q) = conj F(q).
+
+    Along x and y both ends are taken, so that every vector of the grid is there or its opposite is. A row is all of z.
+    """
+
+    def __init__(self, grid: Grid, scale: float):
+        self.side = np.arange(-grid.half, grid.half + 1) * grid.step * scale
+        self.depth = self.side[grid.half :]
+        self.rows, self.columns = len(self.side) ** 2, len(self.depth)
+
+    def vectors(self, rows: slice) -> NDArray[np.float64]:
+        """(3, m) the wave vectors of some rows."""
+        x, y = self.side[np.stack(np.divmod(np.arange(rows.start, rows.stop), len(self.side)))]
+        n = self.columns
+        return np.stack([np.repeat(x, n), np.repeat(y, n), np.tile(self.depth, len(x))])
+
+    def dot(self, part: slice, vectors: NDArray) -> Dot:
+        """q·v for the rows of a part and vectors (3, k)."""
+        first, x, y = self._tables(part, vectors)
+        z = self.depth[:, None] * vectors[2]
+
+        def fill(rows: slice, out: NDArray, spare: NDArray) -> None:
+            i, j = np.divmod(np.arange(rows.start, rows.stop), len(self.side))
+            np.add((x[i - first] + y[j])[:, None], z, out=out.reshape(len(i), *z.shape))
+
+        return fill
+
+    def wave(self, part: slice, points: NDArray) -> Wave:
+        """exp(-i q·x) for the rows of a part and points (3, k)."""
+        first, x, y = self._tables(part, points)
+        z = self.depth[:, None] * points[2]
+        x, y, z = ((np.cos(phase), np.sin(phase)) for phase in (x, y, z))
+
+        def fill(rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
+            i, j = np.divmod(np.arange(rows.start, rows.stop), len(self.side))
+            c, s, other = (a.reshape(len(i), *z[0].shape) for a in (cosine, sine, spare))
+            a, b, p, q = x[0][i - first], x[1][i - first], y[0][j], y[1][j]
+            real, imaginary = (a * p - b * q)[:, None], (a * q + b * p)[:, None]
+            np.multiply(real, z[0], out=c)
+            np.multiply(imaginary, z[1], out=other)
+            np.subtract(c, other, out=c)
+            np.multiply(real, z[1], out=s)
+            np.multiply(imaginary, z[0], out=other)
+            np.add(s, other, out=s)
+
+        return fill
+
+    def _tables(self, part: slice, vectors: NDArray) -> tuple[int, NDArray, NDArray]:
+        """The first place along x that a part needs, and the products of x from there on and of y."""
+        n = len(self.side)
+        first = part.start // n
+        return first, self.side[first : (part.stop - 1) // n + 1, None] * vectors[0], self.side[:, None] * vectors[1]

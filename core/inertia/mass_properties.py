@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mass properties, derived from moments.
+
+Inertia is a tensor with entries I_xx = ∫(y²+z²)dm and I_xy = -∫xy dm. Principal moments are sums of covariance
+eigenvalues, I_1 = m(λ_2+λ_3), so that no moment exceeds the sum of the other two, by construction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from math import hypot
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..moments.moments import SECOND, Moments, U, monomial_count, sum_moments
+from .principal_frame import PrincipalFrame, principal_frame
+
+IDENTITY = np.eye(3)
+
+
+@dataclass(frozen=True, eq=False)
+class MassProperties:
+    """One body, or several as one.
+
+    mass; center (3,); inertia (3, 3) about the center; principal: the principal frame. All in one frame and unit.
+    error, input: {"mass", "center", "inertia"} absolute bounds, Euclidean for the center and Frobenius for the tensor
+        (so they hold for each entry and each principal moment): of rounding, and of float32 coordinates.
+    """
+
+    mass: float
+    center: NDArray[np.float64]
+    inertia: NDArray[np.float64]
+    principal: PrincipalFrame
+    error: dict[str, float]
+    input: dict[str, float]
+
+    @classmethod
+    def from_moments(
+        cls,
+        moments: Moments,
+        density: float = 1.0,
+        prefer: NDArray | None = None,
+        refine: Callable[[], Moments] | None = None,
+        higher: Callable[[], Moments] | None = None,
+    ) -> MassProperties:
+        """From moments to order 3 of a body with constant density.
+
+        prefer, refine, higher: as for `principal_frame`. ValueError where the body has no mass, or a density that is
+        none.
+        """
+        if moments.order < 3:
+            raise ValueError("Mass properties need moments to third order; these go to {:d}.".format(moments.order))
+        if not 0.0 <= density < np.inf:
+            raise ValueError("A density is a finite number that is not negative; this one is {!r}.".format(density))
+        total = moments.raw[0]
+        if not total > moments.error[0]:
+            raise ValueError(
+                "The body has no volume, or none that rounding leaves sure; see whether vertices lie far astray."
+            )
+        frame = principal_frame(moments, prefer, refine, higher)
+        shift = moments.raw[1:4] / total
+        second = density * (moments.raw[SECOND] - total * (shift[:, None] * shift))
+        inertia = second.trace() * IDENTITY - second
+        principal = density * frame.moments
+        principal[2] = min(principal[2], principal[0] + principal[1])  # of a flat body rounding may set them apart
+        return cls(
+            mass=float(density * total),
+            center=moments.about + shift,
+            inertia=inertia,
+            principal=replace(frame, moments=principal),
+            error=_bounds(moments, density, moments.error, rounded=True),
+            input=_bounds(moments, density, moments.input, rounded=False),
+        )
+
+    def inertia_about(self, point: ArrayLike) -> NDArray[np.float64]:
+        """(3, 3) the tensor about another point, by the parallel-axis theorem."""
+        arm = np.asarray(point, np.float64) - self.center
+        return self.inertia + self.mass * (arm @ arm * IDENTITY - np.outer(arm, arm))
+
+    def as_moments(self) -> Moments:
+        """Its mass moments about the center; the third ones are not known any more and left zero."""
+        raw = np.zeros(monomial_count(3))
+        raw[0] = self.mass
+        raw[SECOND] = np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia
+        return Moments(raw, self.center, "mass")
+
+    @property
+    def radii_of_gyration(self) -> NDArray[np.float64]:
+        """(3,) sqrt(I/m) about the principal axes."""
+        return np.sqrt(self.principal.moments / self.mass)
+
+    def in_frame(self, rotation: NDArray, origin: NDArray) -> MassProperties:
+        """The same body in the frame whose axes are the columns of `rotation` and whose origin is `origin`."""
+        inertia = rotation.T @ self.inertia @ rotation
+        return replace(
+            self,
+            center=rotation.T @ (self.center - origin),
+            inertia=(inertia + inertia.T) / 2.0,
+            principal=self.principal.turned(rotation.T),
+        )
+
+
+def combined(bodies: Sequence[tuple[Moments, float]], prefer: NDArray | None = None) -> MassProperties:
+    """Several bodies, (moments, density) each, as one."""
+    weighed = [replace(moments, of="mass") * density for moments, density in bodies]
+    return MassProperties.from_moments(sum_moments(weighed), prefer=prefer)
+
+
+def _bounds(moments: Moments, density: float, delta: NDArray, rounded: bool) -> dict[str, float]:
+    """Bounds of the change when the moments are off by `delta`: propagated to first order, with the divisor at its
+    smallest."""
+    total = moments.raw[0]
+    if not total > 2.0 * delta[0]:  # then nothing bounds a quotient
+        return {"mass": float(abs(density) * delta[0]), "center": float("inf"), "inertia": float("inf")}
+    least = total - delta[0]
+    first, shift = np.abs(moments.raw[1:4]), np.abs(moments.raw[1:4]) / total
+    center = hypot(*((delta[1:4] + shift * delta[0]) / least).tolist())
+    cross = delta[1:4, None] * shift
+    second = delta[SECOND] + (cross + cross.T) * (total / least) + shift[:, None] * shift * delta[0]
+    second = second + delta[1:4, None] * (delta[1:4] / least)
+    if rounded:
+        center += 2.0 * U * hypot(*(np.abs(moments.about) + 2.0 * shift).tolist())
+        second = second + 6.0 * U * (np.abs(moments.raw[SECOND]) + first[:, None] * shift)
+    inertia = hypot(*(second.trace() * IDENTITY + second).ravel().tolist())  # squares of tiny ones would vanish
+    return {
+        "mass": float(abs(density) * (delta[0] + (U * total if rounded else 0.0))),
+        "center": float(center),
+        "inertia": float(abs(density) * inertia),
+    }

@@ -1,0 +1,284 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The principal frame of a body, made unique where the body allows it.
+
+The axes are the eigenvectors of the central second moments, largest first, so that axis 1 is the long axis (least
+inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third moments positive. Their rule fails on
+every body with a mirror plane, where M_300 is noise, so it is made robust: an axis is scored by its skewness, or where
+that is noise by the other third moments odd in that axis only; the two axes with the clearest scores turn positive and
+the third completes a right-handed frame. What equal moments or a want of skewness leave, moments to sixth order decide
+(see `canonical`). What is still free is the body's own freedom: there the frame nearest to the axes that the caller
+prefers is taken, and `note` says so.
+
+The pose of a body is its center at the origin and that frame along the axes: two copies of a part, however they lie and
+whatever their faces, have one pose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.moments import SECOND, THIRD, Moments
+from .canonical_frame import NOISE, Frames, Spread, canonical_frames
+
+EQUAL = 1e-6  # moments closer than this, relatively, are equal
+RANKED = 1e-4  # scores closer than this, relatively, are equally clear
+AS_NEAR, LEAST_CLEAR = 1e-6, 0.1  # traces closer than the one are equal whatever the noise, than the other never
+# For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.
+PARTNERS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
+ITSELF = np.arange(3)[:, None]
+TURNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])  # keep the frame's hand
+
+# by symmetry, the axes whose moments are equal
+EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
+NOTES = {
+    "isotropic": "Every axis through the center is a principal axis; the object's own axes are used",
+    "prolate": "Axes 2 and 3 have equal moments; the directions nearest to the object's axes are used",
+    "oblate": "Axes 1 and 2 have equal moments; the directions nearest to the object's axes are used",
+    "asymmetric": "The body looks the same after half a turn; the directions nearest to the object's axes are used",
+}
+OWN_NOTES = {
+    "isotropic": "Every axis through the center is a principal axis; the body's own axes, as near to the object's "
+    "as can be, are used",
+    "prolate": "Axes 2 and 3 have equal moments; the body's own directions nearest to the object's are used",
+    "oblate": "Axes 1 and 2 have equal moments; the body's own directions nearest to the object's are used",
+    "asymmetric": NOTES["asymmetric"],
+}
+
+
+@dataclass(frozen=True, eq=False)
+class PrincipalFrame:
+    """moments: (3,) principal moments of inertia, ascending. axes: (3, 3), the axes as columns, det +1.
+    symmetry: "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1 and 2 equal) or "isotropic".
+    unique: whether the body alone fixes the frame; otherwise `note` says what was chosen. free: the axes of which
+    nothing that was looked at fixes the directions; the symmetry tells them where only second moments were."""
+
+    moments: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    symmetry: str
+    unique: bool
+    note: str
+    free: tuple[int, ...] = ()
+
+    def turned(self, rotation: NDArray) -> PrincipalFrame:
+        """The same frame in coordinates new = rotation @ old."""
+        return replace(self, axes=rotation @ self.axes)
+
+
+def principal_frame(
+    moments: Moments,
+    prefer: NDArray | None = None,
+    refine: Callable[[], Moments] | None = None,
+    higher: Callable[[], Moments] | None = None,
+) -> PrincipalFrame:
+    """The principal frame of a body with positive total.
+
+    moments: to order 3. prefer: (3, 3) rotation whose columns are the axes to stay near to, by default the
+    coordinate axes. refine: gives the moments with exact third order; called where their bounds do not decide.
+    higher: gives them to `canonical.ORDER`; called where third order leaves a choice.
+    """
+    prefer = np.eye(3) if prefer is None else np.asarray(prefer, np.float64)
+    fixed = _fixed(moments, refine)
+    free, symmetry, note = fixed.spread.free, fixed.symmetry, ""
+    if not free and len(fixed.frames) == 1:
+        axes = fixed.frames[0]
+    elif higher is None:
+        settled_frames = [settled(frame, free, prefer) for frame in fixed.frames]
+        axes, note = _nearest(settled_frames, prefer, fixed.spread.tilt), NOTES[symmetry]
+    else:
+        alike = canonical_frames(higher(), fixed.spread, fixed.frames)
+        axes, free = chosen_frame(alike, prefer), free_axes(alike)
+        if alike.round_about or len(alike.frames) > 1:
+            note = (NOTES if alike.round_about else OWN_NOTES)[symmetry]
+    return PrincipalFrame(fixed.moments, axes, symmetry, not note, note, free)
+
+
+def frames_alike(moments: Moments, noise: float = NOISE) -> Frames:
+    """The principal frames, to some order of at least 3, in which the body is the same. noise: the normalized third
+    moment that is taken for none; what else counts as equal grows with it."""
+    fixed = _fixed(moments, None, noise / NOISE)
+    return canonical_frames(moments, fixed.spread, fixed.frames)
+
+
+def chosen_frame(alike: Frames, prefer: NDArray) -> NDArray[np.float64]:
+    """Of the frames in which a body is the same, the one nearest to the axes that are preferred."""
+    return _nearest([settled(frame, free_axes(alike), prefer) for frame in alike.frames], prefer, alike.tilt)
+
+
+def free_axes(alike: Frames) -> tuple[int, ...]:
+    """The axes whose directions no moment fixes."""
+    return (tuple(i for i in range(3) if i not in alike.round_about) or (0, 1, 2)) if alike.round_about else ()
+
+
+def strict_frame(moments: Moments, refine: Callable[[], Moments] | None = None) -> PrincipalFrame:
+    """Zhang and Chen's own rule (eq. 11): axes 1 and 2 in the direction of positive M_300 and M_030, axis 3 completing
+    a right-handed frame. ValueError where one of these is noise, or second moments are equal: there it has no answer.
+
+    refine: as for `principal_frame`.
+    """
+    fixed = _fixed(moments, None)
+    if refine is not None and not (np.abs(fixed.skew[:2]) > 2.0 * fixed.doubt[:2]).all():
+        fixed = _fixed(refine(), None)
+    if fixed.spread.free:
+        raise ValueError("Zhang and Chen's rule does not pose a body with equal principal moments.")
+    if not (np.abs(fixed.skew[:2]) > fixed.doubt[:2]).all():
+        raise ValueError("Zhang and Chen's rule does not pose a body without skewness along axes 1 and 2.")
+    axes = fixed.spread.axes.copy()
+    axes[:, :2] *= np.sign(fixed.skew[:2])
+    axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
+    return PrincipalFrame(fixed.moments, axes, fixed.symmetry, True, "")
+
+
+def pose_matrix(center: NDArray, axes: NDArray) -> NDArray[np.float64]:
+    """(4, 4), column vectors: what lays the center on the origin and the axes, columns, along x, y and z."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = axes.T, -axes.T @ center
+    return matrix + 0.0  # no negative zeros
+
+
+@dataclass(frozen=True, eq=False)
+class _Fixed:
+    """What second and third moments fix. moments: (3,) principal. frames: (k, 3, 3) those they allow: signs of axes
+    only. skew, doubt: (3,) the skewness along the spread's axes and what of it is noise."""
+
+    moments: NDArray[np.float64]
+    spread: Spread
+    symmetry: str
+    frames: NDArray[np.float64]
+    skew: NDArray[np.float64]
+    doubt: NDArray[np.float64]
+
+
+def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float = 1.0) -> _Fixed:
+    total = moments.raw[0]
+    shift = moments.raw[1:4] / total
+    second = moments.raw[SECOND] / total - np.outer(shift, shift)
+    scale = abs(np.trace(second)) or 1.0  # keeps eigh clear of overflow and denormals
+    spread, vectors = np.linalg.eigh(second / scale)
+    spread, axes = spread[::-1], vectors[:, ::-1]
+    axes = axes * [1.0, 1.0, np.sign(np.linalg.det(axes))]
+    rounding = 4.0 * moments.error[SECOND].max() / (total * scale) + 8.0 * np.finfo(float).eps
+    if spread[2] < -rounding:
+        raise ValueError(
+            "It intersects itself or cannot be closed, and parts of it count with the opposite sign, so "
+            "that its moments are those of no body; unite its shells, mend it, or measure a shell."
+        )
+    spread = np.maximum(spread, 0.0)
+
+    size = np.sqrt(np.maximum(spread, 1e-30 * spread[0]))  # a lamina has no extent along an axis, and no skewness
+    # How far float32 has moved the points: the share of the volume that this moves, times the thinnest extent.
+    step = moments.input[0] / total * size[2]
+    gaps = np.array([spread[0] - spread[1], spread[1] - spread[2]])
+    doubtful = 2.0 * step * size[:2] + rounding
+    equal = gaps <= looser * EQUAL * spread[:2] + doubtful
+    tilts = np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))  # of axes 1 and 2, and of 2 and 3
+    symmetry = "isotropic" if equal.all() else "oblate" if equal[0] else "prolate" if equal[1] else "asymmetric"
+
+    free = EQUAL_AXES[symmetry]
+    noise = looser * NOISE + 4.0 * step / np.minimum(size[:, None], size[PARTNERS])
+    real = size * np.sqrt(scale)
+    skew, doubt = _third_scores(moments, shift, real, axes)
+    # Two axes that noise may have turned about the third one mix what the body has along them.
+    (one, two), both = tilts, 0.0 if equal.all() else float(doubtful.max() / gaps.sum())
+    turned = np.array([[0.0, one, both], [one, 0.0, two], [both, two, 0.0]])
+    noise += 3.0 * (turned * (np.abs(skew) + doubt).max(axis=1)).sum(axis=1)[:, None]
+    scores, fixed = np.zeros(3), [i for i in range(3) if i not in free]
+    if fixed:
+        third = skew, doubt
+        if refine is not None and not _decided(np.abs(skew[fixed]), doubt[fixed], noise[fixed]):
+            third = _third_scores(refine(), shift, real, axes)
+        scores[fixed] = [_score(*rows) for rows in zip(*(rows[fixed].tolist() for rows in (*third, noise)))]
+    inertia = (spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total)
+    extents = Spread(axes, real, free, step * np.sqrt(scale), float(tilts.max()), looser * NOISE)
+    return _Fixed(inertia, extents, symmetry, _allowed(axes, scores), skew[:, 0], noise[:, 0] + doubt[:, 0])
+
+
+def _score(scores: list[float], doubts: list[float], noises: list[float]) -> float:
+    """How clearly third moments point along an axis, signed; zero where they do not. noises: below which a score is
+    none."""
+    return next((value for value, doubt, noise in zip(scores, doubts, noises) if abs(value) > noise + doubt), 0.0)
+
+
+def _decided(size: NDArray, doubt: NDArray, noise: NDArray) -> bool:
+    """Whether better third moments could neither change which scores count, nor their signs, nor their order."""
+    clear = size - doubt > noise
+    below = size + doubt <= noise
+    if not (clear[:, 0] | (clear | below).all(axis=1)).all():
+        return False
+    if len(size) < 3 or not clear.any(axis=1).all():
+        return True
+    rows, first = np.arange(3), clear.argmax(axis=1)
+    size, doubt = size[rows, first], doubt[rows, first]
+    last = np.argsort(size)[:2]  # of three scores, which one is the last
+    return size[last[1]] - size[last[0]] > 2.0 * doubt[last].sum()
+
+
+def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
+    """(3, 3) for each axis i its skewness and the two normalized third moments odd in i and even in another axis,
+    M_iii, M_ijj and M_ikk; and the bounds of their errors."""
+    total = moments.raw[0]
+    second, third = moments.raw[SECOND] / total, moments.raw[THIRD] / total
+    outer = np.outer(shift, shift)
+    cross = shift[:, None, None] * second
+    third = third - cross - cross.transpose(1, 0, 2) - cross.transpose(1, 2, 0) + 2.0 * shift[:, None, None] * outer
+    error = (moments.error[THIRD] + 3.0 * np.abs(shift).max() * moments.error[SECOND].max()) / total
+    squares = (axes[:, None] * axes).reshape(9, 3)
+    unit = size[:, None] * size[PARTNERS] ** 2
+    scores, doubt = axes.T @ third.reshape(3, 9) @ squares, np.abs(axes.T) @ error.reshape(3, 9) @ np.abs(squares)
+    return scores[ITSELF, PARTNERS] / unit, doubt[ITSELF, PARTNERS] / unit
+
+
+def _allowed(axes: NDArray, scores: NDArray) -> NDArray[np.float64]:
+    """(k, 3, 3) the right-handed frames along the axes that agree with the scores."""
+    size = np.abs(scores)
+    fixed = [i for i in range(3) if scores[i]]
+    if len(fixed) == 3:  # the weakest gives way; of equal ones the last
+        fixed.remove(max(i for i in fixed if size[i] <= size.min() * (1.0 + RANKED)))
+    return axes * TURNS[(TURNS[:, fixed] * scores[fixed] > 0.0).all(axis=1), None]
+
+
+def settled(frame: NDArray, free: tuple[int, ...], prefer: NDArray) -> NDArray[np.float64]:
+    """The frame with its free axes, if any, turned nearest to the preferred ones."""
+    if not free:
+        return frame
+    if len(free) == 3:
+        return prefer.copy()
+    first, second = free
+    fixed = frame[:, 3 - first - second]
+    # (first, second, fixed) is right-handed for both pairs: maximise first·p1 + (fixed x first)·p2 over the plane.
+    wish = prefer[:, first] + np.cross(prefer[:, second], fixed)
+    wish = wish - fixed * (fixed @ wish)
+    if np.linalg.norm(wish) < 1e-6:  # half a turn away: any direction is as near; take the one along a preferred axis
+        wish = prefer[:, np.argmin(np.abs(fixed @ prefer))]
+        wish = wish - fixed * (fixed @ wish)
+    turned = frame.copy()
+    turned[:, first] = wish / np.linalg.norm(wish)
+    turned[:, second] = np.cross(fixed, turned[:, first])
+    return turned
+
+
+def _nearest(candidates: Sequence[NDArray], prefer: NDArray, tilt: float) -> NDArray[np.float64]:
+    """The frame with the smallest turn from the preferred one. Where several are as near, the one whose axes, in
+    order, point along rather than against their preferred axes, so that noise cannot flip it.
+
+    tilt: the angle by which noise may have turned the candidates.
+    """
+    local = prefer.T @ np.array(candidates)
+    equal = AS_NEAR + min(4.0 * tilt, LEAST_CLEAR)
+    turns = np.trace(local, axis1=1, axis2=2)
+    near = np.flatnonzero(turns > turns.max() - equal)
+
+    def along(i: int) -> list[bool]:
+        columns = np.abs(local[i]) > np.abs(local[i]).max(axis=0) - equal
+        return [bool(local[i][np.argmax(columns[:, axis]), axis] > 0.0) for axis in range(3)]
+
+    ways = [along(i) for i in near]
+    near = near[[way == max(ways) for way in ways]]
+    for entry in local.reshape(-1, 9).T:  # what is left may still be several frames, in an order of no meaning
+        near = near[entry[near] > entry[near].max() - equal]
+    return candidates[near[0]] + 0.0  # no negative zeros

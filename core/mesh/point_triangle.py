@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How far points are from triangles, in double precision.
+
+Trees that find the nearest triangle work in single precision, and go wrong on triangles that are long and thin by as
+much as their width.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.vectors import cross, dot, minus
+
+
+def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float64]:
+    """(m,) the distances of (m, 3) points, or of a single one, from (m, 3, 3) triangles, each from its own: from the
+    plane where its foot is inside the triangle, else from the nearest edge. Triangles without area are their edges."""
+    point, ends = np.asarray(points, np.float64).T, np.ascontiguousarray(corners.transpose(1, 2, 0))
+    if point.ndim == 1:
+        point = point[:, None]
+    to = [minus(point, end) for end in ends]
+    edges = [minus(ends[(i + 1) % 3], ends[i]) for i in range(3)]
+    normal = cross(edges[0], edges[1])
+    size = np.sqrt(dot(normal, normal))
+    real = size > 0.0
+    nearest, inside = np.full(len(corners), np.inf), real
+    for away, edge in zip(to, edges):
+        length = dot(edge, edge)
+        share = np.clip(dot(away, edge) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
+        left = minus(away, [share * component for component in edge])
+        nearest = np.minimum(nearest, dot(left, left))
+        inside = inside & (dot(normal, cross(edge, away)) >= 0.0)
+    nearest = np.sqrt(nearest)
+    height = np.abs(dot(normal, to[0])) / np.where(real, size, 1.0)
+    return np.where(inside, np.minimum(height, nearest), nearest)

@@ -1,0 +1,168 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The polygons of one body as arrays: what every reader makes and every measurement starts from.
+
+Quads stay quads, because two triangles that share a diagonal cost less than two loose ones. They are cut along
+the diagonal that Blender draws, so that the body measured is the body seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.vectors import cross, dot
+
+ROW = 512  # points whose coordinates are compared as one row
+NO_TRIANGLES = np.empty((0, 3), np.int32)
+NO_QUADS = np.empty((0, 4), np.int32)
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Triangles and quads over shared points, outward faces counter-clockwise.
+
+    points: (n, 3) float32 or float64, in the surface's own coordinates and unit.
+    triangles: (m, 3) vertex indices, the triangular faces and Blender's tessellation of n-gons.
+    quads: (q, 4) vertex indices in corner order; cut as `flipped_quads` says.
+    triangle_faces, quad_faces: the mesh face each one belongs to; None where face i is simply row i.
+    corner_vertices, corner_edges: (c,), the mesh's own corners, and the edge from each one to the next. They prove
+        closedness without sorting; None where the source has none.
+    moved: (3,) see `coordinate_error`.
+    """
+
+    points: NDArray[np.floating]
+    triangles: NDArray[np.integer] = field(default_factory=lambda: NO_TRIANGLES)
+    quads: NDArray[np.integer] = field(default_factory=lambda: NO_QUADS)
+    triangle_faces: NDArray[np.integer] | None = None
+    quad_faces: NDArray[np.integer] | None = None
+    corner_vertices: NDArray[np.integer] | None = None
+    corner_edges: NDArray[np.integer] | None = None
+    moved: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("triangles", "quads", "triangle_faces", "quad_faces", "corner_vertices", "corner_edges"):
+            indices = getattr(self, name)
+            if indices is not None and indices.dtype not in (np.int32, np.int64):
+                # Numbers of faces, edges and vertices are added to others, which must neither overflow nor round.
+                object.__setattr__(self, name, indices.astype(np.int64))
+        if not self.points.dtype.isnative:  # files of the other byte order: float32 must be known as such
+            object.__setattr__(self, "points", self.points.astype(self.points.dtype.newbyteorder("=")))
+
+    @cached_property
+    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(3,) and (3,) the least and the largest coordinates of the points, used or not; NaN where one of them is."""
+        low = high = self.points
+        if len(low) > ROW:  # along rows of three numpy is twenty times as slow
+            whole = len(low) // ROW * ROW
+            wide, rest = self.points[:whole].reshape(-1, 3 * ROW), self.points[whole:]
+            low = np.concatenate([rest, np.minimum.reduce(wide).reshape(-1, 3)])
+            high = np.concatenate([rest, np.maximum.reduce(wide).reshape(-1, 3)])
+        low, high = (np.ascontiguousarray(points.T) for points in (low, high))
+        return np.minimum.reduce(low, axis=1).astype(np.float64), np.maximum.reduce(high, axis=1).astype(np.float64)
+
+    @property
+    def coordinate_error(self) -> NDArray[np.float64]:
+        """(3,) half an ulp of the largest float32 coordinate on each axis: what storing the points may have moved
+        them by. `moved` says it for points that were float32 once; else it is zero for float64 points."""
+        if self.moved is not None:
+            return self.moved
+        if self.points.dtype != np.float32 or not len(self.points):
+            return np.zeros(3)
+        low, high = self.box
+        # The largest float32 has the ulp of 2^127, though no number above it to tell.
+        largest = np.minimum(np.maximum(high, -low), 2.0**127)
+        return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
+
+    def mapped(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
+        """The surface with points `linear @ x + offset` in float64. A mirroring map turns the faces' winding, so
+        that outward stays outward; the diagonals stay where Blender drew them."""
+        linear = np.asarray(linear, np.float64)
+        x, y, z = self.points.T.astype(np.float64)
+        points = np.stack([a[0] * x + a[1] * y + a[2] * z + t for a, t in zip(linear, offset)], axis=1)
+        triangles, faces = self.all_triangles()
+        if np.linalg.det(linear) < 0.0:
+            triangles = triangles[:, ::-1]
+        return replace(
+            self,
+            points=points,
+            triangles=triangles,
+            triangle_faces=faces,
+            quads=NO_QUADS,
+            quad_faces=None,
+            moved=np.abs(linear) @ self.coordinate_error,
+        )
+
+    @classmethod
+    def from_triangles(cls, points: NDArray, triangles: NDArray) -> Surface:
+        """A surface of (m, 3) triangles over (n, 3) points. ValueError where these are something else, or an index has
+        no point."""
+        points, triangles = np.asarray(points), np.asarray(triangles)
+        if points.ndim != 2 or points.shape[1] != 3 or triangles.ndim != 2 or triangles.shape[1] != 3:
+            raise ValueError("points are rows of 3 coordinates, and triangles rows of 3 indices")
+        if triangles.dtype.kind not in "iu":
+            raise ValueError("a triangle is named by whole numbers")
+        if np.iscomplexobj(points):
+            raise ValueError("coordinates are real numbers")
+        if points.dtype.newbyteorder("=") not in (np.float32, np.float64):
+            points = points.astype(np.float64)
+        if not all_there(triangles, len(points)):
+            raise ValueError("a triangle names a point that is not there")
+        return cls(points, triangles if triangles.dtype in (np.int32, np.int64) else triangles.astype(np.int64))
+
+    def all_triangles(self) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+        """(m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of each."""
+        faces = np.arange(len(self.triangles)) if self.triangle_faces is None else self.triangle_faces
+        if not len(self.quads):
+            return self.triangles, faces
+        quads = np.where(flipped_quads(self.points, self.quads)[:, None], np.roll(self.quads, -1, axis=1), self.quads)
+        cut = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+        quad_faces = np.arange(len(quads)) if self.quad_faces is None else self.quad_faces
+        return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
+
+
+def all_there(indices: NDArray[np.integer], count: int) -> bool:
+    """Whether all indices are in 0 to count - 1."""
+    unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # in which a negative index is a large one
+    return not indices.size or bool(unsigned.max() < count)
+
+
+def normals(points: NDArray, triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """(m, 3) the normals of (m, 3) triangles over (n, 3) points, each twice as long as its triangle's area."""
+    a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
+    return np.cross(b - a, c - a)
+
+
+def joined(surfaces: Sequence[Surface]) -> Surface:
+    """Several surfaces, in the same coordinates, as one of triangles in float64. Faces are numbered one surface after
+    the other."""
+    points, triangles, faces, start, face = [], [], [], 0, 0
+    for surface in surfaces:
+        cut, own = surface.all_triangles()
+        points.append(surface.points.astype(np.float64))
+        triangles.append(cut + start)
+        faces.append(own + face)
+        start, face = start + len(surface.points), face + int(own.max(initial=-1)) + 1
+    return Surface(
+        np.concatenate(points),
+        np.concatenate(triangles),
+        triangle_faces=np.concatenate(faces),
+        moved=np.max([surface.coordinate_error for surface in surfaces], axis=0),
+    )
+
+
+def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
+    """(q,) whether Blender cuts the quad from its second corner to its fourth instead of first to third.
+
+    Blender's own rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast):
+    it flips where the normals of the two triangles at the first diagonal face away from each other.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        points = points.astype(np.float32, copy=False)
+        a, b, c, d = (points[quads[:, i]] for i in range(4))
+        first, second, diagonal = (b - a).T, (d - a).T, (c - a).T
+        return dot(cross(first, diagonal), cross(second, diagonal)) > 0.0

@@ -1,0 +1,25 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Carried out of its former module."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+BLOCK = 1 << 15  # triangles at a time
+
+
+def winding(points: NDArray, triangles: NDArray, place: ArrayLike) -> float:
+    """How often closed triangles surround a place: the sum of their solid angles by 4 π (A. van Oosterom and
+    J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983)."""
+    total = 0.0
+    for start in range(0, len(triangles), BLOCK):
+        a, b, c = (points[triangles[start : start + BLOCK, k]] - np.asarray(place, float) for k in range(3))
+        la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
+        volume = (a * np.cross(b, c)).sum(axis=1)
+        below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
+        total += float(np.arctan2(volume, below).sum())
+    return total / (2.0 * math.pi)

@@ -1,0 +1,123 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The monomials in storage order, and what affine maps do to a functional F[p,q,r] = ∫ x^p y^q z^r d(of).
+
+Multiplying the integrand by the linear form l(x) = t + a·x sends F to (lF)[α] = t F[α] + Σ_i a_i F[α+e_i], one order
+shorter; the moments of the image are (l0^p l1^q l2^r F)[0,0,0]. Horner's scheme does that for any order and for many
+maps at once. For one map it is faster to turn first, degree by degree, and to shift then, axis by axis.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .monomials import index, monomial_count, monomials, predecessors, raised_places, rows_of
+
+
+def maps_last(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(3, 3, k) and (3, k): the linear parts and the offsets of (k, 4, 4) maps."""
+    rows = np.ascontiguousarray(np.asarray(matrices, np.float64)[:, :3].transpose(1, 2, 0))
+    return rows[:, :3], rows[:, 3]
+
+
+def distinct_linear(matrices: NDArray) -> Iterator[tuple[NDArray[np.float64], NDArray[np.intp]]]:
+    """The different linear parts of (k, 4, 4) maps: each of them, (3, 3), and which of the maps have it, (j,)."""
+    linear, which = np.unique(matrices[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
+    for i, row in enumerate(linear):
+        yield row.reshape(3, 3), np.flatnonzero(which.ravel() == i)
+
+
+def translations(offsets: NDArray) -> NDArray[np.float64]:
+    """(k, 4, 4) the maps that move by (k, 3) offsets and do nothing else."""
+    matrices = np.tile(np.eye(4), (len(offsets), 1, 1))
+    matrices[:, :3, 3] = offsets
+    return matrices
+
+
+def horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
+    """(K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the functional, (K, 1) or (K, k), l_i the linear forms
+    of the k maps, linear (3, 3, k) and offset (3, k)."""
+    forms = [(offset[i], *linear[i]) for i in range(3)]
+    out = np.zeros((len(values), offset.shape[1]))
+    by_p = np.broadcast_to(values, out.shape)
+    for p in range(order + 1):
+        by_q = by_p
+        for q in range(order - p + 1):
+            by_r = by_q
+            for r in range(order - p - q + 1):
+                out[index(p, q, r)] = by_r[0]
+                by_r = times(forms[2], by_r, order - p - q - r)
+            by_q = times(forms[1], by_q, order - p - q)
+        by_p = times(forms[0], by_p, order - p)
+    return out
+
+
+def times(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.float64]:
+    """The functional multiplied by a linear form, one order shorter; nothing is left below order 0."""
+    if not order:
+        return values[:0]
+    t, a, b, c = form
+    x, y, z = raised_places(order)
+    image = t * values[: monomial_count(order - 1)]
+    for factor, raised in ((a, x), (b, y), (c, z)):
+        term = values.take(raised, axis=0)
+        term *= factor
+        image += term
+    return image
+
+
+def turn(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
+    """(m, K): m functionals F, (m, K), under a linear map (3, 3), the first as it is, the others under |map|.
+
+    Degree by degree: the image's monomials as polynomials of the old ones are those of one degree less times a form.
+    """
+    forms, out = np.array([linear, np.abs(linear)]), np.array(values)
+    table = np.ones((2, 1, 1))
+    for degree in range(1, order + 1):
+        rows, below = rows_of(degree), rows_of(degree - 1)
+        padded = np.concatenate([table, np.zeros((2, below, 1))], axis=2)
+        raised = padded[:, :, predecessors(degree, below)]  # times x, y, z: (2, below, 3, rows)
+        table = np.empty((2, rows, rows))
+        for axis, old, new in (
+            (0, slice(0, below), slice(0, below)),
+            (1, slice(below - degree, below), slice(below, rows - 1)),
+            (2, slice(below - 1, below), slice(rows - 1, rows)),
+        ):
+            np.einsum("mrjc,mj->mrc", raised[:, old], forms[:, axis], out=table[:, new])
+        part = slice(monomial_count(degree - 1), monomial_count(degree))
+        out[0, part] = np.add.reduce(table[0] * values[0, part], axis=1)
+        out[1:, part] = np.einsum("rc,mc->mr", table[1], values[1:, part])
+    return out
+
+
+@lru_cache
+def _cube(order: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """(K,) where each monomial stands in a flat table of all exponents up to `order`, and (n, n) the binomials."""
+    p, q, r = monomials(order).T
+    n = order + 1
+    return (p * n + q) * n + r, np.array([[float(math.comb(i, j)) for j in range(n)] for i in range(n)])
+
+
+def shift(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
+    """(m, K): each of m functionals F, (m, K), with its own offset, (m, 3): F[(x+t)^α], one axis after the other."""
+    places, binomials = _cube(order)
+    n = order + 1
+    lag = np.subtract.outer(np.arange(n), np.arange(n))
+    for axis in range(3):
+        powers = np.multiply.accumulate(
+            np.concatenate([np.ones((len(values), 1)), np.repeat(offsets[:, axis, None], order, axis=1)], axis=1),
+            axis=1,
+        )
+        table = binomials * powers[:, np.maximum(lag, 0)]
+        cube = np.zeros((len(values), n**3))
+        cube[:, places] = values  # what stands above `order` is no moment, and must not come back
+        cube = np.moveaxis(cube.reshape(-1, n, n, n), axis + 1, 1)
+        with np.errstate(over="ignore", invalid="ignore"):
+            cube = np.einsum("mpi,miqr->mpqr", table, cube)
+        values = np.moveaxis(cube, 1, axis + 1).reshape(len(values), -1)[:, places]
+    return values

@@ -1,0 +1,341 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Raw moments about a stated point: the one thing that every body becomes.
+
+raw[p,q,r] = ∫ (x-ox)^p (y-oy)^q (z-oz)^r d(of), positive integrals, p+q+r ≤ order. They add, they scale by a density
+and they map linearly under an affine map, so a sum of objects is a sum and an instance is a map. Two bounds go with
+every number and add and map as it does: `error`, what rounding (or a stated truncation) may have changed, and `input`,
+what storing coordinates as float32 may have changed.
+
+What affine maps do to them is in `affine`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .affine_maps import horner, maps_last, shift, turn
+from .monomials import index, monomial_count, monomials, order_of, raised_places
+
+U = np.finfo(np.float64).eps / 2.0  # unit roundoff
+HALF_ULP = 2.0**-24  # of float32, relatively
+PAIRWISE = 64  # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
+BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
+SIMILARITY = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
+
+
+SECOND = np.array([[index(*(np.eye(3, dtype=int)[[i, j]].sum(axis=0))) for j in range(3)] for i in range(3)])
+THIRD = np.array(
+    [[[index(*(np.eye(3, dtype=int)[[i, j, k]].sum(axis=0))) for k in range(3)] for j in range(3)] for i in range(3)]
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Moments:
+    """Moments of one body to some order.
+
+    raw: (K,) float64 in the order of `monomials`, unit^(dimension of `of` + degree).
+    about: (3,) the point they are taken about, in the same coordinates.
+    of: what they measure: "volume", "area", "length" or "mass".
+    error: (K,) bound of |raw - exact| for the coordinates as given: rounding, and truncation where a source says so.
+    input: (K,) bound of the change when every coordinate moves by its float32 half ulp; zero for float64 sources.
+    """
+
+    raw: NDArray[np.float64]
+    about: NDArray[np.float64]
+    of: str = "volume"
+    error: NDArray[np.float64] = field(default=None)
+    input: NDArray[np.float64] = field(default=None)
+
+    def __post_init__(self) -> None:
+        if self.error is None:
+            object.__setattr__(self, "error", np.zeros_like(self.raw))
+        if self.input is None:
+            object.__setattr__(self, "input", np.zeros_like(self.raw))
+
+    @property
+    def order(self) -> int:
+        """The largest p+q+r."""
+        return order_of(len(self.raw))
+
+    def __getitem__(self, exponents: tuple[int, int, int]) -> float:
+        return float(self.raw[index(*exponents)])
+
+    @property
+    def total(self) -> float:
+        """The volume, area or mass itself."""
+        return float(self.raw[0])
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """(3,) the centroid, in the coordinates of `about`. The total must not be zero."""
+        return self.about + self.raw[1:4] / self.raw[0]
+
+    def second(self) -> NDArray[np.float64]:
+        """(3, 3) the second moments about `about`."""
+        return self.raw[SECOND]
+
+    def third(self) -> NDArray[np.float64]:
+        """(3, 3, 3) the third moments about `about`."""
+        return self.raw[THIRD]
+
+    def truncated(self, order: int) -> Moments:
+        """The same moments to a lower order."""
+        k = monomial_count(order)
+        return replace(self, raw=self.raw[:k], error=self.error[:k], input=self.input[:k])
+
+    def __mul__(self, factor: float) -> Moments:
+        """Scaled by a constant: a density, a thickness, a sign."""
+        size = abs(factor)
+        return replace(
+            self,
+            raw=self.raw * factor,
+            error=self.error * size + 2 * U * np.abs(self.raw) * size,
+            input=self.input * size,
+        )
+
+    __rmul__ = __mul__
+
+    def __add__(self, other: Moments) -> Moments:
+        """Both bodies together, about the first one's point, to the lower of the two orders."""
+        return sum_moments([self, other.shifted(self.about)])
+
+    def shifted(self, point: ArrayLike) -> Moments:
+        """The same body about another point, by the binomial theorem."""
+        point = np.asarray(point, np.float64)
+        if np.array_equal(point, self.about):
+            return self
+        if point.shape != (3,) or not np.isfinite(point).all():
+            raise ValueError("The point that moments are about has three finite coordinates.")
+        offset = self.about - point
+        away = np.abs(offset)
+        raw, error, moved, size = shift(
+            np.array([self.raw, self.error, self.input, np.abs(self.raw) + self.error]),
+            self.order,
+            np.array([offset, away, away, away]),
+        )
+        rounding = (4.0 * monomials(self.order).sum(axis=1) + 16.0) * U
+        return replace(self, raw=raw, about=point, error=error + rounding * size, input=moved)
+
+    def about_center(self) -> Moments:
+        """The central moments."""
+        return self.shifted(self.center)
+
+    def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> Moments:
+        """The moments in another frame, about its origin. rotation: (3, 3), its axes as columns; origin: (3,)."""
+        matrix = np.eye(4)
+        matrix[:3, :3] = np.asarray(rotation, np.float64).T
+        matrix[:3, 3] = -matrix[:3, :3] @ np.asarray(origin, np.float64)
+        # A change of axes stretches nothing, whatever is measured and however the rotation was rounded.
+        return replace(map_sum(replace(self, of="mass"), matrix[None], np.zeros(3)), of=self.of)
+
+    def normalized(self, by: str = "size") -> Moments:
+        """The central moments without unit, of degree n, about (0, 0, 0): the same wherever the body is and however
+        large.
+
+        by: "size", μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas: those of the body scaled to a volume, or area,
+        of 1. "gyration", μ / (m R^n) with R² = ∫ r² dm / m: those of the body scaled to a radius of gyration and a mass
+        of 1. `error` and `input` hold for the body's true center. ValueError where there is too little to divide by.
+        """
+        dimension = {"volume": 3, "area": 2}.get(self.of)
+        if by == "size" and dimension is None:
+            raise ValueError("Masses have no size of their own: normalize them by the radius of gyration.")
+        if self.order < (2 if by == "gyration" else 1) or not self.total > 2.0 * (self.error[0] + self.input[0]):
+            raise ValueError("There is too little, or too low an order, to normalize moments by.")
+        body = self.about_center()
+        n = monomials(self.order).sum(axis=1)
+        trace = float(body.raw[[4, 7, 9]].sum()) if by == "gyration" else 1.0
+        if by == "gyration":
+            factor = (trace / body.total) ** (-n / 2.0) / body.total
+        else:
+            factor = body.total ** -(1.0 + n / dimension)
+        bounds = []
+        for delta in (body.error, body.error + body.input):  # of the total, the trace, and the center's place
+            total = body.total / (body.total - delta[0])
+            off = (np.abs(body.raw[1:4]) + delta[1:4]) / (body.total - delta[0]) + 2.0 * U * np.abs(body.about)
+            size = np.abs(body.raw) + delta
+            away = shift(size[None], self.order, off[None])[0] - size + 8.0 * U * n * size
+            if by == "gyration":
+                spread = delta[[4, 7, 9]].sum() + away[[4, 7, 9]].sum()
+                if not trace > 2.0 * spread:
+                    raise ValueError("There is too little, or too low an order, to normalize moments by.")
+                stretch = total ** np.abs(n / 2.0 - 1.0) * (trace / (trace - spread)) ** (n / 2.0)
+            else:
+                stretch = total ** (1.0 + n / dimension)
+            bounds.append(factor * (stretch * (delta + away) + (stretch - 1.0 + (8.0 + 4.0 * n) * U) * size))
+        return Moments(
+            body.raw * factor,
+            np.zeros(3),
+            self.of if by == "size" else "mass",
+            bounds[0],
+            (bounds[1] - bounds[0]) * bool(self.input.any()),
+        )
+
+    def mapped(self, matrix: ArrayLike) -> Moments:
+        """The moments of the body's image under an affine map.
+
+        matrix: (4, 4), new = matrix[:3, :3] @ old + matrix[:3, 3]. The new `about` is the image of the old one.
+        Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity
+        only: ValueError otherwise; what a float32 rotation lacks of a similarity goes into `input`.
+        """
+        matrix = _checked(np.asarray(matrix, np.float64)[None])[0]
+        return map_sum(self, matrix[None], matrix[:3, :3] @ self.about + matrix[:3, 3])
+
+
+def sum_moments(parts: Sequence[Moments]) -> Moments:
+    """Several bodies as one, about the first one's point and to the lowest of their orders. What they measure must
+    be the same."""
+    first = parts[0]
+    if any(part.of != first.of for part in parts):
+        raise ValueError("moments of different measures cannot be added")
+    order = min(part.order for part in parts)
+    parts = [part.truncated(order).shifted(first.about) for part in parts]
+    raws = np.array([part.raw for part in parts])
+    return Moments(
+        raw=raws.sum(axis=0),
+        about=first.about,
+        of=first.of,
+        error=sum(part.error for part in parts) + len(parts) * U * np.abs(raws).sum(axis=0),
+        input=sum(part.input for part in parts),
+    )
+
+
+def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
+    """(k,) whether each of the (k, 3, 3) maps is a rotation, reflection and uniform scale, as far as float32 matrices
+    can be."""
+    return _stretch_deviation(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY
+
+
+def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None) -> Moments:
+    """The images of one body under k affine maps, as one body: instances.
+
+    matrices: (k, 4, 4), as for `Moments.mapped`. about: (3,), by default the mean of the images of `moments.about`.
+    """
+    linear, places = maps_last(_checked(np.asarray(matrices, np.float64)))
+    point = moments.about[:, None]
+    origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + places
+    about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
+    raw, error, extra = np.zeros((3, len(moments.raw)))
+    block = max(BLOCK * 20 // len(moments.raw), 16)
+    for start in range(0, len(matrices), block):
+        part = slice(start, start + block)
+        maps = linear[:, :, part]
+        weight, weight_error, deviation = measure_factors(moments.of, maps)
+        offset = origins[:, part] - about[:, None]
+        # The images of the reference point are rounded, and the body moves with them.
+        stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
+        slack = 6 * U * (np.abs(places[:, part]).max(axis=0) + np.abs(about).max() + stretch * np.abs(point).max())
+        weight_error = weight_error + (len(matrices) + 6 * moments.order + 8) * U * weight
+        if len(matrices) == 1:
+            image, *bounds = _one(moments, maps, offset, slack, weight, weight_error, deviation)
+        else:
+            image = np.add.reduce(horner(moments.raw[:, None], moments.order, maps, offset) * weight, axis=1)
+            bounds = _bounds(moments, stretch, reach, slack, weight, weight_error, deviation)
+        raw += image
+        error += bounds[0]
+        extra += bounds[1]
+    return Moments(raw, about, moments.of, error, extra)
+
+
+def _checked(matrices: NDArray) -> NDArray[np.float64]:
+    """The maps. ValueError where they are none."""
+    if matrices.ndim != 3 or matrices.shape[1:] != (4, 4) or not len(matrices) or not np.isfinite(matrices).all():
+        raise ValueError("Moments are mapped by one or more (4, 4) matrices of finite numbers.")
+    return matrices
+
+
+def _one(
+    moments: Moments,
+    linear: NDArray,
+    offset: NDArray,
+    slack: NDArray,
+    weight: NDArray,
+    weight_error: NDArray,
+    deviation: NDArray,
+) -> tuple[NDArray, NDArray, NDArray]:
+    """The image under one map, (3, 3, 1) and (3, 1), and its bounds moment by moment: the same on absolute values."""
+    order, away = moments.order, np.abs(offset.T)
+    values = turn(
+        np.array([moments.raw, moments.error, moments.input, np.abs(moments.raw) + moments.error]),
+        order,
+        linear[:, :, 0],
+    )
+    image, error, mapped_input, size = shift(values, order, np.concatenate([offset.T, away, away, away + slack]))
+    rounding = weight * error + (weight_error + (4.0 * order + 50.0) * U * weight) * size
+    for axis, raised in enumerate(raised_places(order) if order else ()):
+        moved = monomials(order)[raised, axis] * slack * weight * size[: len(raised)]
+        rounding[raised] += moved
+    return weight * image, rounding, weight * (mapped_input + deviation * (size + mapped_input))
+
+
+def _bounds(
+    moments: Moments,
+    stretch: NDArray,
+    reach: NDArray,
+    slack: NDArray,
+    weight: NDArray,
+    weight_error: NDArray,
+    deviation: NDArray,
+) -> tuple[NDArray, NDArray]:
+    """(K,) and (K,) what `error`, with the rounding of the maps, and `input` become under k maps together.
+
+    By degree: where the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product
+    of n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest
+    of its degree. An offset that may be off by `slack` changes it by at most n slack times n-1 forms.
+    """
+    order = moments.order
+    degree = monomials(order).sum(axis=1)
+    starts = [monomial_count(n - 1) for n in range(order + 1)]
+    error, inputs = np.maximum.reduceat(moments.error, starts), np.maximum.reduceat(moments.input, starts)
+    size = np.maximum.reduceat(np.abs(moments.raw), starts) + error
+
+    def carried(factor: NDArray, reach: NDArray, *largest: NDArray) -> list[NDArray]:
+        powers = [[factor]]
+        for _ in range(order):
+            powers.append([power * reach for power in powers[-1]] + [powers[-1][-1] * stretch])
+        sums = [[math.comb(n, j) * power.sum() for j, power in enumerate(row)] for n, row in enumerate(powers)]
+        return [np.array([np.dot(row, top[: len(row)]) for row in sums]) for top in largest]
+
+    rounding, mapped_input = carried(weight, reach, error, inputs)
+    rounding += carried(weight_error, reach, size)[0]
+    rounding[1:] += np.arange(1, order + 1) * carried(weight * slack, reach + slack, size)[0][:-1]
+    if deviation.any():
+        mapped_input += carried(weight * deviation, reach, size + inputs)[0]
+    return rounding[degree], mapped_input[degree]
+
+
+def measure_factors(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """(k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and by how much the
+    map fails to have one factor."""
+    exact = np.zeros(linear.shape[2])
+    if of == "mass":
+        return np.ones(linear.shape[2]), exact, exact
+    a, b, c = linear
+    terms = [(a[i] * b[j] * c[k], a[i] * b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
+    det = np.abs(sum(plus - minus for plus, minus in terms))
+    permanent = sum(np.abs(plus) + np.abs(minus) for plus, minus in terms)
+    if of == "volume":
+        return det, 8 * U * permanent, exact
+    deviation = _stretch_deviation(linear)
+    if np.any(deviation > SIMILARITY):
+        raise ValueError("areas change unevenly under a map that shears or scales unevenly: measure the mapped surface")
+    power = 1 if of == "length" else 2
+    return np.cbrt(det) ** power, 8 * U * np.cbrt(permanent) ** power, deviation
+
+
+def _stretch_deviation(linear: NDArray) -> NDArray[np.float64]:
+    """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for
+    a flat map."""
+    columns = linear.transpose(1, 0, 2)
+    a, b, c = (np.add.reduce(column * column, axis=0) for column in columns)
+    ab, ac, bc = (np.abs(np.add.reduce(columns[i] * columns[j], axis=0)) for i, j in ((0, 1), (0, 2), (1, 2)))
+    mean = (a + b + c) / 3.0
+    off = np.maximum(np.maximum(np.abs(a - mean) + ab + ac, np.abs(b - mean) + ab + bc), np.abs(c - mean) + ac + bc)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        off = off / mean
+    return np.where(np.isfinite(off), off, np.inf)

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Carried out of its former module."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def monomial_count(order: int) -> int:
+    """The number of monomials in x, y, z of degree at most `order`."""
+    return (order + 1) * (order + 2) * (order + 3) // 6
+
+
+def order_of(count: int) -> int:
+    """The lowest order that has at least `count` monomials."""
+    order = 0
+    while monomial_count(order) < count:
+        order += 1
+    return order
+
+
+def index(p: int, q: int, r: int) -> int:
+    """Where raw[p,q,r] stands: graded by degree, within a degree by (q+r, r)."""
+    s = q + r
+    return monomial_count(p + s - 1) + s * (s + 1) // 2 + r
+
+
+@lru_cache
+def monomials(order: int) -> NDArray[np.int64]:
+    """(K, 3) the exponents (p, q, r) in storage order; read-only."""
+    rows = [(n - s, s - r, r) for n in range(order + 1) for s in range(n + 1) for r in range(s + 1)]
+    table = np.array(rows, np.int64)
+    table.flags.writeable = False
+    return table
+
+
+def rows_of(degree: int) -> int:
+    """How many monomials have exactly this degree."""
+    return (degree + 1) * (degree + 2) // 2
+
+
+@lru_cache
+def predecessors(degree: int, missing: int) -> NDArray[np.intp]:
+    """(3, rows) where x^α without one factor x, y or z stands among the monomials one degree lower; `missing` where
+    x^α has no such factor."""
+    table = monomials(degree)[-rows_of(degree) :]
+    r, s = table[:, 2], table[:, 1] + table[:, 2]
+    lower = s * (s - 1) // 2
+    return np.where(table.T > 0, np.array([s * (s + 1) // 2 + r, lower + r, lower + r - 1]), missing)
+
+
+@lru_cache
+def raised_places(order: int) -> tuple[NDArray[np.int64], ...]:
+    """For each monomial below `order`, where its product with x, with y and with z stands."""
+    lower = monomials(order - 1)
+    return tuple(np.array([index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int))

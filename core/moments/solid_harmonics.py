@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments against solid harmonics, ∫ r^(2j) conj(r^l Y_lm) dV, from raw moments: what turns by degrees.
+
+Under a rotation the 2l+1 of them with one j and l mix among themselves only, by Wigner's unitary matrix; so their sum
+of squares is invariant, and so is any coupling of three of them to l = 0 (with 3j symbols). Y_lm are orthonormal, with
+the Condon-Shortley phase, and their polynomials are (Varshalovich et al., Quantum Theory of Angular Momentum, 5.1)
+
+    r^l Y_lm = sqrt((2l+1)/4π (l+m)! (l-m)!) Σ_k (-(x+iy)/2)^(k+m) ((x-iy)/2)^k z^(l-m-2k) / ((k+m)! k! (l-m-2k)!).
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import comb, factorial, pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .moments import index, monomial_count, monomials
+
+Multiplets = dict[tuple[int, int], NDArray[np.complex128]]
+
+
+def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
+    """{(n, l): (2l+1,)} ∫ r^(n-l) conj(r^l Y_lm) for m = -l..l and every l ≤ n ≤ order with n-l even.
+
+    raw: moments to that order about the point that the harmonics are about.
+    """
+    result = {}
+    for j in range(order // 2 + 1):
+        for l in range(order - 2 * j + 1):
+            block = raw[monomial_count(l - 1) : monomial_count(l)]
+            half = np.add.reduce(_solid(l).conj() * block, axis=1)  # m = 0..l
+            result[l + 2 * j, l] = both_signs(half)
+        if order - 2 * j >= 2:
+            raw = raw[_squared(order - 2 * j)].sum(axis=0)  # ∫ r² f for each monomial f two orders lower
+    return result
+
+
+def both_signs(half: NDArray) -> NDArray[np.complex128]:
+    """(2l+1, …) for m = -l..l from (l+1, …) for m = 0..l: c[-m] = (-1)^m conj(c[m])."""
+    l = len(half) - 1
+    sign = ((-1.0) ** np.arange(l, 0, -1)).reshape(-1, *[1] * (half.ndim - 1))
+    return np.concatenate([half[:0:-1].conj() * sign, half])
+
+
+def coupled(a: NDArray, b: NDArray, c: NDArray) -> float:
+    """The scalar made of three multiplets: Σ (l l' l''; m m' m'') a_m b_m' c_m''. A reflection changes its sign where
+    l + l' + l'' is odd."""
+    l, k, n = ((len(one) - 1) // 2 for one in (a, b, c))
+    value = np.einsum("ijk,i,j,k->", _three_j(l, k, n), a, b, c)
+    return float(value.imag if (l + k + n) % 2 else value.real)
+
+
+@lru_cache
+def _solid(l: int) -> NDArray[np.complex128]:
+    """(l+1, (l+1)(l+2)/2) the coefficients of r^l Y_lm for m = 0..l in the monomials of degree l, in their order."""
+    start = monomial_count(l - 1)
+    table = np.zeros((l + 1, monomial_count(l) - start), complex)
+    for m in range(l + 1):
+        norm = sqrt((2 * l + 1) / (4.0 * pi) * factorial(l + m) * factorial(l - m))
+        for k in range((l - m) // 2 + 1):
+            factor = (
+                (-1.0) ** (k + m) / 2.0 ** (2 * k + m) / (factorial(k + m) * factorial(k) * factorial(l - m - 2 * k))
+            )
+            for i, value in enumerate(_circular(k + m, k)):
+                table[m, index(2 * k + m - i, i, l - m - 2 * k) - start] += norm * factor * value
+    table.flags.writeable = False
+    return table
+
+
+@lru_cache(maxsize=1024)
+def _circular(plus: int, minus: int) -> tuple[complex, ...]:
+    """The coefficients of x^(n-i) y^i, i = 0..n, in (x+iy)^plus (x-iy)^minus."""
+    one = [comb(plus, i) * 1j ** (i % 4) for i in range(plus + 1)]
+    other = [comb(minus, i) * (-1j) ** (i % 4) for i in range(minus + 1)]
+    return tuple(np.convolve(one, other).tolist())
+
+
+@lru_cache
+def _squared(order: int) -> NDArray[np.int64]:
+    """(3, K) where the products with x², y² and z² of the monomials two orders lower stand."""
+    return np.array([[index(*(row + 2 * unit)) for row in monomials(order - 2)] for unit in np.eye(3, dtype=int)])
+
+
+@lru_cache(maxsize=256)
+def _three_j(a: int, b: int, c: int) -> NDArray[np.float64]:
+    """(2a+1, 2b+1, 2c+1) Wigner's 3j symbols, by Racah's sum."""
+    table = np.zeros((2 * a + 1, 2 * b + 1, 2 * c + 1))
+    triangle = factorial(a + b - c) * factorial(a - b + c) * factorial(-a + b + c) / factorial(a + b + c + 1)
+    for i in range(-a, a + 1):
+        for j in range(max(-b, -c - i), min(b, c - i) + 1):
+            k = -i - j
+            total = sum(
+                (-1) ** t
+                / (
+                    factorial(t)
+                    * factorial(c - b + t + i)
+                    * factorial(c - a + t - j)
+                    * factorial(a + b - c - t)
+                    * factorial(a - t - i)
+                    * factorial(b - t + j)
+                )
+                for t in range(max(0, b - c - i, a - c + j), min(a + b - c, a - i, b + j) + 1)
+            )
+            size = (
+                factorial(a + i)
+                * factorial(a - i)
+                * factorial(b + j)
+                * factorial(b - j)
+                * factorial(c + k)
+                * factorial(c - k)
+            )
+            table[a + i, b + j, c + k] = (-1) ** (a - b - k) * sqrt(triangle * size) * total
+    return table

@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Carried out of its former module."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Ten bits with two zeros after each: a third of a Morton code."""
+    value = (value | value << 16) & 0x030000FF
+    value = (value | value << 8) & 0x0300F00F
+    value = (value | value << 4) & 0x030C30C3
+    return (value | value << 2) & 0x09249249
+
+
+def ramp(counts: NDArray) -> NDArray[np.intp]:
+    """0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, …"""
+    ends = np.cumsum(counts)
+    return np.arange(ends[-1]) - np.repeat(ends - counts, counts)
+
+
+def first_equal(*columns: NDArray) -> NDArray[np.intp]:
+    """(n,) for each row the first row that is equal to it in all columns: 64-bit values, compared by their bits.
+
+    By hashing into a table in which the lowest row of a slot wins; rows equal to the winner are done, the others, whose
+    slot another row has won, go into the next round.
+    """
+    columns = [column.view(np.uint64) for column in columns]
+    key = columns[0]
+    for column in columns[1:]:
+        key = mixed(key) + column
+    key = mixed(key)
+    first = np.arange(len(key), dtype=np.int32 if len(key) < 1 << 31 else np.int64)
+    rest = first.copy()
+    while len(rest):
+        bits = int(2 * len(rest)).bit_length()
+        slot = (key >> np.uint64(64 - bits)).view(np.intp)
+        winner = np.empty(1 << bits, first.dtype)
+        winner[slot[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=first.dtype)  # of equal slots the last is kept
+        winner = winner[slot].astype(np.intp)
+        lost = np.zeros(len(rest), bool)
+        for column in columns:
+            lost |= column != column[winner]
+        first[rest] = rest[winner]
+        lost = np.flatnonzero(lost)
+        rest, key, columns = rest[lost], mixed(key[lost]), [column[lost] for column in columns]
+    return first.astype(np.intp)
+
+
+ODD = np.uint64(0x9E3779B97F4A7C15)  # 2^64 divided by the golden ratio, as in SplitMix64
+
+
+def mixed(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """A 64-bit hash of 64-bit values: the finalizer of SplitMix64."""
+    z = values + ODD
+    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return z ^ (z >> np.uint64(31))

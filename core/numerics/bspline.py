@@ -1,0 +1,176 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""B-splines of one parameter: function spaces, their values and derivatives.
+
+A `Space` is what Soldea, Elber and Rivlin (Exact and efficient computation of moments of free-form surface and
+trivariate based geometry, section 2) call the function space of a direction: order and knots, without control points.
+Everything that can be computed before control points are known is a table over a space. The basis is evaluated by the
+triangular scheme of Cox and de Boor, for many parameters at once; derivatives are differences of lower orders.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Space:
+    """The B-splines of one order over one knot vector.
+
+    knots: non-decreasing, as many as basis functions plus `order`. order: degree + 1, at least 1.
+    count: control points. Basis function i takes control point i mod count, so that a closed direction has
+    order - 1 basis functions more than control points. ValueError for knots that make no such space.
+    """
+
+    knots: tuple[float, ...]
+    order: int
+    count: int
+
+    def __post_init__(self) -> None:
+        knots = np.asarray(self.knots, np.float64)
+        if self.order < 1 or self.count < 1 or len(knots) < 2 * self.order or self.functions < self.count:
+            raise ValueError(
+                "A spline of order {:d} needs at least as many points, and points plus order knots.".format(self.order)
+            )
+        if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
+            raise ValueError("Knots must be finite and must not decrease.")
+        if not self.domain[0] < self.domain[1]:
+            raise ValueError("The knots span no interval.")
+
+    @property
+    def functions(self) -> int:
+        """The number of basis functions."""
+        return len(self.knots) - self.order
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """Where all the basis functions add up to one."""
+        return self.knots[self.order - 1], self.knots[self.functions]
+
+    @cached_property
+    def is_torn(self) -> bool:
+        """Whether curves may jump: where a knot within the domain is repeated as often as the order says."""
+        knots = np.asarray(self.knots)
+        first = knots[: len(knots) - self.order + 1]
+        low, high = self.domain
+        return bool(((first == knots[self.order - 1 :]) & (first > low) & (first < high)).any())
+
+    @cached_property
+    def spans(self) -> NDArray[np.int64]:
+        """(s,) the j of every interval knots[j] < knots[j + 1] in the domain."""
+        knots = np.asarray(self.knots)
+        j = np.arange(self.order - 1, self.functions)
+        return j[knots[j] < knots[j + 1]]
+
+    @cached_property
+    def intervals(self) -> NDArray[np.float64]:
+        """(s, 2) the bounds of the spans."""
+        knots = np.asarray(self.knots)
+        return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
+
+    def steps(self, each: int) -> NDArray[np.float64]:
+        """(spans * each + 1,) parameters at equal steps in every span, both ends of the domain included."""
+        low, high = self.intervals.T
+        inner = low[:, None] + (high - low)[:, None] * (np.arange(each) / each)
+        return np.append(inner.ravel(), high[-1])
+
+    @cached_property
+    def ends(self) -> NDArray[np.float64]:
+        """(2, count) what each control point weighs at the domain's ends."""
+        return self.matrix(np.array(self.domain))
+
+    @cached_property
+    def acting(self) -> NDArray[np.int64]:
+        """(s, order) the control points that act in each span."""
+        return self.controls(self.spans)
+
+    @cached_property
+    def blossoms(self) -> NDArray[np.float64]:
+        """(s, order, order) what each acting control point weighs in each Bézier control point of a span.
+
+        That is the recursion of Cox and de Boor with a parameter for each of its steps, the span's beginning or its
+        end: Bézier's b-th point takes b ends.
+        """
+        knots = np.asarray(self.knots)
+        near = knots[self.spans[:, None] + np.arange(2 - self.order, self.order)]
+        low, high = self.intervals[:, :1], self.intervals[:, 1:]
+        b = np.arange(self.order)
+        values = np.ones((len(near), self.order, 1))
+        for order in range(2, self.order + 1):
+            before, after = self._neighbours(near, order)
+            t = np.where(b >= order - 1, high, low)[..., None]
+            share = values * ((t - before[:, None]) / (after - before)[:, None])
+            rest = values - share
+            values = np.zeros((len(near), self.order, order))
+            values[..., 1:] = share
+            values[..., :-1] += rest
+        return values
+
+    def controls(self, spans: NDArray[np.integer]) -> NDArray[np.int64]:
+        """(..., order) the control points that act in each span."""
+        return (np.asarray(spans)[..., None] + np.arange(1 - self.order, 1)) % self.count
+
+    def locate(self, parameters: NDArray) -> NDArray[np.int64]:
+        """The span of each parameter, the nearest one outside of the domain."""
+        inner = self.intervals[1:, 0]
+        return self.spans[np.searchsorted(inner, parameters, side="right")]
+
+    def derivatives(self, spans: NDArray[np.integer], parameters: NDArray, most: int) -> list[NDArray[np.float64]]:
+        """The basis functions that act in the given spans and their derivatives, at most to order `most`.
+
+        spans, parameters: broadcast against each other to some shape (...). Returns most + 1 arrays (..., order).
+        """
+        knots = np.asarray(self.knots)
+        t = np.asarray(parameters, np.float64)
+        # The knots from j - order + 2 to j + order - 1, gathered once for each span, however many parameters it has.
+        near = knots[np.asarray(spans)[..., None] + np.arange(2 - self.order, self.order)]
+        lower = [np.ones((*t.shape, 1))]  # by order, from 1
+        for order in range(2, self.order + 1):
+            before, after = self._neighbours(near, order)
+            ratio = lower[-1] / (after - before)
+            values = np.empty((*t.shape, order))
+            values[..., 0] = 0.0
+            np.multiply(ratio, t[..., None] - before, out=values[..., 1:])
+            values[..., :-1] += ratio * (after - t[..., None])
+            lower.append(values)
+        found = [lower[-1]]
+        for derivative in range(1, most + 1):
+            if derivative >= self.order:
+                found.append(np.zeros_like(lower[-1]))
+                continue
+            values = lower[self.order - derivative - 1]
+            for order in range(self.order - derivative + 1, self.order + 1):
+                before, after = self._neighbours(near, order)
+                ratio = (order - 1) * values / (after - before)
+                values = np.zeros((*t.shape, order))
+                values[..., 1:] = ratio
+                values[..., :-1] -= ratio
+            found.append(values)
+        return found
+
+    def _neighbours(self, near: NDArray, order: int) -> tuple[NDArray, NDArray]:
+        """The first and the last knot of the order - 1 functions, one order lower, that act in a span."""
+        return near[..., self.order - order : self.order - 1], near[..., self.order - 1 : self.order + order - 2]
+
+    def matrix(
+        self, parameters: NDArray, derivative: int = 0, spans: NDArray[np.integer] | None = None
+    ) -> NDArray[np.float64]:
+        """(n, count) what each control point weighs at each of n parameters, or in a derivative there. spans: (n,)
+        those that they belong to, where a knot may end one or begin the next."""
+        parameters = np.asarray(parameters, np.float64)
+        spans = self.locate(parameters) if spans is None else spans
+        values = self.derivatives(spans, parameters, derivative)[derivative]
+        table = np.zeros((len(parameters), self.count))
+        np.add.at(table, (np.arange(len(parameters))[:, None], self.controls(spans)), values)
+        return table
+
+
+@lru_cache(maxsize=64)
+def clamped(order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0) -> Space:
+    """The space whose curves begin and end at their first and last control points. inner: knots in between."""
+    knots = (low,) * order + tuple(inner) + (high,) * order
+    return Space(knots, order, len(knots) - order)

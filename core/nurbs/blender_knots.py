@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's NURBS: which settings make a surface, its knots, and where its display mesh samples it.
+
+Blender's files and its Python interface have no knots: they follow from the number of points, the order and three
+flags (blender/source/blender/blenkernel/intern/curve.cc: calcknots, makeknots, nurb_check_valid; the same in 4.2 to
+5.2). They are small integers, so that float32 and float64 agree.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.bspline import Space
+
+
+def is_valid(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> bool:
+    """Whether Blender makes anything of a direction with these settings."""
+    if count < 2 or count < order:
+        return False
+    if not bezier:
+        return True
+    return count % (order - 1) == 0 if cyclic else endpoint or count > order
+
+
+def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> NDArray[np.float64]:
+    """The knot vector of a valid direction: count + order knots, and order - 1 more where it is cyclic."""
+    repeat = order - 1 if bezier else 1
+    head = (order - 1 if cyclic else order) if endpoint else (min(2, repeat) if bezier else 1)
+    tail = 2 * order - 1 if cyclic else (order if endpoint else 0)
+    length = count + order + (order - 1 if cyclic else 0)
+    knots = np.zeros(length)
+    offset = current = 1 if endpoint and cyclic else 0
+    left = head
+    for i in range(offset, length - tail):
+        knots[i] = current
+        left -= 1
+        if left == 0:
+            current, left = current + 1, repeat
+    for i in range(tail):  # one after the other: a tail longer than the rest repeats itself
+        knots[length - tail + i] = current + knots[i] - knots[0]
+    return knots
+
+
+@lru_cache(maxsize=256)  # so that what is known of a space stays known from frame to frame
+def blender_space(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> Space | None:
+    """The function space of one direction of a Blender spline, None where Blender shows nothing for it."""
+    if not is_valid(count, order, cyclic, bezier, endpoint):
+        return None
+    knots = blender_knots(count, order, cyclic, bezier, endpoint)
+    if not knots[order - 1] < knots[len(knots) - order]:
+        return None
+    return Space(tuple(knots.tolist()), order, count)
+
+
+def display_parameters(space: Space, resolution: int) -> NDArray[np.float64]:
+    """(count * resolution,) the parameters at which Blender's display mesh samples a direction, in its own float32
+    steps, which drift."""
+    cyclic = space.functions > space.count
+    total = space.count * resolution
+    low, high = np.float32(space.domain[0]), np.float32(space.domain[1])
+    steps = np.full(total, (high - low) / np.float32(total if cyclic else total - 1), np.float32)
+    steps[0] = low
+    return np.add.accumulate(steps, dtype=np.float32).astype(np.float64)
+
+
+def display_table(space: Space, parameters: NDArray) -> NDArray[np.float64]:
+    """(n, count) what each control point weighs in Blender's display mesh at those parameters.
+
+    The last of them may drift past the domain's end, into a span whose next basis function does not exist: there the
+    weights add up to less than one, and so does the surface that is displayed.
+    """
+    table = space.matrix(np.minimum(parameters, space.domain[1]))
+    past = (parameters > space.domain[1]) & (space.knots[-1] > space.domain[1])
+    if past.any():
+        knots = space.knots + tuple(space.knots[-1] + 1.0 + i for i in range(space.order))
+        longer = Space(knots, space.order, len(knots) - space.order)
+        table[past] = longer.matrix(parameters[past])[:, : space.count]
+    return table

@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polynomial and rational B-spline curves in space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.bspline import Space
+
+
+def checked_points(
+    points: ArrayLike, weights: ArrayLike | None, shape: tuple[int, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Control points (*shape, 3) and weights (*shape), float64; weights that are all the same are none. They are copies
+    that cannot be written to: what has been found out about them stays true.
+
+    ValueError for another shape, what is not finite, and weights that are not positive.
+    """
+    points = _own(points)
+    if points.shape != (*shape, 3):
+        raise ValueError("Its function space needs control points of the shape {}.".format((*shape, 3)))
+    if not np.isfinite(points).all():
+        raise ValueError("Some of its control points are not finite. Delete them, or mend what moves them.")
+    if weights is None:
+        return points, None
+    weights = _own(weights)
+    if weights.shape != shape:
+        raise ValueError("Its function space needs weights of the shape {}.".format(shape))
+    if not (np.isfinite(weights).all() and (weights > 0.0).all()):
+        raise ValueError(
+            "Some of its weights are not positive, so that it may reach infinity. Give them weights above zero."
+        )
+    return points, None if (weights == weights.flat[0]).all() else weights
+
+
+def _own(values: ArrayLike) -> NDArray[np.float64]:
+    own = np.array(values, np.float64, order="C")
+    own.setflags(write=False)
+    return own
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """space: of its parameter. points: (count, 3). weights: (count,) positive, or None for a polynomial curve."""
+
+    space: Space
+    points: NDArray[np.float64]
+    weights: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        points, weights = checked_points(self.points, self.weights, (self.space.count,))
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "weights", weights)
+
+    def at(self, parameters: ArrayLike) -> NDArray[np.float64]:
+        """(n, 3) its points."""
+        return self.combined(self.space.matrix(np.asarray(parameters, np.float64)))
+
+    def combined(self, table: NDArray) -> NDArray[np.float64]:
+        """(n, 3) its points where its control points weigh what a table (n, count) says."""
+        if self.weights is not None:
+            table = table * self.weights
+            table /= table.sum(axis=1, keepdims=True)
+        origin = self.points[0]
+        return np.einsum("ni,id->nd", table, self.points - origin) + origin
+
+    def velocity(self, parameters: ArrayLike) -> NDArray[np.float64]:
+        """(n, 3) the derivative by the parameter."""
+        values, slopes = (self.space.matrix(np.asarray(parameters, np.float64), k) for k in (0, 1))
+        points = self.points - self.points[0]
+        if self.weights is None:
+            return np.einsum("ni,id->nd", slopes, points)
+        values, slopes = values * self.weights, slopes * self.weights
+        bottom = values.sum(axis=1, keepdims=True)
+        place = np.einsum("ni,id->nd", values, points) / bottom
+        return (np.einsum("ni,id->nd", slopes, points) - place * slopes.sum(axis=1, keepdims=True)) / bottom
+
+    def mapped(self, matrix: NDArray) -> Curve:
+        """Its image under an affine map (4, 4)."""
+        return Curve(self.space, self.points @ matrix[:3, :3].T + matrix[:3, 3], self.weights)
+
+    def reversed(self) -> Curve:
+        """The same curve run backwards."""
+        if self.space.functions > self.space.count:  # then the first point of the reversed one is that of function 0
+            order = (self.space.functions - 1 - np.arange(self.space.count)) % self.space.count
+        else:
+            order = np.arange(self.space.count)[::-1]
+        knots = tuple((-np.asarray(self.space.knots)[::-1]).tolist())
+        return Curve(
+            Space(knots, self.space.order, self.space.count),
+            self.points[order],
+            None if self.weights is None else self.weights[order],
+        )
+
+    def samples(self, each: int) -> NDArray[np.float64]:
+        """(spans * each + 1, 3) points at equal steps in every span, both ends included."""
+        return self.at(self.space.steps(each))

@@ -1,0 +1,183 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments of B-spline curves: of their length, as wires, and of the plane regions that closed ones bound.
+
+A region's moments are those of the flux through its boundary, by Green's theorem about a point of its plane,
+
+    ∫ x^p y^q z^r dA = 1 / (p+q+r+2) · ∮ x^p y^q z^r n · (C x C') dt,
+
+whose integrand is a polynomial of degree (n + 2) d - 1 where the curve is one of degree d: exact by Gauss's rule. Where
+it is rational, and for the length's square root, rules are compared as in `patch_moments`, and the difference is
+reported as an estimate. A length has a kink where its curve turns back, which two rules may miss alike. The tangents of
+a Bézier curve lie in the cone of its control polygon's edges (Floater 1992), so that such places are found and halved
+until they are too short to matter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.moments import Moments, U, monomials
+from .bezier import bernstein, halves
+from .curve import Curve
+from .patch_moments import ROUNDING, TOLERANCE
+
+LENGTH_TOLERANCE = 1e-13
+RULES = (8, 12, 18, 27)  # points; each is compared with the one before
+DEEPEST = 60  # times that a piece is halved
+STEEP = 1e8  # the largest weight of a piece by its smallest: beyond it two rules may miss the same
+
+
+def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
+    """(3,) the middle of the box around all control points: the reference point."""
+    low = np.min([curve.points.min(axis=0) for curve in curves], axis=0)
+    high = np.max([curve.points.max(axis=0) for curve in curves], axis=0)
+    return low + (high - low) / 2.0
+
+
+def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
+    """∫ x^p y^q z^r ds along the curves, about the middle of their box; `error` is an estimate."""
+    about = curves_center(curves)
+    reach, degree = _reach(curves, about), monomials(order).sum(axis=1)
+
+    def length(place: NDArray, velocity: NDArray) -> NDArray:
+        return np.sqrt((velocity**2).sum(axis=0))
+
+    values, estimate, size = _integrated(curves, length, 1.0, order, about, reach, LENGTH_TOLERANCE, kinks=True)
+    scale = size * reach ** degree.astype(np.float64)
+    return Moments(values, about, "length", estimate * reach ** degree.astype(np.float64) + ROUNDING * U * 8 * scale)
+
+
+def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, about: NDArray | None = None) -> Moments:
+    """The area moments of the region in a plane that closed curves bound, counter-clockwise seen from the normal's tip.
+
+    normal: (3,) unit. about: (3,) a point of the plane, by default the mean of the control points. A curve that runs
+    clockwise bounds a hole. Of polynomial curves the moments are exact and `error` is rounding.
+    """
+    about = np.mean([curve.points.mean(axis=0) for curve in curves], axis=0) if about is None else np.asarray(about)
+    reach, degree = _reach(curves, about), monomials(order).sum(axis=1)
+
+    def flux(place: NDArray, velocity: NDArray) -> NDArray:
+        x, y, z = place
+        a, b, c = velocity
+        return normal[0] * (y * c - z * b) + normal[1] * (z * a - x * c) + normal[2] * (x * b - y * a)
+
+    values, estimate, size = np.zeros(len(degree)), 0.0, 0.0
+    exact = [curve for curve in curves if curve.weights is None]
+    for curve in exact:
+        points = ceil((order + 2) * (curve.space.order - 1) / 2)
+        rows, length = _summed(*_pieces(curve, about), max(points, 1), flux, order)
+        values, size = values + rows.sum(axis=0), size + length.sum()
+    rational = [curve for curve in curves if curve.weights is not None]
+    if rational:
+        more, estimate, length = _integrated(rational, flux, reach, order, about, reach, TOLERANCE)
+        values, size = values + more, size + length
+    powers = reach ** (degree + 1.0)
+    error = (estimate / max(reach, 1e-300) * powers + ROUNDING * U * 8 * size * powers) / (degree + 2.0)
+    return Moments(values / (degree + 2.0), about, "area", error)
+
+
+def _reach(curves: Sequence[Curve], about: NDArray) -> float:
+    return max(float(np.sqrt(((curve.points - about) ** 2).sum(axis=1).max())) for curve in curves)
+
+
+def _integrated(
+    curves: Sequence[Curve],
+    density: Callable,
+    largest: float,
+    order: int,
+    about: NDArray,
+    reach: float,
+    tolerance: float,
+    kinks: bool = False,
+) -> tuple[NDArray, float, float]:
+    """The integral of density times monomials, the estimate of its truncation by unit of reach to the degree, and the
+    curves' length. largest: what the density is at most, for each unit of length. kinks: whether it has some where a
+    curve turns back.
+
+    A piece is settled when two rules agree to the tolerance of its own length, or of its share of the curve's.
+    """
+    degree = monomials(order).sum(axis=1)
+    unit = reach ** degree.astype(np.float64)
+    values, estimate, whole = np.zeros(len(degree)), 0.0, 0.0
+    for curve in curves:
+        net, home = _pieces(curve, about)
+        coarse, rule, depth, share = None, 0, 0, 0.0
+        while len(net):
+            if coarse is None:
+                coarse, _ = _summed(net, home, RULES[rule], density, order)
+            fine, size = _summed(net, home, RULES[rule + 1], density, order)
+            share = share or float(size.mean())
+            differ = np.where(unit > 0.0, np.abs(fine - coarse) / np.where(unit > 0.0, unit, 1.0), 0.0).max(axis=1)
+            if kinks:
+                differ += _turning(net)
+            differ += largest * _unseen(net)
+            # What is no number, of moments beyond its range, is not halved.
+            good = ~(differ > tolerance * np.maximum(size, share) * largest) | (depth >= DEEPEST)
+            values += fine[good].sum(axis=0)
+            estimate += float(differ[good].sum())
+            whole += float(size[good].sum())
+            net, home, coarse, rule = net[~good], home[~good], fine[~good], rule + 1
+            if rule + 1 == len(RULES):
+                net = np.concatenate([np.einsum("ij,cjd->cid", half, net) for half in halves(net.shape[1])])
+                net, home = _at_home(net, np.tile(home, (2, 1)))
+                coarse, rule, depth = None, 0, depth + 1
+    return values, estimate, whole
+
+
+def _pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The Bézier curves that a curve consists of: their control points (c, order, 3), or (c, order, 4) those times
+    their weights, and the weights, about home (c, 3), itself about the point."""
+    space, origin = curve.space, curve.points[0]
+    net = curve.points - origin
+    if curve.weights is not None:
+        net = np.concatenate([net * curve.weights[:, None], curve.weights[:, None]], axis=1)
+    net = np.einsum("sij,sjd->sid", space.blossoms, net[space.acting])
+    return _at_home(net, np.tile(origin - about, (len(net), 1)))
+
+
+def _at_home(net: NDArray, home: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The same about their own first control points."""
+    rational = net.shape[2] == 4
+    first = net[:, :1, :3] / net[:, :1, 3:] if rational else net[:, :1]
+    places = net[..., :3] - (first * net[..., 3:] if rational else first)
+    return np.concatenate([places, net[..., 3:]], axis=2), home + first[:, 0]
+
+
+def _turning(net: NDArray) -> NDArray[np.float64]:
+    """(c,) the most that the lengths of pieces can be where they may turn back, 0 of others."""
+    edges = np.diff(net[..., :3] / net[..., 3:] if net.shape[2] == 4 else net, axis=1)
+    ahead = np.einsum("ckd,cd->ck", edges, edges.sum(axis=1)).min(axis=1) >= 0.0
+    return np.where(ahead, 0.0, np.sqrt((edges**2).sum(axis=2)).sum(axis=1))
+
+
+def _unseen(net: NDArray) -> NDArray[np.float64]:
+    """(c,) the most that the lengths can be of pieces that heavy weights draw to a point but for their ends, 0 of
+    others."""
+    if net.shape[2] == 3:
+        return np.zeros(len(net))
+    weights, places = net[..., 3], net[..., :3] / net[..., 3:]
+    steep = weights.max(axis=1) > STEEP * weights.min(axis=1)
+    return np.where(steep, np.sqrt((np.diff(places, axis=1) ** 2).sum(axis=2)).sum(axis=1), 0.0)
+
+
+def _summed(
+    net: NDArray, home: NDArray, points: int, density: Callable, order: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(c, K) the contributions of pieces of a curve by a Gauss rule, and (c,) their lengths."""
+    tables, weights = bernstein(net.shape[1], (points,))
+    place, velocity = np.einsum("jnk,ckd->jdcn", tables, net)
+    if len(place) == 4:
+        bottom = place[3]
+        velocity = (velocity[:3] - place[:3] / bottom * velocity[3]) / bottom
+        place = place[:3] / bottom
+    place = place + home.T[:, :, None]
+    element = density(place, velocity) * weights[:, 0]
+    columns = [
+        (element * place[0] ** p * place[1] ** q * place[2] ** r).sum(axis=1) for p, q, r in monomials(order).tolist()
+    ]
+    return np.stack(columns, axis=1), (np.sqrt((velocity**2).sum(axis=0)) * weights[:, 0]).sum(axis=1)

@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tensor-product B-spline patches, polynomial or rational.
+
+The normal of a patch is ∂S/∂s x ∂S/∂t, s being the direction of the first axis of its control points. Blender's faces
+run the other way round their two directions: with v as s and u as t both agree.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.bspline import Space
+from .curve import Curve, checked_points
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """spaces: of s and t. points: (count_s, count_t, 3). weights: (count_s, count_t) positive, or None: polynomial."""
+
+    spaces: tuple[Space, Space]
+    points: NDArray[np.float64]
+    weights: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        points, weights = checked_points(self.points, self.weights, (self.spaces[0].count, self.spaces[1].count))
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "weights", weights)
+
+    @cached_property
+    def steady(self) -> tuple[bool, bool]:
+        """Whether the weights are the same along s, and along t."""
+        if self.weights is None:
+            return True, True
+        return bool((self.weights == self.weights[:1]).all()), bool((self.weights == self.weights[:, :1]).all())
+
+    def mapped(self, matrix: NDArray) -> Patch:
+        """Its image under an affine map (4, 4): that of its control points."""
+        return replace(self, points=self.points @ np.asarray(matrix)[:3, :3].T + np.asarray(matrix)[:3, 3])
+
+    def turned(self) -> Patch:
+        """The same surface facing the other way."""
+        return Patch(self.spaces[::-1], self.points.swapaxes(0, 1), None if self.weights is None else self.weights.T)
+
+    def grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
+        """(len(s), len(t), 3) its points."""
+        return self.combined(*(space.matrix(np.asarray(values)) for space, values in zip(self.spaces, (s, t))))
+
+    def combined(self, *tables: NDArray) -> NDArray[np.float64]:
+        """(m, n, 3) its points where its control points weigh what two tables, (m, count_s) and (n, count_t), say."""
+        points = self.points
+        if self.weights is not None:
+            points = points * self.weights[..., None]
+            bottom = np.einsum("ai,bi->ab", np.einsum("ai,ij->aj", tables[0], self.weights), tables[1])
+        top = np.einsum("ajd,bj->abd", np.einsum("ai,ijd->ajd", tables[0], points), tables[1])
+        return top if self.weights is None else top / bottom[..., None]
+
+    def side(self, axis: int, end: int) -> Curve:
+        """The curve that bounds the patch where s (axis 0) or t (axis 1) is first (end 0) or last (end 1)."""
+        weigh = self.spaces[axis].ends[end]
+        points, weights = self.points, self.weights
+        if weights is None:
+            return Curve(self.spaces[1 - axis], np.tensordot(weigh, points, (0, axis)))
+        bottom = np.tensordot(weigh, weights, (0, axis))
+        top = np.tensordot(weigh, points * weights[..., None], (0, axis))
+        return Curve(self.spaces[1 - axis], top / bottom[:, None], bottom)
+
+    def samples(self, each: int) -> NDArray[np.float64]:
+        """A grid of points, each + 1 to every span and direction, ends included."""
+        return self.combined(*(_sample_table(space, each) for space in self.spaces))
+
+
+@lru_cache(maxsize=64)
+def _sample_table(space: Space, each: int) -> NDArray[np.float64]:
+    """What control points weigh at equal steps in every span; not to be written to."""
+    return space.matrix(space.steps(each))

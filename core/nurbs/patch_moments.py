@@ -1,0 +1,433 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments of what B-spline patches bound, of the patches themselves, and of sheets upon them.
+
+Soldea, Elber and Rivlin, sections 2 and 3, with the radial flux in place of their z-flux, so that no axis is special:
+
+    ∫ x^p y^q z^r dV = 1 / (p+q+r+3) · ∫∫ x^p y^q z^r S · (S_s x S_t) ds dt.
+
+Of a polynomial patch of degree d the integrand has degree (n + 3) d - 2 in each parameter for moments of order n (the
+top coefficient of S · (S_s x S_t) cancels), so a Gauss rule of ceil(((n + 3) d - 1) / 2) points in every span is exact.
+A rational integrand, an area's square root and the jacobian of a sheet have no finite degree: there the rules grow by
+halves until two of them agree, and where the finest does not settle it, cells are cut in four. The sum of what they
+still differ by is reported, as an estimate: it is that of the coarser rule, while the result is the finer one's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache, partial
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.moments import Moments, U, monomials
+from ..moments.monomials import monomial_count
+from ..numerics.bspline import Space
+from ..numerics.quadrature import gauss, gauss_and_ends
+from ..numerics.vectors import cross, dot
+from .bezier import Cells, Rule, Weights, cells_of
+from .patch import Patch
+
+TOLERANCE = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
+AREA_TOLERANCE = 1e-11
+UNSETTLED = 8.0  # times what two rules differ by that have not begun to agree, when no more points are to be spent
+STEEP = 1e2, 1e6  # a cell's largest weight by its smallest, beyond which rules may differ by less than both miss, or
+# miss the same
+FOLDED = 8.0  # times what two rules differ by: where a patch folds back, its area has kinks, and both may be off alike
+TURNED = 1e-9  # a normal that points against its neighbour by less than this is rounding
+RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
+COARSE_RULES = (8, 12, 18)  # where less is asked for
+TINY = 1e-300  # what is divided by at least
+DEEPEST = 14  # times that a cell is cut
+MOST_POINTS = 6_000_000  # evaluated at most
+BLOCK = 12288  # points at a time: their arrays stay in the cache
+SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time, for the area's gradient
+ROUNDING = 64.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
+
+Integrand = Callable[[Cells, Rule], NDArray]
+
+
+@dataclass(frozen=True, eq=False)
+class Integral:
+    """values: (K,). estimate: of their truncation, and size: of all cells, both by the unit of each moment.
+    settled: whether the estimate is below the tolerance."""
+
+    values: NDArray[np.float64]
+    estimate: float
+    size: float
+    settled: bool
+
+
+def control_box(patches: Sequence[Patch]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(3,) and (3,) the least and the largest coordinates of all control points."""
+    return (
+        np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0),
+        np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0),
+    )
+
+
+def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
+    """(3,) the middle of the box around all control points: the reference point."""
+    low, high = control_box(patches)
+    return low + (high - low) / 2.0
+
+
+def volume_moments(
+    patches: Sequence[Patch], order: int = 3, about: NDArray | None = None, tolerance: float = TOLERANCE
+) -> tuple[Moments, bool]:
+    """The volume moments of the body that closed, outward patches bound.
+
+    about: (3,), by default the middle of their box. Patches that do not close are closed by the cone from there.
+    Returns the moments, whose `error` is an estimate of truncation (zero for polynomial patches) and rounding, and
+    whether the truncation is below `tolerance`.
+    """
+    about = patches_center(patches) if about is None else np.asarray(about, np.float64)
+    degree, flux = _degrees(order), partial(flux_sums, order=order)
+    values, estimate, size, settled = np.zeros(len(degree)), 0.0, 0.0, True
+    reach, orders, rational = 0.0, 0, []
+    for part in cells_of(patches, about):
+        reach, orders = max(reach, part.reach), max(orders, sum(part.orders))
+        if len(part.net) == 4:
+            rational.append(part)
+            continue
+        points = exact_points(part.orders[0], order), exact_points(part.orders[1], order)
+        sums = np.add.reduce(blocks(part, (points[:1], points[1:]), flux)[0], axis=1)
+        values += sums[:-1]
+        size += float(sums[-1])
+    unit = reach ** (degree + 1.0)
+    if rational:
+        found = adaptive(rational, flux, unit, tolerance, order)
+        values, estimate, settled = values + found.values, found.estimate, found.settled
+        size += found.size
+    error = (estimate + (ROUNDING * U * size) * (orders + degree)) * unit / (degree + 3.0)
+    return Moments(values / (degree + 3.0), about, "volume", error), settled
+
+
+def flux_sums(cells: Cells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
+    """(rules, K + 1, c) the flux of monomials times the place, and a size: the area, or, what that is at most,
+    ∫ |S_s| |S_t|."""
+    (s, along, across), weights = cells.at(rule)
+    normal = cross(along, across)
+    rows = weighted_monomials(s, dot(s, normal), order, 1)
+    np.sqrt(dot(normal, normal) if area else _square(along) * _square(across), out=rows[-1])
+    return summed(rows, weights)
+
+
+def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
+    """The area moments of patches by quadrature; `error` is an estimate. Otherwise as `volume_moments`.
+
+    Where a patch turns over between two neighbouring points, or a cell's side and its first point, what lies between
+    them counts as error, so that such a cell is cut.
+    """
+    about = patches_center(patches) if about is None else np.asarray(about, np.float64)
+    parts = list(cells_of(patches, about))
+    unit = max(part.reach for part in parts) ** _degrees(order)
+
+    def area(cells: Cells, rule: Rule) -> NDArray:
+        (s, along, across), weights = cells.at(rule, ends=True)
+        normal = np.stack(cross(along, across))
+        rows = weighted_monomials(s, _length(normal), order, 1)
+        rows[-1] = rows[0]
+        return np.concatenate([summed(rows, weights), _turning(normal, weights, rule)[None, None]], axis=1)
+
+    found = adaptive(parts, area, unit, AREA_TOLERANCE)
+    orders = max(sum(part.orders) for part in parts)
+    error = (FOLDED * found.estimate + ROUNDING * U * orders * found.size) * unit
+    return Moments(found.values, about, "area", error), found.settled
+
+
+def _turning(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
+    """(c,) the areas between neighbouring points of cells where the patch turns over between them: its area has a kink
+    there, which two rules may miss alike. normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both
+    directions."""
+    total = np.zeros(normal.shape[2])
+    for (points,), other in zip(rule, weights[::-1]):
+        nodes, _ = gauss_and_ends(points)
+        length = _length(normal)
+        # At a pole the normal is rounding.
+        over = dot(normal[:, :-1], normal[:, 1:]) < -TURNED * np.maximum(length[:-1], length[1:]) ** 2
+        size = np.where(over, length[:-1] + length[1:], 0.0) * np.diff(nodes)[:, None, None] / 2.0
+        total += size.sum(axis=0) @ other[:, 0]
+        normal = normal.swapaxes(1, 3)
+    return total
+
+
+def area_slope(patches: Sequence[Patch]) -> float:
+    """By how much the area changes at most, to first order, for each unit that every control point moves: the sum of
+    the lengths of its gradients by them. By a fixed rule: an estimate."""
+    total = 0.0
+    for patch in patches:
+        net = np.moveaxis(patch.points - patch.points[0, 0], -1, 0)
+        if patch.weights is not None:
+            net = np.concatenate([net * patch.weights, patch.weights[None]])
+        gradient = np.zeros((3, *patch.points.shape[:2]))
+        for s, s_slope, s_steps, rows in _slope_tiles(patch.spaces[0]):
+            for t, t_slope, t_steps, columns in _slope_tiles(patch.spaces[1]):
+                own = np.ascontiguousarray(net[:, rows[:, None], columns])
+                force = _slope_of_tile((s, s_slope), (t, t_slope), s_steps[:, None] * t_steps, own)
+                gradient[:, rows[:, None], columns] += force
+        if patch.weights is not None:
+            gradient *= patch.weights
+        total += float(_length(gradient).sum())
+    return total
+
+
+@lru_cache(maxsize=64)
+def _slope_tiles(space: Space) -> tuple[tuple[NDArray, NDArray, NDArray, NDArray], ...]:
+    """Values and slopes (m, k) of the control points (k,) that act in a few spans at a time, and the steps (m,); not to
+    be written to."""
+    nodes, weights = gauss(SLOPE_POINTS)
+    tiles = []
+    for start in range(0, len(space.spans), SLOPE_SPANS):
+        low, high = space.intervals[start : start + SLOPE_SPANS].T
+        size = (high - low)[:, None]
+        places = (low[:, None] + size * nodes).ravel()
+        acting = np.unique(space.controls(space.spans[start : start + SLOPE_SPANS]))
+        tiles.append(
+            (space.matrix(places)[:, acting], space.matrix(places, 1)[:, acting], (size * weights).ravel(), acting)
+        )
+    return tuple(tiles)
+
+
+def _slope_of_tile(
+    along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
+) -> NDArray[np.float64]:
+    """(3, k, k') the area's gradient by control points, of homogeneous ones by the product of weight and place."""
+    (s, s_slope), (t, t_slope) = along, across
+    place, by_s, by_t = (
+        np.matmul(np.matmul(one, net), np.ascontiguousarray(other.T))
+        for one, other in ((s, t), (s_slope, t), (s, t_slope))
+    )
+    rational = len(net) == 4
+    if rational:
+        bottom = place[3]
+        place, s_bottom, t_bottom = place[:3] / bottom, by_s[3] / bottom, by_t[3] / bottom
+        by_s, by_t = by_s[:3] / bottom - place * s_bottom, by_t[:3] / bottom - place * t_bottom
+        weights = weights / bottom
+    normal = np.stack(cross(by_s, by_t))
+    length = _length(normal)
+    unit = normal / np.where(length > 0.0, length, 1.0) * weights
+    s_force, t_force = np.stack(cross(by_t, unit)), np.stack(cross(unit, by_s))
+    parts = [(s_slope, s_force, t), (s, t_force, t_slope)]
+    if rational:
+        parts.append((s, -(s_force * s_bottom + t_force * t_bottom), t))
+    return sum(np.matmul(np.matmul(np.ascontiguousarray(one.T), force), other) for one, force, other in parts)
+
+
+def sheet_moments(
+    patches: Sequence[Patch], inner: float, outer: float, order: int = 3, about: NDArray | None = None
+) -> tuple[Moments, bool]:
+    """The volume moments of {S + h n : inner ≤ h ≤ outer}, n the patches' unit normal: a sheet with real thickness.
+
+    Across the sheet the integrand is a polynomial of degree n + 2, so a rule of ceil((n + 3) / 2) points is exact.
+    ValueError where the sheet is thicker than its surface's radius of curvature, so that it runs through itself there.
+    """
+    about = patches_center(patches) if about is None else np.asarray(about, np.float64)
+    parts = list(cells_of(patches, about))
+    unit = (max(part.reach for part in parts) + max(abs(inner), abs(outer))) ** _degrees(order)
+    nodes, steps = gauss(ceil((order + 3) / 2))
+    heights, steps = inner + (outer - inner) * nodes, (outer - inner) * steps
+
+    def sheet(cells: Cells, rule: Rule) -> NDArray:
+        (s, along, across, *second), weights = cells.at(rule, 2)
+        normal = np.stack(cross(along, across))
+        length = _length(normal)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            unit = np.where(length > 0.0, normal / length, 0.0)
+            turning = [
+                _tangent(np.stack(cross(second[k], across)) + np.stack(cross(along, second[k + 1])), unit)
+                / np.where(length > 0.0, length, 1.0)
+                for k in (0, 1)
+            ]
+        # (1 - k h) and (1 - k' h), k and k' the curvatures, must both be positive: their product, and their sum too.
+        bend = dot(np.stack(cross(along, turning[1])) + np.stack(cross(turning[0], across)), unit)
+        for height in (inner, outer):
+            product = _stretch(along, across, turning, unit, height)
+            if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
+                raise ValueError(
+                    "The sheet is thicker than its surface's radius of curvature, so that it runs through "
+                    "itself. Make it thinner."
+                )
+        rows = 0.0
+        for height, step in zip(heights, steps):
+            element = step * _stretch(along, across, turning, unit, height)
+            rows = rows + weighted_monomials(s + height * unit, element, order, 1)
+        rows[-1] = length * (outer - inner)
+        return summed(rows, weights)
+
+    found = adaptive(parts, sheet, unit, AREA_TOLERANCE, thickness=outer - inner)
+    orders = max(sum(part.orders) for part in parts)
+    error = (found.estimate + ROUNDING * U * orders * found.size) * unit
+    return Moments(found.values, about, "volume", error), found.settled
+
+
+def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
+    """(3,) the integral of the unit normals: of a flat patch its area along its normal. Exact along directions in which
+    the weights are the same, by a fixed rule along others."""
+    total = np.zeros(3)
+    for cells in cells_of(patches, np.zeros(3)):
+        s, t = ((max(1, order - 1) if same else RULES[0],) for order, same in zip(cells.orders, cells.steady))
+        (_, along, across), weights = cells.at((s, t))
+        total += summed(np.stack(cross(along, across)), weights)[0].sum(axis=1)
+    return total
+
+
+def exact_points(order: int, degree: int) -> int:
+    """The Gauss points in a span of a polynomial direction of this order that make moments of this degree exact."""
+    return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
+
+
+def adaptive(
+    cells: Sequence[Cells],
+    integrand: Integrand,
+    unit: NDArray,
+    tolerance: float,
+    degree: int | None = None,
+    thickness: float = 1.0,
+) -> Integral:
+    """An integral over patches, cell by cell to the rule that settles it.
+
+    integrand: gives for each rule (K + 1, c) contributions and sizes of cells, and perhaps a row more of shares that
+    count as error. unit: (K,) what a cell's size times it bounds.
+    degree: of moments whose integrand is a polynomial along a direction in which the weights are the same, so that
+    there fewer points are exact; None where there is none. thickness: what an area is multiplied by.
+    A cell is settled when two rules agree to the tolerance of its own scale, or of its share of the whole one.
+    """
+    k = len(unit)
+    values, estimate, lost, most = np.zeros(k), 0.0, 0.0, np.maximum(unit, TINY)[:, None]
+    points, enough = (RULES, MOST_POINTS) if tolerance < AREA_TOLERANCE else (COARSE_RULES, MOST_POINTS // 2)
+    work = [(part, None, 0) for part in cells]
+    whole, count, spent, settled, depth = 0.0, sum(map(len, cells)), 0, True, 0
+    at_stake = thickness * sum(float(_unseen(part, STEEP[0]).sum()) for part in cells)
+    while work:
+        waiting, compared = [], []
+        for part, coarse, level in work:
+            rules = _rules(part.orders, part.steady, points[level : level + 2], degree)
+            found = [row for rule in (rules if coarse is None else rules[-1:]) for row in blocks(part, rule, integrand)]
+            spent += len(part) * sum(number**2 for number in points[level + (coarse is not None) : level + 2])
+            compared.append((part, found[0] if coarse is None else coarse, found[-1], level))
+        whole = whole or sum(float(np.add.reduce(fine[k])) for _, _, fine, _ in compared)
+        last = spent > enough or depth >= DEEPEST
+        for part, coarse, fine, level in compared:
+            # The worst of all moments stands for each: one may agree by chance.
+            differ = np.maximum.reduce(np.abs(fine[:k] - coarse[:k]) / most)
+            kinks = fine[k + 1] if len(fine) > k + 1 else 0.0
+            steep = thickness * _unseen(part, STEEP[1])
+            differ += kinks
+            good = differ + steep <= tolerance * np.maximum(fine[k], whole / count)
+            if last or good.all():
+                settled &= not last or bool(good.all())
+                lost += thickness * float(_unseen(part[~good], STEEP[0]).sum()) if last and at_stake else 0.0
+                values += np.add.reduce(fine[:k], axis=1)
+                estimate += float(np.add.reduce(differ)) + (UNSETTLED - 1.0) * float(np.add.reduce(differ[~good]))
+                continue
+            values += np.add.reduce(fine[:k, good], axis=1)
+            estimate += float(np.add.reduce(differ[good]))
+            onward = ~good if level + 2 < len(points) else np.zeros_like(good)
+            onward &= kinks + steep == 0.0  # no rule sees through a kink
+            cut = ~(good | onward)
+            if onward.any():
+                waiting.append((part[onward], fine[:, onward], level + 1))
+            if cut.any():
+                waiting.append((part[cut].split(), None, 0))
+        depth += any(coarse is None for _, coarse, _ in waiting)
+        work = waiting
+    return Integral(values, estimate + min(lost, at_stake), whole, settled)
+
+
+def _unseen(cells: Cells, steep: float) -> NDArray[np.float64]:
+    """(c,) the area that may lie between the points of all rules: of cells whose weights differ by more than that
+    factor, so that all but a rim of them is drawn to a point, the squared diagonal of their control points' box."""
+    lost = np.zeros(len(cells))
+    if len(cells.net) == 4:
+        weights = cells.net[3]
+        rows = np.flatnonzero(weights.max(axis=(0, 2)) > steep * weights.min(axis=(0, 2)))
+        if len(rows):
+            places = cells.net[:3, :, rows] / cells.net[3:, :, rows]
+            lost[rows] = (np.ptp(places, axis=(1, 3)) ** 2).sum(axis=0)
+    return lost
+
+
+@lru_cache(maxsize=256)
+def _rules(
+    orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int, int], degree: int | None
+) -> tuple[Rule, ...]:
+    """Two rules to compare, of so many points along each direction, or fewer where they are exact; as one, side by
+    side, where they differ along one direction only: that takes no more points."""
+    coarse, fine = (
+        tuple(
+            min(number, exact_points(order, degree)) if same and degree is not None else number
+            for order, same in zip(orders, steady)
+        )
+        for number in points
+    )
+    if coarse[0] == fine[0]:
+        return ((fine[:1], (coarse[1], fine[1])),)
+    if coarse[1] == fine[1]:
+        return (((coarse[0], fine[0]), fine[1:]),)
+    return (coarse[:1], coarse[1:]), (fine[:1], fine[1:])
+
+
+def blocks(cells: Cells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
+    """(rules, K, c) an integrand of many cells, some at a time."""
+    step = max(1, BLOCK // (sum(rule[0]) * sum(rule[1])))
+    if len(cells) <= step:
+        return integrand(cells, rule)
+    return np.concatenate(
+        [integrand(cells[start : start + step], rule) for start in range(0, len(cells), step)], axis=2
+    )
+
+
+def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
+    """(K + more, ...) the density times the monomials of points (3, ...), in the order of `monomials`, and rows of
+    zeros to be filled."""
+    rows = np.empty((monomial_count(order) + more, *density.shape))
+    rows[monomial_count(order) :] = 0.0
+    rows[0] = density
+    if order:
+        np.multiply(place, density, out=rows[1:4])
+    start = 1
+    for degree in range(1, order):
+        end = monomial_count(degree)
+        onward = 2 * end - start
+        np.multiply(place[0], rows[start:end], out=rows[end:onward])
+        np.multiply(place[1], rows[end - degree - 1 : end], out=rows[onward : onward + degree + 1])
+        np.multiply(place[2], rows[end - 1], out=rows[onward + degree + 1])
+        start = end
+    return rows
+
+
+def summed(rows: NDArray, weights: Weights) -> NDArray[np.float64]:
+    """(rules, K, c) the sums of (K, m, c, n) over the points of each cell, by weights (m, rules) and (n, rules), of
+    which one has one column."""
+    count, m, c, n = rows.shape
+    one, other = weights
+    half = (rows.reshape(-1, n) @ other).reshape(count, m, -1)
+    found = np.matmul(one.T, half).reshape(count, one.shape[1], c, -1)
+    return found.transpose(1, 3, 0, 2).reshape(-1, count, c)
+
+
+@lru_cache
+def _degrees(order: int) -> NDArray[np.float64]:
+    """(K,) the degree of each monomial."""
+    return monomials(order).sum(axis=1).astype(np.float64)
+
+
+def _square(a: NDArray) -> NDArray[np.float64]:
+    return np.add.reduce(a * a, axis=0)
+
+
+def _length(a: NDArray) -> NDArray[np.float64]:
+    return np.sqrt(dot(a, a))
+
+
+def _tangent(a: NDArray, unit: NDArray) -> NDArray[np.float64]:
+    return a - dot(a, unit) * unit
+
+
+def _stretch(along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float) -> NDArray:
+    """The jacobian of the sheet at a height: |S_s x S_t| (1 - 2 H h + K h²), by the offset surface's derivatives."""
+    return dot(cross(along + height * turning[0], across + height * turning[1]), unit)

@@ -1,0 +1,374 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether patches close, which way each faces, and the caps of what they leave open.
+
+Every patch has four sides, curves that run round it with the patch on their left. A side is closed where it is a point
+(a pole) or where it coincides with another side: of the same patch (a cyclic direction, a seam) or of another one, run
+the other way. Sides coincide where they agree parameter by parameter, or else point by point. A vector area of zero
+proves nothing: that of an open cylinder is zero too.
+
+Open sides are joined to loops, and a loop is closed by the cone to its centroid, which of a flat loop is the exact flat
+cap, as a signed sum whatever the loop's shape. A cone over a B-spline curve is a B-spline patch of degree one by the
+curve's, so that caps are patches as all others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.boxes import overlapping_boxes
+from ..numerics.arrays import ramp
+from ..numerics.bspline import Space, clamped
+from ..numerics.graph import components
+from .curve import Curve
+from .patch import Patch
+from .patch_moments import vector_area
+from .planar_region import crosses_itself
+
+SAMPLES = 33  # points at least by which sides are compared
+BLOCK = 4096  # pairs of sides compared at a time
+PIECE = 1 << 20  # pairs of sides looked at together
+FOLDED = 1e-3  # radians: patches that lie on each other
+MOST_CHORDS = 4096  # of a rim that is asked whether it crosses itself
+MOST_PAIRS = 100_000  # of closed sides, compared point by point
+SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held, end, run forward), counter-clockwise
+
+
+@dataclass(frozen=True, eq=False)
+class Side:
+    """One side of a patch. forward: whether the patch's boundary runs the way of its curve."""
+
+    patch: int
+    curve: Curve
+    forward: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Loop:
+    """Open sides that run round a hole. caps: the patches that close it and face as theirs do. patch: one of theirs.
+    flat: whether it lies in a plane; out_of_plane: by how much it does not. slim: whether it has no area, so that it
+    is closed already. area: of the cap, an estimate. crossing: whether it is flat and crosses itself."""
+
+    caps: tuple[Patch, ...]
+    patch: int
+    flat: bool
+    slim: bool
+    area: float
+    out_of_plane: float
+    crossing: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Closure:
+    """component: (n,) of each patch; number: of them. turned: (n,) which patches face against the first of theirs.
+    loops: the holes. open_sides, crowded, against: how many sides lie open, coincide with more than one other, or run
+    the same way as the side that they coincide with, before anything was turned. gap: the largest distance, times the
+    length, of sides that coincide. seams: (k, 2) sides that are joined, four to a patch in the order of `SIDES`.
+    broken: (number,) components whose sides can be joined to no loops, or that have one side only.
+    """
+
+    component: NDArray[np.intp]
+    number: int
+    turned: NDArray[np.bool_]
+    loops: tuple[Loop, ...]
+    open_sides: int
+    crowded: int
+    against: int
+    gap: float
+    seams: NDArray[np.intp]
+    broken: NDArray[np.bool_]
+
+
+def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
+    """Find out how patches close. tolerance: the distance within which points are the same.
+
+    ValueError where knots may tear one: what gapes within a patch is no side of it.
+    """
+    if any(space.is_torn for patch in patches for space in patch.spaces):
+        raise ValueError(
+            "One of its patches has an inner knot that is repeated as often as its order, so that it may "
+            "be torn there. Make two patches of it, split at that knot."
+        )
+    sides = [Side(i, patch.side(axis, end), forward) for i, patch in enumerate(patches) for axis, end, forward in SIDES]
+    count = max([SAMPLES] + [2 * len(side.curve.space.spans) + 1 for side in sides])
+    points = np.array([side.curve.combined(_evenly(side.curve.space, count)) for side in sides])
+    length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
+    wide = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
+    owner = np.array([side.patch for side in sides])
+    forward = np.array([side.forward for side in sides])
+    left, right, same, gap, crowded = _paired(
+        _matched(sides, points, np.flatnonzero(wide), tolerance), points, owner, forward
+    )
+
+    # Two sides fit where one runs against the other; else one of their patches must turn.
+    against = same == (forward[left] == forward[right])
+    component, number = components(len(patches), owner[left], owner[right])
+    turned, conflict = _turned(len(patches), owner[left], owner[right], against)
+    broken = np.zeros(number, bool)
+    broken[component[conflict]] = True
+
+    free = wide.copy()
+    free[left] = free[right] = False
+    loops = []
+    for rows, complete in _loops(points, np.flatnonzero(free), forward ^ turned[owner], tolerance):
+        if not complete:
+            broken[component[owner[rows]]] = True
+            continue
+        loops.append(_capped([sides[k] for k in rows], points[rows], (forward ^ turned[owner])[rows], tolerance))
+    return Closure(
+        component,
+        number,
+        turned,
+        tuple(loops),
+        int(free.sum()),
+        crowded,
+        int(against.sum()),
+        float((gap * length[left]).sum()),
+        np.stack([left, right], axis=1),
+        broken,
+    )
+
+
+@lru_cache(maxsize=64)
+def _evenly(space: Space, count: int) -> NDArray[np.float64]:
+    """What control points weigh at equal steps of the domain; not to be written to."""
+    low, high = space.domain
+    return space.matrix(low + (high - low) * np.linspace(0.0, 1.0, count))
+
+
+def _matched(
+    sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tolerance: float
+) -> list[tuple[float, int, int, bool]]:
+    """Pairs of sides that coincide, the nearest first: how far they are apart, which, and whether their curves run the
+    same way."""
+    middle = points.shape[1] // 2
+    rows = points[wide]
+    first, last = rows[:, 0], rows[:, -1]
+    pairs = _near(np.concatenate([first + last, 2.0 * rows[:, middle]], axis=1), 2.0 * tolerance)
+    found = list(_apart(points, *(wide[k] for k in pairs), tolerance))
+    loose = np.ones(len(points), bool)
+    loose[[side for _, i, j, _ in found for side in (i, j)]] = False
+    # The same curve by other parameters: between the same ends, or without ends.
+    ring = np.linalg.norm(last - first, axis=1) <= 2.0 * tolerance
+    arcs, rings = np.flatnonzero(loose[wide] & ~ring), np.flatnonzero(loose[wide] & ring)
+    ends = _near(np.concatenate([first + last, np.abs(first - last)], axis=1)[arcs], 2.0 * tolerance)
+    boxes = overlapping_boxes(rows[rings].min(axis=1), rows[rings].max(axis=1), -tolerance, MOST_PAIRS)[:2]
+    candidates = np.concatenate([arcs[np.stack(ends)], np.sort(rings[np.stack(boxes)], axis=0)], axis=1)
+    for i, j in wide[candidates.T].tolist():
+        found += _astride(sides[i].curve, sides[j].curve, points[i], points[j], i, j, tolerance)
+    return sorted(found)
+
+
+def _paired(
+    found: Sequence[tuple[float, int, int, bool]], points: NDArray, owner: NDArray[np.intp], forward: NDArray[np.bool_]
+) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
+    """Which of the sides that coincide are joined: (k,) and (k,), whether their curves run the same way, how far they
+    are apart, and the number of sides that coincide with more than one other.
+
+    Where more than two meet, as where bodies touch, those are joined first whose patches are one already by other
+    sides, then a patch by itself to what it fits as it faces, then whatever fits as it faces: so no patch is turned
+    that need not be. Of equal ones the sharpest angle comes first, patches that lie on each other after all others.
+    """
+    times = np.bincount(np.array([side for _, i, j, _ in found for side in (i, j)], np.intp), minlength=len(owner))
+    part, odd, size = list(range(len(owner))), [False] * len(owner), [1] * len(owner)
+
+    def root(patch: int) -> tuple[int, bool]:
+        turn = False
+        while part[patch] != patch:
+            turn ^= odd[patch]
+            patch = part[patch]
+        return patch, turn
+
+    pairs, used = [], np.zeros(len(owner), bool)
+    arms = points.reshape(-1, len(SIDES), *points.shape[1:]).mean(axis=(1, 2))[owner] - points.mean(axis=1)
+    arms /= np.maximum(np.linalg.norm(arms, axis=1), 1e-300)[:, None]
+
+    def angle(pair: tuple[float, int, int, bool]) -> float:
+        return float(np.linalg.norm(arms[pair[1]] - arms[pair[2]]))
+
+    def rank(pair: tuple[float, int, int, bool]) -> int:
+        _, i, j, same = pair
+        (a, turn), (b, other) = root(int(owner[i])), root(int(owner[j]))
+        flip = same == (forward[i] == forward[j])
+        if a == b:
+            found = 0 if flip == turn ^ other else 4
+        else:
+            found = 3 if flip else 1 if (size[a] == 1) != (size[b] == 1) else 2
+        return max(found, 3) if angle(pair) < FOLDED else found
+
+    def join(pair: tuple[float, int, int, bool]) -> None:
+        _, i, j, same = pair
+        (a, turn), (b, other) = root(int(owner[i])), root(int(owner[j]))
+        if a != b:
+            a, b = (a, b) if size[a] >= size[b] else (b, a)
+            part[b], odd[b] = a, bool(same == (forward[i] == forward[j])) ^ turn ^ other
+            size[a] += size[b]
+        used[[i, j]] = True
+        pairs.append(pair)
+
+    crowds = [pair for pair in found if max(times[pair[1]], times[pair[2]]) > 1]
+    for pair in found:
+        if times[pair[1]] == times[pair[2]] == 1:
+            join(pair)
+    crowd, number = components(len(owner), *(np.array([pair[k] for pair in crowds], np.intp) for k in (1, 2)))
+    together: dict[int, list] = {}
+    for pair in crowds:
+        together.setdefault(int(crowd[pair[1]]), []).append(pair)
+    for meeting in together.values():
+        meeting.sort(key=lambda pair: (round(angle(pair), 3), pair))
+        for wanted in range(5):
+            for pair in meeting:
+                if not (used[pair[1]] or used[pair[2]]) and rank(pair) <= wanted:
+                    join(pair)
+    left, right, same, gap = (
+        (np.array(column) for column in zip(*((i, j, same, gap) for gap, i, j, same in pairs)))
+        if pairs
+        else np.zeros((4, 0))
+    )
+    return left.astype(np.intp), right.astype(np.intp), same.astype(bool), gap, int((times > 1).sum())
+
+
+def _near(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Pairs of rows i < j of (n, d) that differ by no more than a limit in any column: their projections on a line that
+    is parallel to nothing are neighbours."""
+    if not len(keys):
+        return np.empty(0, np.intp), np.empty(0, np.intp)
+    keys = keys - keys[0]
+    slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
+    line = (keys * slope).sum(axis=1)
+    order = np.argsort(line, kind="stable")
+    line = line[order]
+    count = np.searchsorted(line, line + (limit * slope.sum() + 1e-12 * np.abs(line).max()), side="right")
+    count -= np.arange(1, len(line) + 1)
+    total, begin, found = np.cumsum(count), 0, []
+    while begin < len(line):
+        end = max(int(np.searchsorted(total, (total[begin - 1] if begin else 0) + PIECE)), begin + 1)
+        rows = np.repeat(np.arange(begin, end), count[begin:end])
+        if len(rows):
+            i, j = order[rows], order[rows + 1 + ramp(count[begin:end])]
+            near = (np.abs(keys[i] - keys[j]) <= limit).all(axis=1)
+            found.append(np.sort([i[near], j[near]], axis=0))
+        begin = end
+    return tuple(np.concatenate([np.empty((2, 0), np.intp), *found], axis=1))
+
+
+def _apart(points: NDArray, left: NDArray, right: NDArray, tolerance: float) -> Iterator[tuple[float, int, int, bool]]:
+    """Which pairs of sides agree parameter by parameter: how far they are apart, which, whether they run the same way."""
+    for start in range(0, len(left), BLOCK):
+        i, j = left[start : start + BLOCK], right[start : start + BLOCK]
+        against, along = (
+            np.linalg.norm(points[i] - other, axis=2).max(axis=1) for other in (points[j][:, ::-1], points[j])
+        )
+        for same, gap, fits in (
+            (False, against, against <= tolerance),
+            (True, along, (along <= tolerance) & (against > tolerance)),
+        ):
+            yield from zip(gap[fits].tolist(), i[fits].tolist(), j[fits].tolist(), [same] * int(fits.sum()))
+
+
+def _astride(
+    one: Curve, other: Curve, at_one: NDArray, at_other: NDArray, i: int, j: int, tolerance: float
+) -> list[tuple[float, int, int, bool]]:
+    """Whether two curves coincide whatever their parameters are: every point of each is on the other one."""
+    gaps, ways = [], []
+    for curve, samples, points in ((other, at_other, at_one), (one, at_one, at_other)):
+        gap, way = _nearest(curve, samples, points, tolerance)
+        gaps.append(gap)
+        ways.append(way)
+        if gap > tolerance:
+            return []
+    return [(max(gaps), int(i), int(j), bool(ways[0] > 0.0))]
+
+
+def _nearest(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) -> tuple[float, float]:
+    """How far the farthest of some points is from a curve, and whether the points run along (+) or against (-) it."""
+    low, high = curve.space.domain
+    steps = low + (high - low) * np.linspace(0.0, 1.0, len(samples))
+    closed = np.linalg.norm(samples[-1] - samples[0]) <= 2.0 * tolerance
+    t = steps[np.argmin(((points[:, None] - samples[None]) ** 2).sum(axis=2), axis=1)]
+    for _ in range(12):
+        slope = curve.velocity(t)
+        square = (slope**2).sum(axis=1)
+        step = ((points - curve.at(t)) * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0)
+        t = t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0])
+        t = low + (t - low) % (high - low) if closed else np.clip(t, low, high)
+    gap = float(np.linalg.norm(points - curve.at(t), axis=1).max())
+    return gap, float((np.diff(points, axis=0) * curve.velocity(t[:-1])).sum())
+
+
+def _turned(count: int, left: NDArray, right: NDArray, against: NDArray) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+    """Which patches must turn to face as the first of their component, and those that cannot."""
+    neighbours: list[list[tuple[int, bool]]] = [[] for _ in range(count)]
+    for i, j, flip in zip(left.tolist(), right.tolist(), against.tolist()):
+        neighbours[i].append((j, flip))
+        neighbours[j].append((i, flip))
+    turned, seen, conflict = np.zeros(count, bool), np.zeros(count, bool), []
+    for first in range(count):
+        pending = [] if seen[first] else [first]
+        seen[first] = True
+        while pending:
+            i = pending.pop()
+            for j, flip in neighbours[i]:
+                if not seen[j]:
+                    turned[j], seen[j] = turned[i] ^ flip, True
+                    pending.append(j)
+                elif turned[j] != turned[i] ^ flip:
+                    conflict.append(i)
+    return turned, np.array(conflict, np.intp)
+
+
+def _loops(
+    points: NDArray, free: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
+) -> list[tuple[list[int], bool]]:
+    """Open sides in turn, each set with whether it ends where it began."""
+    ahead = forward[free]
+    begin, end = (points[free, np.where(ahead, one, other)] for one, other in ((0, -1), (-1, 0)))
+    i, j = _near(np.concatenate([begin, end]), 2.0 * tolerance)
+    count = len(free)
+    i, j = np.concatenate([i, j]), np.concatenate([j, i])  # both ways
+    meet = (i >= count) & (j < count)
+    i, j = i[meet] - count, j[meet]
+    close = np.linalg.norm(end[i] - begin[j], axis=1) <= 2.0 * tolerance
+    onward: list[list[int]] = [[] for _ in range(count)]
+    for one, other in sorted(zip(i[close].tolist(), j[close].tolist())):
+        onward[one].append(other)
+    found, used = [], np.zeros(count, bool)
+    for first in range(count):
+        rows = [] if used[first] else [first]
+        while rows:
+            used[rows[-1]] = True
+            after = [k for k in onward[rows[-1]] if not used[k]]
+            if first in onward[rows[-1]] or not after:
+                found.append((free[rows].tolist(), first in onward[rows[-1]]))
+                break
+            rows.append(after[0])
+    return found
+
+
+def _capped(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_], tolerance: float) -> Loop:
+    """The cone from a loop's centroid."""
+    run = np.concatenate([row if ahead else row[::-1] for row, ahead in zip(points, forward)])
+    steps = np.diff(np.concatenate([run, run[:1]]), axis=0)
+    weigh = np.linalg.norm(steps, axis=1)
+    center = ((run + steps / 2.0) * weigh[:, None]).sum(axis=0) / weigh.sum()
+    arms = run - center
+    _, _, axes = np.linalg.svd(arms, full_matrices=False)
+    off = float(np.abs(arms @ axes[2]).max())
+    width = np.linalg.norm(np.cross(arms, steps), axis=1).sum() / 2.0
+    caps = []
+    for side, ahead in zip(sides, forward):
+        curve = side.curve
+        ends = (np.broadcast_to(center, curve.points.shape), curve.points)[:: 1 if ahead else -1]
+        weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
+        caps.append(Patch((curve.space, clamped(2)), np.stack(ends, axis=1), weights))
+    flat = off <= tolerance
+    # A way there and back has no net area; of a loop in space only its cone's area tells.
+    area = float(np.linalg.norm(vector_area(caps))) if flat else width
+    slim = area <= tolerance * weigh.sum()
+    crossing = flat and not slim and len(arms) <= MOST_CHORDS and crosses_itself(arms @ axes[:2].T, tolerance)
+    return Loop(tuple(caps), sides[0].patch, flat, slim, area, off, crossing)

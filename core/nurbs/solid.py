@@ -1,0 +1,321 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What kind of body B-spline patches bound, what had to be decided to measure it, and its moments.
+
+The counterpart of `solid` for surfaces that are not made of polygons, with the same verdicts: patches that face against
+the rest of their part are turned, holes are capped, parts that are inside out and in no other's material are turned,
+and what cannot be closed is measured as a signed sum and called open. Parts are compared by samples of their patches:
+an overlap that is thinner than a hundredth of a part may be missed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.bvh import Shells, sort_shells
+from ..moments.moments import Moments, monomials, sum_moments
+from ..solid.nesting import Relations, decide, relate
+from ..verdict.health import Health
+from ..verdict.tolerances import NO_VOLUME, ROUNDING, TOLERANCE
+from .patch import Patch
+from .patch_moments import area_moments, area_slope, control_box, patches_center, sheet_moments, volume_moments
+from .patch_topology import Closure, close_patches
+
+EACH, FINE = 8, 48  # samples of a span, for comparing parts, and where those cross
+MOST_TRIANGLES = 1_000_000  # compared where samples cross
+
+
+@dataclass(frozen=True, eq=False)
+class PatchMeasure:
+    """volume: Moments of the body; its error is an estimate. area: Moments of the patches, without caps; an estimate.
+    method: "exact", "capped", "reoriented" or "open". warnings: one sentence for each decision taken.
+    patches: those whose signed sum `volume` is, caps among them. signs: (n,) how each of those that were given counts:
+    1, -1, or 0 for a flat part. closure: how they close.
+    """
+
+    volume: Moments
+    area: Moments
+    health: Health
+    method: str
+    warnings: tuple[str, ...]
+    patches: tuple[Patch, ...]
+    signs: NDArray[np.float64]
+    closure: Closure
+
+
+def measure_patches(
+    patches: Sequence[Patch], *, order: int = 3, area_order: int = 0, stored: float = 0.0
+) -> PatchMeasure:
+    """The moments of the body that patches bound, in their own coordinates and unit.
+
+    order: of the volume's moments; area_order: of the area's. stored: by how much storing the control points may have
+    moved each, for the moments' `input`. ValueError, with what to do, where there is nothing to measure.
+    """
+    if not patches:
+        raise ValueError("It has no patches. Give it some.")
+    size = patches_size(patches)
+    if not size > 0.0:
+        raise ValueError("All of its control points are in one place. Give it an extent.")
+    about = patches_center(patches)
+    closure = close_patches(patches, max(TOLERANCE * size, 4.0 * stored))
+    area, settled = area_moments(patches, area_order, about)
+    notes = () if settled else ("The estimate of its area's error is above what was asked for.",)
+    parts = parts_of(patches, closure)
+    measured = [volume_moments(part, order, about) for part in parts]
+    return judged(patches, closure, parts, measured, area, area_slope(patches), stored, notes)
+
+
+def parts_of(patches: Sequence[Patch], closure: Closure) -> list[list[Patch]]:
+    """The patches of each component, facing the same way, with the caps of its holes."""
+    parts: list[list[Patch]] = [[] for _ in range(closure.number)]
+    for patch, turn, own in zip(patches, closure.turned, closure.component):
+        parts[own].append(patch.turned() if turn else patch)
+    for loop in closure.loops:
+        parts[closure.component[loop.patch]] += loop.caps
+    return parts
+
+
+def judged(
+    patches: Sequence[Patch],
+    closure: Closure,
+    parts: Sequence[list[Patch]],
+    measured: Sequence[tuple[Moments, bool]],
+    area: Moments,
+    slope: float,
+    stored: float,
+    notes: Sequence[str] = (),
+) -> PatchMeasure:
+    """What the moments of parts, as they face, come to, and what is said about it.
+
+    measured: of each of `parts_of`, as `volume_moments` gives them. area: of all patches; slope: as `area_slope` gives
+    it. notes: further sentences.
+    """
+    size, notes = patches_size(patches), list(notes)
+    caps = np.zeros((closure.number, 3))
+    for loop in closure.loops:
+        if not loop.slim:
+            caps[closure.component[loop.patch]] += (loop.flat, not loop.flat, loop.area)
+    capped = caps.any(axis=1)
+    noise = np.where(capped, NO_VOLUME * size + 4.0 * stored, ROUNDING * size) * area.total
+    total = np.array([moments.total for moments, _ in measured])
+    solid = ~closure.broken & (np.abs(total) > noise)
+    turn, compared = _compared(parts, total, solid, max(TOLERANCE * size, 4.0 * stored))
+    kept = solid if solid.any() else closure.broken
+    volumes = [moments * (-1.0 if flip else 1.0) for (moments, _), flip, keep in zip(measured, turn, kept) if keep]
+    if not all(fine for (_, fine), keep in zip(measured, kept) if keep):
+        notes.append("The estimate of its volume's error is above rounding; its weights are extreme.")
+    volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
+    is_open = bool(closure.broken.any() or not solid.any())
+    if is_open and volume.total < 0.0:
+        volume = replace(volume, raw=-volume.raw)
+    reach = size + 4.0 * stored
+    # caps move with their rims
+    skin = area.total + sum(loop.area for loop in closure.loops)
+    volume = replace(volume, input=_moved(volume, stored, closure.gap, skin, reach))
+    area = replace(area, input=_moved(area, stored, 0.0, slope + area.total / reach, reach))
+    mixed = _mixed(closure)
+    notes = [*_told(closure, mixed, turn, caps[solid], area.total, solid, size), *compared["notes"], *notes]
+    share = float(caps[solid, 2].sum() / area.total) if area.total > 0.0 else 0.0
+    method = (
+        "open" if is_open else "capped" if capped[solid].any() else "reoriented" if mixed or turn.any() else "exact"
+    )
+    health = Health(
+        closed=not (closure.broken.any() or capped.any()),
+        boundary_edges=closure.open_sides,
+        non_manifold_edges=closure.crowded,
+        inconsistent_edges=closure.against,
+        components=closure.number,
+        inverted_components=int(turn.sum()),
+        cap_area_share=share,
+        **compared["counts"],
+    )
+    outward = [
+        patch.turned() if flip else patch for part, flip, keep in zip(parts, turn, kept) if keep for patch in part
+    ]
+    counted = np.where(turn, -1.0, 1.0) * kept
+    signs = counted[closure.component] * np.where(closure.turned, -1.0, 1.0)
+    return PatchMeasure(volume, area, health, method, tuple(notes), tuple(outward), signs, closure)
+
+
+def measure_sheet(
+    patches: Sequence[Patch], inner: float, outer: float, *, stored: float = 0.0
+) -> tuple[Moments, Moments, bool]:
+    """The volume moments to order 3 of a sheet of real thickness, from the height `inner` to `outer` along the patches'
+    normals, their area's moments, and whether both estimates are below the tolerance. ValueError where the sheet would
+    run through itself."""
+    about = patches_center(patches)
+    area, fine = area_moments(patches, 3, about)
+    sheet, settled = sheet_moments(patches, inner, outer, 3, about)
+    size = patches_size(patches)
+    reach = size + max(abs(inner), abs(outer)) + 4.0 * stored
+    area = replace(area, input=_moved(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
+    sheet = replace(sheet, input=_moved(sheet, stored, 0.0, 2.0 * sheet.total / reach, reach))
+    return sheet, area, fine and settled
+
+
+def patches_size(patches: Sequence[Patch]) -> float:
+    """The diagonal of the box around all control points."""
+    low, high = control_box(patches)
+    return float(np.linalg.norm(high - low))
+
+
+def _moved(moments: Moments, stored: float, gap: float, area: float, reach: float) -> NDArray[np.float64]:
+    """(K,) what a skin moved by `stored`, and a gap of that area along seams, may change: at most the area they sweep
+    times the largest value of the monomial, which is at most `reach` to its degree."""
+    return (stored * area + gap) * reach ** monomials(moments.order).sum(axis=1)
+
+
+def _compared(
+    parts: list[list[Patch]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
+) -> tuple[NDArray[np.bool_], dict]:
+    """Which parts to turn, with the counts and sentences about parts in others' material."""
+    turned = solid & (total < 0.0)
+    if len(parts) == 1 or not solid.any():
+        return turned, {"counts": {}, "notes": []}
+    shells, relations = _related(parts, solid, EACH, tolerance)
+    shells = replace(shells, volume=total)
+    shared = np.unique(relations.crossing)
+    spans = sum(len(patch.spaces[0].spans) * len(patch.spaces[1].spans) for k in shared for patch in parts[k])
+    each = min(FINE, int(np.sqrt(MOST_TRIANGLES / (2.0 * max(spans, 1)))))
+    if len(shared) and each > EACH:  # what samples cross may be but near
+        nearer = _related([parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance)[1]
+        crossed, inside, crossing = (
+            np.sort(pairs, axis=1) @ (len(parts), 1)
+            for pairs in (relations.crossing, shared[nearer.inside], shared[nearer.crossing])
+        )
+        relations = Relations(
+            np.concatenate([relations.inside, shared[nearer.inside][np.isin(inside, crossed)]]),
+            relations.crossing[np.isin(crossed, crossing)],
+            relations.unchecked,
+        )
+    turned, nested, cavities = decide(shells, relations, solid)
+    crossing = len(np.unique(relations.crossing))
+    notes = []
+    if nested.any():
+        notes.append(
+            "{:d} of its parts lie inside others and face outward, so that space counts twice. Flip what is a "
+            "cavity.".format(int(nested.sum()))
+        )
+    if crossing:
+        notes.append("{:d} of its parts overlap, so that what they share counts twice.".format(crossing))
+    if relations.unchecked:
+        notes.append(
+            "Whether {:d} pairs of its parts overlap was not checked, as it would have taken too long.".format(
+                relations.unchecked
+            )
+        )
+    return turned, {
+        "counts": {
+            "nested_components": int(nested.sum()),
+            "cavities": int(cavities.sum()),
+            "overlapping_components": crossing,
+        },
+        "notes": notes,
+    }
+
+
+def _related(
+    parts: Sequence[Sequence[Patch]], solid: NDArray[np.bool_], each: int, tolerance: float
+) -> tuple[Shells, Relations]:
+    """How parts lie to each other, by samples of their patches: `each` to a span. Those that are nearer than what lies
+    between the samples and the patches do not cross where `each` is not the coarsest."""
+    points, triangles, shell = [], [], []
+    count, off = 0, 0.0
+    for number, part in enumerate(parts):
+        for patch in part:
+            grid = patch.samples(each)
+            corners = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2]) + count
+            a, b, c, d = (corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:])
+            faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
+            points.append(grid.reshape(-1, 3))
+            triangles.append(faces)
+            shell.append(np.full(len(faces), number))
+            count += len(points[-1])
+            off = max(off, _sagitta(grid, each) + _sagitta(grid.swapaxes(0, 1), each))
+    points, triangles, shell = np.concatenate(points), np.concatenate(triangles), np.concatenate(shell)
+    shells = sort_shells(points, triangles, shell, len(parts))
+    return shells, relate(points, shells, solid, tolerance if each == EACH else max(tolerance, 2.0 * off))
+
+
+def _sagitta(grid: NDArray, each: int) -> float:
+    """How far a surface may be from the chords between its samples along the first axis, bends at knots left out."""
+    bend = np.linalg.norm(np.diff(grid, 2, axis=0), axis=2) / 8.0
+    bend[each - 1 :: each] = 0.0
+    return float(bend.max())
+
+
+def _mixed(closure: Closure) -> int:
+    """How many patches face against the rest of their part: the fewer of both kinds in each."""
+    turned = np.bincount(closure.component, closure.turned, closure.number)
+    return int(np.minimum(turned, np.bincount(closure.component, minlength=closure.number) - turned).sum())
+
+
+def _told(
+    closure: Closure, mixed: int, turn: NDArray, caps: NDArray, area: float, solid: NDArray, size: float
+) -> list[str]:
+    notes = []
+    if mixed:
+        notes.append(
+            "One patch faces against the rest and was measured as if turned; switch its direction."
+            if mixed == 1
+            else "{:d} patches face against the rest and were measured as if turned; switch their direction.".format(
+                mixed
+            )
+        )
+        if closure.crowded:
+            notes.append(
+                "Of its sides {:d} meet more than one other, so that which patches belong together, and face "
+                "against the rest, is a guess; make all of them face outward.".format(closure.crowded)
+            )
+    if turn.any():
+        notes.append(
+            "{:s} inside out and measured as if turned; switch the direction of its patches to mend that.".format(
+                "It is" if closure.number == 1 else "{:d} of its {:d} parts are".format(int(turn.sum()), closure.number)
+            )
+        )
+    if closure.broken.any():
+        notes.append(
+            "The open sides of its patches make no loops that could be capped, or it has one side only: these "
+            "numbers depend on the reference point."
+        )
+    if not solid.any():
+        if not closure.broken.any():
+            notes.append("It is flat and encloses no volume: measure a shell.")
+        return notes
+    flattened = int((~solid & ~closure.broken).sum())
+    if flattened:
+        notes.append(
+            "{:d} of its {:d} parts {:s} flat, enclose{:s} no volume and {:s} left out; delete what is flat, "
+            "or measure it as a shell.".format(
+                flattened, closure.number, *(("is", "s", "is") if flattened == 1 else ("are", "", "are"))
+            )
+        )
+    flat, curved, share = caps.sum(axis=0)
+    if flat:
+        notes.append(
+            "{:s} capped exactly ({:.3g} % of the area).".format(
+                "One flat rim was" if flat == 1 else "{:d} flat rims were".format(int(flat)), 100.0 * share / area
+            )
+        )
+    crossing = sum(loop.crossing and bool(solid[closure.component[loop.patch]]) for loop in closure.loops)
+    if crossing:
+        notes.append(
+            "{:s}: what lies on the other side of the crossing counts as negative.".format(
+                "One rim crosses itself" if crossing == 1 else "{:d} rims cross themselves".format(crossing)
+            )
+        )
+    if curved:
+        worst = max(loop.out_of_plane for loop in closure.loops)
+        notes.append(
+            "{:s} capped by the cone to {:s} center, {:.2g} % of the size out of plane ({:.3g} % of the area).".format(
+                "One rim in space was" if curved == 1 else "{:d} rims in space were".format(int(curved)),
+                "its" if curved == 1 else "each one's",
+                100.0 * worst / size,
+                100.0 * share / area,
+            )
+        )
+    return notes

@@ -1,0 +1,222 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the vertices of a surface go when its faces move along their normals.
+
+Every vertex moves along a direction d that moves the planes of its faces by one: n·d = 1 for each normal n around it
+(Blender's Solidify calls that even thickness; on a cube it is the mitre). Where three planes or fewer meet, that is
+solved exactly, by the shortest d; planes that differ by less than about one degree count as one, for d would have to
+run far along the crease between them to meet both. Where more than three meet, there may be no such d: it is then the
+least-squares solution, each face weighed by its angle at the vertex, which does not depend on how flat faces are cut,
+and planes within about 15 degrees are taken as the round surface that they stand for: the vertex goes along their mean
+normal, and none of it slides along the surface. Where that would run behind one of the faces, d is the direction that
+is most in front of all of them (found by multiplicative weights, Arora, Hazan and Kale, Theory of Computing 8, 2012).
+
+Inside a flat side and along a straight edge a vertex may slide: that changes nothing of the planes. There d is made as
+even as it can be, Σ cot |d_i - d_j|² least, lest the finely cut sides of a thick-walled box fold over where its edges
+move inward: with the cotangent weights of Pinkall and Polthier (Experiment. Math. 2, 1993) the side shrinks as a whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.edges import find_edges
+from ..moments.moments import U
+
+BLOCK = 4096  # triangles at a time
+ONE_PLANE = 1e-4  # of the largest eigenvalue of Σ θ n n': planes that span less are one, φ²/4 for two φ apart
+ROUND = 2e-2  # the same where not all planes can be met
+SLIVER = 1e-9  # of the longest side: a lower triangle has no normal to speak of
+NOISY = 1e3  # times what storing moved the points by: a lower triangle's normal is known to 1e-3 only
+UNEVEN = 1e-6  # relative deviation from the thickness that counts as one
+BEHIND = 0.1  # of the thickness: where a face would get less, its vertices look for a better direction
+ROUNDS = 400  # of the search for it
+FLAT = 1e-12  # of the largest eigenvalue: planes that span less are the same to rounding
+SLIDES, EVEN = 400, 1e-12  # steps, and what is left of the unevenness
+
+
+@dataclass(frozen=True, eq=False)
+class Directions:
+    """Where the vertices go for a unit of thickness.
+
+    vectors: (n, 3), unit of the points per unit of thickness.
+    slide, lift: (2, n) what rounding, and storing the points as float32, may have moved them by in all, and along the
+        normals of their faces: to first order, as long as the same planes are told apart, and not where the direction
+        is the one most in front.
+    solid: (m,) whether a triangle has a normal that is known; the others were not asked.
+    """
+
+    vectors: NDArray[np.float64]
+    slide: NDArray[np.float64]
+    lift: NDArray[np.float64]
+    solid: NDArray[np.bool_]
+
+
+def blocks(triangles: NDArray) -> Iterator[NDArray]:
+    """Pieces of triangles whose scratch stays in the cache."""
+    return (triangles[start : start + BLOCK] for start in range(0, len(triangles), BLOCK))
+
+
+def offset_directions(points: NDArray[np.float64], triangles: NDArray[np.integer], stored: float = 0.0) -> Directions:
+    """The direction of every vertex. points: (n, 3) float64, triangles: (m, 3), stored: what storing the points may
+    have moved them by."""
+    count = len(points)
+    normals, angles, noise, solid = (
+        np.concatenate(column) for column in zip(*(_corners(points[part], stored) for part in blocks(triangles)))
+    )
+    corner = triangles[solid].ravel()
+    weight, normals = angles[solid].ravel(), np.repeat(normals[solid], 3, axis=0)
+    total = np.maximum(np.bincount(corner, weight, count), np.finfo(float).tiny)
+
+    def mean(values: NDArray) -> NDArray[np.float64]:
+        return np.bincount(corner, weight * values, count) / total
+
+    middle = np.stack([mean(column) for column in normals.T], axis=1)
+    length = np.linalg.norm(middle, axis=1)
+    middle /= np.where(length > 0.0, length, 1.0)[:, None]
+    # With d = m + c, m the mean normal: Σ θ n n'·c = Σ θ n (1 - n·m), and 1 - n·m = |n - m|² / 2 does not cancel. Of m,
+    # too, a part along a crease that is left out has to go.
+    short = ((normals - middle[corner]) ** 2).sum(axis=1) / 2.0
+    system = np.empty((count, 3, 3))
+    for i in range(3):
+        for j in range(i, 3):
+            system[:, i, j] = system[:, j, i] = mean(normals[:, i] * normals[:, j])
+    right = np.stack([mean(short * column) for column in normals.T], axis=1)
+    values, axes = np.linalg.eigh(system)
+    tilt = np.stack([_largest(row.repeat(3), corner, count) for row in noise[solid].T])
+    thinnest = 1.0 / np.sqrt(np.maximum(-_largest(-weight / total[corner], corner, count), np.finfo(float).tiny))
+
+    def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
+        """(n, 3) directions across the planes that the eigenvalues above `least` span, (n,) how far from 1 n·d is on
+        average, and (n,) what moving the normals by one moves d by (Wedin, to first order)."""
+        kept = values > least * values[:, 2:]
+        inverse = np.where(kept, 1.0 / np.where(kept, values, 1.0), 0.0)
+        across = np.where(kept | (values[:, 2:] <= 0.0), 1.0, 0.0)
+        vectors = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right) + np.einsum(
+            "nij,nj,nkj,nk->ni", axes, across, axes, middle
+        )
+        off = np.sqrt(mean((np.einsum("ij,ij->i", normals, vectors[corner]) - 1.0) ** 2))
+        gain = np.sqrt(inverse.max(axis=1))
+        return vectors, off, 2.0 * gain * np.linalg.norm(vectors, axis=1) + gain**2 * off
+
+    vectors, off, gain = solved(ONE_PLANE)
+    rough = off > UNEVEN + 4.0 * (tilt[0] + tilt[1]) * np.linalg.norm(vectors, axis=1)
+    if rough.any():
+        smooth, spread, slack = solved(ROUND)
+        vectors[rough], gain[rough], off[rough] = smooth[rough], slack[rough], spread[rough]
+        low = -_largest(-np.einsum("ij,ij->i", normals, vectors[corner]), corner, count)
+        behind = np.flatnonzero(rough & (low < BEHIND))
+        if len(behind):
+            _most_in_front(vectors, behind, low, corner, weight, normals)
+    flat = values <= np.maximum(FLAT, (8.0 * (tilt[0] + tilt[1])) ** 2)[:, None] * values[:, 2:]
+    flat &= (total > np.finfo(float).tiny)[:, None] & ~rough[:, None]
+    if flat.any():
+        vectors = _slid(points, triangles[solid], vectors, np.einsum("nij,nj,nkj->nik", axes, flat, axes))
+    far = np.linalg.norm(vectors, axis=1)
+    lift = thinnest * (far + gain * off)
+    return Directions(
+        vectors, gain * tilt + 8.0 * U * gain * [[1.0], [0.0]], lift * tilt + 8.0 * U * lift * [[1.0], [0.0]], solid
+    )
+
+
+def _slid(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
+    """The vectors, made even by conjugate gradients in the directions that the projections `free`, (n, 3, 3), leave.
+    Vertices of a rim stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller thickness."""
+    edges = find_edges(triangles)
+    rims = edges.rims()
+    free[triangles.ravel()[rims]] = free[np.roll(triangles, -1, axis=1).ravel()[rims]] = 0.0
+    able = np.einsum("nii->n", free) > 0.5
+    triangles = triangles[able[triangles].any(axis=1)]
+    if not len(triangles):
+        return vectors
+    used, number = np.unique(triangles, return_inverse=True)
+    triangles, free, count = number.reshape(-1, 3), free[used], len(used)
+    corners = points[used][triangles]
+    sides = corners - np.roll(corners, -1, axis=1)  # from corner k to k + 1, across from corner k + 2
+    double = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    weight = -np.einsum("mki,mki->mk", np.roll(sides, -1, axis=1), np.roll(sides, -2, axis=1)) / double[:, None]
+    start, stop, weight = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel(), weight.ravel()
+
+    def pulled(rows: NDArray) -> NDArray[np.float64]:
+        """Half the gradient of Σ cot |d_i - d_j|², in the free directions."""
+        pull = weight[:, None] * (rows[start] - rows[stop])
+        total = np.stack(
+            [np.bincount(start, column, count) - np.bincount(stop, column, count) for column in pull.T], axis=1
+        )
+        return np.einsum("nij,nj->ni", free, total)
+
+    size = np.bincount(start, np.abs(weight), count) + np.bincount(stop, np.abs(weight), count)
+    size = np.maximum(size, np.finfo(float).tiny)[:, None]
+    rows = vectors[used]
+    rest = -pulled(rows)
+    step = rest / size
+    power = first = np.vdot(rest, step)
+    for _ in range(SLIDES):
+        if not power > EVEN**2 * first:
+            break
+        image = pulled(step)
+        curve = np.vdot(step, image)
+        if not curve > 0.0:
+            break
+        rows = rows + power / curve * step
+        rest = rest - power / curve * image
+        before, power = power, np.vdot(rest, rest / size)
+        step = rest / size + power / before * step
+    vectors = vectors.copy()
+    vectors[used] = rows
+    return vectors
+
+
+def _largest(values: NDArray, group: NDArray, count: int) -> NDArray[np.float64]:
+    """(count,) the largest of the (k,) values in each group, zero where there is none."""
+    order = np.argsort(values, kind="stable")
+    found = np.zeros(count)
+    found[group[order]] = values[order]  # of equal indices the last is kept
+    return found
+
+
+def _most_in_front(
+    vectors: NDArray, behind: NDArray, low: NDArray, corner: NDArray, weight: NDArray, normals: NDArray
+) -> None:
+    """Replace the vectors of the vertices `behind` by ones that are more in front of all their faces, where there are
+    such. low: (n,) the least n·d of each vertex now."""
+    number = np.full(len(vectors), -1)
+    number[behind] = np.arange(len(behind))
+    rows = np.flatnonzero(number[corner] >= 0)
+    own, normals, angle = number[corner[rows]], normals[rows], weight[rows]
+    count, share = len(behind), angle / np.bincount(own, angle, len(behind))[own]
+    best, found = np.full(count, -np.inf), np.zeros((count, 3))
+    for k in range(ROUNDS):
+        trial = np.stack([np.bincount(own, share * column, count) for column in normals.T], axis=1)
+        length = np.linalg.norm(trial, axis=1)
+        trial /= np.where(length > 0.0, length, 1.0)[:, None]
+        height = np.einsum("ij,ij->i", normals, trial[own])
+        least = -_largest(-height, own, count)
+        better = least > best
+        best[better], found[better] = least[better], trial[better]
+        share = share * np.exp(-height / np.sqrt(1.0 + k))
+        share /= np.bincount(own, share, count)[own]
+    height = np.einsum("ij,ij->i", normals, found[own])
+    square = np.bincount(own, angle * height**2, count)
+    scale = np.bincount(own, angle * height, count) / np.where(square > 0.0, square, 1.0)
+    better = (best * scale > low[behind]) & (best > 0.0)
+    vectors[behind[better]] = (scale[:, None] * found)[better]
+
+
+def _corners(points: NDArray, stored: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+    """(m, 3) unit normals, (m, 3) angles, (m, 2) what rounding and storing may turn the normal by, and (m,) whether
+    there is a normal, of (m, 3, 3) corners."""
+    sides = points[:, [1, 2, 0]] - points
+    normal = np.cross(sides[:, 0], sides[:, 1])
+    double = np.linalg.norm(normal, axis=1)
+    longest = np.linalg.norm(sides, axis=2).max(axis=1)
+    solid = double > longest * np.maximum(SLIVER * longest, NOISY * stored)
+    double = np.where(solid, double, 1.0)
+    dots = -np.einsum("mki,mki->mk", sides, sides[:, [2, 0, 1]])
+    angles = np.arctan2(double[:, None], dots)
+    noise = np.stack([8.0 * U * longest**2 / double, 2.0 * stored * longest / double], axis=1)
+    return normal / double[:, None], angles, noise, solid

@@ -1,0 +1,371 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Walls: the material between a surface and its offset, with moments that are polynomials in the thickness.
+
+With the directions d of its vertices (see `offset`), a triangle sweeps the prism x = p + s d, both linear on the
+triangle, with Jacobian J = Σ λ_k N(s)·d_k, where N(s) = (e + s f) × (e' + s f') is the normal of the triangle moved by
+s, e, e' its edges and f, f' the differences of its directions. J x^α is a polynomial of degree |α| + 2 in s and |α| + 1
+in the barycentric coordinates λ: six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate it exactly over
+the triangle, coefficient by coefficient. Neighbouring prisms share the ruled surface over their edge, so that their sum
+is the wall, with no gap.
+
+J is linear in λ, hence positive on a prism exactly where its three quadratics N(s)·d_k in s are: their first roots are
+the thickness at which the offset folds over. That is a local test: walls that run into each other far along the surface
+are looked for separately, one thickness at a time, and what two share counts twice.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.bvh import sort_shells
+from ..mesh.edges import find_edges
+from ..mesh.surface import Surface
+from ..mesh.welding import equal_positions
+from ..moments.moments import PAIRWISE, Moments, U, index, monomial_count, monomials
+from ..numerics.graph import components
+from ..numerics.vectors import cross
+from ..solid.nesting import pierced, relate, winds_twice
+from .directions import UNEVEN, blocks, offset_directions
+
+ORDER = 3
+POWERS = ORDER + 3  # coefficients in s: degrees 0 to 5
+TOUCHING = 1e-6  # of the size: nearer sides touch
+UNKNOWN = 0.01  # of the area: where more of it faces nobody knows which way, there is no wall
+ROUNDED = 20.0  # u: what rounds a Jacobian, relative to the product of the lengths in it
+INNER, OUTER = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
+NODES = np.concatenate([np.full((3, 3), outer) + (inner - outer) * np.eye(3) for inner, outer in zip(INNER, OUTER)])
+WEIGHTS = np.repeat([0.11169079483900573, 0.054975871827660933], 3)
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """What a surface sweeps when it moves along its directions by s, per unit of s, as polynomials in s.
+
+    points, vectors, triangles: (n, 3), (n, 3) and (m, 3), what moves where.
+    coefficients, error, input: (20, 6) of s^0 to s^5 for each moment to third order about `about`: what they are, and
+        bounds for positive and negative s of what rounding and storing the points as float32 may have changed.
+    swept: (4,) of s^0 to s^3: what both sides sweep at most when storing the points as float32 moves them, which bounds
+        its changes as `input` does. reach: (2, 3) of the points from `about` and of the vectors, by axis.
+    outward, inward: how far the surface can move before a prism folds over, infinite where none does.
+    outward_at, inward_at: the triangles that fold first, -1 for none.
+    uneven: (k,) the vertices at which no direction moves all faces alike. least, most: the thickness there, by the
+        thickness asked for. ignored: triangles without a known normal, which are swept but ask for nothing.
+    """
+
+    points: NDArray[np.float64]
+    vectors: NDArray[np.float64]
+    triangles: NDArray[np.integer]
+    about: NDArray[np.float64]
+    coefficients: NDArray[np.float64]
+    error: NDArray[np.float64]
+    input: NDArray[np.float64]
+    swept: NDArray[np.float64]
+    reach: NDArray[np.float64]
+    outward: float
+    inward: float
+    outward_at: int
+    inward_at: int
+    uneven: int
+    least: float
+    most: float
+    ignored: int
+
+    def moments(self, inward: float, outward: float) -> Moments:
+        """The volume moments to third order of the wall from `inward` below the surface to `outward` above it.
+
+        ValueError where the wall folds over.
+        """
+        if not (inward < self.inward or inward == 0.0) or not (outward < self.outward or outward == 0.0):
+            raise ValueError("The offset folds over; choose a thinner wall.")
+        degree = np.arange(1, POWERS + 1)
+        up, down = outward**degree / degree, -((-inward) ** degree) / degree
+        both = outward**degree / degree + inward**degree / degree
+        raw = self.coefficients @ (up + down)
+        error = self.error @ both + 16.0 * U * (np.abs(self.coefficients) @ both)
+        swept = sum(self.swept @ s ** np.arange(4) for s in (inward, outward))
+        reach = self.reach[0] + max(inward, outward) * self.reach[1]
+        moved = swept * np.multiply.reduce(reach ** monomials(ORDER), axis=1)
+        return Moments(raw, self.about, "volume", error, np.minimum(self.input @ both, moved))
+
+    def box(self, inward: float, outward: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(3,) and (3,) the least and the largest coordinates of the wall."""
+        sides = [self.points - inward * self.vectors, self.points + outward * self.vectors]
+        return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
+
+    def meets_itself(self, inward: float, outward: float) -> bool:
+        """Whether the two sides of the wall go through each other, a moved side through itself, or the walls of parts
+        into one another, as far as is found within bounds of time."""
+        count = len(self.points)
+        points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
+        triangles = np.concatenate([self.triangles, self.triangles + count])
+        shell = np.repeat([0, 1], len(self.triangles))
+        tolerance = min(TOUCHING * float(np.ptp(points, axis=0).max()), 1e-3 * (inward + outward))
+        pairs = [(0, 1), *((k, k) for k, moved in enumerate((inward, outward)) if moved)]
+        return pierced(
+            points, triangles, shell, np.array(pairs), np.tile(np.arange(count), 2), tolerance
+        ) or self._overlaps(points, tolerance)
+
+    def _overlaps(self, points: NDArray, tolerance: float) -> bool:
+        """Whether the walls of parts reach into one another or into themselves, where no edge need pierce a face: skins
+        that have moved past each other, or that are flush. Each wall is a closed body: both its sides and its rim."""
+        part, number = components(len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel())
+        rims, count = find_edges(self.triangles).rims(), len(self.points)
+        start, stop = self.triangles.ravel()[rims], np.roll(self.triangles, -1, axis=1).ravel()[rims]
+        triangles = np.concatenate(
+            [
+                self.triangles[:, ::-1],
+                self.triangles + count,
+                np.stack([start, stop, stop + count], axis=1),
+                np.stack([start, stop + count, start + count], axis=1),
+            ]
+        )
+        shells = sort_shells(points, triangles, part[triangles[:, 0] % count].astype(np.intp), number)
+        solid = shells.volume > 0.0
+        if winds_twice(points, shells, solid, tolerance):
+            return True
+        found = relate(points, shells, solid, tolerance)
+        return len(found.inside) + len(found.crossing) > 0
+
+    def without_surface(self) -> Sweep:
+        """The same without the arrays that are as large as the mesh."""
+        return replace(self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0])
+
+    def fold(self, side: str) -> NDArray[np.float64]:
+        """(3,) the middle of the triangle that folds first on that side."""
+        at = {
+            "inward": self.inward_at,
+            "outward": self.outward_at,
+            "centered": self.inward_at if self.inward < self.outward else self.outward_at,
+        }[side]
+        return self.points[self.triangles[at]].mean(axis=0)
+
+    def largest(self, side: str) -> float:
+        """The thickness from which the wall on that side folds over: "inward", "outward" or "centered"."""
+        return {"inward": self.inward, "outward": self.outward, "centered": 2.0 * min(self.inward, self.outward)}[side]
+
+
+def share(side: str, thickness: float) -> tuple[float, float]:
+    """How much of a thickness is inside the surface and outside."""
+    return {"inward": (thickness, 0.0), "outward": (0.0, thickness), "centered": (thickness / 2.0, thickness / 2.0)}[
+        side
+    ]
+
+
+def sweep(surface: Surface) -> Sweep:
+    """The walls of a surface, closed or open, whose faces agree which side is outward.
+
+    Points at exactly the same place are one. ValueError, with what to do, where faces disagree, more than two meet in
+    an edge, or float32 has lost which way they face.
+    """
+    points, triangles = _joined(surface)
+    stored = float(np.linalg.norm(surface.coordinate_error))
+    low, high = points.min(axis=0), points.max(axis=0)
+    about = low / 2.0 + high / 2.0
+    directions = offset_directions(points, triangles, stored)
+    vectors = directions.vectors
+    reach = np.abs(points - about).max(axis=0) * (1.0 + 4.0 * U), np.abs(vectors).max(axis=0)
+    sums, bounds, swept, tested = np.zeros((20, POWERS)), np.zeros((3, 7)), np.zeros(4), []
+    for part, known in zip(blocks(triangles), blocks(directions.solid)):
+        prisms = _Prisms(points[part], about, vectors[part])
+        sums += prisms.sums()
+        slide, lift = directions.slide[:, part].max(axis=2), directions.lift[:, part].max(axis=2)
+        if stored:
+            lift[1] += np.where(known, 0.0, 1.0 + prisms.far)  # it should have moved by one
+        bounds += prisms.bounds(slide, lift, stored)
+        swept += prisms.swept(slide[1], lift[1], stored)
+        tested.append(prisms.jacobians())
+    jacobian, doubt, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
+    solid = directions.solid
+    lost = float(double[~solid].sum()) / (float(double.sum()) or 1.0)
+    if stored and lost > UNKNOWN:
+        raise ValueError(
+            "{:.0f} % of its area is in faces so small, for how far they are from the object's origin, that float32 "
+            "has lost which way they face. Model it nearer to its origin, or set Wall to Thin.".format(100.0 * lost)
+        )
+    rest = np.flatnonzero(solid)
+    outward, inward = (
+        first_fold(jacobian[:, :, solid] * signs[:, None, None], doubt[:, solid])
+        for signs in (np.array([1.0, 1.0, 1.0]), np.array([1.0, -1.0, 1.0]))
+    )
+    height = jacobian[0, :, solid] / double[solid, None]
+    uneven = np.abs(height - 1.0) > UNEVEN
+    error, moved = _propagated(bounds, reach, len(tested), stored)
+    return Sweep(
+        points,
+        vectors,
+        triangles,
+        about,
+        sums,
+        error,
+        moved,
+        swept,
+        np.array(reach),
+        outward.min(initial=np.inf),
+        inward.min(initial=np.inf),
+        *(int(rest[np.argmin(limit)]) if np.isfinite(limit.min(initial=np.inf)) else -1 for limit in (outward, inward)),
+        uneven=len(np.unique(triangles[solid][uneven])),
+        least=height.min(initial=1.0),
+        most=height.max(initial=1.0),
+        ignored=int(np.count_nonzero(~solid)),
+    )
+
+
+def _joined(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+    """Points and triangles with one vertex for each place."""
+    triangles, _ = surface.all_triangles()
+    first = equal_positions(surface.points)
+    triangles = first[triangles.astype(np.intp)]
+    triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+    if not len(triangles):
+        raise ValueError("Its faces have no area; there is nothing to make thick.")
+    used, number = np.unique(triangles, return_inverse=True)
+    triangles = number.reshape(-1, 3)
+    edges = find_edges(triangles)
+    if (edges.count > 2).any():
+        raise ValueError(
+            "{:d} of its edges have more than two faces, where a wall has no inside. Separate the parts, "
+            "or measure it as a thin shell.".format(int(np.count_nonzero(edges.count > 2)))
+        )
+    against = (edges.count == 2) & (edges.balance(np.zeros(len(triangles), bool)) != 0.0)
+    if against.any():
+        raise ValueError(
+            "Its faces do not agree which side is outward at {:d} edges. Recalculate Outside, or measure "
+            "it as a thin shell.".format(int(np.count_nonzero(against)))
+        )
+    return surface.points[used].astype(np.float64), triangles
+
+
+class _Prisms:
+    """What (m, 3, 3) corners sweep along their (m, 3, 3) directions; columns are prisms."""
+
+    def __init__(self, points: NDArray, about: NDArray, vectors: NDArray):
+        a, b, c = points.transpose(1, 2, 0)  # corner, axis, prism
+        u, v, w = self.vectors = vectors.transpose(1, 2, 0)
+        self.points = points.transpose(1, 2, 0) - about[:, None]
+        self.edges, self.turns = (b - a, c - a), (v - u, w - u)
+        plain, first, second, turned = (
+            np.stack(cross(one, other)) for one in (b - a, v - u) for other in (c - a, w - u)
+        )
+        self.normals = plain, first + second, turned
+        # power of s, corner, prism
+        self.own = np.array(
+            [[np.einsum("im,im->m", normal, vector) for vector in self.vectors] for normal in self.normals]
+        )
+        self.double = np.sqrt(np.einsum("im,im->m", self.normals[0], self.normals[0]))
+        self.long, self.turned, self.far = (
+            np.sqrt(np.max([np.einsum("im,im->m", row, row) for row in rows], axis=0))
+            for rows in (self.edges, self.turns, self.vectors)
+        )
+
+    def jacobians(self) -> tuple[NDArray, NDArray, NDArray]:
+        """(3, 3, m) coefficients in s of J at each corner, (3, m) what rounding may have changed them by, and (m,)
+        |N(0)|."""
+        return self.own, ROUNDED * U * self._sizes(), self.double
+
+    def _sizes(self) -> NDArray[np.float64]:
+        """(3, m) bounds of the coefficients of J."""
+        return np.array([self.long**2, 2.0 * self.long * self.turned, self.turned**2]) * self.far
+
+    def sums(self) -> NDArray[np.float64]:
+        """(20, 6) the coefficients of the moments."""
+        sums, count = np.zeros((monomial_count(ORDER), POWERS)), self.points.shape[2]
+        place, step = (
+            np.einsum("nk,kim->inm", NODES, rows).reshape(3, 6 * count) for rows in (self.points, self.vectors)
+        )
+        table = {(0, 0, 0): (np.einsum("nk,pkm->pnm", NODES, self.own) * WEIGHTS[:, None]).reshape(3, 6 * count)}
+        for exponents in map(tuple, monomials(ORDER).tolist()):
+            if exponents not in table:
+                axis = next(i for i in range(3) if exponents[i])
+                lower = table[tuple(n - (i == axis) for i, n in enumerate(exponents))]
+                product = np.zeros((len(lower) + 1, 6 * count))
+                np.multiply(lower, place[axis], out=product[:-1])
+                product[1:] += lower * step[axis]
+                table[exponents] = product
+            values = np.add.reduce(table[exponents], axis=1)
+            sums[index(*exponents), : len(values)] = values
+        return sums
+
+    def bounds(self, slide: NDArray, lift: NDArray, stored: float) -> NDArray[np.float64]:
+        """(3, 7) coefficients in s, summed over the prisms. First row: the sizes of J, three; the other four are zero.
+        Second row: by how much J changes where directions move by slide[0], (m,), and by lift[0] along the normals,
+        three; and the sizes of J times the move of x, four. Third row: the same where directions move by slide[1] and
+        lift[1], and points by `stored`."""
+        sizes, rows = self._sizes(), [np.zeros((7, len(self.double)))]
+        rows[0][:3] = sizes
+        long, turned, far = self.long, self.turned, self.far
+        for delta, along, step in zip(slide, lift, (0.0, stored)):
+            change = [
+                4.0 * long * step * far + self.double * along,
+                (4.0 * turned * step + 4.0 * long * delta) * far + 2.0 * long * turned * delta,
+                4.0 * turned * delta * far + turned**2 * delta,
+            ]
+            flat = self.double * far
+            place = [flat * step, flat * delta + sizes[1] * step, sizes[1] * delta + sizes[2] * step, sizes[2] * delta]
+            rows.append(np.array(change + place))
+        return np.add.reduce(np.array(rows), axis=2) / 2.0
+
+    def swept(self, slide: NDArray, lift: NDArray, stored: float) -> NDArray[np.float64]:
+        """(4,) coefficients in s of what the triangles and what they have become at s sweep together, when points move
+        by `stored` and directions by `slide` in all and `lift` along the normals."""
+        unit = self.normals[0] / np.where(self.double > 0.0, self.double, 1.0)
+        along = [np.abs(np.einsum("im,im->m", normal, unit)) for normal in self.normals]
+        size = [np.sqrt(np.einsum("im,im->m", normal, normal)) for normal in self.normals]
+        across = [np.sqrt(np.maximum(a * a - b * b, 0.0)) + 8.0 * U * a for a, b in zip(size, along)]
+        rows = [
+            2.0 * size[0] * stored,
+            size[1] * stored + size[0] * lift,
+            size[2] * stored + along[1] * lift + across[1] * slide,
+            along[2] * lift + across[2] * slide,
+        ]
+        return np.add.reduce(np.array(rows), axis=1) / 2.0
+
+
+def _propagated(
+    bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(20, 6) and (20, 6) `error` and `input` from the sums of `_Prisms.bounds`, with every point within reach[0] of
+    the middle and every direction within reach[1], by axis."""
+    place, step = reach[0] + stored, reach[1]
+
+    def times(row: NDArray, exponents: list[int]) -> NDArray[np.float64]:
+        for axis, power in enumerate(exponents):
+            for _ in range(power):
+                row = np.convolve(row, (place[axis], step[axis]))
+        return row
+
+    error, moved = np.zeros((2, monomial_count(ORDER), POWERS))
+    for i, exponents in enumerate(monomials(ORDER).tolist()):
+        degree = sum(exponents)
+        rounded = (ROUNDED + 8.0 * degree + PAIRWISE + blocks) * U
+        error[i, : degree + 3] = times(rounded * bounds[0, :3], exponents)
+        for target, row in ((error, bounds[1]), (moved, bounds[2])):
+            target[i, : degree + 3] += times(row[:3], exponents)
+            for axis, power in enumerate(exponents):
+                if power:
+                    lower = [n - (k == axis) for k, n in enumerate(exponents)]
+                    target[i, : degree + 3] += power * times(row[3:], lower)
+    return error, moved
+
+
+def first_fold(jacobian: NDArray, doubt: NDArray) -> NDArray[np.float64]:
+    """(m,) the s up to which three quadratics a + b s + c s² are certainly positive, infinite where they always are.
+
+    jacobian: (3, 3, m) their coefficients a, b and c; doubt: (3, m) what rounding may have raised these by, which is
+    taken off. A discriminant that rounding alone may have made negative counts as zero. The largest root of
+    a y² + b y + c is 1 / s.
+    """
+    a, b, c = jacobian - doubt[:, None]
+    dead = ~(a > 0.0)
+    a = np.where(dead, 1.0, a)
+    size = b * b + np.abs(4.0 * a * c)
+    square = b * b - 4.0 * a * c
+    real = square >= -16.0 * U * size
+    root = np.sqrt(np.maximum(square, 0.0) + 16.0 * U * size)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        largest = np.where(b > 0.0, -2.0 * c / (b + root), (root - b) / (2.0 * a))
+        largest = np.where(dead, np.inf, np.where(real & (largest > 0.0), largest, 0.0))
+        return (1.0 / largest).min(axis=0) * (1.0 - 16.0 * U)

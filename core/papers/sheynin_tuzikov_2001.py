@@ -1,0 +1,126 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The explicit formulae of Sheynin and Tuzikov (Pattern Recognition Letters 22, 2001) as they are printed.
+
+The moment of a tetrahedron with one corner in the origin is det·Σ_pqr / (p+q+r+3)!, that of the triangle opposite to it
+2A·Σ_pqr / (p+q+r+2)!, with Σ_pqr the nine-fold sum of `sigma`. Faces are fans from their first corner.
+
+A reference, not the way to measure a mesh: its cost grows with the ninth power of the order. It computes with whatever
+numbers it is given: `fractions.Fraction` gives exact rational moments, floats the usual ones, numpy arrays those of
+many triangles at once. The formulae are about the origin; in floats subtract a point of the body first (`about`), else
+what is left after cancellation is noise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from math import comb, factorial, sqrt
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..moments.moments import monomials
+from ..numerics.vectors import Number, Vector, cross, dot, minus
+
+
+def sigma(exponents: tuple[int, int, int], a: Vector, b: Vector, c: Vector) -> Number:
+    """Σ_pqr of the corners a, b, c: numbers, or arrays with one entry for each triangle."""
+    powers = [[_powers(corner[axis], exponents[axis]) for corner in (a, b, c)] for axis in range(3)]
+    parts = [list(_compositions(n)) for n in exponents]
+    total = 0
+    for k, k_ways in parts[0]:
+        for l, l_ways in parts[1]:
+            for m, m_ways in parts[2]:
+                # p! q! r! / (k₁! k₂! k₃! l₁! … m₃!) is the number of ways, an integer.
+                term = k_ways * l_ways * m_ways
+                for v in range(3):
+                    term *= factorial(k[v] + l[v] + m[v])
+                for v in range(3):
+                    for axis, i in ((0, k[v]), (1, l[v]), (2, m[v])):
+                        if i:
+                            term = term * powers[axis][v][i]
+                total = total + term
+    return total
+
+
+def volume_moments(
+    points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int, about: Vector = (0, 0, 0)
+) -> list[Number]:
+    """∫ x^p y^q z^r dV of the solid within outward polygons, in the order of `moments.monomials`, about `about`.
+
+    points: rows of x, y, z, of one exact or inexact type. faces: corner indices, counter-clockwise from outside.
+    """
+    sums = _summed(points, faces, order, about, lambda a, b, c: dot(a, cross(b, c)))
+    return [total / factorial(sum(m) + 3) for m, total in zip(exponents_to(order), sums)]
+
+
+def surface_moments(
+    points: Sequence[Vector],
+    faces: Sequence[Sequence[int]],
+    order: int,
+    about: Vector = (0, 0, 0),
+    root: Callable[[Number], Number] = sqrt,
+) -> list[Number]:
+    """∫ x^p y^q z^r dA over the faces; arguments as for `volume_moments`.
+
+    root: gives 2A from (2A)², by default in floats; an exact or long one keeps the rest as exact.
+    """
+
+    def double_area(a: Vector, b: Vector, c: Vector) -> Number:
+        normal = cross(minus(b, a), minus(c, a))
+        return root(dot(normal, normal))
+
+    sums = _summed(points, faces, order, about, double_area)
+    return [total / factorial(sum(m) + 2) for m, total in zip(exponents_to(order), sums)]
+
+
+def triangle_moments(
+    points: NDArray, triangles: NDArray, order: int, about: ArrayLike = (0.0, 0.0, 0.0)
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(K,) volume and (K,) surface moments of (m, 3) triangles over (n, 3) points, all triangles at once in float64."""
+    corners = np.asarray(points, np.float64) - np.asarray(about, np.float64)
+    a, b, c = (corners[np.asarray(triangles)[:, i]].T for i in range(3))
+    normal = cross(minus(b, a), minus(c, a))
+    det, double = dot(a, normal), np.sqrt(dot(normal, normal))
+    means = [sigma(m, a, b, c) for m in exponents_to(order)]
+    degrees = [sum(m) for m in exponents_to(order)]
+    volume = [float(np.sum(det * mean)) / factorial(n + 3) for n, mean in zip(degrees, means)]
+    surface = [float(np.sum(double * mean)) / factorial(n + 2) for n, mean in zip(degrees, means)]
+    return np.array(volume), np.array(surface)
+
+
+def _summed(
+    points: Sequence[Vector],
+    faces: Sequence[Sequence[int]],
+    order: int,
+    about: Vector,
+    weight: Callable[[Vector, Vector, Vector], Number],
+) -> list[Number]:
+    points = [minus(point, about) for point in points]
+    sums = [0] * len(exponents_to(order))
+    for face in faces:
+        for j in range(1, len(face) - 1):
+            a, b, c = points[face[0]], points[face[j]], points[face[j + 1]]
+            factor = weight(a, b, c)
+            if factor:
+                sums = [total + factor * sigma(m, a, b, c) for total, m in zip(sums, exponents_to(order))]
+    return sums
+
+
+def exponents_to(order: int) -> list[tuple[int, int, int]]:
+    """(p, q, r) of all monomials to an order, in the order of `moments.monomials`."""
+    return [tuple(row) for row in monomials(order).tolist()]
+
+
+def _compositions(n: int) -> Iterator[tuple[tuple[int, int, int], int]]:
+    """All (k₁, k₂, k₃) that add up to n, and n! / (k₁! k₂! k₃!)."""
+    for first in range(n + 1):
+        for second in range(n - first + 1):
+            yield (first, second, n - first - second), comb(n, first) * comb(n - first, second)
+
+
+def _powers(value: Number, order: int) -> list[Number]:
+    powers = [1]
+    for _ in range(order):
+        powers.append(powers[-1] * value)
+    return powers

@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments by the Φ tensors of Soldea, Elber and Rivlin, as printed: a reference for small patches.
+
+With S = Σ P_i B_i and the z-flux, the volume is (section 2, eqs. 2 to 5)
+
+    M_0 = Σ_l Σ_i Σ_j z_l x_i y_j Φ⁰_{ijl},    Φ⁰_{ijl} = ∫∫ B_l (B_i,s B_j,t - B_i,t B_j,s) ds dt,
+
+each index standing for a pair, of s and of t; Φ¹ and Φ² (sections 3.1 and 3.2) hold one and two factors B more. Every
+entry is a difference of products of two integrals over one parameter. There are (n n')^(3 + order) of them: this is
+good for patches of some nine control points; `reevaluation` gives the same numbers for any.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.bspline import Space
+from ..numerics.quadrature import gauss
+
+MOST_ENTRIES = 2_000_000
+
+
+def phi(spaces: tuple[Space, Space], order: int) -> NDArray[np.float64]:
+    """Φ of the given order, 0, 1 or 2: (n, n, n, ...), indexed [i, j, l, m, ...] by control points in row-major order.
+
+    ValueError where it would hold too many entries.
+    """
+    size = (spaces[0].count * spaces[1].count) ** (3 + order)
+    if size > MOST_ENTRIES:
+        raise ValueError("This Φ would hold {:d} entries; it is for small patches.".format(size))
+    s, t = (_integrals(space, order) for space in spaces)
+    swapped = (1, 0, *range(2, 3 + order))
+    table = np.multiply.outer(s, t.transpose(swapped)) - np.multiply.outer(s.transpose(swapped), t)
+    # [i j l ..., i' j' l' ...] to [i i', j j', l l', ...]
+    count = 3 + order
+    pairs = [axis for k in range(count) for axis in (k, count + k)]
+    return table.transpose(pairs).reshape((spaces[0].count * spaces[1].count,) * count)
+
+
+def phi_moments(points: NDArray, tensors: tuple[NDArray, ...]) -> dict[tuple[int, int, int], float]:
+    """The moments of the z-flux of a polynomial patch (n_s, n_t, 3), by exponents, from Φ⁰, Φ¹ and Φ² (or fewer)."""
+    x, y, z = points.reshape(-1, 3).T
+    flux = [np.einsum("ij...,i,j->...", tensor, x, y) for tensor in tensors]
+    found = {(0, 0, 0): float(z @ flux[0])}
+    if len(flux) > 1:
+        found[1, 0, 0], found[0, 1, 0] = float(x @ flux[1] @ z), float(y @ flux[1] @ z)
+        found[0, 0, 1] = float(z @ flux[1] @ z) / 2.0
+    if len(flux) > 2:
+
+        def second(a: NDArray, b: NDArray, part: float) -> float:
+            return float(np.einsum("abc,a,b,c->", flux[2], a, b, z)) * part
+
+        found |= {
+            (2, 0, 0): second(x, x, 1.0),
+            (1, 1, 0): second(x, y, 1.0),
+            (1, 0, 1): second(x, z, 0.5),
+            (0, 2, 0): second(y, y, 1.0),
+            (0, 1, 1): second(y, z, 0.5),
+            (0, 0, 2): second(z, z, 1.0 / 3.0),
+        }
+    return found
+
+
+def _integrals(space: Space, order: int) -> NDArray[np.float64]:
+    """∫ B'_i B_j B_l ... of one parameter, (count, count, count, ...)."""
+    nodes, weights = gauss((3 + order) * (space.order - 1) // 2 + 1)
+    low, high = space.intervals.T
+    size = (high - low)[:, None]
+    parameters = (low[:, None] + size * nodes).ravel()
+    values, slopes = space.matrix(parameters), space.matrix(parameters, 1)
+    operands = [slopes] + [values] * (2 + order)
+    letters = "ijlmo"[: 3 + order]
+    return np.einsum(
+        "{:s},g->{:s}".format(",".join("g" + letter for letter in letters), letters),
+        *operands,
+        (size * weights).ravel(),
+        optimize=True,
+    )

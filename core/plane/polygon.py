@@ -1,0 +1,245 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polygons with holes in the plane, as directed edges: the inside lies to the left of each.
+
+Area moments of any order are those of a boundary of 1-simplices (Sheynin and Tuzikov in two dimensions; see `simplex`):
+over an edge a, b the triangle with the origin gives (a x b)·S_pq·p! q! / (p+q+2)!. Outer outlines run counter-
+clockwise, holes clockwise, separate regions simply add. What makes a region ambiguous, outlines that cross or lie on
+one another, is found by `flaws`: no sum over edges would show it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.arrays import ramp
+from ..numerics.graph import components
+from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, facet_moments
+
+SAMPLES = 16  # midpoints of an outline's edges that are asked what it lies in
+PAIRS = 10_000_000  # of edges that are compared, and of rays and the edges they may meet; more rays are thinned out
+BLOCK = 1 << 18  # of those at a time
+ROWS = 64  # neighbouring rays at a time, which meet much the same edges
+CELLS = 1024  # along a side of the grid that edges are compared in
+TOUCH = 1e-9  # of the polygon's size: edges that pass each other by less than this touch
+
+
+@dataclass(frozen=True)
+class Flaws:
+    """crossings: pairs of edges that cross, lost: whether there were too many pairs to look at all; doubled: whether
+    somewhere an edge has more than one region, or less than none, beside it; negative: whether less than none.
+    shared: the length along which edges run against each other, which is not the region's rim."""
+
+    crossings: int
+    lost: bool
+    doubled: bool
+    negative: bool = False
+    shared: float = 0.0
+
+
+def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
+    """∫ x^p y^q dA for all p + q ≤ order, with error bounds.
+
+    points: (n, 2). edges: (m, 2) indices. about: by default the center of the points' box.
+    ValueError where the edges do not close.
+    """
+    edges = np.asarray(edges)
+    ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)] if len(edges) else [np.zeros(1)] * 2
+    loose = int(np.count_nonzero(ends[0] != ends[1]))
+    if loose:
+        raise ValueError("The outline is open at {:d} of its corners; close it.".format(loose))
+    return enclosed_moments(points, edges, order, about)
+
+
+def outline_moments(
+    points: ArrayLike, edges: ArrayLike, order: int = 0, about: ArrayLike | None = None
+) -> SimplexMoments:
+    """∫ x^p y^q ds along the edges; of order 0 the perimeter."""
+    return facet_moments(points, edges, order, about)
+
+
+def directed(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
+    """(m, 2) the edges of loops of indices, in the direction of each."""
+    rows = [np.stack([np.asarray(loop), np.roll(loop, -1)], axis=1) for loop in loops]
+    return np.concatenate(rows).astype(np.intp) if rows else np.empty((0, 2), np.intp)
+
+
+def nested(points: NDArray, loops: Sequence[NDArray]) -> NDArray[np.intp]:
+    """(m, 2) the edges of loops of any direction, turned so that what lies in an odd number of them is inside:
+    outlines, holes in those, islands in holes.
+
+    ValueError where one loop runs along another all the way, so that neither is in the other.
+    """
+    lows, highs = (np.array([rim(points[loop], axis=0) for loop in loops]).reshape(-1, 2) for rim in (np.min, np.max))
+    order = []
+    for i, loop in enumerate(loops):
+        around = np.flatnonzero((lows <= lows[i]).all(axis=1) & (highs >= highs[i]).all(axis=1))
+        edges = directed([loop])
+        middle = points[edges[:: max(1, len(edges) // SAMPLES)]].mean(axis=1)
+        depth = 0
+        for j in around[around != i].tolist():
+            winding = np.abs(winding_numbers(points, directed([loops[j]]), middle))
+            clear = np.abs(winding - 0.5)  # a midpoint on the other loop has half a turn
+            if clear.max() < 0.25:
+                raise ValueError("Two of its outlines lie on one another; remove one of them.")
+            depth += int(winding[np.argmax(clear)] > 0.5)
+        ahead = _signed_area(points, edges) > 0.0
+        order.append(loop if ahead == (depth % 2 == 0) else loop[::-1])
+    return directed(order)
+
+
+def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
+    """(m, 2) the directed edges of (k, 3) triangles over `count` points that no other triangle runs through the other
+    way: as often as one direction is more frequent."""
+    ahead = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)
+    low, high = ahead.min(axis=1), ahead.max(axis=1)
+    ahead, low, high = (rows[low != high] for rows in (ahead, low, high))
+    keys, which = np.unique(low * count + high, return_inverse=True)
+    net = np.bincount(which.ravel(), np.where(ahead[:, 0] == low, 1.0, -1.0), minlength=len(keys)).astype(np.int64)
+    edges = np.stack([keys // count, keys % count], axis=1) if len(keys) else np.empty((0, 2), np.int64)
+    edges = np.where(net[:, None] < 0, edges[:, ::-1], edges)
+    return np.repeat(edges, np.abs(net), axis=0).astype(np.intp)
+
+
+def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
+    """(k,) the signed area of each outline: negative ones are holes. Outlines that share a point count as one."""
+    if not len(edges):
+        return np.zeros(0)
+    origin = points[edges[0, 0]]
+    a, b = (points[edges[:, i]] - origin for i in (0, 1))
+    outline = components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]
+    sums = np.bincount(outline, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0)
+    return sums[np.unique(outline)]
+
+
+def flaws(points: NDArray, edges: NDArray, error: float = 0.0) -> Flaws:
+    """What makes it unclear which side of the edges is inside. Outlines may touch, at corners and along edges; edges so
+    short that their ends touch have no sides.
+
+    error: how far the points may be from where they were meant; what overlaps by no more touches.
+    """
+    if not len(edges):
+        return Flaws(0, False, False)
+    points = points - points[edges.ravel()].min(axis=0)
+    touch = TOUCH * float(points[edges.ravel()].max()) + 4.0 * error
+    crossings, shared, lost = _pairs(points, edges, touch)
+    left, right = _sides(points, edges, touch)
+    negative = bool((left < 0).any() or (right < 0).any())
+    return Flaws(crossings, lost, negative or bool((left < right).any() or (left > 1).any()), negative, shared)
+
+
+def winding_numbers(points: NDArray, edges: NDArray, places: NDArray) -> NDArray[np.float64]:
+    """(k,) how often the edges go round each place; at a place on an edge the mean of both sides."""
+    turns = [np.zeros(0)]
+    block = max(1, BLOCK // max(1, len(edges)))
+    for start in range(0, len(places), block):
+        spans = points[edges] - places[start : start + block, None, None]  # (k, m, 2 ends, 2)
+        a, b = spans[:, :, 0], spans[:, :, 1]
+        cross, along = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=2)
+        # A place on an edge sees its ends in opposite directions, with a sign that is rounding.
+        on = (np.abs(cross) <= 1e-12 * np.abs(along)) & (along <= 0.0)
+        turns.append(np.where(on, 0.0, np.arctan2(cross, along)).sum(axis=1) / (2.0 * np.pi))
+    return np.concatenate(turns)
+
+
+def _sides(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """(k,) and (k,) the winding numbers to the left and to the right of edges, of some of them where there are many.
+
+    Rays are sent across the edges, so that none runs along its own; edges that lie on one another are passed together.
+    """
+    span = np.abs(points[edges[:, 1]] - points[edges[:, 0]])
+    steep, long = span[:, 1] >= span[:, 0], np.hypot(*span.T) > 4.0 * touch
+    found = [
+        _sides_of(points, edges, np.flatnonzero(steep & long), touch),
+        # Mirrored, and each edge turned round: left stays left.
+        _sides_of(points[:, ::-1], edges[:, ::-1], np.flatnonzero(~steep & long), touch),
+    ]
+    left, right = zip(*found)
+    return np.concatenate(left), np.concatenate(right)
+
+
+def _sides_of(points: NDArray, edges: NDArray, chosen: NDArray, touch: float) -> tuple[NDArray, NDArray]:
+    """As `_sides`, of the chosen edges, which are steep: by rays to the right from their middles."""
+    start, end = points[edges[:, 0]], points[edges[:, 1]]
+    low, high = np.minimum(start, end)[:, 1] - touch, np.maximum(start, end)[:, 1] + touch
+    along = end - start
+    length = np.hypot(*along.T)
+    height = float(high.max() - low.min()) or 1.0
+    share = min(1.0, float((high - low).mean()) / height + ROWS / len(edges))  # of the edges that a ray may meet
+    chosen = chosen[:: max(1, int(len(chosen) * len(edges) * max(share, 1.0 / ROWS) / PAIRS))]
+    middle = (start[chosen] + end[chosen]) / 2.0
+    chosen = chosen[np.argsort(middle[:, 1], kind="stable")]
+    middle = (start[chosen] + end[chosen]) / 2.0
+    rows = max(1, min(ROWS, BLOCK // len(edges)))
+    left, right = np.zeros((2, len(chosen)), np.int64)
+    for first in range(0, len(chosen), rows):
+        part = slice(first, first + rows)
+        x, y = middle[part, 0, None], middle[part, 1, None]
+        near = np.flatnonzero((high >= y.min()) & (low <= y.max()))
+        a, b, d = start[near], end[near], along[near]
+        up = (b[:, 1] > y).astype(np.int64) - (a[:, 1] > y)  # 1 where the ray's line is crossed upward, -1 downward
+        ahead = d[:, 0] * (y - a[:, 1]) - d[:, 1] * (x - a[:, 0])  # positive to the edge's left
+        within = (x - a[:, 0]) * (x - b[:, 0]) + (y - a[:, 1]) * (y - b[:, 1]) <= 0.0
+        on = within & (np.abs(ahead) <= np.maximum(touch, 1e-12 * length[near]) * length[near])
+        met = np.where((ahead > 0.0) == (up > 0), up, 0)
+        beyond = np.where(on, 0, met).sum(axis=1)
+        step = np.where(on, up, 0).sum(axis=1)
+        # From right of the middle one ray; from left of it the same and all edges that lie here.
+        upward = along[chosen[part], 1] > 0.0
+        left[part] = np.where(upward, beyond + step, beyond)
+        right[part] = np.where(upward, beyond, beyond + step)
+    return left, right
+
+
+def _signed_area(points: NDArray, edges: NDArray) -> float:
+    a, b = (points[edges[:, i]] - points[edges[0, 0]] for i in (0, 1))
+    return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum()) / 2.0
+
+
+def _pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
+    """Pairs of edges that cross by more than `touch`, and the length along which others run against each other: each
+    edge is entered into the cells of a grid that its box meets, and compared with those that share a cell. The last
+    value tells whether that was given up."""
+    start, end = points[edges[:, 0]], points[edges[:, 1]]
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    length = np.hypot(*(end - start).T)
+    length[length == 0.0] = 1.0
+    size = float((high.max(axis=0) - low.min(axis=0)).max()) or 1.0
+    cell = max(2.0 * float((high - low).mean()), size / CELLS)
+    low, high = (np.floor(corner / cell).astype(np.int64) for corner in (low - touch, high + touch))
+    wide, tall = (high - low + 1).T
+    if (wide * tall).sum() > PAIRS:
+        return 0, 0.0, True
+    edge = np.repeat(np.arange(len(edges)), wide * tall)
+    within = ramp(wide * tall)
+    key = (low[edge, 0] + within // tall[edge]) * (2 * CELLS) + low[edge, 1] + within % tall[edge]
+    order = np.argsort(key, kind="stable")
+    edge, key = edge[order], key[order]
+    active, found, against, looked = np.arange(len(edge)), [], {}, 0
+    for step in range(1, len(edge)):
+        active = active[active < len(edge) - step]
+        active = active[key[active + step] == key[active]]
+        looked += len(active)
+        if not len(active) or looked > PAIRS:
+            break
+        i, j = edge[active], edge[active + step]
+        sides = []
+        for p, q, other in ((i, j, start), (i, j, end), (j, i, start), (j, i, end)):
+            span, to = end[p] - start[p], other[q] - start[p]
+            sides.append((span[:, 0] * to[:, 1] - span[:, 1] * to[:, 0]) / length[p])
+        sides = np.array(sides)
+        pair = np.minimum(i, j) * len(edges) + np.maximum(i, j)
+        found.append(
+            pair[(sides[0] * sides[1] < 0.0) & (sides[2] * sides[3] < 0.0) & (np.abs(sides) > touch).all(axis=0)]
+        )
+        along = (np.abs(sides) <= touch).all(axis=0)
+        i, j, pair = i[along], j[along], pair[along]
+        unit = (end[i] - start[i]) / length[i, None]
+        first, last = (((point[j] - start[i]) * unit).sum(axis=1) for point in (start, end))
+        common = np.minimum(first, length[i]) - np.maximum(last, 0.0)  # of opposite edges first is beyond last
+        against.update(zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist()))
+    return len(np.unique(np.concatenate(found))) if found else 0, float(sum(against.values())), looked > PAIRS

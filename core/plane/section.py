@@ -1,0 +1,267 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Section properties of a plane region, as structural engineers know them.
+
+I_x = ∫ y² dA, I_y = ∫ x² dA and I_xy = +∫ xy dA (no minus: a tensor's entry would have one), about the centroid and
+along the plane's own axes x, y. Principal second moments I_1 ≥ I_2; axis 1 is at the angle θ in (-90°, 90°] from x
+towards y, tan 2θ = -2 I_xy / (I_x - I_y). J_p = I_x + I_y is the polar second moment of area; it is the torsion
+constant of round sections only. Radii of gyration are √(I/A), elastic section moduli I / (distance of the outermost
+corner), exact as corners are what is outermost.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import atan2, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import normals
+from ..mesh.welding import equal_positions
+from ..moments.moments import U
+from ..polyhedron.n_dimensions import SimplexMoments
+from .polygon import area_moments, boundary_edges, outline_areas, outline_moments
+
+FLAT = 1e-5  # of a region's size: points farther off their plane are not planar; an area is off by the square of this
+EQUAL = 1e-6  # principal moments closer than this, relatively, are equal
+UNSURE = 1e-3  # of the larger one: what is more is not taken for noise
+ENDS = 2.0 * np.sqrt(2.0)  # an edge grows by this where both ends move by 1 along each axis
+ALONG = 0.05  # the least share of an axis that must lie in the plane to name the plane's x axis
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """origin: (3,). axes: (3, 3), columns x, y and the normal, right-handed. off: how far the points are off it.
+    named: which of the preferred axes x is nearest to: "X" or "Y"."""
+
+    origin: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    off: float
+    named: str
+
+    def flat(self, points: NDArray) -> NDArray[np.float64]:
+        """(n, 2) the points in the plane's axes."""
+        x, y, z = (points - self.origin).T
+        return np.stack([x * a[0] + y * a[1] + z * a[2] for a in self.axes.T[:2]], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """One region, in one unit of length.
+
+    centroid: (2,) in the plane's axes from its origin. second: (3,) I_x, I_y, I_xy about the centroid. reach: (4,) the
+    distance of the outermost corner from the axes x, y, 1, 2 through the centroid. outlines, holes: how many.
+    error, input: bounds {"area", "perimeter", "centroid", "second"} of rounding, and of what storing coordinates as
+    float32 may have moved; of the centroid its length, of the second moments each of them.
+    """
+
+    plane: Plane
+    area: float
+    perimeter: float
+    centroid: NDArray[np.float64]
+    second: NDArray[np.float64]
+    reach: NDArray[np.float64]
+    outlines: int
+    holes: int
+    error: dict[str, float]
+    input: dict[str, float]
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """(3,) the centroid in the coordinates of the plane's origin."""
+        return self.plane.origin + self.plane.axes[:, :2] @ self.centroid
+
+    @property
+    def principal(self) -> tuple[float, float]:
+        """I_1 ≥ I_2."""
+        first, second, mixed = self.second.tolist()
+        larger = (first + second) / 2.0 + np.hypot((first - second) / 2.0, mixed)
+        return float(larger), max(0.0, (first * second - mixed * mixed) / larger)  # no difference of near equals
+
+    @property
+    def free(self) -> bool:
+        """Whether every axis through the centroid is a principal one."""
+        first, second = self.principal
+        return first - second <= EQUAL * first + 2.0 * self._noise
+
+    @property
+    def angle(self) -> float:
+        """Radians from x towards y to axis 1; 0 where every axis is one."""
+        return 0.0 if self.free else principal_angle(self.second, self._noise)
+
+    @property
+    def _noise(self) -> float:
+        """What tells nothing of the axes. Where bounds are wide the moments are those of axes all the same."""
+        return min(self.error["second"] + self.input["second"], UNSURE * self.principal[0])
+
+    @property
+    def polar(self) -> float:
+        """J_p = I_x + I_y."""
+        return float(self.second[0] + self.second[1])
+
+    @property
+    def radii(self) -> NDArray[np.float64]:
+        """(4,) the radii of gyration about x, y, 1, 2."""
+        return np.sqrt(np.array([*self.second[:2], *self.principal]) / self.area)
+
+    @property
+    def moduli(self) -> NDArray[np.float64]:
+        """(4,) the elastic section moduli about x, y, 1, 2, each for the outermost corner: the smaller of two sides."""
+        return np.array([*self.second[:2], *self.principal]) / self.reach
+
+
+def principal_angle(second: NDArray, noise: float) -> float:
+    """Where axis 1 lies, in (-π/2, π/2]; a product of inertia below `noise` is none, lest it turn the axis over."""
+    first, last, mixed = second.tolist()
+    if abs(mixed) <= noise:
+        return 0.0 if first >= last else pi / 2.0
+    return 0.5 * atan2(-2.0 * mixed, first - last)
+
+
+def fit_plane(
+    points: NDArray,
+    triangles: NDArray,
+    prefer: NDArray,
+    origin: NDArray,
+    error: float = 0.0,
+    facing: NDArray | None = None,
+) -> Plane:
+    """The plane of triangles over (n, 3) points, facing as most of their area does, or as `facing`.
+
+    prefer: (3, 3) columns, axes that the plane's x is to be near to: the first, or where that stands upright on the
+    plane the second. origin: (3,) a point whose foot on the plane becomes its origin. error: how far the points may be
+    from where they were meant. ValueError where they are not planar, or have no area.
+    """
+    vectors = normals(points, triangles)
+    sizes = np.sqrt((vectors * vectors).sum(axis=1))
+    used = points[np.unique(triangles)]
+    size = float(np.sqrt(((used.max(axis=0) - used.min(axis=0)) ** 2).sum()))
+    largest = int(np.argmax(sizes))
+    if not sizes[largest] > 0.0:
+        raise ValueError("It has no area.")
+    # Faces that look the other way are of the same plane.
+    side = np.sign(vectors @ vectors[largest])
+    total = (vectors * side[:, None]).sum(axis=0)
+    normal = total / np.sqrt(total @ total)
+    if (vectors @ normal).sum() < 0.0 if facing is None else facing @ normal < 0.0:
+        normal = -normal
+    middle = used.min(axis=0) / 2.0 + used.max(axis=0) / 2.0
+    heights = (used - middle) @ normal
+    level = float(heights.min() + heights.max()) / 2.0
+    off = float(np.ptp(heights)) / 2.0
+    if off > FLAT * size + 4.0 * error:
+        raise ValueError(
+            "It is not flat: its points are up to {:.3g} of its size off a plane. Choose faces of one "
+            "plane, or flatten it.".format(off / size)
+        )
+    axes, named = _axes(normal, prefer)
+    distance = float((middle - origin) @ normal) + level
+    return Plane(origin + distance * normal, axes, off, named)
+
+
+def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
+    inside = [axis - normal * (normal @ axis) for axis in prefer.T[:2]]
+    first = int(np.sqrt(inside[0] @ inside[0]) <= ALONG)
+    x = inside[first] / np.sqrt(inside[first] @ inside[first])
+    x = x - normal * (normal @ x)
+    x = x / np.sqrt(x @ x)
+    return np.stack([x, np.cross(normal, x), normal], axis=1) + 0.0, "XY"[first]
+
+
+def region(
+    plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float = 0.0
+) -> tuple[NDArray[np.intp], int]:
+    """(m, 2) the directed edges of the region that triangles near the plane cover, points at one place taken as one,
+    and how many faces look against the plane and were turned.
+
+    faces: (k,) the face of each triangle; a face is turned as a whole.
+    """
+    triangles = equal_positions(points)[triangles]
+    a, b, c = (plane.flat(points)[triangles[:, i]] for i in range(3))
+    areas = np.bincount(faces, ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2.0)
+    longest = np.abs(np.stack([b - a, c - a])).max(axis=(0, 2))
+    noise = np.zeros(len(areas))
+    np.maximum.at(noise, faces, longest)  # slivers have no side to look to
+    turned = areas < -(4.0 * error + 1e-12 * noise) * noise
+    triangles = np.where(turned[faces][:, None], triangles[:, ::-1], triangles)
+    return boundary_edges(triangles, len(points)), int(np.count_nonzero(turned))
+
+
+def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0, shared: float = 0.0) -> Section:
+    """The properties of the region left of directed edges over (n, 3) points near the plane. `polygon.flaws` tells
+    whether that is one region, and the length that edges share, which the perimeter leaves out twice.
+
+    error: how far storing the points as float32 may have moved each of them.
+    ValueError where the edges enclose no area, or do not close.
+    """
+    flat = plane.flat(points)
+    used = flat[edges.ravel()] if len(edges) else np.zeros((1, 2))
+    about = used.min(axis=0) / 2.0 + used.max(axis=0) / 2.0
+    rounded = 16.0 * U * float(np.abs(points).max(initial=0.0) + np.abs(plane.origin).max() + np.abs(used).max())
+    first = area_moments(flat, edges, 1, about)
+    moved = _moved(flat, edges, about, rounded)[:3] + first.error
+    if not first.raw[0] > moved[0]:
+        raise ValueError("It encloses no area.")
+    about = about + first.raw[1:] / first.raw[0]
+    moments = area_moments(flat, edges, 2, about)  # about the centroid as far as floats go: nothing cancels
+    length = outline_moments(flat, edges)
+    bounds = []
+    for step, own in ((rounded, moments.error), (error, np.zeros(6))):
+        bounds.append(_bounds(moments, _moved(flat, edges, about, step) + own))
+    ends = ENDS * len(edges) * (5.0 if shared else 1.0)  # of 2 len(edges) shared pieces at most, each taken twice
+    bounds[0]["perimeter"] = float(length.error[0]) * (3.0 if shared else 1.0) + ends * rounded
+    bounds[1]["perimeter"] = ends * error
+    area, shift = float(moments.raw[0]), moments.raw[1:3] / moments.raw[0]
+    second = moments.raw[[5, 3, 4]] - area * np.array([shift[1] ** 2, shift[0] ** 2, shift[0] * shift[1]])
+    second[:2] = np.maximum(second[:2], 0.0)
+    sizes = outline_areas(flat, edges)
+    centroid = about + shift
+    section = Section(
+        plane,
+        area,
+        float(length.raw[0]) - 2.0 * shared,
+        centroid,
+        second,
+        np.ones(4),
+        int((sizes > 0.0).sum()),
+        int((sizes < 0.0).sum()),
+        *bounds,
+    )
+    x, y = (used - centroid).T
+    sine, cosine = np.sin(section.angle), np.cos(section.angle)
+    reach = np.array([np.abs(row).max() for row in (y, x, y * cosine - x * sine, x * cosine + y * sine)])
+    return replace(section, reach=reach)
+
+
+def _moved(points: NDArray, edges: NDArray, about: NDArray, step: float) -> NDArray[np.float64]:
+    """(6,) what the moments to second order may change by where every point moves by `step` along each axis.
+
+    Between its old and its new place an edge sweeps over at most its length times the distance it moves.
+    """
+    a, b = (points[edges[:, i]] - about for i in (0, 1))
+    way = step * np.sqrt(2.0)
+    swept = way * (np.hypot(*(b - a).T) + 2.0 * way)
+    x, y = np.maximum(np.abs(a), np.abs(b)).T + way
+    return np.array(
+        [
+            swept.sum(),
+            (swept * x).sum(),
+            (swept * y).sum(),
+            (swept * x * x).sum(),
+            (swept * x * y).sum(),
+            (swept * y * y).sum(),
+        ]
+    ) * (1.0 + 1e-9)
+
+
+def _bounds(moments: SimplexMoments, delta: NDArray) -> dict[str, float]:
+    """What moments about the centroid, off by `delta`, make of area, centroid and second moments."""
+    area, shift = moments.raw[0], np.abs(moments.raw[1:3]) / moments.raw[0]
+    if not area > 2.0 * delta[0]:  # then nothing bounds a quotient
+        return {"area": float(delta[0]), "centroid": float("inf"), "second": float("inf")}
+    drift = (delta[1:3] + shift * delta[0]) / (area - delta[0])
+    slack = 4.0 * U * (np.abs(moments.about) + shift)
+    second = delta[3:].max() + (area + delta[0]) * (drift + shift).max() ** 2
+    second += 4.0 * U * np.abs(moments.raw[3:]).max()
+    return {"area": float(delta[0]), "centroid": float(np.hypot(*(drift + slack))), "second": float(second)}

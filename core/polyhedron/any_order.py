@@ -1,0 +1,353 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Volume and surface moments of any order of triangles and quads, in memory or as a stream, with rigorous bounds.
+
+Sheynin and Tuzikov (*Explicit formulae for polyhedra moments*, Pattern Recognition Letters 22, 2001): with the
+coefficients S_pqr of 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)), over the cone from the origin on a triangle a, b, c with determinant
+w and over the triangle itself, of doubled area A,
+
+    ∫ x^p y^q z^r dV = w p! q! r! / (p+q+r+3)! S_pqr,    ∫ x^p y^q z^r dA = A p! q! r! / (p+q+r+2)! S_pqr.
+
+Their explicit sum for S has binomial(n+9, 9) terms up to order n; the recursion of `levels` takes the generating
+function factor by factor, some 14 operations for each moment and triangle. Coordinates are taken about a point of the
+body, and scaled by a power of two to at most about 1 where they are far from it, lest their 20th powers lose every
+digit or leave the range.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import chain, islice
+from math import factorial, frexp
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..mesh.surface import Surface, all_there, flipped_quads
+from ..moments.moments import Moments, U
+from ..moments.monomials import monomial_count, monomials, predecessors, rows_of
+from .any_order_kernel import TINY, Levels, Sums, layout, sizes
+from .third_order import finite_box, middle, pairs, solid_and_area
+from .third_order_kernel import NO_VERTEX
+
+MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
+FAST = 3  # orders up to this one have their own kernel
+NUMBERS = 1_400_000  # that a block's scratch may hold; with fewer, two threads wait for each other
+FEWEST = 4608  # faces in a block; of rows less than half its buffer of 8192 long, numpy copies those it uses again
+BATCH = 8  # blocks that are handed to a thread at once
+USUAL = 8  # powers of two up to which coordinates are left as they are
+RANGE = 1000.0  # powers of two beyond which a moment is no number
+TOO_LARGE = "It is too large for moments of order {:d} to be numbers. Scale it down."
+
+
+def moments_to_order(
+    body: Surface | Iterable[Surface | NDArray],
+    order: int,
+    *,
+    area: bool = False,
+    threads: int = 1,
+    progress: Callable[[int], None] | None = None,
+    about: ArrayLike | None = None,
+    reach: float | None = None,
+) -> tuple[Moments, Moments | None]:
+    """All moments of p+q+r ≤ order of the body that a closed surface bounds, and of the surface itself where `area`.
+
+    body: a Surface; or an iterable of pieces of one body, in the same coordinates, of which only a few are held at a
+        time: Surfaces, or (m, 3, 3) arrays of the corners of outward counter-clockwise triangles.
+    progress: called now and then with the number of faces done.
+    about: (3,) the reference point, by default the middle of the bounding box; of a stream that can be read only once,
+        the middle of its first piece. Far from the body digits are lost, and `error` says how many: give a point in it.
+    reach: how far the body extends from there, roughly; of such a stream by default what its first piece does.
+
+    `error` bounds the rounding of every moment, `input` what storing coordinates as float32 may have changed (of a
+    closed surface). Memory beside what `body` holds: for each thread a block's scratch, some 13 MB at order 4, 30 MB at
+    order 20 and 65 MB at order 30, and some 15 MB for the bounds. ValueError where coordinates are not finite, a face
+    names no vertex, or a moment would be beyond the range of numbers.
+    """
+    if not isinstance(order, (int, np.integer)) or order < 0:
+        raise ValueError("The order of moments is a whole number, 0 or more.")
+    if about is not None:
+        about = np.array(about, np.float64)
+        if about.shape != (3,) or not np.isfinite(about).all():
+            raise ValueError("The point that moments are about has three finite coordinates.")
+    pieces = [body] if isinstance(body, Surface) else body
+    if isinstance(pieces, (list, tuple)) and about is None:
+        about = _middle_of([_as_surface(piece) for piece in pieces])
+    stream = (_as_surface(piece) for piece in pieces)
+    if order <= FAST:
+        return _fast(stream, order, area, threads, progress, about)
+    return _Stream(order, area, threads, progress, about, reach).measured(stream)
+
+
+def _as_surface(piece: Surface | NDArray) -> Surface:
+    if isinstance(piece, Surface):
+        return piece
+    corners = np.asarray(piece)
+    if corners.ndim != 3 or corners.shape[1:] != (3, 3) or np.iscomplexobj(corners):
+        raise ValueError("Triangles are an array of shape (m, 3, 3): corners, and their real coordinates.")
+    return Surface(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+
+
+def _middle_of(surfaces: list[Surface]) -> NDArray[np.float64] | None:
+    """(3,) the middle of the box around all of them; None where there is nothing."""
+    boxes = [finite_box(surface) for surface in surfaces if len(surface.points)]
+    if not boxes:
+        return None
+    lows, highs = zip(*boxes)
+    dtype = np.result_type(*(surface.points for surface in surfaces))
+    return middle(np.min(lows, axis=0), np.max(highs, axis=0), dtype)
+
+
+def _fast(
+    stream: Iterable[Surface],
+    order: int,
+    area: bool,
+    threads: int,
+    progress: Callable[[int], None] | None,
+    about: NDArray | None,
+) -> tuple[Moments, Moments | None]:
+    """By the kernel for low orders, piece by piece."""
+    total: list[Moments] = []
+    done, exact = 0, order == FAST
+    for surface in stream:
+        if not len(surface.triangles) + len(surface.quads):
+            continue
+        if about is None:
+            about = _middle_of([surface])
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = solid_and_area(surface, threads, area, exact=exact, about=about)
+            found = [moments.truncated(order) for moments in found]
+            total = [one + other for one, other in zip(total, found)] if total else found
+        done += len(surface.triangles) + len(surface.quads)
+        if progress is not None:
+            progress(done)
+    total = total or [_nothing(order, of, about) for of in ("volume", "area")]
+    if not all(np.isfinite(moments.error).all() for moments in total):
+        raise ValueError(TOO_LARGE.format(order))
+    return total[0], total[1] if area else None
+
+
+def _nothing(order: int, of: str, about: NDArray | None) -> Moments:
+    return Moments(np.zeros(monomial_count(order)), np.zeros(3) if about is None else about, of)
+
+
+@lru_cache
+def _factors(order: int) -> NDArray[np.float64]:
+    """(K,) p! q! r! / (p+q+r+2)!"""
+    return np.array(
+        [
+            float(factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 2))
+            for p, q, r in monomials(order).tolist()
+        ]
+    )
+
+
+def _exponent(reach: float) -> int:
+    """The exponent of the power of two by which a body that reaches so far is scaled: 0 where its size is usual."""
+    exponent = frexp(reach)[1]
+    return exponent if abs(exponent) > USUAL else 0
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """Some faces, (m, 3) or (m, 4), of a piece of the body. size: how many of them make a block. half_ulp: (3,) that
+    of its points."""
+
+    points: NDArray
+    faces: NDArray
+    size: int
+    half_ulp: NDArray[np.float64]
+
+
+class _Total:
+    """A running sum of arrays, with what the additions round off kept beside it (Neumaier), and with the sums that its
+    bounds are made of. faces: how many were added."""
+
+    def __init__(self, order: int, weights: int):
+        self.order, self.weights = order, weights
+        self.high = self.low = self.sizes = np.zeros(())
+        self.faces = 0
+        self.pending: list[Sums] = []
+
+    def add(self, part: Sums) -> None:
+        """Add a block's sums."""
+        total = self.high + part.sums
+        grown = total - self.high
+        self.low = self.low + ((self.high - (total - grown)) + (part.sums - grown))
+        self.high = total
+        last = self.pending[-1] if self.pending else part
+        columns = sum(other.chunks.shape[1] for other in self.pending)
+        if (
+            len(last.chunks) != len(part.chunks)
+            or not np.array_equal(last.half_ulp, part.half_ulp)
+            or columns * rows_of(self.order) * 3 * self.weights > NUMBERS
+        ):
+            self.settle()
+        self.pending.append(part)
+
+    def settle(self) -> None:
+        """Add up the bounds of the pending blocks: many at once, which is faster."""
+        if self.pending:
+            self.sizes = self.sizes + sizes(self.order, self.weights, self.pending)
+            self.pending = []
+
+
+class _Stream:
+    """One body being measured, piece by piece."""
+
+    def __init__(
+        self,
+        order: int,
+        area: bool,
+        threads: int,
+        progress: Callable[[int], None] | None,
+        about: NDArray | None,
+        reach: float | None,
+    ):
+        self.order, self.area, self.threads, self.progress = order, area, max(1, threads), progress
+        self.center = about
+        self.exponent = None if reach is None else _exponent(reach)
+        self.idle: list[Levels] = []
+        self.half_ulp = np.zeros(3)
+
+    def measured(self, stream: Iterable[Surface]) -> tuple[Moments, Moments | None]:
+        """Volume and, where wanted, area."""
+        total = _Total(self.order, 2 if self.area else 1)
+        for faces, parts in self._parts(self._tasks(stream)):
+            for part in parts:
+                total.add(part)
+            total.faces += faces
+            if self.progress is not None:
+                self.progress(total.faces)
+        total.settle()
+        if not total.faces:
+            empty = [_nothing(self.order, of, self.center) for of in ("volume", "area")]
+            return empty[0], empty[1] if self.area else None
+        return self._moments(total, "volume"), self._moments(total, "area") if self.area else None
+
+    def _parts(self, tasks: Iterator[_Task]) -> Iterator[tuple[int, list[Sums]]]:
+        """The results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
+        first = list(islice(tasks, min(self.threads, 2)))
+        alone, tasks = len(first) < 2, chain(first, tasks)
+        del first  # it holds pieces of a stream
+        if alone:  # or a body of one task, for which starting threads takes longer than the work
+            yield from map(self._run, tasks)
+            return
+        with ThreadPoolExecutor(self.threads) as pool:
+            waiting: deque = deque()
+            for task in tasks:
+                waiting.append(pool.submit(self._run, task))
+                if len(waiting) > 2 * self.threads:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
+
+    def _tasks(self, stream: Iterable[Surface]) -> Iterator[_Task]:
+        for surface in stream:
+            if not len(surface.triangles) + len(surface.quads):
+                continue
+            points = np.ascontiguousarray(surface.points)
+            if points.dtype != np.float32:
+                points = points.astype(np.float64, copy=False)
+            self._settle(surface)
+            half_ulp = surface.coordinate_error
+            self.half_ulp = np.maximum(self.half_ulp, half_ulp)
+            for faces in (surface.triangles, surface.quads):
+                size = self._size(faces)
+                blocks = -(-len(faces) // size)
+                step = size * (BATCH if self.threads == 1 else max(1, min(BATCH, blocks // (4 * self.threads))))
+                for start in range(0, len(faces), step):
+                    yield _Task(points, faces[start : start + step], size, half_ulp)
+
+    def _size(self, faces: NDArray) -> int:
+        """How many faces make a block: blocks are of even length, and as many for each of 2 or 4 threads. Whatever the
+        number of threads the blocks are the same, and so is their sum."""
+        corners = faces.shape[1]
+        ours = 2 if corners == 3 and pairs(faces[:2]) is not None else 1  # where two triangles make one face of ours
+        most = ours * max(NUMBERS // layout(corners + ours - 1, self.order, 1)[0], FEWEST)
+        blocks = -(-len(faces) // (4 * most)) * 4
+        blocks = max(1, min(blocks, len(faces) // (ours * FEWEST)))
+        return max(2, -(-len(faces) // (2 * blocks)) * 2)
+
+    def _settle(self, surface: Surface) -> None:
+        """The reference point and the scale, by the first piece where nobody has given them."""
+        low, high = finite_box(surface)
+        if self.center is None:
+            self.center = middle(low, high, surface.points.dtype)
+        largest = float(np.maximum(high - self.center, self.center - low).max())
+        if self.exponent is None:
+            self.exponent = _exponent(largest)
+        beyond = frexp(largest)[1] - self.exponent
+        if (max(beyond, 0) + 2) * (self.order + 3) > RANGE:
+            raise ValueError(
+                "A piece of the body reaches much farther than the first. Give a point of the body, and "
+                "how far it reaches from there."
+            )
+        if (max(beyond, 0) + self.exponent) * (self.order + 3) > RANGE:
+            raise ValueError(TOO_LARGE.format(self.order))
+
+    def _run(self, task: _Task) -> tuple[int, list[Sums]]:
+        """One task, in whatever thread: how many faces it has, and what each of its blocks adds."""
+        if not all_there(task.faces, len(task.points)):
+            raise ValueError(NO_VERTEX)
+        levels = self.idle.pop() if self.idle else Levels(self.order, self.area)
+        found = [
+            levels.run(task.points, self.center, 2.0**-self.exponent, task.half_ulp, corners, size)
+            for corners, size in self._blocks(task)
+        ]
+        self.idle.append(levels)
+        return len(task.faces), found
+
+    @staticmethod
+    def _blocks(task: _Task) -> Iterator[tuple[Sequence[NDArray], int]]:
+        """The corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles; and
+        how many there are in a block that is full. Each block is judged by itself, so that it does not depend on its
+        neighbours."""
+        for start in range(0, len(task.faces), task.size):
+            faces = task.faces[start : start + task.size]
+            if faces.shape[1] == 4:
+                faces = np.where(flipped_quads(task.points, faces)[:, None], np.roll(faces, -1, axis=1), faces)
+            halves = pairs(faces) if faces.shape[1] == 3 else None
+            yield (faces.T, task.size) if halves is None else (halves, task.size // 2)
+
+    def _moments(self, total: _Total, of: str) -> Moments:
+        """What the sums come to, in the body's own unit, with its bounds."""
+        degree = monomials(self.order).sum(axis=1)
+        row, dimension = (0, 3) if of == "volume" else (1, 2)
+        factors = _factors(self.order) / ((degree + 3.0) if of == "volume" else 1.0)
+        sizes = total.sizes[3 * row : 3 * row + 3]
+        raw = (total.high[row] + total.low[row]) * factors
+        mean = 2.0 * ((degree + 3.0) if of == "volume" else 1.0)  # ∫ |x^α| is at most weight reach^α / this
+        rounding = U * (8.0 * degree + 228.0)
+        error = (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean + 8.0 * U * np.abs(raw) + TINY * total.faces
+        moved = self._moved(total, of) if self.half_ulp.any() else np.zeros(len(raw))
+        powers = self.exponent * (degree + dimension)
+        return Moments(
+            np.ldexp(raw, powers),
+            self.center,
+            of,
+            np.ldexp(error, powers) + np.finfo(float).tiny,
+            np.ldexp(moved, powers),
+        )
+
+    def _moved(self, total: _Total, of: str) -> NDArray[np.float64]:
+        """What moving the vertices by their half ulps may change: over the volume that they sweep; of areas, over what
+        is added, and by the change of the integrand."""
+        swept = total.sizes[2] * (1.0 + 1e-9)
+        if of == "volume":
+            return swept
+        moved = total.sizes[5] * (1.0 + 1e-9)
+        half_ulp = np.ldexp(self.half_ulp, -self.exponent)
+        table = monomials(self.order)
+        for degree in range(1, self.order + 1):
+            known, below = monomial_count(degree - 1), monomial_count(degree - 2)
+            lower = np.append(swept[below:known], 0.0) / np.linalg.norm(half_ulp)
+            for axis, places in enumerate(predecessors(degree, rows_of(degree - 1))):
+                moved[known : monomial_count(degree)] += (
+                    table[known : monomial_count(degree), axis] * half_ulp[axis] * lower[places]
+                )
+        return moved

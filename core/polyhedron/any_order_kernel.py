@@ -1,0 +1,333 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The inner loop of `recursion`: all moments of triangles and pairs of triangles, a block at a time.
+
+Over the triangle a, b, c the mean of the monomial x^α of degree n is 2 α! / (n+2)! times the coefficient S_α of the
+generating function 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)). Each factor is one level of a recursion,
+
+    C_α = (n! / α!) a^α,    D_α = C_α + Σ_i c_i D_{α-e_i},    S_α = D_α + Σ_i b_i S_{α-e_i},
+
+of which only one degree is kept at a time. Two triangles that share the edge a-c share C and D. Of the last degree only
+sums over faces are wanted, and those of S_α = C_α + Σ_i c_i D_{α-e_i} + Σ_i b_i S_{α-e_i} need no D and no S.
+
+Rows are the monomials of one degree in the order of `moments.monomials`, columns are faces. The rows that a level's sum
+takes from the degree below stand in runs, so that nothing is fetched or copied: 14 operations a moment, all on whole
+rows. What Python does between two calls of numpy only one thread can do at a time, and a thread that has to wait for it
+loses more than most calls take: hence calls that are few and long, over large blocks and all levels at once, with views
+that are made once. All sums are of positive terms if the coordinates are positive, so a computed S_α is off by at most
+(6 n + 8) u S_α(|a|, |b|, |c|).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache, partial
+from math import factorial, prod
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.moments import U
+from ..moments.monomials import monomial_count, monomials, predecessors, rows_of
+
+CHUNK = 32  # faces that share one bound of their coordinates
+SLICES = 16  # of a row, that einsum adds up: a divisor of CHUNK
+ROUNDING = 9.0 * U  # of a determinant, and of a doubled area, relative to the sizes of their terms: see `polyhedron`
+SQUARE = 1e-145  # underflow loses less than its root of a length, and than `ROUNDING` times it of a doubled area
+TINY = 1e-220  # more than underflow can lose of one face whose coordinates are at most 256
+
+
+@lru_cache
+def multinomials(degree: int) -> NDArray[np.float64]:
+    """(rows, 1) n! / α!, exact to degree 30."""
+    return np.array(
+        [
+            [factorial(degree) // (factorial(p) * factorial(q) * factorial(r))]
+            for p, q, r in monomials(degree)[-rows_of(degree) :].tolist()
+        ],
+        np.float64,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Sums:
+    """What a block of faces adds, in the unit in which their coordinates are at most about 256.
+
+    sums: (weights, K) Σ over faces of determinant S_α, and of doubled area S_α.
+    chunks: (3 + 3 + weights + c-1, m), of each chunk of CHUNK faces the largest and the least coordinates, Σ |weight|
+        and the squares of its longest edges from the first corner.
+    half_ulp: (3,) of the coordinates.
+    """
+
+    sums: NDArray[np.float64]
+    chunks: NDArray[np.float64]
+    half_ulp: NDArray[np.float64]
+
+
+@lru_cache
+def layout(count: int, order: int, weights: int) -> tuple[int, dict[str, tuple[int, tuple[int, ...]]]]:
+    """How many rows a block of faces of `count` corners needs, and of each array of `_Block` its first row and shape.
+
+    A row is left free between arrays: numpy < 2 leaves its vector loop where output ends at input's start. What is
+    wanted while weighing only shares memory with what is wanted while summing.
+    """
+    ends, fans, lower = count - 1, count - 2, rows_of(order - 1)
+    kept = {"heavy": (weights, 3, count), "tips": (weights, fans), "both": (weights,)}
+    weighing = {"index": (count,), "edges": (3, ends), "normals": (3, fans), "minus": (3, fans), "single": (3 * count,)}
+    summing = {"powers": (lower,), "levels": (ends, lower), "room": (2 * ends * (order - 1),)}
+    start, end, places = 0, 0, {}
+    for shapes in (kept, weighing, summing):
+        row = start
+        for name, shape in shapes.items():
+            places[name] = row, shape
+            row += prod(shape) + 1
+        start, end = start or row, max(end, row)
+    return end, places
+
+
+class _Block:
+    """The rows of a block of faces, k columns carved out of one buffer, and what is done with them once the corners'
+    coordinates and the edges from the first corner are there: `steps`, in their order.
+
+    corners: (3, c, k). edges: (3, c-1, k). tips: (w, c-2, k), the weights of the triangles a, b, c and a, c, d; both:
+    (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree. heavy: (w, 3, c, k),
+    weights times corners. room: for what is needed for a moment.
+    total: (w, K), the sums. chunks: as in `Sums`; neighbours stand below each other in the (CHUNK, m) that a row is.
+    """
+
+    def __init__(self, buffer: NDArray, count: int, k: int, order: int, weights: int):
+        rows, places = layout(count, order, weights)
+        start = -(buffer.ctypes.data // 8) % 8
+        table = buffer[start : start + rows * k].reshape(rows, k)
+        arrays = {
+            name: table[first : first + prod(shape)].reshape(*shape, k) for name, (first, shape) in places.items()
+        }
+        self.k, self.order = k, order
+        self.heavy, self.edges, self.powers, self.levels = (
+            arrays[name] for name in ("heavy", "edges", "powers", "levels")
+        )
+        self.corners, self.tips = self.heavy[-1], arrays["tips"]
+        self.both = arrays["both"] if count == 4 else self.tips[:, 0]
+        self.index, self.room = arrays["index"].view(np.intp), arrays["room"].reshape(-1)
+        self.single = arrays["single"].reshape(-1).view(np.float32)[: 3 * count * k].reshape(3, count, k)
+        self.total = np.empty((weights, monomial_count(order)))
+        self.chunks = np.empty((6 + weights + count - 1, k // CHUNK))
+        self.steps: list[Callable[[], object]] = []
+        self._weigh(arrays["normals"], arrays["minus"])
+        self._sum()
+
+    def _do(self, function: Callable, *operands: object) -> None:
+        self.steps.append(partial(function, *operands))
+
+    def _weigh(self, normals: NDArray, minus: NDArray) -> None:
+        """Determinants, doubled areas, and what their bounds are made from."""
+        edges, corners, tips = self.edges, self.corners, self.tips
+        first, second = edges[:, :-1], edges[:, 1:]
+        for x, y, z in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+            self._do(np.multiply, first[y], second[z], normals[x])
+            self._do(np.multiply, first[z], second[y], minus[x])
+        self._do(np.subtract, normals, minus, normals)
+        self._do(partial(np.einsum, out=tips[0]), "cfk,ck->fk", normals, corners[:, 0])
+        if len(tips) == 2:
+            self._do(partial(np.einsum, out=tips[1]), "cfk,cfk->fk", normals, normals)
+            self._do(np.sqrt, tips[1], tips[1])
+        if tips.shape[1] == 2:
+            self._do(np.add.reduce, tips, 1, None, self.both)
+        squares = minus.reshape(-1)[: edges[0].size].reshape(edges[0].shape)
+        self._do(partial(np.einsum, out=squares), "ick,ick->ck", edges, edges)
+        sizes = edges.reshape(-1)[: tips.size].reshape(tips.shape)
+        self._do(np.abs, tips, sizes)
+        row = 0
+        for function, rows in ((np.maximum, corners), (np.minimum, corners), (np.add, sizes), (np.maximum, squares)):
+            split = rows.reshape(len(rows), -1, self.k // CHUNK)
+            self._do(function.reduce, split, 1, None, self.chunks[row : row + len(rows)])
+            row += len(rows)
+
+    def _sum(self) -> None:
+        """The sums over the block, degree by degree."""
+        corners, levels, powers, tips = self.corners, self.levels, self.powers, self.tips
+        first, ends = corners[:, 0], corners[:, 1:]
+        self._do(np.add.reduce, self.both, 1, None, self.total[:, 0])
+        self._do(np.add, first, corners[:, 2], levels[1, :3])
+        self._do(np.add, corners[:, 1::2].transpose(1, 0, 2), levels[1, :3], levels[::2, :3])
+        self._dot("wfsk,frsk->wrk", tips, levels[::2, :3], self.total[:, 1:4])
+        for degree in range(2, self.order):
+            rows, known = rows_of(degree), monomial_count(degree - 1)
+            self._raise(degree, ends[:, :, None])
+            _raise_powers(self._do, first if degree == 2 else powers, degree, first, powers)
+            self._add_powers(degree)
+            self._do(np.add, levels[::2, :rows], levels[1, :rows], levels[::2, :rows])
+            self._dot("wfsk,frsk->wrk", tips, levels[::2, :rows], self.total[:, known : known + rows])
+        self._last()
+
+    def _add_powers(self, degree: int) -> None:
+        """C of this degree added to D."""
+        rows, most = rows_of(degree), len(self.room) // self.k
+        for start in range(0, rows, most):
+            part = slice(start, min(start + most, rows))
+            grown = self._room(part.stop - start)
+            self._do(np.multiply, self.powers[part], multinomials(degree)[part], grown)
+            self._do(np.add, self.levels[1, part], grown, self.levels[1, part])
+
+    def _raise(self, degree: int, vectors: NDArray) -> None:
+        """Σ_i v_i L_{α-e_i} in place of all levels L, (c-1, R, k), one degree lower. vectors: (3, c-1, 1, k).
+
+        Without a factor x, a row stands where it stood; without y or z, in the run of rows with one less q+r.
+        """
+        levels, below = self.levels, rows_of(degree - 1)
+        last, new = levels[:, below - degree : below], levels[:, below : below + degree + 1]
+        self._do(np.multiply, last, vectors[1], new[:, :-1])
+        self._do(np.multiply, last[:, -1:], vectors[2], new[:, -1:])
+        by_z = self._room(len(levels), degree - 1)
+        self._do(np.multiply, last[:, :-1], vectors[2], by_z)
+        self._do(np.add, new[:, 1:-1], by_z, new[:, 1:-1])
+        end = degree - 1
+        while end:
+            first = end  # and the runs before it that fit into the room
+            while first > 1 and _start(end) - _start(first - 2) < self.order:
+                first -= 1
+            products = self._room(2, len(levels), _start(end) - _start(first - 1))
+            self._do(np.multiply, levels[:, _start(first - 1) : _start(end)], vectors[1:], products)
+            rows = levels[:, _start(first) if first > 1 else 0 : _start(end + 1)]
+            self._do(np.multiply, rows, vectors[0], rows)
+            for s in range(first, end + 1):
+                before = _start(s - 1) - _start(first - 1)
+                for axis in (0, 1):
+                    rows = levels[:, _start(s) + axis : _start(s) + axis + s]
+                    self._do(np.add, rows, products[axis, :, before : before + s], rows)
+            end = first - 1
+
+    def _last(self) -> None:
+        """The sums of the last degree: of products of the rows one degree lower and weighted coordinates."""
+        degree, heavy, powers = self.order, self.heavy, self.powers
+        rows, below, known = rows_of(degree), rows_of(degree - 1), monomial_count(degree - 1)
+        for row, both, tips in zip(heavy, self.both, self.tips):  # in place of the corners at last
+            self._do(np.multiply, self.corners[:, ::2], both, row[:, ::2])
+            self._do(np.multiply, self.corners[:, 1::2], tips, row[:, 1::2])
+        sums, grown = np.zeros((len(heavy), 3, below + 1)), np.empty((len(heavy), rows))
+        self._dot("wifsk,frsk->wirk", heavy[:, :, 1:], self.levels, sums[:, :, :-1])
+        for axis, old, new in ((0, 0, 0), (1, below - degree, below), (2, below - 1, rows - 1)):
+            self._dot("wsk,rsk->wrk", heavy[:, axis, 0], powers[old:], grown[:, new : new + below - old])
+        self._do(_add_last, sums, grown, degree, self.total[:, known:])
+
+    def _room(self, *shape: int) -> NDArray[np.float64]:
+        return self.room[: prod(shape) * self.k].reshape(*shape, self.k)
+
+    def _dot(self, products: str, weights: NDArray, rows: NDArray, out: NDArray) -> None:
+        """Scalar products of weights (..., k) with rows (..., k)."""
+        self._do(
+            _dots,
+            products,
+            weights.reshape(*weights.shape[:-1], SLICES, -1),
+            rows.reshape(*rows.shape[:-1], SLICES, -1),
+            out,
+        )
+
+
+class Levels:
+    """The loop body, with its scratch. Not to be shared by threads.
+
+    order: of the moments, at least 3. area: whether sums weighted with doubled areas are wanted beside the volume's.
+    """
+
+    def __init__(self, order: int, area: bool):
+        self.order, self.weights = order, 2 if area else 1
+        self.buffer: NDArray = np.empty(0)
+        self.block: _Block | None = None
+
+    def run(
+        self, points: NDArray, center: NDArray, scale: float, half_ulp: NDArray, faces: Sequence[NDArray], size: int
+    ) -> Sums:
+        """The sums over a block of faces, all triangles or all pairs. size: how many are in one that is full.
+
+        points: (n, 3) contiguous float32 or float64. center: (3,) what is subtracted. scale: a power of two by which
+        they are multiplied then. half_ulp: (3,) before that. faces: their vertices a, b, c (and d), (k,) each, checked:
+        triangles a, b, c and a, c, d.
+        """
+        k = len(faces[0])
+        own = self._shaped(len(faces), size if k > 0.9 * size else k)
+        self._gather(own, points, faces, center, scale)
+        for step in own.steps:
+            step()
+        return Sums(own.total.copy(), own.chunks.copy(), half_ulp * scale)
+
+    def _shaped(self, count: int, k: int) -> _Block:
+        k, own = -(-k // CHUNK) * CHUNK, self.block
+        if own is None or own.corners.shape[1:] != (count, k):
+            needed = k * layout(count, self.order, self.weights)[0] + 8
+            if len(self.buffer) < needed:
+                self.buffer = np.empty(needed)
+            self.block = own = _Block(self.buffer, count, k, self.order, self.weights)
+        return own
+
+    @staticmethod
+    def _gather(own: _Block, points: NDArray, faces: Sequence[NDArray], center: NDArray, scale: float) -> None:
+        """The corners' coordinates and the edges from the first corner."""
+        k, flat = len(faces[0]), points.reshape(-1)
+        for row, corner in zip(own.index, faces):
+            if k < own.k:  # filled up with faces that are a point
+                corner = np.concatenate([corner, np.full(own.k - k, faces[0][0])])
+            row.reshape(CHUNK, -1)[...] = corner.reshape(-1, CHUNK).T
+        np.multiply(own.index, 3, out=own.index)
+        target = own.single if points.dtype == np.float32 else own.corners
+        for axis in range(3):  # the indices have been checked: "wrap" is the mode that costs least
+            flat[axis:].take(own.index, out=target[axis], mode="wrap")
+        if points.dtype == np.float32:
+            own.corners[...] = target
+        if scale != 1.0:
+            np.multiply(own.corners, scale, out=own.corners)
+        np.subtract(own.corners[:, 1:], own.corners[:, :1], out=own.edges)
+        np.subtract(own.corners, (center * scale)[:, None, None], out=own.corners)
+
+
+def sizes(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
+    """(sets, K) Σ weight reach^α over the chunks of blocks of one kind, for the weights |determinant| with its
+    rounding, that rounding alone, the volume that moving every vertex by its half ulp sweeps; and with areas: doubled
+    area with its rounding, that alone, and the area that moving the vertices adds."""
+    chunks, half_ulp = np.concatenate([part.chunks for part in parts], axis=1), parts[0].half_ulp
+    high, low, own, squares = np.split(chunks, (3, 6, 6 + weights))
+    reach = np.maximum(high, -low) * (1.0 + 4.0 * U) + half_ulp[:, None]
+    edges, own = np.sqrt(squares + SQUARE) * (1.0 + 1e-9), own * (1.0 + 1e-9)
+    terms = CHUNK * (edges[:-1] * edges[1:]).sum(axis=0)  # bounds Σ |normal|, and what its components are made from
+    rounding, step = ROUNDING * terms, np.linalg.norm(half_ulp)
+    double = own[1] + 3.0 * rounding if weights == 2 else terms
+    added = step * CHUNK * ((edges[:-1] + edges[1:]).sum(axis=0) + 2.0 * (len(edges) - 1) * step)
+    uncertain = rounding * reach.sum(axis=0)
+    rows = [own[0] + uncertain, uncertain, step * (double / 2.0 + added)]
+    if weights == 2:
+        rows += [double, 3.0 * rounding, added]
+    powers = np.empty((rows_of(order), len(rows), chunks.shape[1]))
+    powers[0] = rows
+    found = [np.add.reduce(powers[:1], axis=2)]
+    vector = np.broadcast_to(reach[:, None], (3, *powers.shape[1:]))
+    for degree in range(1, order + 1):
+        _raise_powers(lambda ufunc, *operands: ufunc(*operands), powers, degree, vector, powers)
+        found.append(np.add.reduce(powers[: rows_of(degree)], axis=2))
+    return np.concatenate(found).T
+
+
+def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
+    """Row by row, x^α of one degree from those of the degree below, perhaps in their place: those without x from the
+    last ones. do: calls a function with these arguments, or notes the call for later."""
+    rows = rows_of(degree - 1)
+    do(np.multiply, old[rows - degree : rows], vector[1], powers[rows : rows + degree])
+    do(np.multiply, old[rows - 1], vector[2], powers[rows + degree])
+    do(np.multiply, old[:rows], vector[0], powers[:rows])
+
+
+def _start(run: int) -> int:
+    """The first of the rows of one degree with this q+r."""
+    return run * (run + 1) // 2
+
+
+def _dots(products: str, weights: NDArray, rows: NDArray, out: NDArray) -> None:
+    """Scalar products over slices of the rows, and over what is left of them then."""
+    np.add.reduce(np.einsum(products, weights, rows), -1, None, out)
+
+
+def _add_last(sums: NDArray, powers: NDArray, degree: int, total: NDArray) -> None:
+    """The last degree: what x, y and z times the rows one degree lower come to, and C."""
+    np.multiply(powers, multinomials(degree)[:, 0], total)
+    for axis, places in enumerate(predecessors(degree, rows_of(degree - 1))):
+        total += sums[:, axis].take(places, axis=1)

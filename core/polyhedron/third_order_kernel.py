@@ -1,0 +1,369 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The inner loop of `polyhedron`: triangles and pairs of triangles, a block at a time, in scratch that is made once.
+
+A face is a base a-c with a corner b on one side, and perhaps a corner d on the other: the triangles a, b, c and
+a, c, d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (v b + w d),
+
+    H = u (a a' + c c') + 2 (v b b' + w d d')
+    120 ∫ x x'     = H + (q Z' + Z q') / 2
+    288 ∫ x x' x'' = q H + the same for the other two orders of the indices, but for the third moments about q / 2.
+
+Those are, of one triangle with e = c - a and f = 2 b - q, v / 2880 (f (f f' + e e') + the other two orders), of the
+order of an edge cubed. They are added on request. No sum cancels what it holds: all its weights are positive.
+
+Where no areas are wanted, the determinants share a product: with m = (c-a) x a, v = (b-a)·m and w = (a-d)·m.
+
+Corners are gathered by component, so that every numpy call runs along contiguous rows. A call costs as much as some
+thousand additions, and threads gain only where calls are long: hence long blocks, few calls, results written over rows
+that are no longer needed, and whatever is done to a few numbers only is done once, for all blocks. Products are summed
+over slices of their rows, not along them: einsum then multiplies and adds in one pass, into rows that stay in the
+cache.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import flipped_quads
+
+SLICES = 32  # of a row that einsum adds up
+CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES
+GAP = 8  # numbers between rows: numpy < 2 leaves its vector loop where output ends at input's start
+FLIP_MARGIN = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
+FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
+FLOAT32_UNDERFLOW = 1e-36  # the cosine up to which they do at its other end
+NO_VERTEX = "a face names a vertex that does not exist"
+TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
+TENSOR = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
+# Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, x, y, z, the terms of the symmetric products stand: two of
+# each xx, xy, ... and three of each xxx, xxy, ...
+SQUARE = np.array([[9 * i + 6 + j, 9 * j + 6 + i] for i in range(3) for j in range(i, 3)]).T
+CUBE = np.array([[9 * i + TENSOR[j, k], 9 * j + TENSOR[i, k], 9 * k + TENSOR[i, j]] for i, j, k in TRIPLES]).T
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """What some blocks add.
+
+    sums, areas: (20,) Σ weight, 48, 120 and 2880 ∫ of the monomials of first to third order in the order of
+    `moments.monomials`, over the cones, and over their faces as if they were cones of unit height.
+    side, base: (3, n) the largest components of b-a (or d-a) and c-a in each chunk of triangles. sizes: (2, n)
+    Σ |determinant| and Σ doubled area. counts: (n,) triangles. blocks: how many there were.
+    """
+
+    sums: NDArray[np.float64]
+    areas: NDArray[np.float64] | None
+    side: NDArray[np.float64]
+    base: NDArray[np.float64]
+    sizes: NDArray[np.float64]
+    counts: NDArray[np.integer]
+    blocks: int = 1
+
+
+def numbers(count: int, each: bool, exact: bool) -> int:
+    """How many numbers the scratch holds for a face of `count` corners; each: as for `_Calls`."""
+    fans = count - 2
+    return 6 * count + 2 * fans + max(3 * count - 3 + 6 * (fans if each else 1), 16) + (9 * fans if exact else 0)
+
+
+class _Calls:
+    """What numpy does with blocks of one shape: arrays, and the calls bound to them, as to make views in the loop would
+    cost time.
+
+    The arrays are contiguous rows carved out of one buffer; some share memory when their times differ. Of faces with
+    c corners there are chunks times width, k columns:
+    corners: (3, c, k). weights: (2, c-2, k), the determinants and the doubled areas.
+    First index: (c, k), and single: (3, c, k) in float32; then weighted: (3, c, k); at last heavy: (6, c-2, k).
+    First edges: (3, c-1, k), b-a, c-a and a-d, with normals and spare: (3, f, k), where f is c-2, or 1 where not each
+    triangle's normal is wanted; then table: (13, k), the tensors' six rows and those of two vectors and a number, and
+    middle: (3, k). On request tips: (3, c-2, k), the vectors f, and local: (6, c-2, k), f f' + e e'.
+
+    start: the calls from the corners to the normals, weigh: those to the weights. largest, least: (3, c-1, chunks) of
+    the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. volume: 6 times that of the tetrahedron of
+    each quad's corners, room: two rows that are free then. prepare: the calls that the moments with
+    all weights share, moments: those with each, and the calls that return sums.
+    """
+
+    def __init__(
+        self,
+        buffer: NDArray,
+        center: NDArray,
+        count: int,
+        chunks: int,
+        width: int,
+        *,
+        each: bool,
+        area: bool,
+        shell: bool,
+        exact: bool,
+    ):
+        fans, k = count - 2, chunks * width
+        position = -(buffer.ctypes.data // 8) % 8  # aligned to 64 bytes
+
+        def rows(number: float) -> NDArray[np.float64]:
+            nonlocal position
+            start, position = position, position + int(number * k) + GAP
+            return buffer[start : position - GAP]
+
+        self.corners, self.weights = rows(3 * count).reshape(3, count, k), rows(2 * fans).reshape(2, fans, k)
+        start = position
+        self.index = rows(count).view(np.intp).reshape(count, k)
+        self.unsigned = self.index.view(np.uintp)
+        self.single = rows(1.5 * count).view(np.float32).reshape(3, count, k)
+        position = start
+        room = rows(3 * count)
+        weighted, heavy = room.reshape(3, count, k), room[: 6 * fans * k].reshape(6, fans, k)
+        start = position
+        self.edges, crosses = rows(3 * count - 3).reshape(3, count - 1, k), fans if each else 1
+        self.normals, spare = (rows(3 * crosses).reshape(3, crosses, k) for _ in range(2))
+        end, position = position, start
+        table, middle = rows(13).reshape(13, k), rows(3).reshape(3, k)
+        position = max(position, end)
+        tips, local = (rows(size * fans).reshape(size, fans, k) for size in (3, 6)) if exact else (None, None)
+
+        def chunked(array: NDArray) -> NDArray[np.float64]:
+            return array.reshape(*array.shape[:-1], chunks, width)
+
+        corners, edges, normals = self.corners, self.edges, self.normals
+        apex, base, sides = corners[:, :1], edges[:, 1:2], edges[:, ::2]
+        self.start = [partial(np.subtract, corners[:, 1:3], apex, edges[:, :2])]
+        if fans == 2:
+            self.start.append(partial(np.subtract, corners[:, 0], corners[:, 3], edges[:, 2]))
+        self.start.append(partial(np.subtract, corners, center[:, None, None], corners))
+        self.start += _cross(*((sides, base) if each else (base, apex)), normals, spare)
+        self.largest, self.least = (
+            partial(function.reduce, chunked(edges), axis=3) for function in (np.maximum, np.minimum)
+        )
+
+        factors = (normals, apex[:, 0]) if each else (sides, normals[:, 0])
+        self.weigh = [partial(np.einsum, "dfk,dk->fk", *factors, out=self.weights[0])]
+        if area:
+            self.weigh += [
+                partial(np.einsum, "dfk,dfk->fk", normals, normals, out=self.weights[1]),
+                partial(np.sqrt, self.weights[1], self.weights[1]),
+            ]
+        self.cosine = self.weights[1, 0]
+        if fans == 2 and each:
+            self.room = spare[:, 0]
+            self.volume = partial(np.einsum, "dk,dk->k", sides[:, 0], normals[:, 1], out=self.room[2])
+        spare = spare.reshape(-1)[: fans * k].reshape(fans, k)
+        self.weigh.append(partial(np.abs, self.weights[0], spare))
+        self.sizes = [partial(np.add.reduce, chunked(row), axis=2) for row in (spare, self.weights[1])[: 1 + area]]
+
+        self.prepare = _local(sides, base, tips, local, heavy[:, :1]) if exact else []
+        self.prepare.append(partial(np.add, corners[:, 0], corners[:, 2], middle))
+        self.moments = []
+        for weights in self.weights[: 1 + shell]:
+            calls = _weighted(corners, weights, weighted, table)
+            sums = [partial(np.add.reduce, table, axis=1), partial(_products, _sliced(middle), _sliced(table[:9]))]
+            if exact:
+                calls.append(partial(np.multiply, local, weights, heavy))
+                sums.append(partial(_products, _sliced(tips), _sliced(heavy)))
+            self.moments.append((calls, sums))
+
+
+Found = tuple[int, NDArray, NDArray, list, list]  # of one block: its faces, the edges' extremes, the sizes, the sums
+
+
+class Faces:
+    """The loop body for blocks of faces. found: what each block so far has added.
+
+    points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. area: whether doubled areas are
+    wanted, shell: also their moments. exact: whether the third order is.
+    """
+
+    def __init__(self, points: NDArray, center: NDArray, *, area: bool, shell: bool, exact: bool):
+        self.points, self.flat, self.center = points, points.reshape(-1), center
+        self.wanted = {"area": area, "shell": shell, "exact": exact}
+        self.buffer = np.empty(0)
+        self.calls: dict[tuple[int, int, int, bool], _Calls] = {}
+        self.flipped: list[NDArray] = []
+        self.found: list[Found] = []
+
+    def block(self, faces: Sequence[NDArray], quads: bool = False, see: Callable | None = None) -> None:
+        """Add some faces.
+
+        faces: the vertices a, b, c and perhaps d, (k,) each. quads: leave those out that Blender cuts along the other
+        diagonal, and append them to `flipped`, turned by one corner; otherwise the first diagonal is taken.
+        see: is shown the doubled areas, (c - 2, k); of quads also 6 times the volumes of the tetrahedra of their
+        corners, (k,), the columns of those whose triangles may face away from each other, and gets room, (2, k).
+        ValueError where an index names no point.
+        """
+        k = len(faces[0])
+        own = self._shaped(len(faces), k, self.wanted["area"] or quads)
+        if isinstance(faces, np.ndarray):
+            own.index[:, :k] = faces
+        else:
+            for row, corner in zip(own.index, faces):
+                row[:k] = corner
+        if k < own.index.shape[1]:
+            own.index[:, k:] = faces[0][0]  # filled up with faces that are a point
+        if own.unsigned.max() >= len(self.points):  # where a negative index is a large one
+            raise ValueError(NO_VERTEX)
+        self._gather(own)
+        for call in own.start:
+            call()
+        largest, least = own.largest(), own.least()
+        if quads:
+            suspects, flipped = self._flipped(own, np.maximum(largest, -least), k)
+            own.normals[:, :, flipped] = 0.0
+        for call in own.weigh:
+            call()
+        sizes, sums = [size() for size in own.sizes], []
+        if see is not None:
+            see(own.weights[1, :, :k], *((own.volume()[:k], suspects, own.room[:2, :k]) if quads else ()))
+        for call in own.prepare:
+            call()
+        for calls, totals in own.moments:
+            for call in calls:
+                call()
+            sums.append([total() for total in totals])
+        self.found.append((k, largest, least, sizes, sums))
+
+    def _shaped(self, count: int, k: int, each: bool) -> _Calls:
+        shape = (count, *_shape(k), each)
+        if shape not in self.calls:
+            chunks, width = shape[1:3]
+            needed = numbers(count, each, self.wanted["exact"]) * chunks * width + 12 * GAP
+            self.calls.clear()
+            if len(self.buffer) < needed:
+                self.buffer = np.empty(0)  # never two of them
+                self.buffer = np.empty(needed)
+            self.calls[shape] = _Calls(self.buffer, self.center, count, chunks, width, each=each, **self.wanted)
+        return self.calls[shape]
+
+    def _gather(self, own: _Calls) -> None:
+        """The corners' coordinates, in float64. `index` is multiplied by 3."""
+        single = self.points.dtype == np.float32
+        target = own.single if single else own.corners
+        np.multiply(own.index, 3, own.index)
+        for axis in range(3):  # the indices have been checked: "wrap" is the mode that costs least
+            self.flat[axis:].take(own.index, None, target[axis], "wrap")
+        if single:
+            own.corners[...] = target
+
+    def _flipped(self, own: _Calls, largest: NDArray, k: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Those of the first k columns whose quads Blender may cut along their other diagonal, and those that it does,
+        once they are appended to `flipped`.
+
+        They are those whose two normals face away from each other in float32. That can differ from float64 only where
+        the product is within float32's rounding of zero.
+        """
+        cosine = np.einsum("dk,dk->k", own.normals[:, 0], own.normals[:, 1], out=own.cosine)
+        cosine[k:] = np.inf  # where the block is filled up
+        if self.points.dtype == np.float32:
+            length = np.sqrt((largest**2).sum(axis=0))
+            margin = np.maximum(FLIP_MARGIN * length[0] * length[1] ** 2 * length[2], FLOAT32_UNDERFLOW)
+            least = np.minimum.reduce(cosine.reshape(len(margin), -1), axis=1)
+            if length.max() < FLOAT32_OVERFLOW and (least > margin).all():
+                return own.index[0, :0], own.index[0, :0]
+            square = np.einsum("cik,cik->ik", own.edges, own.edges)
+            limit = np.maximum(FLIP_MARGIN * square[1] * np.sqrt(square[0] * square[2]), FLOAT32_UNDERFLOW)
+            limit[square.max(axis=0) > FLOAT32_OVERFLOW**2] = np.inf
+            suspects = np.flatnonzero(cosine <= limit)
+        else:  # float32 sees coordinates that were rounded first: all are suspects
+            suspects = np.arange(k)
+        quads = own.index[:, suspects] // 3
+        loose = self.points[quads.T].reshape(-1, 3)
+        turn = flipped_quads(loose, np.arange(len(loose)).reshape(-1, 4))
+        self.flipped.append(np.roll(quads[:, turn], -1, axis=0))
+        return suspects, suspects[turn]
+
+
+def rows(found: Sequence[Found]) -> Rows:
+    """What all these blocks together add."""
+    columns = []
+    for k, largest, least, sizes, _ in found:
+        edges, width = np.maximum(largest, -least), _shape(k)[1]
+        counts = np.minimum(k - width * np.arange(edges.shape[2]), width)
+        columns += [(edges[:, 2 * i], edges[:, 1], counts, *fan) for i, fan in enumerate(zip(*sizes))]
+    side, base, counts, *sizes = (np.concatenate(column, axis=-1) for column in zip(*columns))
+    sums, *areas = (_assembled(*map(sum, zip(*parts))) for parts in zip(*(sums for *_, sums in found)))
+    return Rows(
+        sums,
+        areas[0] if areas else None,
+        side,
+        base,
+        np.array((*sizes, np.zeros_like(sizes[0]))[:2]),
+        counts,
+        len(found),
+    )
+
+
+def _assembled(rows: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
+    """(20,) `Rows.sums` from the sums of the table's rows, (13,), and the products that have been summed."""
+    mixed = 0.5 * np.add.reduce(products.take(SQUARE))
+    third = 10.0 * np.add.reduce(products.take(CUBE))
+    total = 2.0 * np.concatenate([rows[12:], rows[6:9] + rows[9:12], rows[:6] + mixed, third])
+    if local is not None:
+        total[10:] += np.add.reduce(local.take(CUBE - CUBE // 9 * 3))  # in a table without x, y, z
+    return total
+
+
+def _shape(k: int) -> tuple[int, int]:
+    """How many chunks hold k columns, and of what width."""
+    chunks = -(-k // CHUNK)
+    return chunks, -(-k // (chunks * SLICES)) * SLICES
+
+
+def _cross(first: NDArray, second: NDArray, out: NDArray, spare: NDArray) -> list[partial]:
+    """The calls for (3, f, k) cross products of (3, f, k) with (3, 1, k) rows of x, y and z."""
+    return [
+        partial(np.multiply, first[1:], second[::-2], out[:2]),  # y z', z x'
+        partial(np.multiply, first[0], second[1], out[2]),
+        partial(np.multiply, first[::-2], second[1:], spare[:2]),  # z y', x z'
+        partial(np.multiply, first[1], second[0], spare[2]),
+        partial(np.subtract, out, spare, out),
+    ]
+
+
+def _local(sides: NDArray, base: NDArray, tips: NDArray, local: NDArray, squares: NDArray) -> list[partial]:
+    """The calls for the vectors f and for f f' + e e' of every triangle."""
+    calls = [
+        partial(np.multiply, sides, np.array([[2.0], [-2.0]])[: sides.shape[1]], tips),
+        partial(np.subtract, tips, base, tips),
+    ]
+    for vectors, tensors in ((tips, local), (base, squares)):
+        calls += [
+            partial(np.multiply, vectors, vectors[0], tensors[:3]),
+            partial(np.multiply, vectors[1:], vectors[1], tensors[3:5]),
+            partial(np.multiply, vectors[2], vectors[2], tensors[5]),
+        ]
+    return [*calls, partial(np.add, local, squares, local)]
+
+
+def _weighted(corners: NDArray, weights: NDArray, weighted: NDArray, table: NDArray) -> list[partial]:
+    """The calls for the weighted corners, and for the table: half of H, of Z, of u q and of u."""
+    both, every, half = table[9:12], table[6:9], table[12]
+    if len(weights) == 2:
+        calls = [partial(np.add, weights[0], weights[1], half), partial(np.multiply, half, 0.5, half)]
+    else:
+        calls = [partial(np.multiply, weights[0], 0.5, half)]
+    calls += [
+        partial(np.multiply, corners[:, ::2], half, weighted[:, ::2]),
+        partial(np.multiply, corners[:, 1::2], weights, weighted[:, 1::2]),
+        partial(np.einsum, "ck,dck->dk", weighted[0], corners, out=table[:3]),
+        partial(np.einsum, "ck,dck->dk", weighted[1], corners[1:], out=table[3:5]),
+        partial(np.einsum, "ck,ck->k", weighted[2], corners[2], out=table[5]),
+        partial(np.add, weighted[:, 0], weighted[:, 2], both),
+        partial(np.add, both, weighted[:, 1], every),
+    ]
+    if len(weights) == 2:
+        calls.append(partial(np.add, every, weighted[:, 3], every))
+    return calls
+
+
+def _sliced(rows: NDArray) -> NDArray[np.float64]:
+    """(m, SLICES, ·) rows whose products can be summed."""
+    return rows.reshape(len(rows), SLICES, -1)
+
+
+def _products(vectors: NDArray, others: NDArray) -> NDArray[np.float64]:
+    """(m, n) the scalar products of m rows with n."""
+    return np.add.reduce(np.einsum("cjk,pjk->cpk", vectors, others), axis=2)

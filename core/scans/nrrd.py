@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""NRRD files, http://teem.sourceforge.net/nrrd/format.html: samples raw or packed by gzip, attached or detached."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .scan import Scan, mapped, shape_of, unpacked
+
+HEADER = 1 << 20  # bytes of a header, at most
+UNITS = {
+    "m": 1.0,
+    "meter": 1.0,
+    "meters": 1.0,
+    "cm": 1e-2,
+    "mm": 1e-3,
+    "millimeter": 1e-3,
+    "millimeters": 1e-3,
+    "um": 1e-6,
+    "µm": 1e-6,
+    "micron": 1e-6,
+    "microns": 1e-6,
+    "nm": 1e-9,
+}
+TYPES = {
+    name: dtype
+    for dtype, names in {
+        "i1": "signed char,int8,int8_t",
+        "u1": "uchar,unsigned char,uint8,uint8_t",
+        "i2": "short,short int,signed short,signed short int,int16,int16_t",
+        "u2": "ushort,unsigned short,unsigned short int,uint16,uint16_t",
+        "i4": "int,signed int,int32,int32_t",
+        "u4": "uint,unsigned int,uint32,uint32_t",
+        "i8": "longlong,long long,long long int,signed long long,signed long long int,int64,int64_t",
+        "u8": "ulonglong,unsigned long long,unsigned long long int,uint64,uint64_t",
+        "f4": "float",
+        "f8": "double",
+    }.items()
+    for name in names.split(",")
+}
+
+
+def read_nrrd(path: Path) -> Scan:
+    """The scan, mapped where it is raw."""
+    with open(path, "rb") as file:
+        head = file.read(HEADER)
+    if not re.match(rb"NRRD000[1-5]\r?\n", head):
+        raise ValueError("The file does not begin as an NRRD file does (NRRD0001 to NRRD0005).")
+    end = re.search(rb"\r?\n\r?\n", head)
+    fields = {}
+    text = head[: end.start() if end else len(head)].decode("latin-1")
+    for line in text.splitlines()[1:]:
+        if line.startswith("#") or ":=" in line:
+            continue
+        name, colon, value = line.partition(":")
+        if colon:
+            fields[name.strip().lower()] = value.strip()
+    return _nrrd(path, fields, end.end() if end else None)
+
+
+def _nrrd(path: Path, fields: dict[str, str], start: int | None) -> Scan:
+    def needed(name: str) -> str:
+        if name not in fields:
+            raise ValueError("The NRRD header lacks the field “{:s}”.".format(name))
+        return fields[name]
+
+    def numbers(name: str, kind: type, default: str = "") -> list:
+        try:
+            return [kind(word) for word in fields.get(name, default).split()]
+        except (ValueError, OverflowError):
+            raise ValueError(
+                "The NRRD field “{:s}” is no row of numbers: {:.60s}.".format(name, fields[name])
+            ) from None
+
+    sizes = numbers("sizes", int) if needed("sizes") else []
+    if numbers("dimension", int) != [len(sizes)] or not needed("dimension"):
+        raise ValueError("The NRRD fields “dimension” and “sizes” do not agree.")
+    shape = shape_of(sizes)
+    kind = TYPES.get(needed("type").lower())
+    if kind is None:
+        raise ValueError("The NRRD type “{:.40s}” is no real number.".format(fields["type"]))
+    dtype = np.dtype(kind)
+    endian = fields.get("endian", "").lower()
+    if dtype.itemsize > 1 and endian not in ("little", "big"):
+        raise ValueError("The NRRD header does not say in which order bytes stand (the field “endian”).")
+    dtype = dtype.newbyteorder(">" if endian == "big" else "<")
+    matrix, placed, unit = _place(fields, numbers)
+    (line_skip,), (byte_skip,) = (
+        _one(numbers(name, int, "0"), name) for name in (_alias(fields, "line skip"), _alias(fields, "byte skip"))
+    )
+    source, name = path, fields.get("data file", fields.get("datafile"))
+    if name is not None:
+        if name.upper().startswith("LIST") or "%" in name or len(name.split()) > 3:
+            raise ValueError("Its samples are spread over several files; join them into one.")
+        source, start = path.parent / name, 0
+        if not source.is_file():
+            raise ValueError("The file of its samples, “{:.80s}”, is not there.".format(name))
+    elif start is None:
+        raise ValueError("The NRRD header has no end: the empty line before the samples is missing.")
+    if line_skip:
+        start = _after_lines(source, start, line_skip)
+    encoding = needed("encoding").lower()
+    if encoding == "raw":
+        samples = mapped(source, dtype, shape, start + max(byte_skip, 0), from_end=byte_skip == -1)
+    elif encoding in ("gzip", "gz"):
+        samples = unpacked(source, start, dtype, shape, byte_skip)
+    else:
+        raise ValueError(
+            "The NRRD encoding “{:.40s}” is not supported; save it raw or packed by gzip.".format(encoding)
+        )
+    return Scan(samples, matrix, unit, placed)
+
+
+def _one(values: list, name: str) -> list:
+    if len(values) != 1 or values[0] < -1:
+        raise ValueError("The NRRD field “{:s}” is not one number.".format(name))
+    return values
+
+
+def _alias(fields: dict[str, str], name: str) -> str:
+    """NRRD fields may be written without their space."""
+    return name if name in fields else name.replace(" ", "")
+
+
+def _after_lines(path: Path, start: int, count: int) -> int:
+    with open(path, "rb") as file:
+        file.seek(start)
+        for _ in range(count):
+            if not file.readline(HEADER).endswith(b"\n"):
+                raise ValueError("The file is cut short: it has not the lines that its header tells to skip.")
+        return file.tell()
+
+
+def _place(fields: dict[str, str], numbers: Callable[..., list]) -> tuple[NDArray[np.float64], bool, float | None]:
+    """Where the samples stand, whether the header says so, and in which unit."""
+    matrix = np.eye(4)
+    words = re.findall(r'"([^"]*)"', fields.get("space units", fields.get("units", "")))
+    units = {UNITS.get(word.strip().lower()) for word in words[:3]}
+    unit = units.pop() if len(units) == 1 else None
+    if "space directions" in fields:
+        rows = [_vector(text, "space directions") for text in re.findall(r"\([^)]*\)|none", fields["space directions"])]
+        rows = [row for row in rows if row is not None]
+        if len(rows) != 3:
+            raise ValueError("The NRRD field “space directions” does not have three vectors.")
+        matrix[:3, :3] = np.array(rows).T
+        if "space origin" in fields:
+            origin = _vector(fields["space origin"], "space origin")
+            matrix[:3, 3] = np.zeros(3) if origin is None else origin
+        return matrix, True, unit
+    spacings = numbers("spacings", float)
+    if spacings:
+        if len(spacings) < 3 or not all(0.0 < abs(one) < math.inf for one in spacings[:3]):
+            raise ValueError("The NRRD field “spacings” must have three numbers other than zero.")
+        matrix[:3, :3] = np.diag(spacings[:3])
+    mins = numbers(_alias(fields, "axis mins"), float)
+    if len(mins) >= 3 and np.isfinite(mins[:3]).all():
+        matrix[:3, 3] = mins[:3]
+    return matrix, bool(spacings), unit
+
+
+def _vector(text: str, name: str) -> list[float] | None:
+    if text == "none":
+        return None
+    try:
+        row = [float(word) for word in text.strip().strip("()").split(",")]
+    except ValueError:
+        row = []
+    if len(row) != 3 or not np.isfinite(row).all():
+        raise ValueError("The NRRD field “{:s}” has a vector that is not three numbers: {:.60s}.".format(name, text))
+    return row

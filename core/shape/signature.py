@@ -1,0 +1,178 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers by which a shape is found again, however it is moved, turned, scaled, mirrored or cut into faces.
+
+    invariants   of central moments to sixth order, over V s^n with the radius of gyration s: the products
+                 Σ a_m conj(b_m) of harmonic moments of one degree l, and their couplings to a scalar in threes (Lo and
+                 Don, 3-D moment forms, PAMI 1989).
+    zernike      the norms ‖Ω_nl‖ in the ball about the center that just holds the body (see `zernike`).
+    fourier      the mean of |F(q)|² over all directions by V², at q = 1, 2, … over the ball's radius.
+    chirality    couplings in threes whose degrees add up to an odd number: a mirror image has the same with the
+                 opposite sign, and a body that is its own mirror image has none.
+
+Size is told apart, as the radius of gyration. What is compared is smooth in the shape: noise of the points changes it
+little, and nothing switches.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations, combinations_with_replacement
+from math import hypot, log, pi, sqrt, tanh
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.moments import Moments, monomials
+from ..moments.solid_harmonics import coupled, harmonic_moments
+from .zernike import BY_MOMENTS, Multiplets, degrees, descriptors, loss, radial_power, zernike_moments
+
+Key = tuple[int, int]  # (n, l) of a multiplet
+INVARIANT_ORDER = 6
+COUPLED_ORDER = 4  # of the moments that are coupled in threes
+CHIRAL_ORDER = 6
+FREQUENCIES = np.arange(1.0, 13.0)  # what orders to 20 resolve to a millionth
+ALIKE = 0.1  # beyond this nobody would call two shapes similar
+HANDED = 1e-11  # a chirality below this is rounding
+DOUBT = 10.0  # by the difference of two shapes: what noise that makes it may make of chiralities
+CLEAR = 0.2  # chiralities whose difference is less than this share of their sum, or the other way round, tell a hand
+
+
+@dataclass(frozen=True, eq=False)
+class Signature:
+    """size: the radius of gyration. invariants, zernike, fourier, chirality: arrays, see the module; fourier is empty
+    where the moments are of a surface. error: an estimate of the rounding of the descriptors."""
+
+    size: float
+    invariants: NDArray[np.float64]
+    zernike: NDArray[np.float64]
+    fourier: NDArray[np.float64]
+    chirality: NDArray[np.float64]
+    error: float = 0.0
+
+    def as_record(self) -> dict:
+        """For JSON."""
+        return {
+            "size": self.size,
+            "invariants": self.invariants,
+            "zernike": self.zernike,
+            "fourier": self.fourier,
+            "chirality": self.chirality,
+        }
+
+    @classmethod
+    def from_record(cls, record: dict) -> Signature:
+        """From JSON. ValueError where it is none."""
+        try:
+            arrays = {
+                name: np.array(record[name], np.float64).reshape(-1)
+                for name in ("invariants", "zernike", "fourier", "chirality")
+            }
+            found = cls(size=float(record["size"]), **arrays)
+        except (KeyError, TypeError, ValueError) as error:
+            raise ValueError("The signature is not one that --signature wrote.") from error
+        if not (
+            np.isfinite(np.concatenate(list(arrays.values()))).all()
+            and found.size > 0.0
+            and len(found.zernike)
+            and len(found.chirality) == len(_chiral_triples())
+        ):
+            raise ValueError("The signature is incomplete.")
+        return found
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """shape: the difference of the shapes whatever their size and hand, 0 for the same. scale: the second body's size
+    by the first one's. hand: the difference of their chiralities. mirrored: whether it is a mirror image; False
+    where neither has a hand, None where noise as large as the shapes' difference could make up their hands."""
+
+    shape: float
+    scale: float
+    hand: float
+    mirrored: bool | None
+
+    def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
+        """0 for a copy; also for one of another size, and for a mirror image, where that does not matter. Where it
+        does, a difference of size or hand counts as much as one of shape, but never for more than ALIKE."""
+        size, hand = (ALIKE * tanh(abs(value) / ALIKE) for value in (log(self.scale), self.hand))
+        return hypot(self.shape, 0.0 if any_size else size, 0.0 if any_hand else hand)
+
+
+def signature(moments: Moments, radius: float, zernike: Multiplets | None = None) -> Signature:
+    """moments: about the center, volume or area, to order 6 at least and 20 at most. radius: of the ball about the
+    center that just holds the body. zernike: Ω_nlm in that ball where they are known otherwise, by default from the
+    moments."""
+    total, order = moments.total, min(moments.order, BY_MOMENTS)
+    size = sqrt(moments.second().trace() / total)
+    degree = monomials(moments.order).sum(axis=1)
+    low = len(monomials(INVARIANT_ORDER))
+    harmonic = harmonic_moments((moments.raw / size**degree / total)[:low] * sqrt(4.0 * pi), INVARIANT_ORDER)
+    error = 0.0
+    if zernike is None:
+        dimension = 3 if moments.of != "area" else 2
+        scaled = moments.raw / radius ** (degree + dimension)
+        zernike, error = zernike_moments(scaled, order), loss(scaled, order)
+    power = np.empty(0)
+    if moments.of == "volume":
+        volume = zernike[0, 0].real[0] * 4.0 * pi / 3.0
+        power = radial_power(zernike, FREQUENCIES)[0] / volume**2
+    return Signature(size, _invariants(harmonic), descriptors(zernike), power, _chirality(harmonic), error)
+
+
+def compared(a: Signature, b: Signature) -> Likeness:
+    """How alike two bodies are: the relative differences of their descriptors and invariants, and what sets apart
+    sizes and hands. Descriptors of orders that one of them lacks are left out."""
+    n = min(len(a.zernike), len(b.zernike))
+    shape = sqrt((_relative(a.zernike[:n], b.zernike[:n]) ** 2 + _relative(a.invariants, b.invariants) ** 2) / 2.0)
+    same, opposite = np.linalg.norm(a.chirality - b.chirality), np.linalg.norm(a.chirality + b.chirality)
+    hand = max(np.linalg.norm(a.chirality), np.linalg.norm(b.chirality))
+    mirrored = False if hand <= HANDED else None
+    if hand > HANDED + shape * DOUBT and min(same, opposite) < CLEAR * max(same, opposite):
+        mirrored = bool(opposite < same)
+    return Likeness(float(shape), b.size / a.size, float(same), mirrored)
+
+
+def _relative(a: NDArray, b: NDArray) -> float:
+    scale = max(np.linalg.norm(a), np.linalg.norm(b))
+    return float(np.linalg.norm(a - b) / scale) if scale else 0.0
+
+
+def _invariants(harmonic: Multiplets) -> NDArray[np.float64]:
+    scalars = [harmonic[n, 0].real[0] for n in (4, 6)]
+    products = [np.vdot(harmonic[a], harmonic[b]).real for a, b in _pairs()]
+    triples = [coupled(*(harmonic[key] for key in triple)) for triple in _even_triples()]
+    return np.array(scalars + products + triples)
+
+
+def _chirality(harmonic: Multiplets) -> NDArray[np.float64]:
+    return np.array([coupled(*(harmonic[key] for key in triple)) for triple in _chiral_triples()])
+
+
+def _multiplets(order: int) -> list[Key]:
+    """The harmonic moments (n, l) that turn, l > 0, but for those of first order, which are zero about the center."""
+    return [(n, l) for n, l in degrees(order) if l and n > 1]
+
+
+@lru_cache
+def _pairs() -> list[tuple[Key, Key]]:
+    return [(a, b) for a, b in combinations_with_replacement(_multiplets(INVARIANT_ORDER), 2) if a[1] == b[1]]
+
+
+@lru_cache
+def _even_triples() -> list[tuple[Key, Key, Key]]:
+    triples = combinations_with_replacement(_multiplets(COUPLED_ORDER), 3)
+    return [t for t in triples if _couple(t) and sum(l for _, l in t) % 2 == 0]
+
+
+@lru_cache
+def _chiral_triples() -> list[tuple[Key, Key, Key]]:
+    """Three different multiplets: of two alike, an odd coupling is zero."""
+    return [t for t in combinations(_multiplets(CHIRAL_ORDER), 3) if _couple(t) and sum(l for _, l in t) % 2]
+
+
+def _couple(triple: tuple[Key, Key, Key]) -> bool:
+    """Whether three multiplets have a scalar: their degrees are the sides of a triangle."""
+    a, b, c = sorted(l for _, l in triple)
+    return c <= a + b

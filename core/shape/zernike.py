@@ -1,0 +1,204 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Zernike moments of a body in the unit ball, and the radial power of its Fourier transform.
+
+Ω_nlm = sqrt(3/4π) ∫ R_nl(r) conj(Y_lm) dV with R_nl = sqrt(2n+3) r^l P_k^(0, l+1/2)(2r² - 1), k = (n-l)/2, orthonormal
+on the ball: the normalization of Novotni and Klein (3D Zernike descriptors for content based shape retrieval, 2003), in
+which a full ball has Ω_000 = 1. The descriptor ‖Ω_nl‖ is the same however the body is turned, or mirrored.
+
+To order 20 they are sums of raw moments. These sums cancel, and `loss` estimates what is lost. Above that order, and
+where it is too much, the cones from the center over the triangles are integrated by quadrature. Over a triangle a
+polynomial of degree n takes Gauss's rule; along the cone, with S_k = R_nl / sqrt(2n+3), n = l+2k, partial integration
+of r S_k' against each S_i gives (r d/dr + 3) S_k = (n+3) S_k + Σ_{i<k} (2l+4i+3) S_i, and from that for
+J_k(x) = ∫_0^1 t² S_k(tx) dt the stable recursion
+
+    J_k = (S_k - A_k) / (n+3),    A_{k+1} = ((2n+3) S_k - n A_k) / (n+3),    A_0 = 0.
+
+Every frequency within the ball's resolution follows too, for ∫ R_nl j_l(qr) r² dr = (-1)^k sqrt(2n+3) j_{n+1}(q)/q.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import lru_cache
+from itertools import count
+from math import ceil, factorial, pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.moments import U
+from ..moments.solid_harmonics import Multiplets, both_signs, harmonic_moments
+from ..numerics.quadrature import triangle_rule
+
+BY_MOMENTS = 20  # the highest order that raw moments in float64 give
+ENOUGH = 1e-9  # the error of a descriptor that raw moments may have
+POINTS = 16384  # of a quadrature that are evaluated together
+PRECISE = 1e-13  # of a triangle's integral, as its quadrature is chosen
+
+
+def zernike_moments(raw: NDArray, order: int) -> Multiplets:
+    """{(n, l): (2l+1,)} Ω_nlm, m = -l..l, of a body in the unit ball about the origin, from its raw moments there."""
+    harmonic = harmonic_moments(raw, order)
+    return {
+        (n, l): sqrt(3.0 / (4.0 * pi))
+        * sum(sqrt(2 * n + 3) * float(c) * harmonic[l + 2 * i, l] for i, c in enumerate(_radial(n, l)))
+        for n, l in degrees(order)
+    }
+
+
+def loss(raw: NDArray, order: int) -> float:
+    """An estimate of the error of the descriptors that raw moments accurate to a few roundings give: what changes when
+    each moment is moved by such an amount, at random but always the same."""
+    moved = raw * (1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)))
+    before, after = (descriptors(zernike_moments(one, order)) for one in (raw, moved))
+    return float(np.abs(after - before).max())
+
+
+def descriptors(moments: Multiplets) -> NDArray[np.float64]:
+    """‖Ω_nl‖ in the order of `degrees`."""
+    return np.array([np.linalg.norm(one) for _, one in sorted(moments.items())])
+
+
+def degrees(order: int) -> list[tuple[int, int]]:
+    """(n, l) for 0 ≤ l ≤ n ≤ order with n-l even, n first."""
+    return [(n, l) for n in range(order + 1) for l in range(n % 2, n + 1, 2)]
+
+
+def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multiplets:
+    """As `zernike_moments`, of the body that the cones from the origin over outward triangles make up.
+
+    points: (n, 3) within the unit ball. triangles: (m, 3). The work grows with the order cubed, and with the number of
+    nodes that a triangle needs: one for the smallest, order²/4 for those as large as the ball.
+    """
+    corners = [points[triangles[:, i]] for i in range(3)]
+    size = np.sqrt(np.max([((corners[i] - corners[i - 1]) ** 2).sum(axis=1) for i in range(3)], axis=0))
+    nodes = _nodes(size, order)
+    total = {key: np.zeros(key[1] + 1, complex) for key in degrees(order)}
+    for needed in np.unique(nodes):
+        faces = np.flatnonzero(nodes == needed)
+        (_, u, v), weight = triangle_rule(int(needed) + 1)
+        step = max(1, POINTS // len(u))
+        for start in range(0, len(faces), step):
+            a, b, c = (corner[faces[start : start + step]] for corner in corners)
+            det = (a * np.cross(b, c)).sum(axis=1)
+            x = a[:, None] + u[:, None] * (b - a)[:, None] + v[:, None] * (c - a)[:, None]
+            _add_cones(total, x.reshape(-1, 3), (det[:, None] * weight).ravel(), order)
+    return {key: sqrt(3.0 / (4.0 * pi)) * both_signs(half) for key, half in total.items()}
+
+
+def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
+    """Gauss points on a line for each triangle: as many as its size and the polynomials' oscillation need."""
+    exact = ceil((order + 2) / 2)
+    needed = np.full(len(size), exact)
+    phase = (order + 2.0) * size / 2.0  # a polynomial of degree n on the ball turns by at most about n radians
+    for g in range(exact - 1, 0, -1):
+        # Gauss's rule: the error of e^(ix) over [-phase/2, phase/2] is (phase/2)^2g / (2g)! in size.
+        needed[(phase / 2.0) ** (2 * g) / factorial(2 * g) < PRECISE] = g
+    return needed
+
+
+def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> None:
+    """Add to each (l+1,) for m = 0..l the integrals along the cones to the (k, 3) points."""
+    argument = 2.0 * (x * x).sum(axis=1) - 1.0
+    for l, solid in _solid_at(x, order):
+        solid = solid.conj()
+        lower = 0.0
+        for n, radial in zip(range(l, order + 1, 2), _jacobi(l + 0.5, argument)):
+            along = weight * (radial - lower) / (n + 3)
+            total[n, l] += sqrt(2 * n + 3) * (solid * along).sum(axis=1)
+            lower = ((2 * n + 3) * radial - n * lower) / (n + 3)
+
+
+def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex128]]]:
+    """l and (l+1, k) r^l Y_lm at (k, 3) points for m = 0..l, l = 0..order, by recursion upward in l."""
+    r2 = (x * x).sum(axis=1)
+    plus, z = x[:, 0] + 1j * x[:, 1], x[:, 2]
+    before, now = None, np.full((1, len(x)), 1.0 / sqrt(4.0 * pi), complex)
+    yield 0, now
+    for l in range(1, order + 1):
+        m = np.arange(l)
+        a = np.sqrt((4.0 * l * l - 1.0) / (l * l - m * m))[:, None]
+        up = a * z * now
+        if before is not None:
+            m = m[:-1]
+            b = np.sqrt((2 * l + 1) * ((l - 1.0) ** 2 - m * m) / ((2 * l - 3) * (l * l - m * m)))[:, None]
+            up[:-1] -= b * r2 * before
+        top = -sqrt((2 * l + 1) / (2.0 * l)) * plus * now[-1]
+        before, now = now, np.concatenate([up, top[None]])
+        yield l, now
+
+
+def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
+    """P_k^(0, beta)(x) for k = 0, 1, …"""
+    before, now = np.zeros_like(x), np.ones_like(x)
+    for k in count(1):
+        yield now
+        if k == 1:
+            before, now = now, (-beta + (beta + 2.0) * x) / 2.0
+            continue
+        twice = 2.0 * k + beta
+        scale = 2.0 * k * (k + beta) * (twice - 2.0)
+        first = (twice - 1.0) * (twice * (twice - 2.0) * x - beta * beta)
+        before, now = now, (first * now - 2.0 * (k - 1.0) * (k + beta - 1.0) * twice * before) / scale
+
+
+def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The mean of |F(q)|² over all directions of q, F(q) = ∫ exp(-i q·x) dV, and a bound of what the orders that are
+    left out may change.
+
+    moments: of a body in the unit ball. wave_numbers: (k,) |q|, in units of the ball's inverse radius.
+    """
+    order = max(n for n, _ in moments)
+    bessel = _spherical_bessel(np.asarray(wave_numbers, np.float64), order + 40)  # j_{n+1}(q)/q
+    power = np.zeros(bessel.shape[1])
+    for l in range(order + 1):
+        amplitude = sum(
+            (-1.0) ** ((n - l) // 2) * sqrt(2 * n + 3) * bessel[n] * moments[n, l][:, None]
+            for n in range(l, order + 1, 2)
+        )
+        power += (np.abs(amplitude) ** 2).sum(axis=0)
+    # Parseval: the sum of all |Ω|² is 3/4π times the volume, and by Cauchy and Schwarz the rest of each amplitude is
+    # at most the norms' product.
+    volume = float(moments[0, 0].real[0]) * 4.0 * pi / 3.0
+    known = sum(float((np.abs(one) ** 2).sum()) for one in moments.values())
+    missing = max(3.0 / (4.0 * pi) * volume - known, 0.0)
+    n = np.arange(order + 1, len(bessel))[:, None]
+    tail = ((2 * n + 3) * bessel[order + 1 :] ** 2).sum(axis=0) * missing
+    scale = (4.0 * pi) ** 2 / 3.0
+    return scale * power, scale * (2.0 * np.sqrt(power * tail) + tail)
+
+
+def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
+    """(order+1, k) j_{n+1}(q)/q for n = 0..order, by Miller's recursion downward."""
+    q = np.maximum(q, 1e-8)  # j_1(q)/q is 1/3 from there down
+    top = order + 20 + int(2.0 * q.max())
+    rows = np.zeros((order + 3, len(q)))
+    above, now = np.zeros_like(q), np.full_like(q, 1e-250)
+    for n in range(top, -1, -1):
+        if n < len(rows):
+            rows[n] = now
+        if n:
+            above, now = now, (2 * n + 1) / q * now - above
+            large = np.abs(now) > 1e200
+            for one in (rows, above, now):
+                one[..., large] *= 1e-200
+    j0, j1 = np.sin(q) / q, np.sin(q) / q**2 - np.cos(q) / q
+    from_zero = np.abs(rows[0]) > np.abs(rows[1])
+    first, second = (np.where(row == 0.0, 1.0, row) for row in rows[:2])
+    factor = np.where(from_zero, j0 / first, j1 / second)
+    return (rows * factor)[1 : order + 2] / q
+
+
+@lru_cache
+def _radial(n: int, l: int) -> tuple[Fraction, ...]:
+    """The coefficients of r^(l+2i), i = 0..k, in R_nl, without the root of 2n+3."""
+    k, beta = (n - l) // 2, Fraction(2 * l + 1, 2)
+    row, factor = [], Fraction((-1) ** k)
+    for i in range(k):
+        factor *= (beta + 1 + i) / (i + 1)
+    for i in range(k + 1):
+        row.append(factor)
+        factor *= (i - k) * (k + beta + 1 + i) / ((beta + 1 + i) * (i + 1))
+    return tuple(row)

@@ -1,0 +1,274 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The least change of shape that brings a body's center of mass to a given point.
+
+Some vertices may move. With the derivative G of the center at the start, the moves v that bring it there with the least
+Σ a |v|² / m are v = (m / a) G' λ, with one λ for each coordinate of the center. Here a is the area that a vertex stands
+for, an equal share of its faces', so that the shape found does not depend on how finely the mesh is cut, and m ≤ 1 how
+willingly it moves. Moves longer than a limit are cut to it, which is the solution of the same problem with that limit.
+For G and a, every face is taken as the fan around its middle, so that the diagonals it is cut by show in the shape as
+little as they can: the center itself is that of the faces as they are cut.
+
+The center is no linear function of the moves, so λ is found by Newton's method, with the exact derivative at every
+step, until the center is there to rounding. The moves are then least to first order: those of the least sum differ by
+terms of their square. They are not looked for, because on fine meshes they wrinkle: a shell gains area by nothing as
+cheaply as by folds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface, normals
+from ..moments.moments import Moments, U
+from ..offset.walls import first_fold
+from ..polyhedron.third_order import solid_and_area
+from .gradient import Gradient, area_gradient, volume_gradient
+
+STEPS = 100  # of Newton's method at most; it takes a few
+HALVINGS = 20  # of one step, until the center comes nearer
+REACHED = 64.0 * U  # of the body's size and its distance from the origin: what rounding leaves of a center
+POWERLESS = 1e-12  # of what the most effective direction does
+SLIVER = 1e-9  # of its longest side squared: a triangle without a normal
+
+
+@dataclass(frozen=True, eq=False)
+class Balanced:
+    """points: (n, 3) float64 where the vertices go. before, after: (3,) the center."""
+
+    points: NDArray[np.float64]
+    before: NDArray[np.float64]
+    after: NDArray[np.float64]
+
+
+def balance(
+    surface: Surface,
+    movable: NDArray[np.integer],
+    target: NDArray,
+    *,
+    across: NDArray | None = None,
+    willing: NDArray | None = None,
+    limit: float = np.inf,
+    shell: bool = False,
+) -> Balanced:
+    """Moves the vertices `movable`, (k,), as little as possible so that the center of mass comes to `target`, (3,).
+
+    across: (r, 3) orthonormal rows: along these directions only; by default all three. willing: (k,) above 0 to 1.
+    limit: how far a vertex may move. shell: the mass is in the surface, else in the body it bounds, which must be
+    closed. Uniform density, and all lengths in one unit.
+    ValueError, with the reason, where the center cannot come there, or where faces would be turned over.
+    """
+    across = np.eye(3) if across is None else np.asarray(across, np.float64)
+    movable = np.asarray(movable, np.intp)
+    willing = np.ones(len(movable)) if willing is None else np.asarray(willing, np.float64)
+    problem = _Problem(surface, shell, across, np.asarray(target, np.float64))
+    fans = _Fans(surface, shell)
+    area = fans.areas[movable]
+    used = (area > 0.0) & (willing > 0.0)
+    if not used.any():
+        raise ValueError("None of the vertices that may move belongs to a face with an area; select others.")
+    movable = movable[used]
+    start = problem.at(problem.start)
+    if start is None:
+        raise ValueError("It has no {:s}.".format("area" if shell else "volume that its faces enclose"))
+    before, _, gradient = start
+    pull = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
+    pull *= (willing[used] / area[used])[:, None]
+    if not _strong(_slope(pull, np.zeros(len(across)), gradient[:, movable], np.inf)):
+        raise ValueError("The vertices that may move cannot bring the center there, however far they go; select more.")
+    points, center, far = _reached(problem, start, pull, movable, np.inf)
+    left = far
+    if limit < np.inf and (far or np.linalg.norm(points - problem.start, axis=1).max() > limit):
+        points, center, left = _reached(problem, start, pull, movable, limit)
+    if left:
+        raise ValueError(_short(far, np.inf) if far else _short(left, limit))
+    problem.check(points, movable)
+    return Balanced(points, before, center)
+
+
+def _reached(
+    problem: _Problem, start: tuple[NDArray, NDArray, NDArray], pull: NDArray, movable: NDArray, limit: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+    """(n, 3) and (3,) the points and the center, and how far it stays from its target, 0 where it comes there. start:
+    as of `_Problem.at`."""
+    points, (center, residual, gradient) = problem.start, start
+    multiplier = np.zeros(len(pull))
+    slope = _slope(pull, multiplier, gradient[:, movable], limit)
+    for _ in range(STEPS):
+        far = np.linalg.norm(residual)
+        if far <= problem.tolerance:
+            return points, center, 0.0
+        change, share = np.linalg.solve(slope, residual), 1.0
+        for _ in range(HALVINGS):
+            trial = multiplier + share * change
+            moved = problem.start.copy()
+            moved[movable] += _moves(pull, trial, limit)
+            found = problem.at(moved)
+            if found is not None and np.linalg.norm(found[1]) <= (1.0 - 0.1 * share) * far:
+                slope = _slope(pull, trial, found[2][:, movable], limit)
+                if _strong(slope) or np.linalg.norm(found[1]) <= problem.tolerance:
+                    break  # else too many are at the limit to go on from there
+            share /= 2.0
+        else:
+            return points, center, far if far > 16.0 * problem.tolerance else 0.0
+        points, multiplier, (center, residual, gradient) = moved, trial, found
+    return points, center, far
+
+
+def _short(far: float, limit: float) -> str:
+    """Why the center stays `far` from its target."""
+    if limit < np.inf:
+        return (
+            "With moves of at most {:.3g} m per vertex the center stays {:.2g} m short; allow more, or select more "
+            "vertices.".format(limit, far)
+        )
+    return (
+        "Moving these vertices leaves the center {:.2g} m short; select more of them, or choose a nearer point.".format(
+            far
+        )
+    )
+
+
+def _strong(system: NDArray) -> bool:
+    """Whether the (r, r) system can be solved: none of its directions is without effect."""
+    strength = np.linalg.svd(system, compute_uv=False)
+    return bool(np.isfinite(strength).all() and strength[-1] > POWERLESS * strength[0])
+
+
+def _moves(pull: NDArray, multiplier: NDArray, limit: float) -> NDArray[np.float64]:
+    """(k, 3) the moves of the (r, k, 3) pulls times the (r,) multiplier, cut to the limit."""
+    moves = np.einsum("rnk,r->nk", pull, multiplier)
+    length = np.linalg.norm(moves, axis=1)
+    if not (length > limit).any():
+        return moves
+    return moves * (limit / np.maximum(length, limit))[:, None]
+
+
+def _slope(pull: NDArray, multiplier: NDArray, gradient: NDArray, limit: float) -> NDArray[np.float64]:
+    """(r, r) the derivative of the center by the multiplier. A move that is cut can still turn, not grow."""
+    if np.isfinite(limit):
+        moves = np.einsum("rnk,r->nk", pull, multiplier)
+        length = np.linalg.norm(moves, axis=1)
+        along = moves / np.where(length > 0.0, length, 1.0)[:, None]
+        radial = np.einsum("rnk,nk->rn", pull, along)[:, :, None] * along
+        pull = np.where((length > limit)[:, None], (pull - radial) * (limit / np.maximum(length, limit))[:, None], pull)
+    return np.einsum("rnk,snk->rs", gradient, pull)
+
+
+class _Problem:
+    """The center of one surface as a function of its points, and what comes of them."""
+
+    def __init__(self, surface: Surface, shell: bool, across: NDArray, target: NDArray):
+        triangles, _ = surface.all_triangles()
+        self.triangles, self.start = triangles, surface.points.astype(np.float64)
+        self.surface = Surface(self.start, triangles)
+        self.shell, self.across, self.target = shell, across, target
+        used = self.start[np.unique(triangles)]
+        self.size = float(np.linalg.norm(np.ptp(used, axis=0)))
+        self.tolerance = REACHED * (self.size + np.abs(used).max())
+        self.sign = 1.0 if shell else float(np.sign(self._moments(self.start).total))
+
+    def _moments(self, points: NDArray) -> Moments:
+        return solid_and_area(replace(self.surface, points=points), shell=self.shell)[self.shell]
+
+    def at(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
+        """(3,) the center, (r,) how far it is from its target, and (r, n, 3) its derivatives; None where the body has
+        turned inside out."""
+        moments = self._moments(points)
+        if not moments.total * self.sign > moments.error[0]:
+            return None
+        center = moments.center
+        derive = area_gradient if self.shell else volume_gradient
+        gradient: Gradient = derive(replace(self.surface, points=points), center, order=1)
+        return (
+            center,
+            self.across @ (self.target - center),
+            np.einsum("ri,nik->rnk", self.across, gradient.center(moments.total)),
+        )
+
+    def check(self, points: NDArray, movable: NDArray) -> None:
+        """ValueError where a triangle turns by a right angle or more on its way: N(s)·N(0), a quadratic in s, must stay
+        positive to s = 1."""
+        moved = np.zeros(len(points), bool)
+        moved[movable] = True
+        triangles = self.triangles[moved[self.triangles].any(axis=1)]
+        a, b, c = (self.start[triangles[:, k]] for k in range(3))
+        u, v, w = (points[triangles[:, k]] - corner for k, corner in enumerate((a, b, c)))
+        edges, turns = (b - a, c - a), (v - u, w - u)
+        normal = np.cross(*edges)
+        double = np.linalg.norm(normal, axis=1)
+        longest = np.max([(edge * edge).sum(axis=1) for edge in (*edges, c - b)], axis=0)
+        solid = double > SLIVER * longest
+        rows = (normal, np.cross(edges[0], turns[1]) + np.cross(turns[0], edges[1]), np.cross(*turns))
+        jacobian = np.array([(row * normal).sum(axis=1) for row in rows])[:, None, solid]
+        turned = np.sqrt(np.max([(turn * turn).sum(axis=1) for turn in turns], axis=0))
+        long = np.sqrt(longest)
+        doubt = 32.0 * U * np.array([long * long, 2.0 * long * turned, turned * turned]) * double
+        folded = int(np.count_nonzero(first_fold(jacobian, doubt[:, solid]) <= 1.0))
+        if folded:
+            raise ValueError(
+                "It would turn {:d} of its faces over; select more vertices, or a point that is nearer.".format(folded)
+            )
+
+
+class _Fans:
+    """The faces of a surface as triangles around the mean of each face's vertices; triangles stay as they are.
+
+    areas: (n,) what each vertex stands for, an equal share of each of its faces.
+    """
+
+    def __init__(self, surface: Surface, shell: bool):
+        triangles, faces = surface.all_triangles()
+        self.shell, self.count = shell, len(surface.points)
+        points = surface.points.astype(np.float64)
+        faces = np.unique(faces, return_inverse=True)[1].ravel()
+        number = int(faces.max(initial=-1)) + 1
+        vectors = normals(points, triangles)
+        corner = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
+        self.owner, self.vertex = corner // self.count, corner % self.count
+        self.share = 1.0 / np.bincount(self.owner, minlength=number)[self.owner]
+        area = np.bincount(faces, np.linalg.norm(vectors, axis=1) / 2.0, number)
+        self.areas = np.bincount(self.vertex, area[self.owner] * self.share, self.count)
+        middles = np.stack(
+            [np.bincount(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)], axis=1
+        )
+        whole = np.bincount(faces, minlength=number)[faces] == 1
+        rims, owners = _rims(triangles[~whole], faces[~whole], self.count)
+        fan = np.concatenate([triangles[whole], np.concatenate([rims, self.count + owners[:, None]], axis=1)])
+        owners = np.concatenate([faces[whole], owners])
+        self.points = np.concatenate([points, middles])
+        facing = np.stack([np.bincount(faces, column, number) for column in vectors.T], axis=1)[owners]
+        self.against = (normals(self.points, fan) * facing).sum(axis=1) < 0.0  # where a face is not convex
+        self.fan = fan
+
+    def center_gradient(self, center: NDArray) -> NDArray[np.float64]:
+        """(n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its vertices."""
+        if self.shell:  # signed as the faces' own areas are
+            parts = [
+                area_gradient(Surface(self.points, rows), center, order=1).by_vertex[:, 1:4]
+                for rows in (self.fan[~self.against], self.fan[self.against])
+            ]
+            gradient, total = parts[0] - parts[1], self.areas.sum()
+        else:
+            surface = Surface(self.points, self.fan)
+            gradient = volume_gradient(surface, center, order=1).by_vertex[:, 1:4]
+            total = solid_and_area(surface)[0].total
+        gradient /= total
+        own, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)
+        for column, shared in zip(own.T, middle.T):
+            column += np.bincount(self.vertex, shared[self.owner] * self.share, self.count)
+        return own.reshape(-1, 3, 3)
+
+
+def _rims(triangles: NDArray, faces: NDArray, count: int) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """(k, 2) the sides of triangles that no other triangle of the same face runs along the other way, and (k,) the face
+    of each."""
+    start, stop = triangles.ravel().astype(np.int64), np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
+    owner = np.repeat(faces, 3).astype(np.int64)
+    edge = np.unique(np.minimum(start, stop) * count + np.maximum(start, stop), return_inverse=True)[1].ravel()
+    _, key, uses = np.unique(owner * (int(edge.max(initial=0)) + 1) + edge, return_inverse=True, return_counts=True)
+    rim = uses[key.ravel()] == 1
+    return np.stack([start[rim], stop[rim]], axis=1), owner[rim]

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Carried out of its former module."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+NO_PAIRS = np.empty((0, 2), np.int64)
+
+
+NO_FACES = np.empty(0, np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Faults:
+    """Where the faults are, in the input mesh's own numbers, sorted: faces (k,), edges (k, 2) as vertex pairs.
+
+    flipped_faces: turned to agree with the rest of their part (not those of a part that is inside out as a whole).
+    boundary_edges, non_manifold_edges, inconsistent_edges: as counted in `Health`, but each with all the mesh's edges
+    that lie there. duplicate_faces: the later copies. degenerate_faces: those without area.
+    """
+
+    flipped_faces: NDArray[np.integer] = field(default_factory=lambda: NO_FACES)
+    boundary_edges: NDArray[np.integer] = field(default_factory=lambda: NO_PAIRS)
+    non_manifold_edges: NDArray[np.integer] = field(default_factory=lambda: NO_PAIRS)
+    inconsistent_edges: NDArray[np.integer] = field(default_factory=lambda: NO_PAIRS)
+    duplicate_faces: NDArray[np.integer] = field(default_factory=lambda: NO_FACES)
+    degenerate_faces: NDArray[np.integer] = field(default_factory=lambda: NO_FACES)
+
+
+@dataclass(frozen=True, eq=False)
+class Health:
+    """The input, before anything was mended.
+
+    closed: in space: equal positions are one, and gaps without area are none.
+    welded: whether positions had to be welded to judge.
+    boundary_edges: with one face, after that welding, unless the gap they bound has no area.
+    non_manifold_edges: with more than two faces. inconsistent_edges: with two faces that both run the same way.
+    components: shells, connected across edges. inverted_components: inside out. nested_components: outward ones in
+        the material of others, counted twice. cavities: inward ones in the material of others. overlapping_components:
+        those that share a part of their interiors with another one, or are a copy of it.
+    duplicate_faces: later copies of faces. degenerate_faces: without area. non_planar_faces, volume_spread: the faces
+        that are not flat, and the volume (unit³) that the choice of their diagonals can change.
+    cap_area_share: the area of the caps that were needed by the area of the faces.
+    """
+
+    closed: bool
+    welded: bool = False
+    boundary_edges: int = 0
+    non_manifold_edges: int = 0
+    inconsistent_edges: int = 0
+    components: int = 1
+    inverted_components: int = 0
+    nested_components: int = 0
+    cavities: int = 0
+    overlapping_components: int = 0
+    duplicate_faces: int = 0
+    degenerate_faces: int = 0
+    non_planar_faces: int = 0
+    volume_spread: float = 0.0
+    cap_area_share: float = 0.0
+    faults: Faults = field(default_factory=Faults)
+
+    def as_record(self) -> dict:
+        """Plain values for JSON; of the faults only the flipped faces."""
+        record = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name != "faults"}
+        record["flipped_faces"] = self.faults.flipped_faces.tolist()
+        return record

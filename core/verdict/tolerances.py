@@ -1,0 +1,16 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Carried out of its former module."""
+
+from __future__ import annotations
+
+LARGEST, SMALLEST = 1e50, 1e-60  # lengths whose sixth, and whose fifth, power is still a number
+
+
+NO_VOLUME = 1e-7  # of diagonal times area: what capping a flat sheet of float32 points leaves
+
+
+ROUNDING = 1e-14  # the same for a closed one
+
+
+TOLERANCE = 1e-6  # of the body's diagonal

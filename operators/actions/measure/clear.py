@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Clear: remove the stored results from objects. Settings stay."""
+
+from bpy.types import Context, Object, Operator
+
+from ...scene.transforms import Refused, require_editable
+from ...session import staleness
+from ...write import properties, section
+from .. import selection
+
+SYMMETRY = "body_moments_symmetry"
+
+
+class OBJECT_OT_body_moments_clear(Operator):
+    """Remove the stored mass properties and sections from the selected objects. Settings stay"""
+
+    bl_idname = "object.body_moments_clear"
+    bl_label = "Clear"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return selection.poll_selected(cls, context, any_mode=True)
+
+    def execute(self, context: Context) -> set[str]:
+        objects = [
+            obj
+            for obj in context.view_layer.objects.selected
+            if any(key in obj for key in (*properties.DESCRIPTIONS, section.KEY)) or obj.is_property_set(SYMMETRY)
+        ]
+
+        def remove(obj: Object) -> bool:
+            require_editable(obj)
+            symmetric = obj.is_property_set(SYMMETRY)
+            obj.property_unset(SYMMETRY)
+            return properties.clear(obj) | section.clear(obj) | symmetric
+
+        count, failures = selection.each(objects, remove, (Refused,))
+        staleness.settle(context, objects)
+        text = "Removed the results from {count}" if objects else "No results to remove from the selected objects"
+        return selection.summarise(self, count, len(objects), text, failures)
+
+
+CLASSES = (OBJECT_OT_body_moments_clear,)

@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Getting numbers out: one value to the last digit, or the whole report as text."""
+
+import sys
+
+import bpy
+from bpy.props import StringProperty
+from bpy.types import Context, Operator, OperatorProperties
+
+from ...read.total_caveats import doubts, unfounded
+from ...session import staleness
+from ...write import properties
+from ...write.report import report_text
+from .. import selection
+
+
+def to_clipboard(operator: Operator, context: Context, text: str, told: str) -> None:
+    """In background there is no clipboard, and long reports are cut short: the text goes to the standard output."""
+    if bpy.app.background:
+        sys.stdout.write(text.removesuffix("\n") + "\n")
+    else:
+        context.window_manager.clipboard = text
+        operator.report({"INFO"}, told)
+
+
+class OBJECT_OT_body_moments_copy_value(Operator):
+    """Copy this value to the clipboard, in SI units and with all its digits"""
+
+    bl_idname = "object.body_moments_copy_value"
+    bl_label = "Copy Value"
+    bl_options = {"INTERNAL"}
+
+    value: StringProperty(name="Value", options={"HIDDEN", "SKIP_SAVE"})
+    unit: StringProperty(name="Unit", options={"HIDDEN", "SKIP_SAVE"})
+
+    @classmethod
+    def description(cls, _context: Context, values: OperatorProperties) -> str:
+        return "Copy {:s}\n\nUnit: {:s}".format(values.value, values.unit or "none")
+
+    def execute(self, context: Context) -> set[str]:
+        if not self.value:
+            self.report({"WARNING"}, "There is no value to copy")
+            return {"CANCELLED"}
+        to_clipboard(self, context, self.value, "Copied {:s}".format(self.value))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_body_moments_copy_report(Operator):
+    """Copy the stored mass properties of the selected objects"""
+
+    bl_idname = "object.body_moments_copy_report"
+    bl_label = "Copy Report"
+    bl_description = (
+        "Copy the stored mass properties of the selected objects, and their total, to the clipboard as text in SI units"
+    )
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if not selection.poll_selected(cls, context, any_mode=True):
+            return False
+        if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
+            cls.poll_message_set("Measure the selected objects first")
+            return False
+        return True
+
+    def execute(self, context: Context) -> set[str]:
+        objects = selection.selected(context)
+        outdated = {obj.name for obj in objects if staleness.reason(obj, context.scene)}
+        counted = [obj for obj in objects if properties.is_stored(obj)]
+        told = unfounded((obj.name, properties.method_and_warnings(obj)[0]) for obj in counted)
+        text = report_text(context, objects, outdated, [*told, *doubts(counted, context.view_layer)])
+        told = "Copied the report of {:s}".format(selection.counted(len(objects)))
+        to_clipboard(self, context, text, told)
+        return {"FINISHED"}
+
+
+CLASSES = (OBJECT_OT_body_moments_copy_value, OBJECT_OT_body_moments_copy_report)

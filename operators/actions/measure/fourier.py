@@ -1,0 +1,200 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Fourier transform of the active object on a grid: a file of its values, and a picture of them."""
+
+from __future__ import annotations
+
+import os
+from math import pi
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.types import Context, Event, Operator
+
+from ....core.fourier.wave_vectors import Grid
+from ....core.numerics.float32 import decimal
+from ...alarms import alarms
+from ...bodies.fourier import ObjectTransform, object_transform
+from ...bodies.measure_object import THREADS
+from ...read import Unreadable, measurable
+from ...settings.options import MeasureOptions
+from ...write import spectrum
+from ..modal import Stepwise
+
+SUFFIX = ".npz"
+
+
+class _Settings:
+    """What is asked for, in both operators."""
+
+    filepath: StringProperty(
+        name="File Path", description="The .npz file to write", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
+    of: EnumProperty(
+        name="Of",
+        default="BODY",
+        description="What is transformed",
+        items=(
+            ("BODY", "Body", "∫ exp(−i q·x) dV of a solid, in m³; of a shell, its area's times its thickness"),
+            ("AREA", "Area", "∫ exp(−i q·x) dA over its faces, in m²"),
+        ),
+    )
+    frame: EnumProperty(
+        name="Frame",
+        default="WORLD",
+        description="The axes of the frequencies, and the origin",
+        items=(
+            ("WORLD", "World", "Along the world's axes, about its origin"),
+            ("OBJECT", "Object", "Along the object's axes, about its origin, with unit scale"),
+        ),
+    )
+    count: IntProperty(
+        name="Frequencies",
+        default=64,
+        min=2,
+        max=256,
+        description="Along each axis. The grid holds 0 in its middle, in the order of numpy.fft.fftshift",
+    )
+    largest: FloatProperty(
+        name="Largest rad/m",
+        default=0.0,
+        min=0.0,
+        soft_max=1e6,
+        precision=4,
+        description="The largest frequency along each axis, in rad/m. 0 takes the one that samples twice the "
+        "object's size: what a discrete Fourier transform of a box with as much room again has",
+    )
+
+
+class OBJECT_OT_body_moments_fourier(_Settings, Operator):
+    """Ask for a file and a grid of frequencies, then write the Fourier transform of the active object"""
+
+    bl_idname = "object.body_moments_fourier"
+    bl_label = "Fourier Transform"
+    bl_description = (
+        "Write the Fourier transform of the active object on a regular grid of frequencies to an .npz file, and show "
+        "slices of its magnitude as an image"
+    )
+    bl_options = {"UNDO"}
+
+    filter_glob: StringProperty(default="*" + SUFFIX, options={"HIDDEN"})
+    check_existing: BoolProperty(default=True, options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if context.object is None or not measurable(context.object):
+            cls.poll_message_set("Make an object with a surface active")
+            return False
+        return True
+
+    def invoke(self, context: Context, event: Event) -> set[str]:
+        name = bpy.path.clean_name(context.object.name) + SUFFIX
+        folder = os.path.dirname(self.filepath or bpy.data.filepath)
+        self.filepath = os.path.join(folder, name)
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def check(self, context: Context) -> bool:
+        """Called by the file browser on every change; whether the path was changed here."""
+        path = bpy.path.ensure_ext(self.filepath, SUFFIX)
+        changed, self.filepath = path != self.filepath, path
+        return changed
+
+    def draw(self, context: Context) -> None:
+        column = self.layout.column()
+        column.use_property_split = True
+        for name in ("of", "frame", "count", "largest"):
+            column.prop(self, name)
+        if not self.largest:
+            column.label(text="0 rad/m: by the object's size", icon="INFO")
+
+    def execute(self, context: Context) -> set[str]:
+        settings = {name: getattr(self, name) for name in ("filepath", "of", "frame", "count", "largest")}
+        invoked = "EXEC_DEFAULT" if context.window is None else "INVOKE_DEFAULT"
+        try:
+            return bpy.ops.object.body_moments_fourier_run(invoked, **settings)
+        except RuntimeError as error:  # its report, as Blender raises it here
+            self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
+            return {"CANCELLED"}
+
+
+class OBJECT_OT_body_moments_fourier_run(Stepwise, _Settings, Operator):
+    """Write the Fourier transform of the active object to a file"""
+
+    bl_idname = "object.body_moments_fourier_run"
+    bl_label = "Fourier Transform"
+    bl_options = {"UNDO", "INTERNAL"}
+    DOING = "Fourier transform: {:.0%}. Esc cancels"
+    CANCELLED = "The Fourier transform was cancelled; nothing was written"
+
+    poll = OBJECT_OT_body_moments_fourier.poll
+
+    def execute(self, context: Context) -> set[str]:
+        """All at once: in background there is nobody to press Esc."""
+        try:
+            self._begin(context)
+            return self.all_at_once(context, 1.0)
+        except (Unreadable, OSError) as error:
+            return self._failed(error)
+
+    def invoke(self, context: Context, event: Event) -> set[str]:
+        try:
+            self._begin(context)
+        except (Unreadable, OSError) as error:
+            return self._failed(error)
+        return self.begin_modal(context, 1.0)
+
+    def modal(self, context: Context, event: Event) -> set[str]:
+        try:
+            return Stepwise.modal(self, context, event)
+        except (Unreadable, OSError) as error:
+            return self._failed(error)
+
+    def _begin(self, context: Context) -> None:
+        obj, depsgraph = context.object, context.evaluated_depsgraph_get()
+        self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
+        if not self.filepath or not self._path.parent.is_dir():
+            raise OSError("There is no folder {:s} to write to".format(str(self._path.parent) if self.filepath else ""))
+        self._work: ObjectTransform = object_transform(
+            obj,
+            depsgraph,
+            MeasureOptions(threads=THREADS),
+            self._grid,
+            frame=self.frame.lower(),
+            area=self.of == "AREA",
+        )
+        self._steps = self._work.steps()
+
+    def _grid(self, size: float) -> Grid:
+        """The grid for a body of this size in m. Where no largest frequency is asked for, its step is π over the
+        size."""
+        return Grid(self.count, decimal(self.largest) or pi / size * (self.count // 2))
+
+    def _finish(self, context: Context) -> set[str]:
+        found, notes = self._work.result()
+        spectrum.save(self._path, found, self.frame.lower())
+        image = spectrum.picture("Fourier Transform of {:s}".format(self._work.name), found.values, self.count)
+        for area in context.screen.areas if context.screen else ():
+            if area.type == "IMAGE_EDITOR":
+                area.spaces.active.image = image
+        self.report(
+            {"WARNING"} if alarms(self._work.warnings) else {"INFO"},
+            " ".join(
+                [
+                    "Wrote {:d} frequencies to {:s}; the image {:s} shows slices of them.".format(
+                        len(found.q), self._path.name, image.name
+                    ),
+                    *notes,
+                ]
+            ),
+        )
+        return {"FINISHED"}
+
+    def _failed(self, error: Exception) -> set[str]:
+        text = error.strerror or str(error) if isinstance(error, OSError) else str(error)
+        self.report({"ERROR"}, text)
+        return {"CANCELLED"}
+
+
+CLASSES = (OBJECT_OT_body_moments_fourier_run, OBJECT_OT_body_moments_fourier)

@@ -1,0 +1,174 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure and Select Faults: what is wrong with a mesh, selected in Edit Mode."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+import bmesh
+import bpy
+import numpy as np
+from bpy.types import Context, Object, Operator
+
+from ....core.measurement import Measurement
+from ...bodies.measure_object import measure_object
+from ...scene.transforms import Refused
+from ...session import staleness
+from ...write import properties
+from .. import selection
+from ..snap import base as snapping
+
+# Modifiers that only move vertices: the faults' indices are those of the mesh itself.
+MOVING = {
+    "ARMATURE",
+    "CAST",
+    "CORRECTIVE_SMOOTH",
+    "CURVE",
+    "DISPLACE",
+    "HOOK",
+    "LAPLACIANDEFORM",
+    "LAPLACIANSMOOTH",
+    "LATTICE",
+    "MESH_DEFORM",
+    "NORMAL_EDIT",
+    "SHRINKWRAP",
+    "SIMPLE_DEFORM",
+    "SMOOTH",
+    "SURFACE_DEFORM",
+    "UV_PROJECT",
+    "UV_WARP",
+    "VERTEX_WEIGHT_EDIT",
+    "VERTEX_WEIGHT_MIX",
+    "VERTEX_WEIGHT_PROXIMITY",
+    "VOLUME_DISPLACE",
+    "WARP",
+    "WAVE",
+    "WEIGHTED_NORMAL",
+    "DATA_TRANSFER",
+}
+
+
+class OBJECT_OT_body_moments_select_faults(Operator):
+    """Measure the selected meshes and select what is wrong with them in Edit Mode"""
+
+    bl_idname = "object.body_moments_select_faults"
+    bl_label = "Measure and Select Faults"
+    bl_description = (
+        "Measure the selected meshes and select what is wrong with them in Edit Mode: "
+        "boundary edges, edges of more than two faces, flipped, double and zero-area "
+        "faces. Objects without faults are deselected"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if context.mode not in {"OBJECT", "EDIT_MESH"}:
+            cls.poll_message_set("Switch to Object Mode first")
+            return False
+        if not any(obj.type == "MESH" for obj in context.view_layer.objects.selected):
+            cls.poll_message_set("Select mesh objects first")
+            return False
+        return True
+
+    def execute(self, context: Context) -> set[str]:
+        editing = context.mode == "EDIT_MESH"
+        if editing:
+            bpy.ops.object.mode_set(mode="OBJECT")
+        objects = [obj for obj in context.view_layer.objects.selected if obj.type == "MESH"]
+        depsgraph = context.evaluated_depsgraph_get()
+        found: dict[Object, Measurement] = {}
+        faults: dict[Object, dict[str, np.ndarray]] = {}
+
+        def measure(obj: Object) -> bool:
+            _check(obj)
+            found[obj] = measure_object(obj, depsgraph)
+            return True
+
+        def store(obj: Object) -> bool:
+            properties.store(obj, found[obj])
+            if wrong := _faults(found[obj]):
+                faults[obj] = wrong
+            return True
+
+        # Not each stored as it is measured: Blender would evaluate the scene again for every one of them.
+        _, failures = selection.each(objects, measure, snapping.REFUSALS)
+        count, unstored = selection.each(list(found), store, snapping.REFUSALS)
+        failures += unstored
+        if faults:
+            _show(context, faults)
+        elif editing:
+            bpy.ops.object.mode_set(mode="EDIT")
+        staleness.settle(context, list(found))
+        text = "{count} measured, no faults" if count else ""
+        told = ["{:s} has {:s}".format(obj.name, _words(found)) for obj, found in faults.items()]
+        if told:
+            text = "{:d} of {{count}} measured with faults".format(len(told))
+        return selection.summarise(self, count, len(objects), text, failures, told)
+
+
+def _check(obj: Object) -> None:
+    """Raises where what is measured is not what could be edited."""
+    if not obj.is_editable or not obj.data.is_editable:
+        raise Refused("it is linked from another file; make it and its data local first")
+    changing = [modifier.name for modifier in obj.modifiers if modifier.show_viewport and modifier.type not in MOVING]
+    if changing:
+        raise Refused(
+            "its modifiers make another mesh of it, whose faults are not in the mesh to be "
+            "edited; apply or hide {:s} first".format(", ".join(changing))
+        )
+
+
+def _faults(measurement: Measurement) -> dict[str, np.ndarray]:
+    """By kind, without the kinds that have none."""
+    faults = measurement.health.faults
+    arrays = {field.name: np.asarray(getattr(faults, field.name), np.int64) for field in fields(faults)}
+    return {name: indices for name, indices in arrays.items() if len(indices)}
+
+
+def _words(found: dict[str, np.ndarray]) -> str:
+    counts = {name.replace("_", " "): len(indices) for name, indices in found.items()}
+    return ", ".join(
+        "{:d} {:s}".format(count, kind.removesuffix("s") if count == 1 else kind) for kind, count in counts.items()
+    )
+
+
+def _show(context: Context, faults: dict[Object, dict[str, np.ndarray]]) -> None:
+    """Edit Mode on the faulty objects alone, with their faults selected."""
+    for obj in list(context.view_layer.objects.selected):
+        if obj not in faults:
+            obj.select_set(False)
+    if context.view_layer.objects.active not in faults:
+        context.view_layer.objects.active = next(iter(faults))
+    dimensions = {indices.ndim for found in faults.values() for indices in found.values()}
+    context.tool_settings.mesh_select_mode = (False, 2 in dimensions, 1 in dimensions)
+    bpy.ops.ed.undo_push(message="Measure")  # the undo step of Edit Mode that follows holds meshes only
+    bpy.ops.object.mode_set(mode="EDIT")
+    for obj, found in faults.items():
+        _select(obj, found)
+
+
+def _select(obj: Object, found: dict[str, np.ndarray]) -> None:
+    """Select exactly the faults. (k, 2) arrays are edges by their vertices, (k,) arrays are
+    faces.
+    """
+    edges = [indices for indices in found.values() if indices.ndim == 2]
+    faces = [indices for indices in found.values() if indices.ndim == 1]
+    mesh = bmesh.from_edit_mesh(obj.data)
+    for sequence in (mesh.verts, mesh.edges, mesh.faces):
+        sequence.ensure_lookup_table()
+    for sequence in (mesh.faces, mesh.edges, mesh.verts):
+        for element in sequence:
+            element.select = False
+    for one, other in (pair for indices in edges for pair in indices.tolist()):
+        edge = mesh.edges.get((mesh.verts[one], mesh.verts[other]))
+        if edge is not None:  # the diagonals of a tessellation are no edges of the mesh
+            edge.hide_set(False)
+            edge.select_set(True)
+    for index in (index for indices in faces for index in indices.tolist()):
+        mesh.faces[index].hide_set(False)
+        mesh.faces[index].select_set(True)
+    bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+
+
+CLASSES = (OBJECT_OT_body_moments_select_faults,)

@@ -1,0 +1,184 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials for all selected objects at once, presets of one's own, and settings from one object
+to the others.
+"""
+
+import bpy
+from bl_operators.presets import AddPresetBase
+from bpy.props import EnumProperty, StringProperty
+from bpy.types import Context, Object, Operator
+
+from ....core.density.materials import BY_NAME, MATERIALS
+from ...scene.transforms import Refused, require_own
+from ...settings.properties import COPIED, copy_settings
+from .. import selection
+
+PRESETS = "body_moments"  # folder of the user's presets
+
+
+def _targets(context: Context) -> list[Object]:
+    """The selected objects, and the active one, whose settings the panel shows."""
+    active = context.view_layer.objects.active
+    objects = list(context.view_layer.objects.selected)
+    return objects if active is None or active in objects else [active, *objects]
+
+
+TABLE = [
+    (
+        material.name,
+        material.name,
+        "{:.7g} kg/m³. Source: {:s}".format(material.density, material.source),
+    )
+    for material in MATERIALS
+]
+
+
+class OBJECT_OT_body_moments_set_material(Operator):
+    """Set the density of all selected objects to that of a material"""
+
+    bl_idname = "object.body_moments_set_material"
+    bl_label = "Set Material"
+    bl_description = (
+        "Set the density of all selected objects to that of a material. Where their density comes from their "
+        "materials, it is that of faces whose material has none"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+    bl_property = "material"
+
+    material: EnumProperty(
+        name="Material",
+        description="The material whose density is taken",
+        items=TABLE,
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if not _targets(context):
+            cls.poll_message_set("Select the objects first")
+            return False
+        return True
+
+    def invoke(self, context: Context, _event) -> set[str]:
+        context.window_manager.invoke_search_popup(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: Context) -> set[str]:
+        material = BY_NAME[self.material]
+        objects = _targets(context)
+
+        def set_density(obj: Object) -> bool:
+            require_own(obj, "its settings")
+            settings = obj.body_moments
+            before = _density_of(settings)
+            settings.mass_from = "DENSITY"
+            if settings.density_from != "MATERIALS":
+                settings.density_from = "VALUE"
+            settings.density = material.density
+            settings.material = material.name
+            return before != _density_of(settings)
+
+        changed, failures = selection.each(objects, set_density, (Refused,))
+        return selection.summarise(
+            self,
+            changed,
+            len(objects),
+            "Set {count} to " + material.name,
+            failures,
+            idle="it was {:s} already".format(material.name),
+        )
+
+
+def _density_of(settings) -> tuple:
+    return settings.mass_from, settings.density_from, settings.density, settings.material
+
+
+class MATERIAL_OT_body_moments_set_density(Operator):
+    """Give a material the density of an entry of the table"""
+
+    bl_idname = "material.body_moments_set_density"
+    bl_label = "Set Material Density"
+    bl_options = {"REGISTER", "UNDO"}
+    bl_property = "material"
+
+    material: EnumProperty(
+        name="Material",
+        description="The entry of the table whose density is taken",
+        items=TABLE,
+    )
+    target: StringProperty(
+        name="Blender Material",
+        description="Name of the material that gets the density",
+        options={"HIDDEN"},
+    )
+
+    def invoke(self, context: Context, _event) -> set[str]:
+        context.window_manager.invoke_search_popup(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, _context: Context) -> set[str]:
+        target = bpy.data.materials.get((self.target, None))
+        if target is None:
+            self.report({"ERROR"}, "There is no local material “{:s}”; make it local first".format(self.target))
+            return {"CANCELLED"}
+        entry = BY_NAME[self.material]
+        target.body_moments.density = entry.density
+        target.body_moments.material = entry.name
+        self.report({"INFO"}, "Set “{:s}” to {:s}".format(target.name, entry.name))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_body_moments_copy_settings(Operator):
+    """Copy the settings of the active object to all other selected ones"""
+
+    bl_idname = "object.body_moments_copy_settings"
+    bl_label = "Copy Settings to Selected"
+    bl_description = (
+        "Copy kind, material, density or mass, thickness and overlaps from the active object to all other selected ones"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        active = context.view_layer.objects.active
+        if active is None or not any(obj != active for obj in context.view_layer.objects.selected):
+            cls.poll_message_set("Select other objects besides the active one")
+            return False
+        return True
+
+    def execute(self, context: Context) -> set[str]:
+        active = context.view_layer.objects.active
+        objects = [obj for obj in context.view_layer.objects.selected if obj != active]
+
+        def copy(obj: Object) -> bool:
+            require_own(obj, "its settings")
+            return copy_settings(active.body_moments, obj.body_moments)
+
+        count, failures = selection.each(objects, copy, (Refused,))
+        return selection.summarise(
+            self,
+            count,
+            len(objects),
+            "Copied the settings to {count}",
+            failures,
+            idle="the settings were the same already",
+        )
+
+
+class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
+    """Keep the settings of the active object as a preset, or remove a preset"""
+
+    bl_idname = "object.body_moments_preset_add"
+    bl_label = "Add Body Moments Preset"
+    preset_menu = "OBJECT_PT_body_moments_presets"
+    preset_subdir = PRESETS
+    preset_defines = ["settings = bpy.context.object.body_moments"]
+    preset_values = ["settings." + name for name in COPIED if name != "density_volume"]  # it is the file's
+
+
+CLASSES = (
+    OBJECT_OT_body_moments_set_material,
+    MATERIAL_OT_body_moments_set_density,
+    OBJECT_OT_body_moments_copy_settings,
+    OBJECT_OT_body_moments_preset_add,
+)

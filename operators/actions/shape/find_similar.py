@@ -1,0 +1,271 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Find Similar: the objects of the scene, or the bodies of a library, whose shape is most like the active one's.
+
+What was found is kept with the scene, for the panel; nothing of the objects is changed but, where it is asked for, what
+is selected.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerProperty, StringProperty
+from bpy.types import Context, Event, Object, Operator, PropertyGroup, Scene
+
+from ....core.shape.library import UNCLEAR, Entry, nearest, read_library, verdict
+from ....core.shape.registration import FITS, Match
+from ....core.shape.signature import Likeness, Signature, compared
+from ...bodies.shape import Skin, matched, surface_shape_of
+from ...read import measurable_objects
+from .. import selection
+from ..modal import Stepwise
+from ..snap import base as snapping
+
+ORDER = 12  # of the descriptors: more than tell parts apart, a fourth of the time that 20 takes
+LISTED = 20
+MIRRORED = BoolProperty(name="Mirror Images Too", default=False, description="Mirror images are as near as copies")
+SCALED = BoolProperty(name="Other Sizes Too", default=False, description="Copies of another size are as near as others")
+
+
+class BodyMomentsSimilar(PropertyGroup):
+    """One shape that was found."""
+
+    name: StringProperty(name="Name")
+    file: StringProperty(name="File")
+    verdict: StringProperty(name="Verdict", description="What it is to the object that was looked for")
+    distance: FloatProperty(name="Distance", description="Difference of the signatures; 0 for a copy")
+    scale: FloatProperty(name="Size", description="Its size by the size of the object that was looked for")
+
+
+class BodyMomentsSearch(PropertyGroup):
+    """The last search."""
+
+    wanted: StringProperty(name="Wanted")
+    looked_at: StringProperty(name="Looked At")
+    found: CollectionProperty(type=BodyMomentsSimilar)
+
+
+class _Find:
+    """What both searches share."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if context.mode != "OBJECT":
+            cls.poll_message_set("Switch to Object Mode first")
+            return False
+        if context.object is None:
+            cls.poll_message_set("Make the object active that others shall be like")
+            return False
+        return True
+
+    def look(self, context: Context) -> Iterator[float]:
+        """Measure the active object: `shape`, and `wanted`, its signature. It stays None where there is none, which is
+        reported."""
+        self.wanted: Signature | None = None
+        try:
+            self.shape = surface_shape_of(context.object, context.evaluated_depsgraph_get())
+            yield 0.0
+            self.wanted = self.shape.signature(ORDER)
+        except snapping.REFUSALS as error:
+            self.report({"ERROR"}, "{:s}: {:s}".format(context.object.name, getattr(error, "reason", str(error))))
+
+    def keep(self, context: Context, rows: list[tuple[Entry, Likeness]], looked_at: str) -> None:
+        search = context.scene.body_moments_search
+        search.wanted, search.looked_at = context.object.name, looked_at
+        search.found.clear()
+        for entry, likeness in rows[:LISTED]:
+            row = search.found.add()
+            row.name, row.file, row.verdict = entry.name, entry.file, verdict(likeness)
+            row.distance = likeness.distance(self.scaled, self.mirrored)
+            row.scale = likeness.scale
+
+    def tell(self, rows: list[tuple[Entry, Likeness]], failures: list[str]) -> set[str]:
+        counts: dict[str, int] = {}
+        for _, likeness in rows:
+            counts[verdict(likeness)] = counts.get(verdict(likeness), 0) + 1
+        same = [
+            "{:d} {:s}".format(counts[name], name)
+            for name in ("copy", "scaled copy", "mirror image", "scaled mirror", *UNCLEAR, "similar")
+            if name in counts
+        ]
+        parts = ["Compared with {:s}".format("1 shape" if len(rows) == 1 else "{:d} shapes".format(len(rows)))]
+        parts.append(", ".join(same) if same else "none is similar")
+        if rows:
+            entry, likeness = rows[0]
+            parts.append("nearest is {:s}, at {:.2e}".format(entry.name, likeness.distance(self.scaled, self.mirrored)))
+        self.report({"WARNING"} if failures else {"INFO"}, selection.in_a_row(parts + selection.listed(failures)))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
+    """Find the objects in the scene whose shape is most like the active one's"""
+
+    bl_idname = "object.body_moments_find_similar"
+    bl_label = "Find Similar"
+    bl_description = (
+        "Compare the shapes of all visible objects with the active one's, however they lie and whatever their size and "
+        "faces: copies, mirror images and what is merely similar"
+    )
+    DOING = "Comparing: {:.0%}. Esc cancels"
+    CANCELLED = "The search was cancelled; nothing was changed"
+
+    select: BoolProperty(
+        name="Select Copies",
+        default=True,
+        description="Select the copies of the active object's shape, and nothing else",
+    )
+    mirrored: MIRRORED
+    scaled: SCALED
+
+    def execute(self, context: Context) -> set[str]:
+        self._begin(context)
+        return self.all_at_once(context, len(self._others))
+
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        if context.window is None:
+            return self.execute(context)
+        self._begin(context)
+        return self.begin_modal(context, len(self._others))
+
+    def _begin(self, context: Context) -> None:
+        self._others = [
+            obj for obj in measurable_objects(context.view_layer) if obj != context.object and obj.visible_get()
+        ]
+        self._objects: dict[Entry, Object] = {}
+        self._hands: dict[Entry, bool | None] = {}  # of those whose signatures do not tell it
+        self._failures: list[tuple[str, str]] = []
+        self._steps = self._compare(context)
+
+    def _compare(self, context: Context) -> Iterator[float]:
+        yield from self.look(context)
+        if self.wanted is None:
+            return
+        wanted, skin = self.shape, None
+
+        def compare(obj: Object) -> Iterator[float]:
+            nonlocal skin
+            shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
+            yield 0.3
+            entry = Entry(obj.name_full, "", shape.signature(ORDER))
+            likeness = compared(self.wanted, entry.signature)
+            if verdict(likeness) in UNCLEAR:
+                yield 0.6
+                if skin is None:
+                    skin = Skin(wanted)
+                    for _ in skin.grow():
+                        yield 0.6
+                own = Skin(shape)
+                yield from (0.6 + 0.3 * share for share in own.grow())
+                self._hands[entry] = _mirrored(matched(shape, wanted, own, skin, 1.0 / likeness.scale), wanted.size)
+            self._objects[entry] = obj
+
+        yield from selection.one_by_one(self._others, compare, snapping.REFUSALS, self._failures)
+
+    def _finish(self, context: Context) -> set[str]:
+        """Nothing is kept or selected before everything is compared, so that a cancelled search leaves nothing."""
+        if self.wanted is None:
+            return {"CANCELLED"}
+        rows = [
+            (entry, replace(likeness, mirrored=self._hands.get(entry, likeness.mirrored)))
+            for entry, likeness in nearest(self.wanted, self._objects, self.scaled, self.mirrored)
+        ]
+        self.keep(context, rows, "")
+        if self.select:
+            chosen = {
+                "copy": True,
+                "mirror image": self.mirrored,
+                "scaled copy": self.scaled,
+                "scaled mirror": self.mirrored and self.scaled,
+            }
+            picked = [self._objects[entry] for entry, likeness in rows if chosen.get(verdict(likeness))]
+            for obj in context.view_layer.objects:
+                obj.select_set(obj in picked or obj == context.object)
+        selection.redraw(context)
+        return self.tell(rows, ["{:s}: {:s}".format(*failure) for failure in self._failures])
+
+
+class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
+    """Find the bodies of a library whose shape is most like the active object's"""
+
+    bl_idname = "object.body_moments_find_in_library"
+    bl_label = "Find in Library"
+    bl_description = (
+        "Compare the active object's shape with those of a library: JSON lines that the command line wrote with "
+        "--signature --format jsonl"
+    )
+
+    mirrored: MIRRORED
+    scaled: SCALED
+    filepath: StringProperty(name="Library", description="The file to look in", subtype="FILE_PATH")
+    filter_glob: StringProperty(default="*.jsonl", options={"HIDDEN"})
+
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: Context) -> set[str]:
+        path = Path(bpy.path.abspath(self.filepath))
+        try:
+            entries, faults = read_library(path)
+        except (OSError, ValueError) as error:
+            self.report({"ERROR"}, "{:s} cannot be read: {:s}".format(path.name, str(error)))
+            return {"CANCELLED"}
+        for _ in self.look(context):
+            pass
+        if self.wanted is None:
+            return {"CANCELLED"}
+        rows = nearest(self.wanted, entries, self.scaled, self.mirrored)
+        self.keep(context, rows, path.name)
+        return self.tell(rows, faults)
+
+
+class OBJECT_OT_body_moments_select_found(Operator):
+    """Make this object active and select it"""
+
+    bl_idname = "object.body_moments_select_found"
+    bl_label = "Select Found Object"
+    bl_options = {"REGISTER", "UNDO"}
+
+    name: StringProperty(name="Name", description="The object to select")
+
+    def execute(self, context: Context) -> set[str]:
+        obj = next((one for one in context.view_layer.objects if one.name_full == self.name), None)
+        if obj is None:
+            self.report({"ERROR"}, "There is no object {:s} in this view layer any more".format(self.name))
+            return {"CANCELLED"}
+        for other in context.view_layer.objects:
+            other.select_set(other == obj)
+        context.view_layer.objects.active = obj
+        return {"FINISHED"}
+
+
+def _mirrored(found: Match, size: float) -> bool | None:
+    """Whether the surfaces say that it is a mirror image; None where they say neither."""
+    return False if found.largest <= FITS * size else True if found.mirrored else None
+
+
+CLASSES = (
+    BodyMomentsSimilar,
+    BodyMomentsSearch,
+    OBJECT_OT_body_moments_find_similar,
+    OBJECT_OT_body_moments_find_in_library,
+    OBJECT_OT_body_moments_select_found,
+)
+
+
+def register() -> None:
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    Scene.body_moments_search = PointerProperty(name="Similar Shapes", type=BodyMomentsSearch)
+
+
+def unregister() -> None:
+    del Scene.body_moments_search
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

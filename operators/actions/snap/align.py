@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Align Object to World: turn the object, and with it its children, until its principal axes lie
+along the world's.
+"""
+
+import numpy as np
+from bpy.props import EnumProperty
+from bpy.types import Context, Object, Operator
+from numpy.typing import NDArray
+
+from ...scene import reframe
+from ...scene.transforms import world
+from .. import selection
+from . import base as snapping
+
+# Where principal axes 1, 2 and 3 go. An odd order would mirror the body, so there axis 3 points the
+# other way.
+ORDERS = ("XYZ", "YZX", "ZXY", "XZY", "YXZ", "ZYX")
+
+
+def directions(order: str) -> NDArray[np.float64]:
+    """(3, 3) rotation: the world directions that principal axes 1, 2, 3 are to have, as columns."""
+    frame = np.eye(3)[:, ["XYZ".index(letter) for letter in order]]
+    if np.linalg.det(frame) < 0.0:
+        frame[:, 2] = -frame[:, 2]
+    return frame
+
+
+class OBJECT_OT_body_moments_align_to_world(Operator):
+    """Turn the object so that its principal axes lie along the world's axes"""
+
+    bl_idname = "object.body_moments_align_to_world"
+    bl_label = "Align Object to World"
+    bl_description = (
+        "Turn the object so that its principal axes lie along the world's axes, in an order of your choice, about its "
+        "center of mass or to the world's origin. Children turn with it"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    order: EnumProperty(
+        name="Axes",
+        description=("The world axes that principal axes 1, 2 and 3 (smallest to largest moment) are laid along"),
+        items=[
+            (
+                order,
+                "1 → {:s}, 2 → {:s}, 3 → {:s}{:s}".format(order[0], order[1], "" if i < 3 else "−", order[2]),
+                "Long axis (smallest moment) along {:s}, largest moment about {:s}".format(order[0], order[2]),
+            )
+            for i, order in enumerate(ORDERS)
+        ],
+        default="XYZ",
+    )
+    pivot: EnumProperty(
+        name="Center of Mass",
+        description="Where the center of mass goes",
+        items=(
+            ("CENTER", "Stays", "The object turns about its center of mass"),
+            ("ORIGIN", "To World Origin", "The center of mass moves to the world's origin"),
+        ),
+        default="CENTER",
+    )
+
+    strict: snapping.STRICT
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return selection.poll_selected(cls, context)
+
+    def execute(self, context: Context) -> set[str]:
+        objects = selection.selected(context)
+        frame = directions(self.order)
+        moved: list[Object] = []
+
+        def turn(obj: Object) -> bool:
+            # One after the other, for a child moves with its parent.
+            if self._align(context, obj, frame):
+                moved.append(obj)
+                return True
+            return False
+
+        _, failures = selection.each(objects, turn, snapping.REFUSALS)
+        snapping.refresh(context, moved)
+        text = "Aligned the principal axes of {count} with the world's"
+        return selection.summarise(self, len(moved), len(objects), text, failures, idle="all of it was aligned already")
+
+    def _align(self, context: Context, obj: Object, frame: NDArray) -> bool:
+        reframe.check_movable(obj)
+        body = snapping.body_of(context, obj, self.strict)
+        goal = body.center if self.pivot == "CENTER" else np.zeros(3)
+        aligned = body.is_principal(frame)
+        if aligned and np.abs(body.center - goal).max() <= reframe.location_tolerance(obj, body.size):
+            return False
+        turn = np.eye(3) if aligned else frame @ body.axes.T
+        target = world(obj)
+        target[:3, :3] = turn @ target[:3, :3]
+        target[:3, 3] = goal + turn @ (target[:3, 3] - body.center)
+        reframe.move(context, reframe.Plan(obj, target, body.size, move_only=aligned))
+        return True
+
+
+CLASSES = (OBJECT_OT_body_moments_align_to_world,)

@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cursor to Center of Mass, of one object or of all selected together."""
+
+import numpy as np
+from bpy.props import BoolProperty
+from bpy.types import Context, Object, Operator, View3DCursor
+from mathutils import Matrix
+
+from ....core.inertia.mass_properties import combined
+from ....core.numerics.float32 import decimal
+from ...bodies.measure_object import measure_object
+from ...scene.transforms import Refused
+from .. import selection
+from . import base as snapping
+
+
+class VIEW3D_OT_body_moments_cursor_to_center(Operator):
+    """Move the 3D cursor to the center of mass of the selected objects, all of them as one body"""
+
+    bl_idname = "view3d.body_moments_cursor_to_center"
+    bl_label = "Cursor to Center of Mass"
+    bl_options = {"REGISTER", "UNDO"}
+
+    rotate: BoolProperty(
+        name="Turn to Principal Axes",
+        description="Lay the cursor's axes along the principal axes",
+        default=False,
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return selection.poll_selected(cls, context, any_mode=True)
+
+    def execute(self, context: Context) -> set[str]:
+        objects = selection.selected(context)
+        depsgraph = context.evaluated_depsgraph_get()
+        bodies = []
+
+        def add(obj: Object) -> bool:
+            measurement = measure_object(obj, depsgraph)
+            if measurement.method.endswith("open"):
+                raise Refused("it is open and cannot be capped, so that its center is not its own; close it first")
+            bodies.append((measurement.mass_moments, measurement.mass_properties))
+            return True
+
+        count, failures = selection.each(objects, add, snapping.REFUSALS)
+        notes = []
+        if bodies:
+            # One body keeps the frame that was measured, with what its own exact third moments say
+            # of the signs.
+            total = bodies[0][1] if len(bodies) == 1 else combined([moments for moments, _ in bodies])
+            cursor = context.scene.cursor
+            cursor.location = total.center / decimal(context.scene.unit_settings.scale_length)
+            if self.rotate:
+                _turn(cursor, total.principal.axes)
+                notes = [total.principal.note] if total.principal.note else []
+        text = "Moved the cursor to the center of mass of {count}" if objects else "Nothing selected can be measured"
+        return selection.summarise(self, count, len(objects), text, failures, notes)
+
+
+def _turn(cursor: View3DCursor, axes: np.ndarray) -> None:
+    mode = cursor.rotation_mode
+    rotation = Matrix(axes).to_quaternion()
+    if mode == "QUATERNION":
+        cursor.rotation_quaternion = rotation
+    elif mode == "AXIS_ANGLE":
+        axis, angle = rotation.to_axis_angle()
+        cursor.rotation_axis_angle = (angle, *axis)
+    else:
+        cursor.rotation_euler = rotation.to_euler(mode)
+
+
+CLASSES = (VIEW3D_OT_body_moments_cursor_to_center,)

@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Transform Orientation from Principal Axes: move, turn and scale along them without changing
+any data.
+
+Blender makes orientations only from a 3D view. Where there is none (batch), the operator says so.
+"""
+
+import bpy
+from bpy.props import BoolProperty, StringProperty
+from bpy.types import Context, Operator
+from mathutils import Matrix
+
+from .. import selection
+from . import base as snapping
+
+
+class OBJECT_OT_body_moments_create_orientation(Operator):
+    """Create a transform orientation along the principal axes of the active object"""
+
+    bl_idname = "object.body_moments_create_orientation"
+    bl_label = "Orientation from Principal Axes"
+    bl_options = {"REGISTER", "UNDO"}
+
+    name: StringProperty(
+        name="Name",
+        description=("Name of the orientation; empty for the object's name. One of this name is replaced"),
+    )
+    use: BoolProperty(
+        name="Use",
+        description="Make it the current orientation",
+        default=True,
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        obj = context.view_layer.objects.active
+        if obj is None or not obj.select_get():
+            cls.poll_message_set("Make an object active and select it")
+            return False
+        return selection.poll_selected(cls, context)
+
+    def execute(self, context: Context) -> set[str]:
+        obj = context.view_layer.objects.active
+        try:
+            body = snapping.body_of(context, obj)
+        except snapping.REFUSALS as error:
+            return selection.summarise(self, 0, 1, "", [(obj.name, str(getattr(error, "reason", error)))])
+        place = _view(context)
+        if place is None:
+            self.report(
+                {"WARNING"},
+                "A transform orientation can only be created where a 3D Viewport is open",
+            )
+            return {"CANCELLED"}
+        name = self.name or "{:s} Principal".format(obj.name)
+        slot = context.scene.transform_orientation_slots[0]
+        before = slot.type
+        with context.temp_override(**place):
+            bpy.ops.transform.create_orientation(name=name, use_view=False, use=True, overwrite=True)
+        slot.custom_orientation.matrix = Matrix(body.axes)
+        if not self.use:
+            slot.type = before
+        notes = [body.note] if body.note else []
+        return selection.summarise(self, 1, 1, 'Created the orientation "{:s}"'.format(name), notes=notes)
+
+
+def _view(context: Context) -> dict | None:
+    """A 3D view to create orientations from: the one that the operator was called from, or the
+    first that is open.
+    """
+    windows = [context.window] if context.window else []
+    windows += [window for window in context.window_manager.windows if window not in windows]
+    for window in windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                regions = [region for region in area.regions if region.type == "WINDOW"]
+                return {"window": window, "area": area, "region": regions[0]}
+    return None
+
+
+CLASSES = (OBJECT_OT_body_moments_create_orientation,)

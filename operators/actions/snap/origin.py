@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Origin to Center of Mass. Blender's own operator ignores modifiers and moves other users of
+the data.
+"""
+
+import numpy as np
+from bpy.types import Context, Object, Operator
+
+from ...scene import reframe
+from ...scene.transforms import world
+from .. import selection
+from . import base as snapping
+
+
+class OBJECT_OT_body_moments_origin_to_center(Operator):
+    """Move the origin to the exact center of mass of the evaluated body"""
+
+    bl_idname = "object.body_moments_origin_to_center"
+    bl_label = "Origin to Center of Mass"
+    bl_description = (
+        "Move the origin to the exact center of mass of the evaluated body. What can be "
+        "seen does not move: children stay, other users of the data keep it, and where "
+        "a modifier depends on the origin the object is left as it is"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return selection.poll_selected(cls, context)
+
+    def execute(self, context: Context) -> set[str]:
+        return snapping.reframe_selected(
+            self,
+            context,
+            _at_center,
+            "Moved the origin of {count} to the center of mass",
+            move_only=True,
+        )
+
+
+def _at_center(obj: Object, body: snapping.Body) -> np.ndarray | None:
+    target = world(obj)
+    off = np.abs(target[:3, 3] - body.center).max()
+    if off <= reframe.location_tolerance(obj, body.size):
+        return None
+    target[:3, 3] = body.center
+    return target
+
+
+CLASSES = (OBJECT_OT_body_moments_origin_to_center,)

@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Axes to Principal Axes.
+
+Physics engines take an object's origin as its center of mass and a diagonal inertia along its axes.
+After this they are right to do so.
+"""
+
+import numpy as np
+from bpy.types import Context, Object, Operator
+
+from ...scene import reframe
+from ...scene.transforms import world
+from .. import selection
+from . import base as snapping
+
+UNIT_SCALE = 1e-6
+
+
+class OBJECT_OT_body_moments_axes_to_principal(Operator):
+    """Make the principal frame the object's own"""
+
+    bl_idname = "object.body_moments_axes_to_principal"
+    bl_label = "Axes to Principal Axes"
+    bl_description = (
+        "Make the principal frame the object's own: its origin becomes the center of "
+        "mass, its local X, Y and Z the principal axes from the smallest moment to the "
+        "largest, its scale 1. What can be seen does not move"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    strict: snapping.STRICT
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return selection.poll_selected(cls, context)
+
+    def execute(self, context: Context) -> set[str]:
+        return snapping.reframe_selected(
+            self,
+            context,
+            _along_axes,
+            "Made the principal frame the own frame of {count}",
+            move_only=False,
+            strict=self.strict,
+        )
+
+
+def _along_axes(obj: Object, body: snapping.Body) -> np.ndarray | None:
+    if _is_there(obj, body):
+        return None
+    target = np.eye(4)
+    target[:3, :3], target[:3, 3] = body.axes, body.center
+    return target
+
+
+def _is_there(obj: Object, body: snapping.Body) -> bool:
+    now = world(obj)
+    linear = now[:3, :3]
+    if np.abs(linear.T @ linear - np.eye(3)).max() > UNIT_SCALE or np.linalg.det(linear) < 0.0:
+        return False
+    at_center = np.abs(now[:3, 3] - body.center).max() <= reframe.location_tolerance(obj, body.size)
+    return bool(at_center and body.is_principal(linear))
+
+
+CLASSES = (OBJECT_OT_body_moments_axes_to_principal,)

@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Fourier transform of an object: read and mended as it is measured, then handed to the core."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.fourier.instances import TOLERANCE, BodyTransform
+from ...core.fourier.spectrum import APPROXIMATE, Spectrum
+from ...core.fourier.wave_vectors import Grid
+from ...core.mesh.surface import Surface
+from ...core.numerics.float32 import decimal
+from ..read import Reading, Unreadable, read_object, shows_flat_region
+from ..settings.density import density_field
+from ..settings.options import MeasureOptions, resolved
+from .instances import in_metres
+from .mesh import mesh_body
+
+
+@dataclass(frozen=True)
+class ObjectTransform:
+    """An object's transform, in SI units: `steps` does the work, `result` gives the outcome. factor: the thickness of
+    a shell, else 1. warnings: as in `Measurement`."""
+
+    name: str
+    transform: BodyTransform
+    factor: float
+    warnings: tuple[str, ...]
+
+    def steps(self) -> Iterator[float]:
+        """Do the work. Yields the fraction done. Raises `Unreadable`."""
+        try:
+            yield from self.transform.steps()
+        except ValueError as error:
+            raise Unreadable(self.name, str(error)) from error
+
+    def result(self) -> tuple[Spectrum, tuple[str, ...]]:
+        """The spectrum, and a sentence for each decision that was taken."""
+        found = self.transform.result().scaled(self.factor)
+        notes = self.warnings
+        if found.method == APPROXIMATE:
+            notes += (
+                "On a grid as large as this the Fourier transform is found to {:g} of the {:s}, by a fast "
+                "transform. A list of wave vectors has its closed form.".format(TOLERANCE, self.transform.of),
+            )
+        return found, notes
+
+
+def object_transform(
+    obj: bpy.types.Object,
+    depsgraph: bpy.types.Depsgraph,
+    options: MeasureOptions,
+    q: NDArray | Grid | Callable[[float], Grid],
+    *,
+    frame: str = "world",
+    area: bool = False,
+) -> ObjectTransform:
+    """The transform of one object as it is evaluated.
+
+    q: rad/m, (M, 3) or a grid, along the axes of the frame, "world" or "object"; or what makes a grid from the body's
+    largest extent in m. area: ∫ exp(-i q·x) dA over its faces, in m²; else of what it is measured as, in m³:
+    ∫ exp(-i q·x) dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell.
+    Raises `Unreadable`, with the reason and the remedy, where there is no transform.
+    """
+    unit = options.unit_scale or decimal(depsgraph.scene.unit_settings.scale_length)
+    options = resolved(options, obj, unit)
+    reading = read_object(obj, depsgraph)
+    shell = options.kind == "shell"
+    try:
+        body = mesh_body(reading, unit, shell=shell, union=options.overlap == "union", threads=options.threads)
+        if area or shell:
+            if shell and not area:
+                _require_thin(options)
+            parts = [(part.surface, in_metres(part.matrices, unit)) for part in reading.parts]
+            of, total = "area", body.area.total
+        else:
+            if options.kind == "wire":
+                raise ValueError(
+                    "A wire bounds no body, and its Fourier transform is not known: measure it as a solid "
+                    "or a shell, or take its area instead."
+                )
+            if body.method == "open":
+                raise ValueError(
+                    "It is open, and only a closed surface bounds a body: close it, measure it as a "
+                    "shell, or take its area instead."
+                )
+            parts = [(solid.mended, matrices) for solid, matrices in body.solids]
+            of, total = "volume", body.volume.total
+        if frame == "object":
+            turn = _to_object(reading, unit)
+            parts = [(surface, turn @ matrices) for surface, matrices in parts]
+        if callable(q):
+            q = q(_extent(parts))
+        transform = BodyTransform(parts, q, of, total, options.threads)
+    except ValueError as error:
+        raise Unreadable(obj.name, str(error)) from error
+    factor = options.thickness if shell and not area else 1.0
+    notes = ("Of a NURBS surface the Fourier transform is that of its display mesh.",) if reading.has_patches else ()
+    if obj.type == "CURVE" and shell and shows_flat_region(obj):
+        notes += ("Of a flat curve the Fourier transform is that of its display mesh.",)
+    if not area and density_field(obj.body_moments) is not None:
+        notes += ("The Fourier transform is that of its shape, as if its density were the same everywhere.",)
+    return ObjectTransform(obj.name, transform, factor, (*reading.warnings, *body.warnings, *notes))
+
+
+def _require_thin(options: MeasureOptions) -> None:
+    if options.wall != "thin":
+        raise ValueError(
+            "A shell has a Fourier transform only while its wall is thin; set its wall to Thin, take its "
+            "area, or apply a Solidify modifier and measure it as a solid."
+        )
+    if not options.thickness > 0.0:
+        raise ValueError("It has no thickness; set one.")
+
+
+def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
+    """The longest side of the box around all boxes around the parts."""
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for surface, matrices in parts:
+        box, linear = np.array(surface.box, np.float64), matrices[:, :3, :3]
+        center = linear @ box.mean(axis=0) + matrices[:, :3, 3]
+        extent = np.abs(linear) @ (np.ptp(box, axis=0) / 2.0)
+        low, high = np.minimum(low, (center - extent).min(axis=0)), np.maximum(high, (center + extent).max(axis=0))
+    size = float((high - low).max())
+    if not 0.0 < size < np.inf:
+        raise ValueError("It has no size; set the largest frequency.")
+    return size
+
+
+def _to_object(reading: Reading, unit: float) -> NDArray[np.float64]:
+    """(4, 4) from the world to the object frame."""
+    turn = np.eye(4)
+    turn[:3, :3] = np.asarray(reading.rotation, np.float64).T
+    turn[:3, 3] = -turn[:3, :3] @ np.asarray(reading.location, np.float64) * unit
+    return turn

@@ -1,0 +1,182 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measuring objects: read them, hand them to the core, report what came out.
+
+`measure_object` is the one way from an object to its numbers; the button, the snapping operators and the command line
+all go through it.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+
+import bpy
+
+from ...core.measurement import Measurement
+from ...core.numerics.float32 import decimal
+from ..read import Reading, Unreadable, read_lines, read_object, shows_flat_region
+from ..read.volume import VolumeReading, volume_reading
+from ..session import staleness
+from ..session import walls as wall_slider
+from ..settings.density import density_field
+from ..settings.digest import density_key, grid_key
+from ..settings.grid import GridOptions
+from ..settings.options import MeasureOptions, resolved
+from .body import Body
+from .curve import region_body, wire_body
+from .grid import grid_body
+from .mass import Weighed, weigh
+from .measurement import _require_volume, as_measurement, to_order
+from .mesh import mesh_body
+from .nurbs import nurbs_body
+from .voxel_filled import inside_body
+from .wall import find_walls
+
+THREADS = os.cpu_count() or 1  # for what takes long
+
+
+def measure_object(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = MeasureOptions()
+) -> Measurement:
+    """The mass properties of one object as it is evaluated, in SI units and world axes.
+
+    Raises `Unreadable`, with the reason and the remedy, where there is nothing to measure.
+    """
+    return measure_body(obj, depsgraph, options)[0]
+
+
+def measure_body(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = MeasureOptions()
+) -> tuple[Measurement, Body]:
+    """As `measure_object`, with the body that was measured."""
+    scene = depsgraph.scene
+    unit = options.unit_scale or decimal(scene.unit_settings.scale_length)
+    grid = GridOptions.of(obj.body_moments, options.density)
+    with staleness.paused(), volume_reading(obj, depsgraph, grid.grid) as volume:
+        if volume is not None:
+            return _measure_grid(obj, volume, grid, options, unit)
+    given = options.density is not None or options.mass is not None
+    options = resolved(options, obj, unit)
+    shell = options.kind == "shell"
+    try:
+        density = None if given or options.kind == "wire" else density_field(obj.body_moments)
+        lines, unknown = _lines(obj, depsgraph, unit, options) if density is None else (None, "")
+        if lines is not None:
+            return to_order(as_measurement(obj, *lines, options, unit), lines[1], options), lines[1]
+        reading = read_object(
+            obj,
+            depsgraph,
+            materials=density is not None and density.kind == "materials",
+            attribute=density.attribute if density is not None and shell else None,
+        )
+        if unknown:
+            reading.warnings.append(
+                "The faces that Blender fills its curves with were measured, overlapping or not, "
+                "as the region that they bound is not known. {:s}".format(unknown)
+            )
+        if reading.has_patches and density is None:
+            body = nurbs_body(
+                reading,
+                unit,
+                wall=options.wall if shell else None,
+                thickness=options.thickness,
+                union=options.overlap == "union",
+                threads=options.threads,
+                compare=options.compare,
+            )
+            return to_order(as_measurement(obj, reading, body, options, unit), body, options), body
+        if reading.has_patches:
+            reading.warnings.append(
+                "A density that is not one value needs polygons: the display mesh of its surface "
+                "was measured, as fine as the viewport's resolution."
+            )
+        elif density is not None and shell and obj.type == "CURVE" and shows_flat_region(obj):
+            reading.warnings.append(
+                "A density that is not one value needs polygons: the faces that Blender fills the "
+                "curve with were measured."
+            )
+        body = mesh_body(reading, unit, shell=shell, union=options.overlap == "union", threads=options.threads)
+        weighed = None
+        if density is not None:
+            _require_volume(body, options)
+            if density.kind == "volume":
+                body, weighed = _filled(obj, body, shell, depsgraph, unit)
+            else:
+                weighed = weigh(
+                    reading,
+                    body,
+                    density,
+                    unit=unit,
+                    shell=shell,
+                    thickness=options.thickness,
+                    others=options.density,
+                    threads=options.threads,
+                )
+                body = replace(body, mass=weighed.mass, warnings=(*body.warnings, *weighed.warnings))
+        walls = find_walls(reading, body, options.wall) if shell and options.wall != "thin" else None
+        if walls is not None:
+            body = walls.body(options.thickness)
+        measurement = as_measurement(obj, reading, body, options, unit, weighed)
+        if walls is not None:
+            wall_slider.keep(obj, reading, walls, measurement, unit)
+        return to_order(measurement, body, options), body
+    except ValueError as error:
+        raise Unreadable(obj.name, str(error)) from error
+
+
+def _lines(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float, options: MeasureOptions
+) -> tuple[tuple[Reading, Body] | None, str]:
+    """A curve object as a wire, or as the flat region that it bounds; None for what is measured by its surface, with
+    the reason where that is only what Blender fills."""
+    if options.kind == "wire":
+        reading = read_lines(obj, depsgraph)
+        return (reading, wire_body(reading.curves, reading.matrix, unit)), ""
+    if options.kind != "shell" or obj.type != "CURVE" or not shows_flat_region(obj) or options.wall != "thin":
+        return None, ""
+    reading = read_lines(obj, depsgraph)
+    filled = obj.data.dimensions == "2D" and obj.data.fill_mode != "NONE"
+    if not filled:
+        reading.warnings.append("The curve is not filled; the flat region that it bounds was measured.")
+    try:
+        return (reading, region_body(reading.curves, reading.matrix, unit)), ""
+    except ValueError as error:
+        if not filled:
+            raise
+        return None, str(error)
+
+
+def _measure_grid(
+    obj: bpy.types.Object, volume: VolumeReading, grid: GridOptions, options: MeasureOptions, unit: float
+) -> tuple[Measurement, Body]:
+    """As `measure_body`, of a grid of voxels."""
+    kind = options.kind or ("solid" if obj.type == "VOLUME" else obj.body_moments.kind.lower())
+    if kind != "solid":
+        raise ValueError("A grid of voxels is no sheet; measure it as a solid.")
+    key = grid_key(obj, options.density) if obj.type == "VOLUME" else density_key(obj, ())
+    options = resolved(replace(options, kind="solid"), obj, unit)
+    body = grid_body(volume, grid, unit, options.threads)
+    weighed = None if body.mass is None else Weighed(body.mass, "grid “{:s}”".format(volume.grid))
+    return to_order(as_measurement(obj, volume, body, options, unit, weighed, key), body, options), body
+
+
+def _filled(
+    obj: bpy.types.Object, body: Body, shell: bool, depsgraph: bpy.types.Depsgraph, unit: float
+) -> tuple[Body, Weighed]:
+    """The solid with the density of the Volume object that its settings name."""
+    if shell:
+        raise ValueError(
+            "A grid is a density inside a solid, not on a sheet; measure it as a solid, or choose another "
+            "source of density."
+        )
+    source = obj.body_moments.density_volume
+    grid = GridOptions.of(source.body_moments)
+    try:
+        with staleness.paused(), volume_reading(source, depsgraph, grid.grid) as volume:
+            if volume is None:
+                raise Unreadable(source.name, "It shows no grid of voxels.")
+            body = inside_body(body, volume, grid, unit)
+            return body, Weighed(body.mass, "grid “{:s}” of “{:s}”".format(volume.grid, source.name))
+    except Unreadable as error:
+        raise ValueError("Its density is to come from “{:s}”: {:s}".format(source.name, error.reason)) from error

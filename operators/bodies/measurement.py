@@ -1,0 +1,167 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Carried out of its former module."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import bpy
+import numpy as np
+
+from ...core.inertia.canonical_frame import ORDER
+from ...core.inertia.mass_properties import MassProperties
+from ...core.measurement import Measurement
+from ...core.moments.moments import Moments
+from ..read import Reading
+from ..read.fingerprint import effective_hash, fingerprint, matrix_hash
+from ..read.volume import VolumeReading
+from ..settings.digest import density_key
+from ..settings.options import MeasureOptions
+from .body import Body
+from .mass import Weighed
+
+AT_ONCE = 20_000  # faces up to which moments of higher order, for a frame that needs them, take no time to speak of
+
+
+KNOWN = 3  # the order to which every measurement has its moments
+
+
+UNASKED = (
+    "Its principal axes are those nearest to the object's that moments to third order allow; with so many faces "
+    "higher ones were not looked at. Snapping and --pose do, and may choose others."
+)
+
+
+def to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> Measurement:
+    """With moments to the order that was asked for. What a measurement holds anyway is not measured again."""
+    shell, order = options.kind == "shell", options.order
+    if order is None or (order < KNOWN and (shell or not options.surface)):
+        return measurement
+    if body.to_order is None:
+        if order > KNOWN or (options.surface and not shell):
+            raise ValueError(
+                "Of a wall of real thickness only the moments of its volume to order {:d} are known; ask "
+                "for no more, or set Wall to Thin.".format(KNOWN)
+            )
+        return measurement
+    with np.errstate(over="ignore", invalid="ignore"):
+        volume, area = body.to_order(order, shell or options.surface)
+    for one in (volume, area):
+        if one is not None and not np.isfinite([one.raw, one.error, one.input]).all():
+            raise ValueError(
+                "It is too large for moments of order {:d} to be numbers. Scale it down, or ask for a "
+                "lower order.".format(order)
+            )
+    return replace(measurement, volume_moments=None if shell else volume, area_moments=area or measurement.area_moments)
+
+
+def _higher(body: Body, shell: bool) -> Callable[[], Moments] | None:
+    """What gives the moments of higher order of what the principal frame is made from, where they are known."""
+    if body.to_order is None or body.mass is not None or body.length is not None:
+        return None
+    return lambda: body.to_order(ORDER, shell)[1 if shell else 0]
+
+
+def _require_volume(body: Body, options: MeasureOptions) -> Moments:
+    """The volume, of a shell that of its sheet or wall."""
+    shell = options.kind == "shell"
+    volume = body.area * options.thickness if shell and body.wall is None else body.wall or body.volume
+    if not volume.total > 0.0:
+        if body.solids and not body.area.total > 0.0:
+            raise ValueError("None of its faces has an area; move their vertices apart, or choose another object.")
+        raise ValueError(
+            "It has no thickness; set one."
+            if shell and body.area.total > 0.0
+            else "Its faces enclose no volume; measure it as a shell, a flat one as a section, or close it."
+        )
+    return volume
+
+
+def as_measurement(
+    obj: bpy.types.Object | None,
+    reading: Reading | VolumeReading,
+    body: Body,
+    options: MeasureOptions,
+    unit: float,
+    weighed: Weighed | None = None,
+    key: str | None = None,
+) -> Measurement:
+    """The results of measuring a body. obj: None for what is in a file only. options: resolved. key: in place of
+    `density_key`. ValueError where it has no mass."""
+    shell = options.kind == "shell"
+    wire = options.kind == "wire"
+    thin, solid = shell and body.wall is None, body.wall or body.volume
+    volume = body.volume if wire else _require_volume(body, options)
+    extent = body.length if wire else volume  # what the density is of
+    density = options.density if options.mass is None else options.mass / extent.total
+    if body.mass is not None:
+        moments, factor = body.mass, 1.0 if options.mass is None else options.mass / body.mass.total
+        density = body.mass.total * factor / volume.total
+    else:
+        moments, factor = (body.area, density * options.thickness) if thin else (body.length or solid, density)
+    if not density > 0.0:
+        raise ValueError("Its {:s} is zero; give it one.".format("density" if options.mass is None else "mass"))
+    rotation, location = np.asarray(reading.rotation, np.float64), np.asarray(reading.location, np.float64) * unit
+    higher = _higher(body, shell)
+    asked = options.pose or body.faces <= AT_ONCE
+    properties = MassProperties.from_moments(
+        moments,
+        factor,
+        prefer=rotation,
+        refine=None if shell or body.mass is not None else body.refined,
+        higher=higher if asked else None,
+    )
+    notes = () if asked or higher is None or properties.principal.unique else (UNASKED,)
+
+    def bounds(of: str, delta: dict[str, float]) -> dict[str, float]:
+        return {
+            "volume": float(getattr(volume, of)[0]),
+            "area": float(getattr(body.area, of)[0]),
+            "center_of_mass": delta["center"],
+            "inertia": delta["inertia"],
+        }
+
+    settings = effective_hash(
+        options.kind.upper(),
+        options.density,
+        options.mass,
+        options.thickness,
+        options.overlap.upper(),
+        unit,
+        options.wall.upper(),
+        (density_key(obj, weighed.materials) if weighed else "") if key is None else key,
+    )
+    digested = [body.volume, body.area, *(one for one in (body.mass, body.length) if one is not None)]
+    of_surface = "shell" if shell and not body.method.endswith("shell") else body.method
+    return Measurement(
+        name=reading.name,
+        type=reading.type,
+        kind=options.kind,
+        method=of_surface,
+        density=0.0 if wire else density,
+        thickness=options.thickness if shell else 0.0,
+        volume=volume.total,
+        area=body.area.total,
+        mass_properties=properties,
+        volume_moments=None if thin else solid,
+        area_moments=body.area,
+        mass_moments=(moments, factor),
+        health=body.health,
+        warnings=(*reading.warnings, *body.warnings, *notes),
+        rotation=rotation,
+        location=location,
+        length=body.length.total if wire else None,
+        display_volume=body.display_volume,
+        error_bound={
+            **bounds("error", properties.error),
+            "input": bounds("input", properties.input),
+            **({"estimated": True} if body.estimated else {}),
+        },
+        fingerprint=fingerprint(
+            b"".join(one.raw.tobytes() for one in digested), "" if obj is None else matrix_hash(obj), settings
+        ),
+        density_from=weighed.source if weighed else "one value" if options.mass is None else "given mass",
+        materials=weighed.materials if weighed else (),
+    )

@@ -1,0 +1,244 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The body that polygons bound, with all its instances: each surface is measured once and mapped to its places."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from functools import cache, partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.mesh.surface import Surface, joined
+from ...core.moments.moments import Moments, map_sum, sum_moments
+from ...core.polyhedron.any_order import moments_to_order
+from ...core.polyhedron.third_order import solid_and_area
+from ...core.solid.measure_solid import SolidMeasure, measure_solid
+from ...core.verdict.health import Faults, Health
+from ..read import Reading
+from ..read.union import union_surface
+from .body import Body
+from .instances import (
+    MOST_NAMED,
+    NOT_COMPARED,
+    RANKED,
+    flattened_reason,
+    in_metres,
+    mapped_areas,
+    places_meet,
+    some_flattened,
+    together,
+    told_of_parts,
+)
+
+COMPARED = 200_000  # triangles up to which instances are compared with each other as shells of one mesh
+
+
+def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> Body:
+    """What an object's surfaces bound, or with `shell` the sheets that they are.
+
+    unit: metres per Blender unit. union: shells that overlap are united first. ValueError, with what to do, where
+    there is nothing to measure.
+    """
+    if reading.singular and not shell:
+        raise ValueError(flattened_reason(reading))
+    body = _united(reading, unit, threads) if union and not shell else _summed(reading, unit, shell, threads)
+    if reading.flattened and not shell:
+        body = replace(body, warnings=(some_flattened(reading.flattened), *body.warnings))
+    return body
+
+
+def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
+    """Each part measured once in its own coordinates, and mapped to wherever it stands."""
+    volumes, areas, healths, methods, warnings, told, parts = [], [], [], [], [], [], []
+    if not shell and reading.places > 1 and places_meet(reading):
+        if sum(_triangles(part.surface) * len(part.matrices) for part in reading.parts) <= COMPARED:
+            return _as_one(reading, unit, threads)
+        warnings.append(NOT_COMPARED.format(reading.places))
+    for part in reading.parts:
+        solid = measure_solid(part.surface, shell=shell, threads=threads)
+        matrices = in_metres(part.matrices, unit)
+        volumes.append(map_sum(solid.volume, matrices))
+        measured = (lambda surface: solid_and_area(surface, threads, shell=True)[1]) if shell else None
+        own = list(mapped_areas(part.surface, solid.area, matrices, measured))
+        areas.extend(own)
+        stretch = volumes[-1].total / solid.volume.total if solid.volume.total else 0.0  # Σ |det|
+        healths.append(
+            (
+                replace(solid.health, volume_spread=solid.health.volume_spread * stretch),
+                len(matrices),
+                sum(moments.total for moments in own),
+            )
+        )
+        flat = not shell and not solid.volume.raw.any()
+        methods.append(None if flat else solid.method)
+        if shell:  # it is measured as it is
+            copies = solid.health.duplicate_faces
+            told.append(
+                (
+                    part.source,
+                    []
+                    if not copies
+                    else [
+                        "One face is a copy of another and counts with it."
+                        if copies == 1
+                        else "{:d} faces are copies of others and count with them.".format(copies)
+                    ],
+                )
+            )
+        else:
+            told.append((part.source, () if flat else solid.warnings))
+        parts.append((solid, matrices))
+    warnings += told_of_parts(told, reading.name)
+    solid_methods = [method for method in methods if method]
+    if solid_methods and len(solid_methods) < len(methods):
+        count = methods.count(None)
+        warnings.append(
+            "{:d} of its {:d} surfaces {:s} flat, as a ground is that instances stand on; areas count, and "
+            "volumes do not.".format(count, len(methods), "is" if count == 1 else "are")
+        )
+    method = min(solid_methods, key=RANKED.index, default="open")
+    return _body(
+        sum_moments(volumes),
+        sum_moments(areas),
+        together(healths),
+        method,
+        warnings,
+        parts,
+        [part.surface for part in reading.parts],
+        threads,
+    )
+
+
+def _body(
+    volume: Moments,
+    area: Moments,
+    health: Health,
+    method: str,
+    warnings: Iterable[str],
+    solids: list[tuple[SolidMeasure, NDArray]],
+    surfaces: list[Surface],
+    threads: int,
+) -> Body:
+    """surfaces: what each of the solids was before it was mended."""
+
+    def refined() -> Moments:
+        return sum_moments([map_sum(solid.refined(threads), matrices) for solid, matrices in solids])
+
+    @cache  # the frame and the shape need them to one order
+    def to_order(order: int, area: bool) -> tuple[Moments, Moments | None]:
+        return _to_order(solids, surfaces, order, area, threads)
+
+    def pieces(sheets: bool) -> Iterator[Surface]:
+        for (solid, matrices), surface in zip(solids, surfaces):
+            one = surface if sheets else solid.mended
+            yield from (one.mapped(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
+
+    faces = sum(len(solid.mended.triangles) + len(solid.mended.quads) for solid, _ in solids)
+    return Body(
+        volume,
+        area,
+        health,
+        method,
+        tuple(warnings),
+        refined=refined,
+        to_order=to_order,
+        solids=tuple(solids),
+        pieces=pieces,
+        faces=faces,
+    )
+
+
+def _to_order(
+    solids: list[tuple[SolidMeasure, NDArray]], surfaces: list[Surface], order: int, area: bool, threads: int
+) -> tuple[Moments, Moments | None]:
+    """The moments to an order of what was measured, each part once and mapped to its places: the volume of the mended
+    surface, in one pass with the area where mending has neither added nor left out a face."""
+    volumes, areas = [], []
+    for (solid, matrices), surface in zip(solids, surfaces):
+        same = (
+            solid.method in ("exact", "reoriented")
+            and not solid.health.duplicate_faces
+            and _triangles(solid.mended) == _triangles(surface)
+        )  # else flat parts are left out
+        volume, faces = moments_to_order(
+            solid.mended, order, area=area and same, threads=threads, about=solid.volume.about
+        )  # of an open surface they depend on it
+        volumes.append(map_sum(volume, matrices))
+        if area:
+            measured = lambda other: moments_to_order(other, order, area=True, threads=threads)[1]  # noqa: E731
+            areas.extend(mapped_areas(surface, faces or measured(surface), matrices, measured))
+    return sum_moments(volumes), sum_moments(areas) if area else None
+
+
+def _triangles(surface: Surface) -> int:
+    return len(surface.triangles) + 2 * len(surface.quads)
+
+
+def _as_one(reading: Reading, unit: float, threads: int) -> Body:
+    """All parts where they stand as one surface, so that they are compared as the shells of one mesh are."""
+    surface = reading.joined()
+    solid = measure_solid(surface, threads=threads, names=partial(_named_faces, reading))
+    scale = np.diag([unit, unit, unit, 1.0])
+    health = replace(solid.health, volume_spread=solid.health.volume_spread * unit**3, faults=Faults())
+    return _body(
+        solid.volume.mapped(scale),
+        solid.area.mapped(scale),
+        health,
+        solid.method,
+        solid.warnings,
+        [(solid, scale[None])],
+        [surface],
+        threads,
+    )
+
+
+def _named_faces(reading: Reading, faces: NDArray[np.integer]) -> str:
+    """What faces of `reading.joined()` are called: their numbers in the surfaces that they are instances of."""
+    places = np.repeat(np.arange(len(reading.parts)), [len(part.matrices) for part in reading.parts])
+    counts = np.array([int(part.surface.all_triangles()[1].max(initial=-1)) + 1 for part in reading.parts])[places]
+    ends = np.cumsum(counts)
+    at = np.searchsorted(ends, faces, side="right")
+    named = np.unique(np.stack([places[at], faces - (ends - counts)[at]]), axis=1).T[: MOST_NAMED + 1].tolist()
+    sources = [part.source and "“{:s}”".format(part.source) for part in reading.parts]
+    names = ["{:d} of {:s}".format(face, sources[i] or "surface {:d}".format(i + 1)) for i, face in named[:MOST_NAMED]]
+    return ", ".join(names + ["…"] * (len(named) > MOST_NAMED))
+
+
+def _united(reading: Reading, unit: float, threads: int) -> Body:
+    """All parts where they stand as one surface, overlaps removed by Blender's exact boolean."""
+    before = _summed(reading, unit, False, threads)
+    if not before.volume.total > 0.0:
+        return before
+    mended = [
+        solid.mended.mapped(matrix[:3, :3], matrix[:3, 3]) for solid, matrices in before.solids for matrix in matrices
+    ]
+    surface = union_surface(joined(mended))
+    solid = measure_solid(surface, threads=threads) if _triangles(surface) else None
+    if solid is None or solid.method == "open":
+        raise ValueError("Blender's boolean could not unite its shells; close and clean the mesh, or count each.")
+    notes = ["Its shells were united by Blender's exact boolean, which rounds to 7 digits."]
+    if before.method == "capped":
+        notes.append(
+            "Its holes were capped before; the caps are {:.3g} % of its area.".format(
+                100.0 * before.health.cap_area_share
+            )
+        )
+    elif before.method != "exact":
+        notes.append(
+            "Its faces were turned outward before."
+            if before.method == "reoriented"
+            else "Some of its parts are open, so that their union need not be the body that is meant."
+        )
+    return _body(
+        solid.volume,
+        solid.area,
+        before.health,
+        "union",
+        (*notes, *solid.warnings),
+        [(solid, np.eye(4)[None])],
+        [surface],
+        threads,
+    )

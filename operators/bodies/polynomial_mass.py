@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The mass moments of a body whose density is a polynomial, and whether that is negative somewhere in it.
+
+The density's coordinates are metres along the world's axes, or along each surface's own: then it is carried along by
+the object, and by each instance, turned and mirrored as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.density.polynomial import Polynomial
+from ...core.density.polynomial_mass import graded_sum, own_fields
+from ...core.density.positivity import negative_place
+from ...core.mesh.surface import Surface
+from ...core.moments.moments import Moments
+from ...core.numerics.rotations import own_axes
+from ...core.polyhedron.any_order import moments_to_order
+from ..read import Reading
+from ..settings.density import DensityField
+from .body import Body
+from .instances import even_surfaces, in_metres
+
+LOOKED_AT = 50  # different places whose points are looked at one by one
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """A surface in its places: maps to the world and to the density's coordinates, (k, 4, 4) each, in metres. about:
+    the point that an open one is closed to."""
+
+    surface: Surface
+    matrices: NDArray[np.float64]
+    fields: NDArray[np.float64]
+    about: NDArray[np.float64] | None = None
+
+
+def weigh(
+    reading: Reading, body: Body, density: DensityField, *, unit: float, shell: bool, threads: int
+) -> tuple[list[Moments], list[str]]:
+    """The mass moments of all parts (of a shell for a thickness of one metre), and what is to be said.
+
+    ValueError, with the place and the value, where the density is negative.
+    """
+    polynomial, warnings = density.polynomial, []
+    pieces = list(_sheets(reading, density.in_world, unit) if shell else _solids(reading, body, density.in_world, unit))
+    if not density.in_world and any(own_axes(part.matrices)[1].any() for part in reading.parts):
+        warnings.append("It is sheared, so that its density runs along the right-angled axes nearest to its own.")
+    warnings += _negative(polynomial, pieces, shell, density.in_world)
+    parts = []
+    for piece in pieces:
+        moments = moments_to_order(
+            piece.surface, 3 + polynomial.degree, area=shell, threads=threads, about=piece.about
+        )[int(shell)]
+        parts.append(graded_sum(moments, polynomial, piece.matrices, piece.fields))
+    return parts, warnings
+
+
+def _solids(reading: Reading, body: Body, in_world: bool, unit: float) -> Iterator[_Piece]:
+    """What encloses the body, as it was mended."""
+    together = len(body.solids) == 1 and len(body.solids[0][1]) == 1 and reading.places > 1
+    if body.method == "union" or (together and in_world):
+        if reading.places > 1 and not in_world:
+            raise ValueError(
+                "United instances have no coordinates of their own; give its density in world "
+                "coordinates, or count each shell."
+            )
+        solid, matrices = body.solids[0]
+        place = in_metres(reading.parts[0].matrices, unit)
+        yield _Piece(solid.mended, matrices, matrices if in_world else _to_own(place) @ matrices, solid.volume.about)
+        return
+    if together:
+        yield from _by_place(reading, body, unit)
+        return
+    for solid, matrices in body.solids:
+        yield _Piece(solid.mended, matrices, matrices if in_world else own_fields(matrices), solid.volume.about)
+
+
+def _by_place(reading: Reading, body: Body, unit: float) -> Iterator[_Piece]:
+    """The triangles of a body that was measured as one, by the place that they came from; caps go with their part."""
+    solid, scale = body.solids[0]
+    parts = solid.components()
+    places = [matrix for part in reading.parts for matrix in part.matrices]
+    counts = [int(part.surface.all_triangles()[1].max()) + 1 for part in reading.parts for _ in part.matrices]
+    ends = np.cumsum(counts)
+    place = np.searchsorted(ends, parts.face, side="right")
+    own = parts.face >= 0
+    of_part = np.zeros(parts.number, np.intp)
+    of_part[parts.part[own]] = place[own]
+    place = np.where(own, place, of_part[parts.part])
+    for i, matrix in enumerate(places):
+        rows = place == i
+        if rows.any():
+            yield _Piece(
+                Surface(parts.points, parts.triangles[rows], moved=solid.mended.moved),
+                scale,
+                _to_own(in_metres(matrix[None], unit)) @ scale,
+                solid.volume.about,
+            )
+
+
+def _to_own(matrices: NDArray) -> NDArray[np.float64]:
+    """(k, 4, 4) from world coordinates, in metres, to those along the axes of what stands there."""
+    axes = own_axes(matrices)[0].transpose(0, 2, 1)
+    to_own = np.tile(np.eye(4), (len(matrices), 1, 1))
+    to_own[:, :3, :3] = axes
+    to_own[:, :3, 3] = -(axes @ matrices[:, :3, 3, None])[..., 0]
+    return to_own
+
+
+def _sheets(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
+    """The surfaces themselves, each under similarities only."""
+    for part in reading.parts:
+        matrices = in_metres(part.matrices, unit)
+        fields, axes = own_fields(matrices), own_axes(matrices)[0]
+        for surface, places, which in even_surfaces(part.surface, matrices):
+            own = fields[which]
+            if surface is not part.surface:  # mapped already: only the turn is left
+                own = np.tile(np.eye(4), (len(which), 1, 1))
+                own[:, :3, :3] = axes[which].transpose(0, 2, 1)
+            yield _Piece(surface, places, places if in_world else own)
+
+
+def _negative(density: Polynomial, pieces: list[_Piece], shell: bool, in_world: bool) -> list[str]:
+    """A warning where the density may be negative in the body; ValueError where it is."""
+    corners = np.array(list(product((0.0, 1.0), repeat=3)))
+    boxes = []
+    for piece in pieces:
+        low, high = piece.surface.box
+        box = low + corners * (high - low)
+        boxes.append(np.einsum("kij,nj->kni", piece.fields[:, :3, :3], box) + piece.fields[:, None, :3, 3])
+    boxes = np.concatenate(boxes)
+    if density.lower_bound(boxes.min(axis=(0, 1)), boxes.max(axis=(0, 1))) >= 0.0:
+        return []
+    doubtful = left = 0
+    for piece in pieces:
+        triangles = piece.surface.all_triangles()[0]
+        points = piece.surface.points.astype(np.float64)
+        fields = piece.fields[np.unique(np.float32(piece.fields), axis=0, return_index=True)[1]]
+        left += max(len(fields) - LOOKED_AT, 0)
+        for field in fields[:LOOKED_AT]:
+            found, doubt = negative_place(density, points @ field[:3, :3].T + field[:3, 3], triangles, not shell)
+            if found is not None:
+                _refuse(*found, in_world)
+            doubtful += doubt
+    if doubtful + left:
+        return ["Its density may become negative in it; none of the points that were tried shows it."]
+    return []
+
+
+def _refuse(value: float, place: NDArray, in_world: bool) -> None:
+    raise ValueError(
+        "Its density becomes negative: {:.4g} kg/m³ at ({:.4g}, {:.4g}, {:.4g}) m in {:s} coordinates. "
+        "Change the polynomial, or what its coordinates are.".format(
+            value, *(float(x) + 0.0 for x in place), "world" if in_world else "its own"
+        )
+    )

@@ -1,0 +1,240 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An object's shape, apart from where it lies: its pose, its symmetry, its signature.
+
+They need moments of higher order than a measurement carries, of the same body: what is solid, or the sheet of a shell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import chain
+from math import frexp
+from typing import Any
+
+import bpy
+import numpy as np
+from mathutils.bvhtree import BVHTree
+from numpy.typing import NDArray
+
+from ...core.inertia.canonical_frame import ORDER
+from ...core.inertia.principal_frame import pose_matrix
+from ...core.measurement import Measurement
+from ...core.mesh.point_triangle import triangle_distances
+from ...core.mesh.surface import Surface, joined
+from ...core.moments.moments import Moments
+from ...core.polyhedron.any_order import moments_to_order
+from ...core.shape.registration import Match, match
+from ...core.shape.signature import Signature, signature
+from ...core.shape.symmetry import symmetry
+from ...core.shape.zernike import BY_MOMENTS, ENOUGH, zernike_quadrature
+from ..read import Unreadable
+from ..settings.options import MeasureOptions
+from .body import Body
+from .measure_object import THREADS, measure_body
+
+OF_SHAPES = "Pose and signature tell shapes, and a grid of densities has none."
+DISPLAY_MESH = "Its signature is that of its display mesh, as fine as the viewport's resolution."
+POLYGONS = "Its signature is known of polygons only; convert it to a mesh first."
+EXACT, NEAR = 1e-5, 1e-2  # of the size: between them single precision mistakes the distances of thin triangles
+SAMPLES = 1500  # points of a surface that are held against another one
+TOGETHER = 64  # points whose distances are found at once
+
+
+@dataclass(frozen=True)
+class Shape:
+    """An object as measured, in SI units and world axes, and what its moments of higher order say."""
+
+    measurement: Measurement
+    body: Body
+    threads: int = 1
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """(3,) of the shape; where the density varies, not that of mass."""
+        return self.moments.about
+
+    @property
+    def size(self) -> float:
+        """The largest radius of gyration."""
+        return float(self.measurement.mass_properties.radii_of_gyration.max())
+
+    @cached_property
+    def moments(self) -> Moments:
+        """About the center, to the order that a pose needs."""
+        return self.body.to_order(ORDER, self._sheets)[1 if self._sheets else 0].about_center()
+
+    def of_pieces(self) -> Moments:
+        """As `moments`, of the polygons alone: what has to be compared with them."""
+        if not displayed(self.measurement):
+            return self.moments
+        volume, area = moments_to_order(
+            self.pieces(), ORDER, area=self._sheets, threads=self.threads, about=self.center
+        )
+        return (area if self._sheets else volume).about_center()
+
+    @property
+    def _sheets(self) -> bool:
+        return self.measurement.kind == "shell"
+
+    def pieces(self) -> Iterator[Surface]:
+        """The surfaces of the body, where they stand."""
+        return self.body.pieces(self._sheets)
+
+    def pose(self) -> dict[str, Any]:
+        """The pose for a record: see DESIGN.md. Where the density varies, third moments of the mass alone are known,
+        which cannot tell a symmetry."""
+        body = self.measurement.mass_properties
+        pose = {"matrix": pose_matrix(body.center, body.principal.axes), "unique": body.principal.unique}
+        return {**pose, "symmetry": None if self.body.mass is not None else symmetry(self.moments).group}
+
+    @property
+    def has_surface(self) -> bool:
+        """Whether there are polygons, which a signature and a comparison of surfaces need."""
+        return self.body.pieces is not None
+
+    def signature(self, order: int = BY_MOMENTS) -> Signature:
+        """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature.
+        Needs a surface."""
+        points = self.points_about_center()
+        radius = float(np.sqrt((points * points).sum(axis=1).max()))
+        # About the center at about unit size, for high powers of a length are soon beyond the range of numbers.
+        scale = 2.0 ** frexp(radius)[1]  # a power of two rounds nothing
+        radius /= scale
+        sheets = self._sheets
+
+        def pieces() -> Iterator[Surface]:
+            return (piece.mapped(np.eye(3) / scale, -self.center / scale) for piece in self.pieces())
+
+        volume, area = moments_to_order(
+            pieces(), min(order, BY_MOMENTS), area=sheets, threads=self.threads, about=np.zeros(3), reach=radius
+        )
+        found = signature(area if sheets else volume, radius)
+        if (order > BY_MOMENTS or found.error > ENOUGH) and not sheets:
+            whole = joined(list(pieces()))
+            triangles = whole.all_triangles()[0]
+            found = signature(volume, radius, zernike_quadrature(whole.points / radius, triangles, order))
+        return replace(found, size=scale * found.size)
+
+    def points_about_center(self) -> NDArray[np.float64]:
+        """(n, 3) the corners of all faces."""
+        points = []
+        for piece in self.pieces():
+            triangles = piece.all_triangles()[0]
+            used = np.zeros(len(piece.points), bool)
+            used[triangles] = True
+            points.append(piece.points[used] - self.center)
+        return np.concatenate(points)
+
+
+def displayed(measurement: Measurement) -> bool:
+    """Whether a body's pieces are the display mesh of something smooth, whose moments differ a little."""
+    return measurement.method.startswith("NURBS")
+
+
+class NoShape(Unreadable):
+    """An object that was measured, but whose shape is not its own."""
+
+    def __init__(self, measurement: Measurement, reason: str):
+        super().__init__(measurement.name, reason)
+        self.measurement = measurement
+
+
+def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
+    """As `shape_of`, of bodies with polygons only, in threads."""
+    shape = shape_of(obj, depsgraph, MeasureOptions(threads=THREADS))
+    if not shape.has_surface:
+        raise NoShape(shape.measurement, POLYGONS)
+    return shape
+
+
+def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None) -> Shape:
+    """Measure an object for its shape. Raises `Unreadable`, and `NoShape` where it has none."""
+    measurement, body = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
+    if body.mass is not None and not body.solids:
+        raise NoShape(measurement, OF_SHAPES)
+    if body.to_order is None or body.length is not None:
+        raise NoShape(
+            measurement,
+            "Pose and signature are not known of wires, nor of walls of real thickness; set "
+            "Wall to Thin, or make it a mesh.",
+        )
+    if measurement.method.endswith("open"):
+        raise NoShape(
+            measurement,
+            "It is open, so that its pose and signature would depend on a reference point; "
+            "close it, or measure it as a shell.",
+        )
+    shape = Shape(measurement, body, options.threads if options else 1)
+    if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT * shape.size:
+        raise NoShape(
+            measurement, "It stands so far from the world's origin that rounding blurs its shape; move it nearer."
+        )
+    return shape
+
+
+class Skin:
+    """A shape's surface, to hold points against, once it is grown. Lengths in metres, world axes; Blender's tree of
+    triangles keeps them as float32, so about the center and by its size."""
+
+    def __init__(self, shape: Shape):
+        whole = joined(list(shape.pieces()))
+        self._center, self._scale = shape.center, shape.size
+        self._triangles = triangles = whole.all_triangles()[0]
+        self._corners = (whole.points - self._center) / self._scale
+        is_used = np.zeros(len(whole.points), bool)
+        is_used[triangles] = True
+        used = np.flatnonzero(is_used)
+        pick = np.linspace(0, len(used) - 1, min(len(used), SAMPLES // 2)).astype(int)
+        middles = whole.points[
+            triangles[np.linspace(0, len(triangles) - 1, min(len(triangles), SAMPLES // 2)).astype(int)]
+        ].mean(axis=1)
+        far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1))[-SAMPLES // 10 :]
+        self.points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
+
+    def grow(self) -> Iterator[float]:
+        """Build the tree, in steps of some tenths of a second for a million triangles. Yields the share that is
+        done."""
+        points = _as_tuples(self._corners)
+        yield 0.2
+        triangles = _as_tuples(self._triangles)
+        yield 0.4
+        self._tree = BVHTree.FromPolygons(points, triangles, all_triangles=True)
+        yield 1.0
+
+    def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
+        """(n,) of (n, 3) points from the surface. within: where only this matters, whether they are within so much:
+        what is, and what clearly is not, is told in single precision, or as infinite."""
+        scaled = (points - self._center) / self._scale
+        nearest, rows = self._tree.find_nearest, scaled.tolist()
+        reach = np.inf if within is None else 1.01 * max(NEAR, within / self._scale)
+        found = np.array([nearest(row, reach)[3] for row in rows], np.float64)  # None becomes NaN
+        found[np.isnan(found)] = np.inf
+        doubtful = np.flatnonzero((found > EXACT) & (found < NEAR) & (found * self._scale > (within or 0.0)))
+        for start in range(0, len(doubtful), TOGETHER):
+            some = doubtful[start : start + TOGETHER]
+            around = [[hit[2] for hit in self._tree.find_nearest_range(rows[i], NEAR)] for i in some.tolist()]
+            which = np.repeat(some, [len(one) for one in around])
+            own = self._triangles[np.fromiter(chain.from_iterable(around), np.intp)]
+            np.minimum.at(found, which, triangle_distances(scaled[which], self._corners[own]))
+        return found * self._scale
+
+
+def _as_tuples(rows: NDArray) -> list[tuple]:
+    """As `tolist`, but of tuples, which the garbage collector does not look at again and again."""
+    return list(zip(*rows.T.tolist()))
+
+
+def matched(source: Shape, target: Shape, own: Skin, skin: Skin, scale: float = 1.0) -> Match:
+    """How a shape comes to lie on another one, about their centers, and what is left between their surfaces. own, skin:
+    theirs. scale: what the source is multiplied by first."""
+
+    def residual(way: NDArray, few: int | None) -> NDArray[np.float64]:
+        mine, others = (one.points[:: max(1, len(one.points) // few) if few else 1] for one in (own, skin))
+        there = skin.distance(scale * (mine - source.center) @ way.T + target.center)
+        back = own.distance((others - target.center) @ way / scale + source.center)
+        return np.concatenate([there, scale * back])
+
+    return match(source.moments, target.moments, residual, target.size)

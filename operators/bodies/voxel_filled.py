@@ -1,0 +1,105 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A solid whose density is that of a Volume object's grid, wherever the two stand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.density.voxel_fill import LARGEST as MOST_VOXELS
+from ...core.density.voxel_fill import inside_moments
+from ...core.moments.moments import Moments
+from ...core.solid.measure_solid import SolidMeasure
+from ..read.volume import VolumeReading
+from ..settings.grid import GridOptions
+from .body import Body
+from .mass import LARGEST
+
+OUTSIDE = 1e-9  # of the volume: below this, rounding
+
+
+def inside_body(body: Body, reading: VolumeReading, options: GridOptions, unit: float) -> Body:
+    """The body with the mass that the grid gives its inside. unit: metres per Blender unit.
+
+    ValueError, with what to do, where there is none.
+    """
+    if body.method.endswith("open"):
+        raise ValueError("It is open, so that nothing tells what of the density is inside; close it.")
+    if reading.level_set:
+        raise ValueError(
+            "The grid “{:s}” of “{:s}” is a level set, which holds distances and no densities; choose "
+            "another one.".format(reading.grid, reading.name)
+        )
+    first = np.eye(4)
+    first[:3, 3] = reading.low - 0.5  # from corners of voxels, not from their centers
+    matrix = np.diag([unit, unit, unit, 1.0]) @ reading.matrix @ reading.to_object @ first
+    if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
+        raise ValueError("The grid “{:s}” of “{:s}” is empty or flattened.".format(reading.grid, reading.name))
+    inverse = np.linalg.inv(matrix)
+    triangles = np.concatenate([_corners(solid, inverse @ place) for solid, places in body.solids for place in places])
+    low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(np.int64)
+    high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
+    moments, volume = inside_moments(triangles - low, _filled(reading, options, low, high))
+    volume *= abs(np.linalg.det(matrix[:3, :3]))
+    first = np.eye(4)
+    first[:3, 3] = low
+    mass = replace(replace(moments, of="volume").mapped(matrix @ first), of="mass")
+    mass = replace(mass, input=_input(body, mass))
+    if not np.abs(mass.raw).max() < LARGEST:
+        raise ValueError("Its densities make its mass too large a number; take them as smaller ones.")
+    if not mass.total > mass.error[0]:
+        raise ValueError(
+            "The grid “{:s}” of “{:s}” has no density inside of it; see where the two stand.".format(
+                reading.grid, reading.name
+            )
+        )
+    notes = [
+        "Its density is the grid “{:s}” of “{:s}”, constant in each voxel. {:s} The bounds of what it weighs are "
+        "estimates.".format(reading.grid, reading.name, replace(options, spline_order=1).told()),
+        *options.left_empty(reading.background),
+    ]
+    outside = 1.0 - volume / body.volume.total
+    if outside > OUTSIDE:
+        notes.append("{:.3g} % of its volume is outside of the grid and counts as empty.".format(100.0 * outside))
+    return replace(
+        body,
+        mass=mass,
+        refined=None,
+        method="grid " + body.method,
+        estimated=True,
+        warnings=(*body.warnings, *notes, *reading.warnings),
+    )
+
+
+def _corners(solid: SolidMeasure, matrix: NDArray) -> NDArray[np.float64]:
+    """(n, 3, 3) the triangles of what was measured, in the grid's coordinates, outward."""
+    surface = solid.mended.mapped(matrix[:3, :3], matrix[:3, 3])
+    return surface.points[surface.all_triangles()[0]]
+
+
+def _filled(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
+    """The densities of the voxels from `low` to `high`."""
+    if np.prod((high - low).astype(float)) > MOST_VOXELS:
+        raise ValueError(
+            "The grid “{:s}” of “{:s}” has {:d} x {:d} x {:d} voxels around it, which is too many; use a "
+            "coarser one.".format(reading.grid, reading.name, *(high - low).tolist())
+        )
+    weigh = options.weigh(reading.background)
+    densities = np.zeros(high - low)
+    for start, block in reading.blocks():
+        start = np.array(start)
+        begin, end = np.maximum(start, low), np.minimum(start + block.shape, high)
+        if (begin < end).all():
+            own = tuple(slice(a, b) for a, b in zip(begin - start, end - start))
+            densities[tuple(slice(a, b) for a, b in zip(begin - low, end - low))] = weigh(block[own].astype(np.float64))
+    return densities
+
+
+def _input(body: Body, mass: Moments) -> NDArray[np.float64]:
+    """What float32 coordinates may have moved, as a share of each moment like that of the solid's own."""
+    solid = body.volume.shifted(mass.about).truncated(mass.order)
+    scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)
+    return solid.input * max(scale, mass.total / solid.total)

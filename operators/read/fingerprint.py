@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What stored numbers were computed from, in a text short enough for a property: geometry, transform and settings.
+
+The geometry's part is a digest of the moments themselves: no two shapes that a person would tell apart share twenty
+moments to the last bit, and it costs nothing. Transform and settings can be digested without measuring, so a panel
+may compare them while it draws.
+"""
+
+from __future__ import annotations
+
+import hashlib
+
+import bpy
+import numpy as np
+
+from ...core.numerics.float32 import decimal
+from ..settings.digest import density_key
+
+VERSION = "v1"
+
+
+def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
+    """The text stored as `body_fingerprint`: version, then the three digests."""
+    return ":".join([VERSION, _digest(geometry), matrix, settings])
+
+
+def matrix_hash(obj: bpy.types.Object) -> str:
+    """A digest of where the object is and how it is turned, scaled and sheared."""
+    return _digest(np.array(obj.matrix_world, np.float32).tobytes())
+
+
+def scale_hash(obj: bpy.types.Object) -> str:
+    """A digest of how the object is scaled and sheared, wherever it lies."""
+    linear = np.array(obj.matrix_world, np.float64)[:3, :3]
+    products = linear.T @ linear
+    largest = np.abs(products).max() or 1.0
+    return _digest((np.round(products / largest, 5) + 0.0).tobytes())
+
+
+def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
+    """A digest of the settings that the numbers of this object depend on."""
+    settings = obj.body_moments
+    unit = decimal(scene.unit_settings.scale_length)
+    given = settings.linear_density if settings.kind == "WIRE" else settings.density
+    return effective_hash(
+        "SOLID" if obj.type == "VOLUME" else settings.kind,
+        decimal(given) if settings.mass_from == "DENSITY" else None,
+        decimal(settings.mass) if settings.mass_from == "MASS" else None,
+        decimal(settings.thickness) * unit,
+        settings.overlap,
+        unit,
+        settings.wall,
+        density_key(obj, str(obj.get("body_materials", "")).splitlines()),
+    )
+
+
+def effective_hash(
+    kind: str,
+    density: float | None,
+    mass: float | None,
+    thickness: float,
+    overlap: str,
+    unit_scale: float,
+    wall: str = "THIN",
+    varying: str = "",
+) -> str:
+    """A digest of settings as they were used; what a kind has no use for does not count. varying: `density_key`, which
+    takes the place of the density."""
+    density = None if varying else density
+    density, mass = (None if value is None else decimal(value) for value in (density, mass))  # as a setting holds it
+    used = [
+        kind,
+        density,
+        mass,
+        float("{:.6g}".format(thickness)) if kind == "SHELL" else None,
+        overlap if kind == "SOLID" else None,
+        round(unit_scale, 12),
+        *([varying] if varying else []),
+    ]
+    if kind == "SHELL" and wall != "THIN":
+        used.append(wall)
+    return _digest(repr(used).encode())
+
+
+def _digest(data: bytes) -> str:
+    return hashlib.blake2s(data, digest_size=6).hexdigest()

@@ -1,0 +1,194 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What must not move when an object gets another origin and other axes: its own shape, its
+children, and whatever else refers to it.
+
+Surfaces are compared as they are evaluated, point by point in the world, because no list of
+modifiers could say what each of them does with an origin.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from bpy.types import ID, Constraint, Depsgraph, Object
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from ..read import Unreadable, measurable, read_object
+from .changes import BETWEEN, users_of
+from .transforms import FLOAT32, Matrix4, Refused, world
+
+# Of the size: what rounding in a chain of modifiers may move, and far less than anyone can see.
+SAME_SHAPE = 1e-5
+# Points compared in each of many instances; the first instance is compared point by point.
+SAMPLES = 64
+ALONG = np.array([1.0, 0.7548776662, 0.5698402910])  # a direction along which hardly anything is symmetric
+
+Shape = list[tuple[NDArray[np.float64], NDArray[np.float64]]]
+
+
+def referring(objects: set[Object]) -> dict[Object, set[Object]]:
+    """For each object the other objects that refer to it, directly or through data and collections."""
+    found = users_of(objects, BETWEEN)
+
+    def through(one: ID, seen: set[ID]) -> set[Object]:
+        reached = set()
+        for user in found[one] - seen:
+            if isinstance(user, Object):
+                reached.add(user)
+            else:
+                seen.add(user)
+                reached |= through(user, seen)
+        return reached
+
+    return {obj: through(obj, {obj}) for obj in objects}
+
+
+def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
+    """The evaluated surfaces of an object in the world: for each part, all points of the first
+    place where it stands and some points of all others. None where there is nothing to see."""
+    try:
+        reading = read_object(obj, depsgraph, edges=False)
+    except Unreadable:
+        return None
+    shapes = []
+    for part in reading.parts:
+        points = np.asarray(part.surface.points, np.float64)
+        few = np.linspace(0, len(points) - 1, min(SAMPLES, len(points))).astype(int)
+        linear, offset = part.matrices[:, :3, :3], part.matrices[:, :3, 3]
+        first = points @ linear[0].T + offset[0]
+        rest = np.einsum("kij,nj->kni", linear[1:], points[few]) + offset[1:, None]
+        shapes.append((first, rest))
+    return shapes
+
+
+def mapped(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape | None:
+    """The shape as it is where its object went with all of it. was, now: (4, 4) the object's matrices."""
+    way = now @ np.linalg.pinv(was)
+    return before and [tuple(points @ way[:3, :3].T + way[:3, 3] for points in pair) for pair in before]
+
+
+def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
+    """Whether two shapes are the same, to what rounding can do to a body of this size."""
+    if before is None or after is None:
+        return before is None and after is None
+    pairs = [pair for one, other in zip(before, after) for pair in zip(one, other)]
+    if len(before) == len(after) and all(one.shape == other.shape for one, other in pairs):
+        return all(_close(*pair, size) for pair in pairs)
+    # Objects that shared a mesh are parts of their own once one of them has got a copy.
+    before, after = _by_place(before), _by_place(after)
+    return before.keys() == after.keys() and all(_close(before[count], after[count], size) for count in before)
+
+
+def _by_place(shape: Shape) -> dict[int, NDArray[np.float64]]:
+    """Some points of each place, whichever part it is of, in the order of their centers along a line: for each number
+    of points (k, few, 3)."""
+    found: dict[int, list[NDArray[np.float64]]] = {}
+    for first, rest in shape:
+        few = np.linspace(0, len(first) - 1, rest.shape[1]).astype(int)
+        found.setdefault(len(first), []).append(np.concatenate([first[few][None], rest]))
+    every = {count: np.concatenate(places) for count, places in found.items()}
+    return {count: places[np.argsort(places.mean(axis=1) @ ALONG)] for count, places in every.items()}
+
+
+def _close(one: NDArray, other: NDArray, size: float) -> bool:
+    if one.shape != other.shape:
+        return False  # more or fewer places
+    if not one.size:
+        return True
+    limit = SAME_SHAPE * size + 16.0 * FLOAT32 * np.abs(one).max()
+    return bool(np.abs(one - other).max() <= limit)
+
+
+class Surroundings:
+    """Objects that refer to the changed ones: children are held in place, the others are
+    watched.
+    """
+
+    def __init__(
+        self,
+        objects: list[Object],
+        users: dict[Object, set[Object]],
+        depsgraph: Depsgraph,
+    ) -> None:
+        self.notes: list[str] = []
+        self.changed = {obj: world(obj) for obj in objects}
+        others = sorted(
+            {user for obj in objects for user in users.get(obj, ())} - set(objects), key=lambda other: other.name_full
+        )
+        linked = [other for other in others if other.library is not None and other.parent in self.changed]
+        if linked:
+            raise Refused(
+                "its child {:s} is linked from another file and cannot be held in place".format(linked[0].name)
+            )
+        self.children = {
+            other: np.array(other.matrix_parent_inverse, np.float64) for other in others if other.parent in self.changed
+        }
+        self.anchors = [
+            (constraint, np.array(constraint.inverse_matrix, np.float64))
+            for other in others
+            for constraint in _child_of(other)
+            if constraint.target in self.changed
+        ]
+        self.places = {other: world(other) for other in others}
+        self.shapes = {other: shape(other, depsgraph) for other in others if _is_made(other) and measurable(other)}
+
+    def hold(self) -> None:
+        """Give children parent inverses, and Child Of constraints inverses, that keep them where
+        they were, now that the changed objects' matrices are evaluated.
+        """
+        held = {parent: np.linalg.solve(world(parent), was) for parent, was in self.changed.items()}
+        for child, inverse in self.children.items():
+            child.matrix_parent_inverse = Matrix(held[child.parent] @ inverse)
+        for constraint, inverse in self.anchors:
+            constraint.inverse_matrix = Matrix(held[constraint.target] @ inverse)
+
+    def check(self, depsgraph: Depsgraph, size: float) -> None:
+        """Refused where a child or another object's shape moved; followers by constraint are
+        only noted.
+        """
+        for other, place in self.places.items():
+            moved = self._moved(place, world(other), size)
+            if moved and other in self.children:
+                raise Refused("its child {:s} cannot be held in place; clear that parent first".format(other.name))
+            if moved:
+                self.notes.append("is followed by {:s}, which moved along, by a constraint".format(other.name))
+        for other, before in self.shapes.items():
+            if self._moved(self.places[other], world(other), size):
+                continue
+            if not same_shape(before, shape(other, depsgraph), size):
+                raise Refused(
+                    "{:s} would change its shape, for a modifier of it refers to this object; "
+                    "apply that modifier first".format(other.name)
+                    if other.modifiers
+                    else "{:s} would change its shape, which is made with this object; convert it to a mesh first".format(
+                        other.name
+                    )
+                )
+
+    def _moved(self, before: NDArray, now: NDArray, size: float) -> bool:
+        changed = [np.abs(was[:3, 3]).max() for was in self.changed.values()]
+        reach = max(np.abs(before[:3, 3]).max(), *changed)
+        off = np.abs(now - before)
+        return bool(
+            off[:3, 3].max() > SAME_SHAPE * size + 16.0 * FLOAT32 * reach
+            or off[:3, :3].max() > 1e-5 * np.abs(before[:3, :3]).max()
+        )
+
+    def restore(self) -> None:
+        for child, inverse in self.children.items():
+            child.matrix_parent_inverse = Matrix(inverse)
+        for constraint, inverse in self.anchors:
+            constraint.inverse_matrix = Matrix(inverse)
+
+
+def _is_made(obj: Object) -> bool:
+    """Whether its shape is more than its own data, and so may come from other objects."""
+    return bool(obj.modifiers or obj.type in {"CURVE", "FONT"} or getattr(obj.data, "shape_keys", None))
+
+
+def _child_of(obj: Object) -> list[Constraint]:
+    constraints = list(obj.constraints)
+    if obj.pose is not None:
+        constraints += [constraint for bone in obj.pose.bones for constraint in bone.constraints]
+    return [constraint for constraint in constraints if constraint.type == "CHILD_OF"]

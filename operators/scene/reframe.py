@@ -1,0 +1,365 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Giving an object another origin and other axes while all that can be seen stays where it is.
+
+An object's matrix goes from W to W', its data from p to D p with D = W'⁻¹ W, its children's parent
+inverses from P to W'⁻¹ W P. W' is read back after Blender has rounded it to float32, so that D
+undoes the very matrix that is used, and D is applied in float64 with one rounding.
+
+Nothing is assumed of modifiers: the change is first made on a copy of the data, the evaluated
+surfaces in the world are compared with those of before, and only where they are the same the change
+is kept. Otherwise all is put back. Other users of the data keep it as it is; the objects that are
+changed get a copy of their own, shared among them.
+
+Objects that have nothing to do with each other are changed side by side. One that is refused so is tried again alone,
+lest another's change was the reason.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+from bpy.types import ID, Context, Object
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from ..read import Unreadable
+from ..settings.density import fixed_to
+from .changes import Change, carry_out, dependents, rounds, side_by_side
+from .dependents import SAME_SHAPE, Surroundings, mapped, referring, same_shape, shape
+from .transforms import FLOAT32, Channels, Matrix4, Refused, basis, lineage, set_location, set_rotation_and_scale, world
+
+# What these do does not depend on where an object's origin is, nor on its axes.
+INDIFFERENT = {
+    "ARMATURE",
+    "BOOLEAN",
+    "DATA_TRANSFER",
+    "EDGE_SPLIT",
+    "MASK",
+    "NORMAL_EDIT",
+    "SUBSURF",
+    "TRIANGULATE",
+    "UV_PROJECT",
+    "UV_WARP",
+    "VERTEX_WEIGHT_EDIT",
+    "VERTEX_WEIGHT_MIX",
+    "VERTEX_WEIGHT_PROXIMITY",
+    "WEIGHTED_NORMAL",
+}
+
+
+@dataclass
+class Plan:
+    """What one object is to become.
+
+    target: (4, 4) the wanted matrix_world. size: of the body, in Blender units. move_only: the axes
+        are kept to the bit.
+    """
+
+    obj: Object
+    target: Matrix4
+    size: float
+    move_only: bool
+    notes: list[str] = field(default_factory=list)
+
+
+def check(obj: Object) -> None:
+    """Refused where the object's data cannot be re-expressed at all."""
+    if obj.library is not None or (obj.data is not None and obj.data.library is not None):
+        raise Refused("it is linked from another file; make it and its data local first")
+    if obj.data is None:
+        raise Refused("it shows a collection and has no geometry of its own; make the instances real first")
+    if obj.type == "VOLUME":
+        raise Refused(
+            "its voxels cannot be moved within the object; add an empty at its principal frame, or align the "
+            "object itself"
+        )
+    if obj.type not in {"MESH", "CURVE", "SURFACE", "META", "FONT"}:
+        raise Refused("its geometry has no transform of its own; convert it to a mesh first")
+    if obj.instance_type in {"VERTS", "FACES"} and obj.children:
+        raise Refused("it shows its children on its vertices or faces; make the instances real first")
+    unseen = [
+        modifier.name
+        for modifier in obj.modifiers
+        if modifier.show_render and not modifier.show_viewport and modifier.type not in INDIFFERENT
+    ]
+    if unseen:
+        raise Refused(
+            "what its modifier {:s} renders is not shown, and may depend on the origin; show it in viewports "
+            "or remove it first".format(unseen[0])
+        )
+    if fixed_to(obj) == "own":
+        raise Refused(
+            "its density is a polynomial of its own coordinates, and these would change; give it in world "
+            "coordinates first"
+        )
+    if abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
+        raise Refused("its scale is zero along an axis; set the scale first")
+
+
+def reframe(
+    context: Context, plans: list[Plan], progress: Callable[[float], None] = lambda done: None
+) -> tuple[list[Plan], list[tuple[Object, str]]]:
+    """Carry out the plans; those that were, and for each other object the reason why it was left
+    as it was.
+    """
+    objects = {plan.obj for plan in plans}
+    users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
+    refused: dict[Object, str] = {}
+    done = 0
+
+    def attempt(group: list[Plan], again: list[list[Plan]] | None = None) -> Change:
+        nonlocal done
+        try:
+            yield from _reframed(group, users)
+        except (Refused, Unreadable, ValueError, RuntimeError) as error:
+            if again is not None:
+                again.append(group)
+                return
+            refused.update(dict.fromkeys((plan.obj for plan in group), str(getattr(error, "reason", error))))
+        done += len(group)
+        progress(done)
+
+    for beside in rounds(
+        (group, {plan.obj.data for plan in group}.union(*(touched[plan.obj] for plan in group)))
+        for group in _groups(plans)
+    ):
+        again: list[list[Plan]] = []
+        carry_out(context, side_by_side(attempt(group, again if len(beside) > 1 else None) for group in beside))
+        for group in again:
+            for plan in group:
+                plan.notes.clear()
+            carry_out(context, attempt(group))
+    return [plan for plan in plans if plan.obj not in refused], list(refused.items())
+
+
+def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
+    """Plans whose objects share data and want the same change of it; never a parent and its child,
+    for the child is placed after its parent.
+    """
+    groups: list[list[Plan]] = []
+    sharing: dict[ID, list[tuple[Matrix4, list[Plan]]]] = {}
+    for plan in plans:
+        change = np.linalg.solve(plan.target, world(plan.obj))
+        reach = np.abs(np.array(plan.obj.bound_box)).max()
+        above = set(lineage(plan.obj))
+        others = sharing.setdefault(plan.obj.data, [])
+        for other, members in others:
+            if (
+                not above & {member.obj for member in members}
+                and _moves(change, other, reach) <= SAME_SHAPE * plan.size
+            ):
+                members.append(plan)
+                break
+        else:
+            others.append((change, [plan]))
+            groups.append(others[-1][1])
+    return groups
+
+
+def _moves(one: Matrix4, other: Matrix4, reach: float) -> float:
+    difference = np.abs(one - other)
+    return difference[:3, :3].sum() * reach + difference[:3, 3].max()
+
+
+def _reframed(group: list[Plan], users: dict[Object, set[Object]]) -> Change:
+    depsgraph = yield
+    objects = [plan.obj for plan in group]
+    data = group[0].obj.data
+    before = {obj: shape(obj, depsgraph) for obj in objects}
+    around = Surroundings(objects, users, depsgraph)
+    was = {obj: world(obj) for obj in objects}
+    channels = [Channels(obj) for obj in objects]
+    trial = None
+    kept = False
+    try:
+        yield from side_by_side(reached(plan) for plan in group)
+        change = _exact_change(group[0], was[group[0].obj])
+        trial = data.copy()
+        transform_data(trial, change)
+        for obj in objects:
+            obj.data = trial
+        around.hold()
+        depsgraph = yield
+        for plan in group:
+            if not same_shape(before[plan.obj], shape(plan.obj, depsgraph), plan.size):
+                raise Refused(_blame(plan.obj))
+        around.check(depsgraph, min(plan.size for plan in group))
+        group[0].notes += around.notes
+        kept = True
+    finally:
+        if not kept:
+            for obj in objects:
+                obj.data = data
+            for saved in channels:
+                saved.restore()
+            around.restore()
+        if trial is not None and (not kept or data.users - data.use_fake_user == 0):
+            if kept:  # nobody else uses the data: the change is made on the data itself
+                for obj in objects:
+                    obj.data = data
+                transform_data(data, change)
+            bpy.data.batch_remove([trial])
+        elif kept:
+            for plan in group:
+                plan.notes.append("got a copy of its data, for other objects use it too")
+
+
+def check_movable(obj: Object) -> None:
+    """Refused where the object cannot be moved as a whole and stay the body that it is."""
+    if obj.library is not None:
+        raise Refused("it is linked from another file; make it local first")
+    if fixed_to(obj) == "world":
+        raise Refused(
+            "its density is a polynomial of world coordinates, and does not move with it; give it in its own "
+            "coordinates first"
+        )
+    bound = [modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE" and modifier.show_viewport]
+    if obj.parent_type == "ARMATURE":
+        bound.append(obj.parent)
+    for armature in bound:  # in its rest pose it deforms nothing yet
+        if armature is not None and obj not in lineage(armature):
+            raise Refused(
+                "it is bound to the armature {:s}, which would not go with it; turn the armature instead, or "
+                "apply that modifier first".format(armature.name)
+            )
+
+
+def move(context: Context, plan: Plan) -> None:
+    """As `reached`, as the body that it is, or leave the object where it was."""
+    obj, saved = plan.obj, Channels(plan.obj)
+    was, before = world(obj), shape(obj, context.evaluated_depsgraph_get())
+    try:
+        carry_out(context, reached(plan))
+        if not same_shape(mapped(before, was, world(obj)), shape(obj, context.evaluated_depsgraph_get()), plan.size):
+            names = ", ".join(modifier.name for modifier in obj.modifiers if modifier.show_viewport)
+            raise Refused(
+                "its shape would change, because it depends on where it is through {:s}; apply that first, "
+                "or make what it refers to its child".format(names or "what deforms or shows it")
+            )
+    except Refused:
+        saved.restore()
+        context.view_layer.update()
+        raise
+
+
+def reached(plan: Plan) -> Change:
+    """Set the channels so that the evaluated matrix becomes the target; Refused where something
+    else holds it.
+    """
+    yield
+    obj = plan.obj
+    outer = _outer(obj)
+    if not abs(np.linalg.det(outer[:3, :3])) > 0.0:
+        raise Refused("its parent has a scale of zero; set that scale first")
+    slack = location_tolerance(obj, plan.size) / np.cbrt(abs(np.linalg.det(outer[:3, :3])))
+    wanted = plan.target
+    for _ in range(3):  # what the parents' float32 matrices round is corrected once it is known
+        local = np.linalg.solve(outer, wanted)
+        set_location(obj, local[:3, 3], slack)
+        if not plan.move_only:
+            set_rotation_and_scale(obj, local[:3, :3])
+        yield
+        off = plan.target[:3, 3] - world(obj)[:3, 3]
+        if np.abs(off).max() <= FLOAT32 * np.abs(plan.target[:3, 3]).max():
+            break
+        wanted = wanted.copy()
+        wanted[:3, 3] += off
+    now = world(obj)
+    if np.abs(now[:3, 3] - plan.target[:3, 3]).max() > location_tolerance(obj, plan.size):
+        raise Refused("a constraint or its parent holds its location; remove or apply that first")
+    scale = np.abs(plan.target[:3, :3]).max()
+    if np.abs(now[:3, :3] - plan.target[:3, :3]).max() > 2e-6 * scale:
+        raise Refused("a constraint or its parent holds its rotation or scale; remove or apply that first")
+
+
+def _outer(obj: Object) -> Matrix4:
+    """(4, 4) what parents multiply the basis with."""
+    if obj.parent is None:
+        return np.eye(4)
+    if obj.parent_type in {"OBJECT", "ARMATURE", "LATTICE"}:
+        return world(obj.parent) @ np.array(obj.matrix_parent_inverse, np.float64)
+    own = basis(obj)
+    if abs(np.linalg.det(own[:3, :3])) == 0.0:
+        raise Refused("its scale is zero along an axis; set the scale first")
+    return np.linalg.solve(own.T, world(obj).T).T
+
+
+def _exact_change(plan: Plan, was: Matrix4) -> Matrix4:
+    now = world(plan.obj)
+    change = np.linalg.solve(now, was)
+    if plan.move_only:
+        change[:3, :3] = np.eye(3)
+        change[:3, 3] = np.linalg.solve(was[:3, :3], was[:3, 3] - now[:3, 3])
+    change[3] = (0.0, 0.0, 0.0, 1.0)
+    return change
+
+
+def location_tolerance(obj: Object, size: float) -> float:
+    """How near to a point an origin can be known to be: some float32 steps of every location on
+    the way to the world.
+    """
+    reach = max(np.abs(world(one)[:3, 3]).max() for one in lineage(obj))
+    return 4e-7 * size + 4.0 * FLOAT32 * reach
+
+
+# Data
+
+
+def transform_data(data: ID, change: Matrix4) -> None:
+    """p → change · p for every control point of the data and its shape keys. Refused where the
+    data cannot.
+    """
+    if isinstance(data, bpy.types.Mesh):
+        _transform_mesh(data, change)
+    elif isinstance(data, bpy.types.TextCurve):
+        _move_text(data, change)
+    elif isinstance(data, bpy.types.Curve):
+        data.transform(Matrix(change), shape_keys=True)
+    else:
+        data.transform(Matrix(change))
+
+
+def _transform_mesh(mesh: bpy.types.Mesh, change: Matrix4) -> None:
+    exact = _mapped(mesh.attributes["position"].data, "vector", change) if mesh.vertices else None
+    keys = [block.data for block in mesh.shape_keys.key_blocks] if mesh.shape_keys else []
+    exact_keys = [_mapped(key, "co", change) for key in keys]
+    # Blender's own transform also turns custom normals; its float32 coordinates are replaced by the
+    # exact ones.
+    mesh.transform(Matrix(change), shape_keys=True)
+    if exact is not None:
+        mesh.attributes["position"].data.foreach_set("vector", exact)
+    for key, points in zip(keys, exact_keys):
+        key.foreach_set("co", points)
+    if np.linalg.det(change[:3, :3]) < 0.0:
+        mesh.flip_normals()
+    mesh.update()
+
+
+def _mapped(collection, name: str, change: Matrix4) -> NDArray[np.float32]:
+    points = np.empty(3 * len(collection), np.float32)
+    collection.foreach_get(name, points)
+    points = points.reshape(-1, 3).astype(np.float64) @ change[:3, :3].T + change[:3, 3]
+    return np.ascontiguousarray(points, np.float32).ravel()
+
+
+def _move_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
+    offset = change[:3, 3]
+    if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(np.abs(offset).max(), text.size):
+        raise Refused("text can only be moved within its own plane; convert it to a mesh first")
+    text.offset_x += offset[0]
+    text.offset_y += offset[1]
+
+
+def _blame(obj: Object) -> str:
+    names = [modifier.name for modifier in obj.modifiers if modifier.show_viewport and modifier.type not in INDIFFERENT]
+    if names:
+        return (
+            "its shape would change, because it depends on the origin or axes through {:s}; "
+            "apply or remove "
+            "that first, or give it an object of its own to refer to".format(", ".join(names))
+        )
+    return "its shape would change; apply its scale or convert it to a mesh first"

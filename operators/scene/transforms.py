@@ -1,0 +1,213 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An object's own transform channels, in float64.
+
+Blender's setters for `matrix_world` and `matrix_basis` take Euler angles out of a float32 matrix,
+each angle by itself; near gimbal lock the angles then no longer fit together. Here each angle is
+taken from what the ones before it leave over, in float64, so that the angles rebuild the rotation
+however it lies.
+
+The basis of an object is T(location + delta) · R(delta) R(rotation) · S(scale · delta), before
+parents and constraints.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import atan2, cos, pi, sin
+
+import numpy as np
+from bpy.types import Object
+from numpy.typing import NDArray
+
+from ...core.numerics.rotations import quaternion, rotation_matrix
+
+FLOAT32 = float(np.finfo(np.float32).eps)
+
+Matrix3 = NDArray[np.float64]
+Matrix4 = NDArray[np.float64]
+
+
+class Refused(Exception):
+    """Why an object was left as it is: a sentence with a remedy, without the object's name."""
+
+
+def require_editable(obj: Object) -> None:
+    """Refused for a linked object."""
+    if not obj.is_editable:
+        raise Refused("it is linked from another file; make it local first")
+
+
+def require_own(obj: Object, what: str) -> None:
+    """Refused for an object on which the file cannot keep `what`."""
+    require_editable(obj)
+    if obj.override_library is not None:  # of which a file keeps only what Blender lets be overridden
+        raise Refused("it is a library override, which would lose {:s} with the file; make it local first".format(what))
+
+
+def world(obj: Object) -> Matrix4:
+    """(4, 4) the evaluated matrix_world as float64."""
+    return np.array(obj.matrix_world, np.float64)
+
+
+def _turn(axis: int, angle: float) -> Matrix3:
+    matrix = np.eye(3)
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    matrix[j, j] = matrix[k, k] = cos(angle)
+    matrix[k, j] = sin(angle)
+    matrix[j, k] = -matrix[k, j]
+    return matrix
+
+
+def _order(mode: str) -> tuple[int, int, int, float]:
+    i, j, k = ("XYZ".index(letter) for letter in mode)
+    return i, j, k, 1.0 if (j - i) % 3 == 1 else -1.0
+
+
+def euler_matrix(angles: NDArray, mode: str) -> Matrix3:
+    """(3, 3) of Euler angles by axis x, y, z; in mode "XYZ" the turn about X comes first."""
+    i, j, k, _ = _order(mode)
+    return _turn(k, angles[k]) @ _turn(j, angles[j]) @ _turn(i, angles[i])
+
+
+def euler_angles(rotation: Matrix3, mode: str, near: NDArray) -> NDArray[np.float64]:
+    """(3,) angles by axis x, y, z that rebuild `rotation`, those of all equal ones that are
+    nearest to `near`.
+    """
+    i, j, k, s = _order(mode)
+    locked = np.hypot(rotation[k, j], rotation[k, k]) < 1e-7
+    first = near[i] if locked else atan2(s * rotation[k, j], rotation[k, k])
+    best = None
+    for a in (first, first + pi):
+        rest = rotation @ _turn(i, a).T
+        angles = np.empty(3)
+        angles[i] = a
+        angles[j] = atan2(-s * rest[k, i], rest[k, k])
+        angles[k] = atan2(-s * rest[i, j], rest[j, j])
+        angles -= 2.0 * pi * np.round((angles - near) / (2.0 * pi))
+        if best is None or np.abs(angles - near).sum() < np.abs(best - near).sum() - 1e-9:
+            best = angles
+    return best
+
+
+def _rotation(obj: Object) -> Matrix3:
+    mode = obj.rotation_mode
+    if mode == "QUATERNION":
+        return rotation_matrix(obj.rotation_quaternion)
+    if mode == "AXIS_ANGLE":
+        angle, *axis = obj.rotation_axis_angle
+        length = np.linalg.norm(axis)
+        axis = np.divide(axis, length) if length > 0.0 else np.array([0.0, 1.0, 0.0])
+        return rotation_matrix([cos(angle / 2.0), *(sin(angle / 2.0) * axis)])
+    return euler_matrix(np.array(obj.rotation_euler), mode)
+
+
+def _delta_rotation(obj: Object) -> Matrix3:
+    if obj.rotation_mode == "QUATERNION":
+        return rotation_matrix(obj.delta_rotation_quaternion)
+    if obj.rotation_mode == "AXIS_ANGLE":  # its delta has no place in Blender's interface and is not shown
+        return np.eye(3)
+    return euler_matrix(np.array(obj.delta_rotation_euler), obj.rotation_mode)
+
+
+def basis(obj: Object) -> Matrix4:
+    """(4, 4) location, rotation and scale with their deltas, before parents and constraints."""
+    matrix = np.eye(4)
+    scale = np.array(obj.scale, np.float64) * np.array(obj.delta_scale, np.float64)
+    matrix[:3, :3] = _delta_rotation(obj) @ _rotation(obj) * scale
+    matrix[:3, 3] = np.array(obj.location, np.float64) + np.array(obj.delta_location, np.float64)
+    return matrix
+
+
+def set_location(obj: Object, location: NDArray, slack: float) -> None:
+    """Put the origin of the basis at `location`; locked axes may move by no more than `slack`."""
+    wanted = location - np.array(obj.delta_location, np.float64)
+    _assign(obj, "location", wanted, obj.lock_location, slack)
+
+
+def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
+    """Make the 3×3 part of the basis `linear`, a rotation times a scale; Refused where it is
+    sheared.
+    """
+    length = np.linalg.norm(linear, axis=0)
+    delta_scale = np.array(obj.delta_scale, np.float64)
+    if length.min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
+        raise Refused("its parent or delta scale flattens it; clear that scale first")
+    sign = np.sign(np.array(obj.scale, np.float64) * delta_scale)
+    sign[sign == 0.0] = 1.0
+    if np.prod(sign) * np.linalg.det(linear) < 0.0:
+        sign[0] = -sign[0]
+    turned = linear / (length * sign)
+    if np.abs(turned.T @ turned - np.eye(3)).max() > 2e-6:
+        raise Refused(
+            "its parent shears it, and no rotation undoes that; clear the parent or apply the parent's scale first"
+        )
+    u, _, vt = np.linalg.svd(turned)
+    _assign(obj, "scale", length * sign / delta_scale, obj.lock_scale)
+    rotation = _delta_rotation(obj).T @ (u @ vt)
+    mode = obj.rotation_mode
+    if mode in {"QUATERNION", "AXIS_ANGLE"}:
+        q = quaternion(rotation)
+        locks = [obj.lock_rotation_w, *obj.lock_rotation]
+        if mode == "QUATERNION":
+            if np.dot(q, obj.rotation_quaternion) < 0.0:
+                q = -q
+            _assign(obj, "rotation_quaternion", q, locks)
+            return
+        angle = 2.0 * atan2(np.linalg.norm(q[1:]), q[0])
+        axis = q[1:] / np.linalg.norm(q[1:]) if angle > 1e-12 else np.array(obj.rotation_axis_angle[1:])
+        _assign(obj, "rotation_axis_angle", np.array([angle, *axis]), locks)
+        return
+    near = np.array(obj.rotation_euler, np.float64)
+    _assign(obj, "rotation_euler", euler_angles(rotation, mode, near), obj.lock_rotation)
+
+
+def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], slack: float = 1e-6) -> None:
+    before = np.array(getattr(obj, channel), np.float64)
+    moved = np.abs(value - before) > max(slack, 1e-6 * np.abs(before).max())
+    if np.any(moved & np.array(locks, bool)):
+        raise Refused("its {:s} is locked; unlock it first".format(channel.split("_")[0]))
+    if np.any(moved) and channel in driven_channels(obj):
+        raise Refused("its {:s} is animated or driven; remove that first".format(channel.split("_")[0]))
+    setattr(obj, channel, value)
+
+
+def driven_channels(obj: Object) -> set[str]:
+    """The data paths of the object that an action, the NLA or a driver sets."""
+    animation = obj.animation_data
+    if animation is None:
+        return set()
+    paths = {curve.data_path for curve in animation.drivers}
+    actions = [(animation.action, animation.action_slot)]
+    actions += [(strip.action, strip.action_slot) for track in animation.nla_tracks for strip in track.strips]
+    for action, slot in actions:
+        if action is None or slot is None:
+            continue
+        for layer in action.layers:
+            for strip in layer.strips:
+                bag = strip.channelbag(slot)
+                if bag is not None:
+                    paths |= {curve.data_path for curve in bag.fcurves}
+    return paths
+
+
+class Channels:
+    """The channels of an object as they were, to put them back."""
+
+    NAMES = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
+
+    def __init__(self, obj: Object) -> None:
+        self.obj = obj
+        self.values = {name: tuple(getattr(obj, name)) for name in self.NAMES}
+
+    def restore(self) -> None:
+        for name, value in self.values.items():
+            if tuple(getattr(self.obj, name)) != value:
+                setattr(self.obj, name, value)
+
+
+def lineage(obj: Object | None) -> Iterator[Object]:
+    """The object, its parent, that one's parent, and so on."""
+    while obj is not None:
+        yield obj
+        obj = obj.parent

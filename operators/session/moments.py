@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Carried out of its former module."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections import OrderedDict
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from bpy.types import Object, Scene
+from numpy.typing import NDArray
+
+from ...core.moments.moments import Moments, monomial_count, monomials
+from ..read.fingerprint import matrix_hash, settings_hash
+from ..write.units import number
+from . import staleness
+
+SHOWN = 4  # the highest order whose moments a panel shows one by one
+
+
+KEPT = 16  # objects
+
+
+NOISE = 1e-12  # of the largest moment of a degree: shown as 0
+
+
+POWERS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+@dataclass(frozen=True, eq=False)
+class Computed:
+    """One object's moments, SI, world axes. volume: of a shell those of its thin volume. rotation, location: the object
+    frame. key: what they were computed from."""
+
+    name: str
+    volume: Moments
+    area: Moments
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    key: tuple[str, str, int]
+
+    @property
+    def order(self) -> int:
+        return self.volume.order
+
+
+@dataclass(frozen=True)
+class Degree:
+    """The moments of one degree as a panel shows them: (label, text, exact) each, and their unit."""
+
+    degree: int
+    unit: str
+    rows: tuple[tuple[str, str, str], ...]
+
+
+_kept: OrderedDict[int, Computed] = OrderedDict()
+
+
+def found(obj: Object) -> Computed | None:
+    """What was computed for an object; None where nothing was."""
+    return _kept.get(obj.session_uid)
+
+
+def outdated(obj: Object, scene: Scene) -> str:
+    """Why what was computed does not hold any more; "" where it does, or there is nothing."""
+    computed = found(obj)
+    if computed is None:
+        return ""
+    matrix, settings, geometry = computed.key
+    if settings != settings_hash(obj, scene):
+        return "Settings Changed"
+    if geometry != staleness.geometry_changes(obj):
+        return "Geometry Changed"
+    return "Transform Changed" if matrix != matrix_hash(obj) else ""
+
+
+def shown(obj: Object, scene: Scene) -> tuple[tuple[Degree, ...], str]:
+    """The moments to order SHOWN as the scene's settings want them, and why there are none."""
+    settings = scene.body_moments
+    return _shown(found(obj), settings.moments_of, settings.moments_about, settings.frame)
+
+
+@lru_cache(maxsize=32)
+def _shown(computed: Computed, of: str, about: str, frame: str) -> tuple[tuple[Degree, ...], str]:
+    try:
+        moments = placed(computed, of, about, frame, min(computed.order, SHOWN))
+    except ValueError as error:
+        return (), str(error)
+    degrees = []
+    for degree in range(moments.order + 1):
+        part = slice(monomial_count(degree - 1), monomial_count(degree))
+        values = moments.raw[part]
+        noise = np.maximum(moments.error[part], NOISE * np.abs(values).max())
+        texts = [number(0.0 if abs(value) <= least else float(value)) for value, least in zip(values, noise)]
+        rows = zip(map(label, monomials(degree)[part].tolist()), texts, (repr(float(value)) for value in values))
+        degrees.append(Degree(degree, unit(of, about, degree), tuple(rows)))
+    return tuple(degrees), ""
+
+
+def placed(computed: Computed, of: str, about: str, frame: str, order: int) -> Moments:
+    """The moments along the axes of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or
+    "NORMALIZED", as `Moments.normalized` by size. ValueError where that cannot be, or leaves the range of numbers."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        moments = _placed(computed, of, about, frame, order)
+    if not np.isfinite([moments.raw, moments.error, moments.input]).all():
+        raise ValueError(
+            "So far from there, moments of order {:d} are beyond the range of numbers; show them about "
+            "the center.".format(order)
+        )
+    return moments
+
+
+def _placed(computed: Computed, of: str, about: str, frame: str, order: int) -> Moments:
+    moments = (computed.volume if of == "VOLUME" else computed.area).truncated(order)
+    rotation = np.eye(3) if frame == "WORLD" else computed.rotation
+    origin = moments.center if about != "ORIGIN" else np.zeros(3) if frame == "WORLD" else computed.location
+    if frame == "OBJECT":
+        moments = moments.in_frame(rotation, origin)
+    if about == "NORMALIZED":
+        return moments.normalized()
+    return moments if frame == "OBJECT" else moments.shifted(origin)
+
+
+def label(powers: list[int]) -> str:
+    """x²z, or 1."""
+    factors = [axis + str(power).translate(POWERS) * (power > 1) for axis, power in zip("xyz", powers) if power]
+    return "".join(factors) or "1"
+
+
+def unit(of: str, about: str, degree: int) -> str:
+    """m⁵, or nothing for normalized ones."""
+    if about == "NORMALIZED":
+        return ""
+    return "m" + str(degree + (3 if of == "VOLUME" else 2)).translate(POWERS)
+
+
+def as_csv(computed: Computed, of: str, about: str, frame: str) -> str:
+    """All of them: a comment that says what they are, and a row for each with its bounds."""
+    moments = placed(computed, of, about, frame, computed.order)
+    text = io.StringIO()
+    text.write(
+        "# {:s}: {:s} moments, {:s} frame, {:s}\n".format(
+            computed.name,
+            of.lower(),
+            frame.lower(),
+            {
+                "ORIGIN": "about the frame's origin, in SI units",
+                "CENTER": "about the center, in SI units",
+                "NORMALIZED": "central, of the body scaled to a {:s} of 1".format(of.lower()),
+            }[about],
+        )
+    )
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(["p", "q", "r", "moment", "rounding", "float32"])
+    rows = zip(monomials(computed.order).tolist(), moments.raw.tolist(), moments.error.tolist(), moments.input.tolist())
+    table.writerows([*powers, *values] for powers, *values in rows)
+    return text.getvalue()

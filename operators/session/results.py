@@ -1,0 +1,123 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Stored results made ready to be shown: in the wanted frame, and summed over a selection.
+
+A panel is drawn at every movement of the mouse, so both are cached: one object's by what is stored and where it stands,
+the totals until Blender reports any change.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import chain
+
+import bpy
+from bpy.types import Context, Object, Scene
+from mathutils import Matrix
+
+from ...core.inertia.mass_properties import MassProperties, combined
+from ...core.numerics.float32 import decimal
+from ..read.fingerprint import settings_hash
+from ..read.total_caveats import doubts, unfounded
+from ..write import properties
+from . import live, staleness
+
+
+@dataclass(frozen=True, eq=False)
+class Total:
+    """Selected objects as one body, SI, world axes. count: objects with results; body: None where they have no mass;
+    missing, outdated: names of others; doubts: sentences on what may be no part of it."""
+
+    count: int
+    volume: float
+    area: float
+    body: MassProperties | None
+    missing: tuple[str, ...]
+    outdated: tuple[str, ...]
+    doubts: tuple[str, ...]
+
+
+_refusals: dict[int, tuple[str, str]] = {}  # session uid → reason, and the digest of the settings of then
+_total: tuple[tuple, Total] | None = None  # what the last total was computed for, and that total
+
+
+def refuse(obj: Object, reason: str | None) -> None:
+    """Keep, until Blender ends, why the object could not be measured; None forgets it."""
+    _refusals.pop(obj.session_uid, None)
+    if reason is not None:
+        _refusals[obj.session_uid] = reason, settings_hash(obj, bpy.context.scene)
+
+
+def refusal(obj: Object) -> str:
+    """Why the object could not be measured when that was last tried with these settings, or nothing."""
+    reason, settings = _refusals.get(obj.session_uid, ("", ""))
+    return reason if reason and settings == settings_hash(obj, bpy.context.scene) else ""
+
+
+def of_object(obj: Object, scene: Scene) -> properties.Stored | None:
+    """The results in the frame that the scene shows: the live ones where they are on, else those that are stored; None
+    where there are none, or not all of them."""
+    now = live.shown(obj)
+    if now is not None and now.measurement is not None:
+        one = now.measurement
+        body = one.in_object_frame() if scene.body_moments.frame == "OBJECT" else one.mass_properties
+        return properties.Stored(one.density, one.volume, one.area, body, one.error_bound)
+    rows = properties.numbers(obj)
+    if rows is None:
+        return None
+    return _in_frame(rows, None if scene.body_moments.frame == "OBJECT" else _place(obj), _unit(scene))
+
+
+def total(context: Context) -> Total:
+    """The selected objects as one body, by the parallel-axis theorem, from what is stored."""
+    global _total
+    key = (staleness.generation(), context.scene.session_uid, context.view_layer.name)
+    if _total is None or _total[0] != key:
+        _total = (key, _sum(context))
+    return _total[1]
+
+
+def _sum(context: Context) -> Total:
+    scene = context.scene
+    found, counted, missing, outdated = [], [], [], []
+    for obj in context.view_layer.objects.selected:
+        rows = properties.numbers(obj)
+        if rows is None:
+            missing.append(obj.name)
+            continue
+        found.append(_in_frame(rows, _place(obj), _unit(scene)))
+        counted.append(obj)
+        if staleness.reason(obj, scene):
+            outdated.append(obj.name)
+    told = unfounded((obj.name, properties.method_and_warnings(obj)[0]) for obj in counted)
+    body = None
+    if found:
+        with suppress(ValueError):  # together they have no mass
+            body = combined([(one.body.as_moments(), 1.0) for one in found])
+    return Total(
+        len(found),
+        sum(one.volume for one in found),
+        sum(one.area for one in found),
+        body,
+        tuple(missing),
+        tuple(outdated),
+        (*told, *doubts(counted, context.view_layer)),
+    )
+
+
+@lru_cache(maxsize=512)
+def _in_frame(rows: tuple, place: tuple[float, ...] | None, unit: float) -> properties.Stored:
+    found = properties.stored(rows)
+    if place is None:
+        return found
+    return found.in_world(Matrix([place[i : i + 4] for i in range(0, 16, 4)]), unit)
+
+
+def _place(obj: Object) -> tuple[float, ...]:
+    return tuple(chain.from_iterable(obj.matrix_world))
+
+
+def _unit(scene: Scene) -> float:
+    return decimal(scene.unit_settings.scale_length)

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where an object's density comes from when it is not one number, as the settings say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+
+from ...core.density.polynomial import Polynomial, parse
+from ...core.numerics.float32 import decimal
+
+
+@dataclass(frozen=True, eq=False)
+class DensityField:
+    """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of metres, along the
+    world's axes or each surface's own; text: as it was typed, or taken. attribute: the name of that of the vertices."""
+
+    kind: str
+    polynomial: Polynomial | None = None
+    in_world: bool = False
+    text: str = ""
+    attribute: str | None = None
+
+
+def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
+    """What the object's settings name; None for one value or a given mass. ValueError, with what to do, where a
+    polynomial cannot be read or an attribute has no name."""
+    if settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
+        return None
+    if settings.density_from == "MATERIALS":
+        return DensityField("materials")
+    if settings.density_from == "POLYNOMIAL":
+        text = settings.density_polynomial.strip()
+        # Who meant a decimal comma sees here what it was taken for.
+        told = "with the coefficients {:s} of 1, x, y, z, …".format(text) if "," in text else text
+        return DensityField("polynomial", parse(text), settings.density_frame == "WORLD", told)
+    if settings.density_from == "VOLUME":
+        if settings.density_volume is None:
+            raise ValueError("The Volume object that its density comes from is not chosen; choose one.")
+        return DensityField("volume")
+    if not settings.density_attribute:
+        raise ValueError("The vertex attribute that holds its density has no name; set one.")
+    return DensityField("attribute", attribute=settings.density_attribute)
+
+
+def material_density(material: bpy.types.Material | None) -> float | None:
+    """kg/m³; None where there is no material, or it has no density."""
+    density = 0.0 if material is None else decimal(material.body_moments.density)
+    return density if density > 0.0 else None
+
+
+def fixed_to(obj: bpy.types.Object) -> str:
+    """What the object's density is fixed to, where it changes as the object moves or gets other axes: "own" or "world"
+    coordinates; "" else."""
+    settings = obj.body_moments
+    if settings.mass_from != "DENSITY" or settings.density_from != "POLYNOMIAL":
+        return ""
+    return "world" if settings.density_frame == "WORLD" else "own"

@@ -1,0 +1,43 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Carried out of its former module."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import bpy
+
+from ...core.numerics.float32 import decimal
+from .density import material_density
+from .grid import GridOptions
+
+
+def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
+    """What decides the density of a Volume object. density: as for `GridOptions.of`."""
+    grid = GridOptions.of(obj.body_moments, density)
+    return "" if grid.solid else repr(grid.key)
+
+
+def density_key(obj: bpy.types.Object, used: Iterable[str]) -> str:
+    """What of the settings and of materials decides the density, as a text; "" for one value, a given mass or a wire.
+
+    used: the full names of the materials that the last measurement met, beside those in the object's slots.
+    """
+    settings = obj.body_moments
+    if obj.type == "VOLUME":
+        return grid_key(obj)
+    if settings.kind == "WIRE" or settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
+        return ""
+    if settings.density_from == "VOLUME":
+        source = settings.density_volume
+        place = None if source is None else [tuple(row) for row in source.matrix_world]
+        return "" if source is None else repr((GridOptions.of(source.body_moments).key, place))
+    if settings.density_from == "POLYNOMIAL":
+        return repr((settings.density_frame, settings.density_polynomial.strip()))
+    if settings.density_from == "ATTRIBUTE":
+        return repr(settings.density_attribute)
+    slots = [slot.material for slot in obj.material_slots]
+    names = {*used, *(material.name_full for material in slots if material)}
+    densities = {one.name_full: material_density(one) for one in bpy.data.materials if one.name_full in names}
+    return repr((decimal(settings.density), sorted(names), sorted(densities.items())))

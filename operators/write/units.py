@@ -1,0 +1,189 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""SI numbers in the scene's units, with their units.
+
+Blender's own formatter has no density and no inertia, and shows a microgram as "0 kg". So all
+quantities are formatted here, to six significant digits, from the scene's system, length unit and
+mass unit. Areas, volumes and inertias follow the two chosen units; an adaptive unit is
+chosen for each number.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import isfinite
+
+from ...core.numerics.float32 import decimal
+
+FOOT = 0.3048
+POUND = 0.45359237
+
+LENGTHS = {
+    "METRIC": {
+        "KILOMETERS": (1e3, "km"),
+        "METERS": (1.0, "m"),
+        "CENTIMETERS": (1e-2, "cm"),
+        "MILLIMETERS": (1e-3, "mm"),
+        "MICROMETERS": (1e-6, "µm"),
+    },
+    "IMPERIAL": {
+        "MILES": (5280.0 * FOOT, "mi"),
+        "FEET": (FOOT, "ft"),
+        "INCHES": (FOOT / 12.0, "in"),
+        "THOU": (FOOT / 12000.0, "thou"),
+    },
+}
+MASSES = {
+    "METRIC": {
+        "TONNES": (1e3, "t"),
+        "KILOGRAMS": (1.0, "kg"),
+        "GRAMS": (1e-3, "g"),
+        "MILLIGRAMS": (1e-6, "mg"),
+    },
+    "IMPERIAL": {
+        "TONNES": (2000.0 * POUND, "ton"),
+        "CENTUM_WEIGHTS": (100.0 * POUND, "cwt"),
+        "STONES": (14.0 * POUND, "st"),
+        "POUNDS": (POUND, "lb"),
+        "OUNCES": (POUND / 16.0, "oz"),
+    },
+}
+# What an adaptive unit chooses from. Hundredweights and stones are for those who ask for them.
+ADAPTIVE_LENGTHS = {
+    "METRIC": ("KILOMETERS", "METERS", "CENTIMETERS", "MILLIMETERS", "MICROMETERS"),
+    "IMPERIAL": ("MILES", "FEET", "INCHES", "THOU"),
+}
+ADAPTIVE_MASSES = {
+    "METRIC": ("TONNES", "KILOGRAMS", "GRAMS", "MILLIGRAMS"),
+    "IMPERIAL": ("TONNES", "POUNDS", "OUNCES"),
+}
+ADAPTIVE_INERTIAS = {
+    "METRIC": ((1.0, "kg·m²"), (1e-4, "kg·cm²"), (1e-9, "g·mm²")),
+    "IMPERIAL": ((POUND * FOOT**2, "lb·ft²"), (POUND * (FOOT / 12.0) ** 2, "lb·in²")),
+}
+POWERS = {"length": ("", 1), "area": ("²", 2), "volume": ("³", 3), "area_moment": ("⁴", 4)}
+SI_UNITS = {
+    "length": "m",
+    "area": "m²",
+    "volume": "m³",
+    "mass": "kg",
+    "density": "kg/m³",
+    "inertia": "kg·m²",
+    "area_moment": "m⁴",
+}
+DIGITS = 6
+
+
+@dataclass(frozen=True)
+class Units:
+    """A scene's unit settings. With system "NONE", lengths, areas and volumes are in the scene's own
+    units, without a name; whatever has mass in it is SI, with its name.
+    """
+
+    system: str
+    length: str
+    mass: str
+    scale: float
+
+    @classmethod
+    def of(cls, settings) -> Units:
+        """From a scene's `unit_settings`."""
+        return cls(
+            settings.system,
+            settings.length_unit,
+            settings.mass_unit,
+            decimal(settings.scale_length),
+        )
+
+    def text(self, quantity: str, value: float) -> str:
+        """One SI value: "1.5 kg", "12.3457 cm²"."""
+        return self.texts(quantity, (value,))[0]
+
+    def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
+        """SI values of one quantity, all in the unit that suits the largest of them. size: of the body that they belong
+        to; what is rounding beside it is shown as 0."""
+        largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
+        noise = max(1e-12 * largest, 1e-7 * size)
+        factor, name = self.unit(quantity, 0.0 if largest < noise else largest)
+        # Beside a largest value, what is left of a cancelled one is noise: 1e-17 kg·m² is shown as 0.
+        return [
+            "{:s} {:s}".format(number(0.0 if abs(value) < noise else value / factor), name).rstrip() for value in values
+        ]
+
+    def bound(self, quantity: str, bound: float, beside: float) -> str:
+        """An SI error bound, to two digits in the unit of the value that it belongs to: "± 4.5e-15 m³"."""
+        factor, name = self.unit(quantity, abs(beside))
+        return "± {:s} {:s}".format(number(bound / factor, 2), name).rstrip()
+
+    def unit(self, quantity: str, value: float) -> tuple[float, str]:
+        """(SI value of one unit, its name) to show an SI `value` in."""
+        if self.system == "NONE":
+            return (self.scale ** POWERS[quantity][1], "") if quantity in POWERS else (1.0, SI_UNITS[quantity])
+        if quantity in POWERS:
+            sign, power = POWERS[quantity]
+            factor, name = self._length(value ** (1.0 / power) if value > 0.0 else 0.0)
+            return factor**power, name + sign
+        if quantity == "mass":
+            return self._mass(value)
+        if quantity == "density":
+            return self._density()
+        return self._inertia(value)
+
+    def _length(self, value: float) -> tuple[float, str]:
+        table = LENGTHS[self.system]
+        if self.length != "ADAPTIVE":
+            return table[self.length]
+        return _fitting([table[key] for key in ADAPTIVE_LENGTHS[self.system]], value, _base(table))
+
+    def _mass(self, value: float) -> tuple[float, str]:
+        table = MASSES[self.system]
+        if self.mass != "ADAPTIVE":
+            return table[self.mass]
+        base = table["KILOGRAMS" if self.system == "METRIC" else "POUNDS"]
+        return _fitting([table[key] for key in ADAPTIVE_MASSES[self.system]], value, base)
+
+    def _density(self) -> tuple[float, str]:
+        """As densities are tabulated and typed, whatever a scene's lengths are: kg/mm³ helps nobody."""
+        if self.system == "METRIC":
+            return 1.0, "kg/m³"
+        return POUND / FOOT**3, "lb/ft³"
+
+    def _inertia(self, value: float) -> tuple[float, str]:
+        masses, lengths = MASSES[self.system], LENGTHS[self.system]
+        if self.mass != "ADAPTIVE" or self.length != "ADAPTIVE":
+            mass = masses.get(self.mass, masses.get("KILOGRAMS", masses.get("POUNDS")))
+            length = lengths.get(self.length, _base(lengths))
+            return mass[0] * length[0] ** 2, "{:s}·{:s}²".format(mass[1], length[1])
+        return _fitting(ADAPTIVE_INERTIAS[self.system], value, ADAPTIVE_INERTIAS[self.system][0])
+
+
+def _base(table: dict[str, tuple[float, str]]) -> tuple[float, str]:
+    return table["METERS"] if "METERS" in table else table["FEET"]
+
+
+def _fitting(units: Sequence[tuple[float, str]], value: float, base: tuple[float, str]) -> tuple[float, str]:
+    """The largest unit of which there is at least one, the smallest where there is none, the
+    base for zero.
+    """
+    if value == 0.0:
+        return base
+    for unit in units:
+        if value >= unit[0] * (1.0 - 1e-6):
+            return unit
+    return units[-1]
+
+
+def number(value: float, digits: int = DIGITS) -> str:
+    """A number as a person reads it: six significant digits, no trailing zeros, powers of ten
+    only where needed.
+    """
+    if value == 0.0:
+        return "0"
+    text = "{:.{:d}g}".format(value, digits)
+    if "e" in text:
+        mantissa, exponent = text.split("e")
+        if 0 < int(exponent) < 10:  # up to ten digits are easier to read than a power
+            return "{:.0f}".format(float(text)).replace("-", "−")
+        text = "{:s}e{:d}".format(mantissa, int(exponent))
+    return text.replace("-", "−")

@@ -1,0 +1,112 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Carried out of its former module."""
+
+from __future__ import annotations
+
+from bpy.types import Context, Object, UILayout
+
+from ..operators.session import live
+from ..operators.session import walls as wall_slider
+from ..operators.write.units import Units
+from . import grid, rows
+from . import material_menus as materials
+
+
+def _material(layout: UILayout, context: Context, obj: Object) -> None:
+    settings = obj.body_moments
+    if obj.override_library is not None:
+        rows.sentence(
+            layout,
+            context,
+            "A library override: the file keeps none of these settings, nor results; make it local first",
+            icon="ERROR",
+        )
+    if obj.type == "VOLUME" and grid.settings_rows(layout, context, obj):
+        return
+    column = layout.column()
+    column.use_property_split = True
+    if obj.type == "VOLUME":
+        column.row().prop(settings, "mass_from", text="Given", expand=True)
+        if settings.mass_from == "MASS":
+            column.prop(settings, "mass", text="Mass kg")
+        else:
+            _one_density(column, settings, "Material")
+        return
+    row = _labelled(column, "Kind")
+    row.use_property_split = False
+    for kind in ("SOLID", "SHELL", "WIRE") if obj.type == "CURVE" or settings.kind == "WIRE" else ("SOLID", "SHELL"):
+        row.prop_enum(settings, "kind", kind)
+    if obj.type == "SURFACE":
+        column.operator("object.body_moments_live", icon="REC", depress=live.is_live(obj))
+    if settings.kind == "SHELL":
+        column.prop(settings, "wall")
+        column.prop(settings, "thickness")
+        _largest(column, context, obj)
+    elif settings.kind == "SOLID":
+        column.prop(settings, "overlap")
+    column.row().prop(settings, "mass_from", text="Given", expand=True)
+    if settings.mass_from == "DENSITY" and settings.kind == "WIRE":
+        column.prop(settings, "linear_density", text="Density kg/m")
+        return
+    if settings.mass_from == "MASS":
+        column.prop(settings, "mass", text="Mass kg")
+        return
+    column.prop(settings, "density_from", text="From")
+    if settings.density_from == "POLYNOMIAL":
+        column.prop(settings, "density_polynomial", text="kg/m³")
+        column.row().prop(settings, "density_frame", text="x, y, z in m", expand=True)
+    elif settings.density_from == "ATTRIBUTE":
+        if obj.type == "MESH":
+            column.prop_search(settings, "density_attribute", obj.data, "attributes", results_are_suggestions=True)
+        else:
+            column.prop(settings, "density_attribute")
+    elif settings.density_from == "VOLUME":
+        column.prop(settings, "density_volume")
+    elif settings.density_from == "MATERIALS":
+        _materials(layout, obj)
+    else:
+        _one_density(column, settings, "Material")
+
+
+def _largest(layout: UILayout, context: Context, obj: Object) -> None:
+    """How thick the wall may be, once that is known."""
+    limit = wall_slider.largest(obj)
+    if limit is None:
+        return
+    units = Units.of(context.scene.unit_settings)
+    row = layout.row()
+    row.alert = wall_slider.folds(obj)
+    text = "Folds Over from {:s}" if row.alert else "Good up to {:s}"
+    row.label(text=text.format(units.text("length", limit)), icon="ERROR" if row.alert else "INFO")
+
+
+def _materials(layout: UILayout, obj: Object) -> None:
+    settings = obj.body_moments
+    column = layout.column(align=True)
+    column.label(text="Densities, kg/m³")
+    shown = {slot.material: None for slot in obj.material_slots if slot.material}
+    for material in shown:
+        materials.density_row(column, material, material.name)
+    if not shown:
+        column.label(text="It has no material slots", icon="INFO")
+    column = layout.column()
+    column.use_property_split = True
+    _one_density(column, settings, "Without One")
+
+
+def _labelled(column: UILayout, label: str) -> UILayout:
+    """A row beside a label, as Blender puts properties there."""
+    split = column.row(align=True).split(factor=0.4, align=True)
+    heading = split.row()
+    heading.alignment = "RIGHT"
+    heading.label(text=label)
+    return split.row(align=True)
+
+
+def _one_density(column: UILayout, settings, heading: str) -> None:
+    """The object's own density, with the table and the user's presets."""
+    row = _labelled(column, heading)
+    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
+    row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
+    column.prop(settings, "density", text="Density kg/m³")

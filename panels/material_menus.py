@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Menus of materials by category, the user's own presets, and the densities of Blender's materials.
+
+In a layout with the context pointer `body_moments_material` the menus set that material's density, else that of the
+selected objects.
+"""
+
+import bpy
+from bl_ui.utils import PresetPanel
+from bpy.types import Context, Material, Menu, Panel, UILayout
+
+from ..core.density.materials import CATEGORIES, MATERIALS
+from ..operators.actions.setup.presets import (
+    PRESETS,
+    MATERIAL_OT_body_moments_set_density,
+    OBJECT_OT_body_moments_preset_add,
+    OBJECT_OT_body_moments_set_material,
+)
+
+
+class OBJECT_MT_body_moments_materials(Menu):
+    """Materials by category. Typing searches them"""
+
+    bl_idname = "OBJECT_MT_body_moments_materials"
+    bl_label = "Materials"
+    bl_options = {"SEARCH_ON_KEY_PRESS"}
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        layout.operator_context = "INVOKE_DEFAULT"
+        _set_density(layout, context, text="Search...", icon="VIEWZOOM")
+        layout.separator()
+        for category in CATEGORIES:
+            layout.menu(_menu_name(category))
+
+
+def _menu_name(category: str) -> str:
+    return "OBJECT_MT_body_moments_{:s}".format(category.lower().replace(" ", "_"))
+
+
+def _set_density(layout: UILayout, context: Context, **options: str):
+    """The button that sets the density of a material, or of objects."""
+    target = getattr(context, "body_moments_material", None)
+    if target is None:
+        return layout.operator(OBJECT_OT_body_moments_set_material.bl_idname, **options)
+    button = layout.operator(MATERIAL_OT_body_moments_set_density.bl_idname, **options)
+    button.target = target.name
+    return button
+
+
+def density_row(layout: UILayout, material: Material, label: str = "") -> None:
+    """A material's density with the menu of the table."""
+    settings = material.body_moments
+    row = layout.row(align=True)
+    row.enabled = material.is_editable  # the menu goes by names, which a local one may share with a linked one
+    if label:
+        split = row.split(factor=0.4, align=True)
+        split.label(text=label, icon="MATERIAL")
+        row = split.row(align=True)
+    row.prop(settings, "density", text="" if label else "Density kg/m³")
+    row.context_pointer_set("body_moments_material", material)
+    row.menu(OBJECT_MT_body_moments_materials.bl_idname, text="", icon="DOWNARROW_HLT")
+
+
+def _draw_category(self: Menu, context: Context) -> None:
+    layout = self.layout
+    layout.operator_context = "EXEC_DEFAULT"
+    for material in MATERIALS:
+        if material.category == self.bl_label:
+            text = "{:s}  ({:.5g})".format(material.name, material.density)
+            _set_density(layout, context, text=text).material = material.name
+
+
+CATEGORY_MENUS = tuple(
+    type(
+        _menu_name(category),
+        (Menu,),
+        {
+            "__doc__": "{:s}, with their densities in kg/m³".format(category),
+            "bl_idname": _menu_name(category),
+            "bl_label": category,
+            "draw": _draw_category,
+        },
+    )
+    for category in CATEGORIES
+)
+
+
+class OBJECT_PT_body_moments_presets(PresetPanel, Panel):
+    """Presets of the user's own"""
+
+    bl_label = "Body Presets"
+    preset_subdir = PRESETS
+    preset_operator = "script.execute_preset"
+    preset_add_operator = OBJECT_OT_body_moments_preset_add.bl_idname
+
+    def draw(self, context: Context) -> None:
+        if bpy.utils.preset_paths(PRESETS):
+            super().draw(context)
+            return
+        # Without a folder of presets, Blender's own drawing complains about missing paths.
+        manager = context.window_manager
+        self.layout.label(text="Keep these settings as")
+        row = self.layout.row()
+        row.prop(manager, "preset_name", text="")
+        row.operator(self.preset_add_operator, text="", icon="ADD").name = manager.preset_name
+
+
+class MATERIAL_PT_body_moments(Panel):
+    """A material's density, for objects that take theirs from their materials"""
+
+    bl_idname = "MATERIAL_PT_body_moments"
+    bl_label = "Body Moments"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "material"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return getattr(context, "material", None) is not None
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        material = context.material
+        density_row(layout, material)
+        column = layout.column()
+        if material.body_moments.material:
+            column.label(text=material.body_moments.material, icon="CHECKMARK")
+        elif not material.body_moments.density:
+            column.label(text="None: the object's density is taken", icon="INFO")
+
+
+CLASSES = (
+    *CATEGORY_MENUS,
+    OBJECT_MT_body_moments_materials,
+    OBJECT_PT_body_moments_presets,
+    MATERIAL_PT_body_moments,
+)

@@ -1,0 +1,50 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Carried out of its former module."""
+
+from __future__ import annotations
+
+from bpy.types import Context, UILayout
+
+from ..operators.read.total_caveats import LISTED
+from ..operators.session import results
+from ..operators.write.text import listed
+from ..operators.write.units import Units
+from . import rows
+from .numbers import AXES, NUMBERS
+
+
+def _totals(layout: UILayout, context: Context, units: Units) -> None:
+    header, body = layout.panel("body_moments_totals", default_closed=True)
+    header.label(text="Total of Selection")
+    if body is None:
+        return
+    total = results.total(context)
+    column = body.column(align=True)
+    if not total.count:
+        column.label(text="No selected object is measured", icon="INFO")
+        return
+    column.label(text="1 object" if total.count == 1 else "{:d} objects".format(total.count), icon="GROUP")
+    for names, text in ((total.missing, "Not measured: {:s}"), (total.outdated, "Out of date: {:s}")):
+        if names:
+            row = column.row()
+            row.alert = True
+            rows.sentence(row, context, text.format(", ".join(listed(names, LISTED))), icon="ERROR")
+    for one in total.doubts:
+        rows.sentence(column, context, one, icon="ERROR")
+    column = body.column(align=True)
+    if total.body is not None:
+        rows.value(column, units, "Mass", "mass", total.body.mass)
+    if total.volume:
+        rows.value(column, units, "Volume", "volume", total.volume)
+    if total.area:
+        rows.value(column, units, "Area", "area", total.area)
+    if total.body is None:
+        return
+    column = body.column(align=True)
+    rows.heading(column, "Center of Mass (World)", "length", total.body.center)
+    rows.values(column, units, AXES, "length", total.body.center, total.body.radii_of_gyration.max())
+    column = body.column(align=True)
+    moments = total.body.principal.moments
+    rows.heading(column, "Principal Moments", "inertia", moments)
+    rows.values(column, units, NUMBERS, "inertia", moments)
