@@ -12,30 +12,20 @@ from types import ModuleType
 
 # Everything that is registered, in this order: modules with `register`, or with CLASSES only.
 PARTS = (
-    "settings",
-    "live",
-    "presets",
-    "measure_selected",
-    "section",
-    "select_faults",
-    "clear",
-    "clipboard",
-    "moments_table",
-    "origin",
-    "principal_axes",
-    "align",
-    "empty",
-    "cursor",
-    "orientation",
-    "rigid_body",
-    "sculpt_balance",
-    "fourier",
-    "match_pose",
-    "find_similar",
-    "find_symmetry",
-    "import_scan",
+    "settings.properties",
+    *("session.walls", "session.moments", "session.live"),
+    *("actions.setup.presets", "actions.setup.import_scan"),
+    *(
+        "actions.measure." + name
+        for name in ("measure_selected", "live", "section", "select_faults", "clear", "copy", "moments", "fourier")
+    ),
+    *(
+        "actions.snap." + name
+        for name in ("origin", "principal_axes", "align", "empty", "cursor", "orientation", "rigid_body", "balance")
+    ),
+    *("actions.shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",
-    "staleness",
+    "session.staleness",
 )
 
 

@@ -146,7 +146,7 @@ def _run() -> int:
     if not bpy.app.module:  # Blender leaves to a script what follows "--"
         words = words[words.index("--") :] if "--" in words else words[:1]
     if not hasattr(bpy.types.Object, "body_moments"):
-        importlib.import_module(PACKAGE + ".operators.settings").register()
+        importlib.import_module(PACKAGE + ".operators.settings.properties").register()
     batch = importlib.import_module(PACKAGE + ".operators.batch")
     return batch.main(words[1:], channel=channel, file_needed=bpy.app.module)
 

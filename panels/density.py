@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""The rows of a density: given mass, one value, materials, polynomial, attribute, Volume object."""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from bpy.types import Context, Panel
 
-from ..operators.actions.measure import moments as moments_table
+from ..operators.session import moments as moments_table
 from . import rows
 
 

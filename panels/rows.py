@@ -13,7 +13,7 @@ import numpy as np
 from bpy.types import Context, UILayout
 
 from ..operators.actions.measure.copy import OBJECT_OT_body_moments_copy_value
-from ..operators.alarms import alarms
+from ..operators.write.alarms import alarms
 from ..operators.write.units import SI_UNITS, Units
 
 LABEL, SHORT, INDEX = 0.36, 0.2, 0.1  # share of a row that its label takes, one of few letters, and of one

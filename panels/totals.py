@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""The total of the selection."""
 
 from __future__ import annotations
 
 from bpy.types import Context, UILayout
 
-from ..operators.read.total_caveats import LISTED
 from ..operators.session import results
+from ..operators.session.total_caveats import LISTED
 from ..operators.write.text import listed
 from ..operators.write.units import Units
 from . import rows

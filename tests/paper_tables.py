@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables 2 and 3 of Soldea, Elber and Rivlin beside the numbers of core/density.py.
+"""Tables 2 and 3 of Soldea, Elber and Rivlin beside the numbers of core/density/spline_grid.py.
 
     python tests/paper_tables.py        with numpy; or python tests/project.py tables
 

@@ -47,7 +47,7 @@ from body_moments.core.polyhedron.third_order import solid_moments
 from body_moments.core.shape.signature import Signature, compared, signature
 from body_moments.core.solid.measure_solid import measure_solid
 
-from tests.core import bodies, shapes  # noqa: E402
+from tests.core import bodies, shapes
 
 ORDER = 12
 FEWEST, MOST = 30, 60_000  # triangles of a part

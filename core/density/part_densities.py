@@ -1,6 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""One density for each closed part of a body, from the densities of its faces.
+
+A part is filled with the material of its faces. Where they differ it takes their mean, weighted by area. A cavity has
+no material: what it encloses is taken away from the part that it is cut from, whatever its own faces are painted with.
+"""
 
 from __future__ import annotations
 

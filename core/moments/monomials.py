@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""The monomials x^p y^q z^r by ascending degree: their number, order and index."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""Moments of one degree as symmetric tensors: contractions, rotations, distinct entries."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""Ranges of segments, hashes of rows, first occurrences, Morton order."""
 
 from __future__ import annotations
 

@@ -258,7 +258,7 @@ def _near(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.int
 
 
 def _apart(points: NDArray, left: NDArray, right: NDArray, tolerance: float) -> Iterator[tuple[float, int, int, bool]]:
-    """Which pairs of sides agree parameter by parameter: how far they are apart, which, whether they run the same way."""
+    """Which pairs of sides agree parameter by parameter: their distance, which, whether they run the same way."""
     for start in range(0, len(left), BLOCK):
         i, j = left[start : start + BLOCK], right[start : start + BLOCK]
         against, along = (

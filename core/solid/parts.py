@@ -1,10 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The closed parts of a body, and one density for each of them from the densities of its faces.
-
-A part is filled with the material of its faces. Where they differ it takes their mean, weighted by area. A cavity has
-no material: what it encloses is taken away from the part that it is cut from, whatever its own faces are painted with.
-"""
+"""The closed parts of a body: which triangles bound each, and which part a cavity is cut from."""
 
 from __future__ import annotations
 
@@ -13,9 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..density.piecewise_mass import weighted_solid
 from ..mesh.surface import normals
-from ..moments.moments import Moments
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,10 +34,3 @@ class Components:
         if linear is not None:
             points = points @ np.asarray(linear).T
         return np.linalg.norm(normals(points, self.triangles), axis=1) / 2.0
-
-    def moments(self, like: Moments) -> list[Moments]:
-        """The volume moments of each part, negative for cavities. like: the whole body's."""
-        order = np.argsort(self.part, kind="stable")
-        ends = np.searchsorted(self.part[order], np.arange(self.number + 1))
-        rows = [order[start:end] for start, end in zip(ends, ends[1:])]
-        return [weighted_solid(self.points, self.triangles[own], np.ones(len(own)), like) for own in rows]

@@ -1,1 +1,3 @@
-"""."""
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Derivatives of moments by every vertex, and the least change of shape that moves the center."""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""What a surface is like before anything is repaired, and which of its elements are at fault."""
 
 from __future__ import annotations
 

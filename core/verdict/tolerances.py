@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""What counts as nothing: lengths, volumes and rounding, relative to the body's own size."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""Instances of one surface: mapped areas, overlaps, the health and warnings of all together."""
 
 from __future__ import annotations
 

@@ -9,20 +9,19 @@ all go through it.
 from __future__ import annotations
 
 import os
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import bpy
 
 from ...core.measurement import Measurement
 from ...core.numerics.float32 import decimal
 from ..read import Reading, Unreadable, read_lines, read_object, shows_flat_region
+from ..read.quiet import paused
 from ..read.volume import VolumeReading, volume_reading
-from ..session import staleness
-from ..session import walls as wall_slider
 from ..settings.density import density_field
 from ..settings.digest import density_key, grid_key
 from ..settings.grid import GridOptions
-from ..settings.options import MeasureOptions, resolved
+from ..settings.options import AS_SET, MeasureOptions, resolved
 from .body import Body
 from .curve import region_body, wire_body
 from .grid import grid_body
@@ -31,29 +30,37 @@ from .measurement import _require_volume, as_measurement, to_order
 from .mesh import mesh_body
 from .nurbs import nurbs_body
 from .voxel_filled import inside_body
-from .wall import find_walls
+from .wall import Walls, find_walls
 
 THREADS = os.cpu_count() or 1  # for what takes long
 
 
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """One object's measurement, and what it was made from. walls: of a shell of real thickness."""
+
+    measurement: Measurement
+    reading: Reading | VolumeReading
+    body: Body
+    walls: Walls | None = None
+
+
 def measure_object(
-    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = MeasureOptions()
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Measurement:
     """The mass properties of one object as it is evaluated, in SI units and world axes.
 
     Raises `Unreadable`, with the reason and the remedy, where there is nothing to measure.
     """
-    return measure_body(obj, depsgraph, options)[0]
+    return measure_body(obj, depsgraph, options).measurement
 
 
-def measure_body(
-    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = MeasureOptions()
-) -> tuple[Measurement, Body]:
-    """As `measure_object`, with the body that was measured."""
+def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET) -> Measured:
+    """As `measure_object`, with what was read and the body that was measured."""
     scene = depsgraph.scene
     unit = options.unit_scale or decimal(scene.unit_settings.scale_length)
     grid = GridOptions.of(obj.body_moments, options.density)
-    with staleness.paused(), volume_reading(obj, depsgraph, grid.grid) as volume:
+    with paused(), volume_reading(obj, depsgraph, grid.grid) as volume:
         if volume is not None:
             return _measure_grid(obj, volume, grid, options, unit)
     given = options.density is not None or options.mass is not None
@@ -63,7 +70,8 @@ def measure_body(
         density = None if given or options.kind == "wire" else density_field(obj.body_moments)
         lines, unknown = _lines(obj, depsgraph, unit, options) if density is None else (None, "")
         if lines is not None:
-            return to_order(as_measurement(obj, *lines, options, unit), lines[1], options), lines[1]
+            reading, body = lines
+            return _measured(obj, reading, body, options, unit)
         reading = read_object(
             obj,
             depsgraph,
@@ -85,7 +93,7 @@ def measure_body(
                 threads=options.threads,
                 compare=options.compare,
             )
-            return to_order(as_measurement(obj, reading, body, options, unit), body, options), body
+            return _measured(obj, reading, body, options, unit)
         if reading.has_patches:
             reading.warnings.append(
                 "A density that is not one value needs polygons: the display mesh of its surface "
@@ -117,12 +125,23 @@ def measure_body(
         walls = find_walls(reading, body, options.wall) if shell and options.wall != "thin" else None
         if walls is not None:
             body = walls.body(options.thickness)
-        measurement = as_measurement(obj, reading, body, options, unit, weighed)
-        if walls is not None:
-            wall_slider.keep(obj, reading, walls, measurement, unit)
-        return to_order(measurement, body, options), body
+        return replace(_measured(obj, reading, body, options, unit, weighed), walls=walls)
     except ValueError as error:
         raise Unreadable(obj.name, str(error)) from error
+
+
+def _measured(
+    obj: bpy.types.Object,
+    reading: Reading | VolumeReading,
+    body: Body,
+    options: MeasureOptions,
+    unit: float,
+    weighed: Weighed | None = None,
+    key: str | None = None,
+) -> Measured:
+    """As `as_measurement`, with the moments to the order that was requested."""
+    measurement = as_measurement(obj, reading, body, options, unit, weighed, key)
+    return Measured(to_order(measurement, body, options), reading, body)
 
 
 def _lines(
@@ -149,7 +168,7 @@ def _lines(
 
 def _measure_grid(
     obj: bpy.types.Object, volume: VolumeReading, grid: GridOptions, options: MeasureOptions, unit: float
-) -> tuple[Measurement, Body]:
+) -> Measured:
     """As `measure_body`, of a grid of voxels."""
     kind = options.kind or ("solid" if obj.type == "VOLUME" else obj.body_moments.kind.lower())
     if kind != "solid":
@@ -158,7 +177,7 @@ def _measure_grid(
     options = resolved(replace(options, kind="solid"), obj, unit)
     body = grid_body(volume, grid, unit, options.threads)
     weighed = None if body.mass is None else Weighed(body.mass, "grid “{:s}”".format(volume.grid))
-    return to_order(as_measurement(obj, volume, body, options, unit, weighed, key), body, options), body
+    return _measured(obj, volume, body, options, unit, weighed, key)
 
 
 def _filled(
@@ -173,7 +192,7 @@ def _filled(
     source = obj.body_moments.density_volume
     grid = GridOptions.of(source.body_moments)
     try:
-        with staleness.paused(), volume_reading(source, depsgraph, grid.grid) as volume:
+        with paused(), volume_reading(source, depsgraph, grid.grid) as volume:
             if volume is None:
                 raise Unreadable(source.name, "It shows no grid of voxels.")
             body = inside_body(body, volume, grid, unit)

@@ -152,7 +152,8 @@ def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> S
 
 def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None) -> Shape:
     """Measure an object for its shape. Raises `Unreadable`, and `NoShape` where it has none."""
-    measurement, body = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
+    measured = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
+    measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.solids:
         raise NoShape(measurement, OF_SHAPES)
     if body.to_order is None or body.length is not None:

@@ -21,7 +21,7 @@ _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor is n
 
 
 def claim_stdout() -> int:
-    """A descriptor of the standard output, which nothing else in this process reaches any more; -1 where it is closed."""
+    """A descriptor of the standard output that nothing else in this process reaches any more; -1 where it is closed."""
     silent = not _is_open(2)
     try:
         channel = os.dup(1)

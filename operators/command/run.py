@@ -28,8 +28,8 @@ from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
 from ..bodies.shape import DISPLAY_MESH, OF_SHAPES, POLYGONS, NoShape, shape_of
 from ..read import Unreadable, measurable, measurable_objects
-from ..read.total_caveats import LISTED, doubts, unfounded
 from ..session.staleness import settle
+from ..session.total_caveats import LISTED, doubts, unfounded
 from ..settings import properties as settings
 from ..settings.options import MeasureOptions
 from ..write import record

@@ -8,7 +8,7 @@ same numbers through `vertices`, `loops` and `loop_triangles` cost 10 to 100 tim
 
 The sizes of the faces come from the tessellation (a face of n corners has n - 2 triangles), whose
 `loop_triangle_polygons` is such an attribute too. Triangles and quads are then rows of the corners;
-only n-gons need the slow `loop_triangles`. Quads stay whole: core/surface.py cuts them where
+only n-gons need the slow `loop_triangles`. Quads stay whole: core/mesh/surface.py cuts them where
 Blender does.
 """
 

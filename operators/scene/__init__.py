@@ -1,1 +1,3 @@
-"""."""
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Changes of objects that leave everything else as it is."""

@@ -157,14 +157,12 @@ class Surroundings:
             if self._moved(self.places[other], world(other), size):
                 continue
             if not same_shape(before, shape(other, depsgraph), size):
-                raise Refused(
-                    "{:s} would change its shape, for a modifier of it refers to this object; "
-                    "apply that modifier first".format(other.name)
+                remedy = (
+                    "{:s} would change its shape, for a modifier of it refers to this object; apply that modifier first"
                     if other.modifiers
-                    else "{:s} would change its shape, which is made with this object; convert it to a mesh first".format(
-                        other.name
-                    )
+                    else "{:s} would change its shape, which is made with this object; convert it to a mesh first"
                 )
+                raise Refused(remedy.format(other.name))
 
     def _moved(self, before: NDArray, now: NDArray, size: float) -> bool:
         changed = [np.abs(was[:3, 3]).max() for was in self.changed.values()]

@@ -4,9 +4,9 @@
 
 A handler notes, in memory, which objects with Live on Blender has evaluated anew, and a timer measures them once
 Blender is idle: nothing is written to any data, and nothing is measured while Blender evaluates, renders or draws. What
-takes long is measured less often. A body is followed (core/following.py) as long as its patches and what was decided
-about them stay; Measure stores the numbers, with the bounds of their errors. Which objects have Live on is kept in
-memory too: a property of the object would make Blender report an edit of its geometry when it is switched.
+takes long is measured less often. A body is tracked (core/nurbs/tracked_solid.py) as long as its patches and what was
+decided about them stay; Measure stores the numbers, with the bounds of their errors. Which objects have Live on is kept
+in memory too: a property of the object would make Blender report an edit of its geometry when it is switched.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 from bpy.app.handlers import persistent
-from bpy.types import Context, Depsgraph, Object, Operator, Scene
+from bpy.types import Depsgraph, Object, Scene
 
 from ...core.measurement import Measurement
 from ...core.numerics.float32 import decimal
@@ -83,34 +83,15 @@ def follow(obj: Object, depsgraph: Depsgraph) -> Live:
     return found
 
 
-class OBJECT_OT_body_moments_live(Operator):
-    """Show what the numbers are while control points are edited or animated"""
+def start(obj: Object, depsgraph: Depsgraph) -> Live:
+    """Let the object's numbers follow its edits; the first of them."""
+    _live.add(obj.session_uid)
+    return follow(obj, depsgraph)
 
-    bl_idname = "object.body_moments_live"
-    bl_label = "Live"
-    bl_description = (
-        "Show what the numbers are while control points are edited or animated, until the file is closed. Measure "
-        "stores them"
-    )
-    bl_options = {"INTERNAL"}
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        if context.object is None or context.object.type != "SURFACE":
-            cls.poll_message_set("Only the numbers of NURBS surfaces can follow an edit")
-            return False
-        return True
-
-    def execute(self, context: Context) -> set[str]:
-        obj = context.object
-        if is_live(obj):
-            _forget(obj.session_uid)
-            return {"FINISHED"}
-        _live.add(obj.session_uid)
-        found = follow(obj, context.evaluated_depsgraph_get())
-        if found.reason:
-            self.report({"WARNING"}, "{:s}: {:s}".format(obj.name, found.reason))
-        return {"FINISHED"}
+def stop(obj: Object) -> None:
+    """Let the object's numbers follow its edits no more."""
+    _forget(obj.session_uid)
 
 
 def _measured(obj: Object, depsgraph: Depsgraph) -> Measurement:
@@ -193,7 +174,6 @@ HANDLERS = (("depsgraph_update_post", _note), ("frame_change_post", _note), ("lo
 
 
 def register() -> None:
-    bpy.utils.register_class(OBJECT_OT_body_moments_live)
     for name, function in HANDLERS:
         getattr(bpy.app.handlers, name).append(function)
 
@@ -204,4 +184,3 @@ def unregister() -> None:
     if bpy.app.timers.is_registered(_tick):
         bpy.app.timers.unregister(_tick)
     _load()
-    bpy.utils.unregister_class(OBJECT_OT_body_moments_live)

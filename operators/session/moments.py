@@ -1,6 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""Moments to a chosen order, kept in memory, and what a panel and the clipboard show of them.
+
+Nothing is written to the object: a thousand numbers would burden the file, and no undo step is needed. The last few
+objects' moments are kept until Blender ends; they know what they were computed from, and so when they are out of date.
+"""
 
 from __future__ import annotations
 
@@ -58,6 +62,14 @@ class Degree:
 
 
 _kept: OrderedDict[int, Computed] = OrderedDict()
+
+
+def keep(obj: Object, computed: Computed) -> None:
+    """Remember what was computed for an object."""
+    _kept.pop(obj.session_uid, None)
+    _kept[obj.session_uid] = computed
+    while len(_kept) > KEPT:
+        _kept.popitem(last=False)
 
 
 def found(obj: Object) -> Computed | None:
@@ -159,3 +171,13 @@ def as_csv(computed: Computed, of: str, about: str, frame: str) -> str:
     rows = zip(monomials(computed.order).tolist(), moments.raw.tolist(), moments.error.tolist(), moments.input.tolist())
     table.writerows([*powers, *values] for powers, *values in rows)
     return text.getvalue()
+
+
+def register() -> None:
+    """Nothing is remembered yet."""
+
+
+def unregister() -> None:
+    """Forget everything."""
+    _kept.clear()
+    _shown.cache_clear()

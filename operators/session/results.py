@@ -19,10 +19,11 @@ from mathutils import Matrix
 
 from ...core.inertia.mass_properties import MassProperties, combined
 from ...core.numerics.float32 import decimal
+from ..bodies.measure_object import Measured
 from ..read.fingerprint import settings_hash
-from ..read.total_caveats import doubts, unfounded
 from ..write import properties
-from . import live, staleness
+from . import live, staleness, walls
+from .total_caveats import doubts, unfounded
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +42,13 @@ class Total:
 
 _refusals: dict[int, tuple[str, str]] = {}  # session uid → reason, and the digest of the settings of then
 _total: tuple[tuple, Total] | None = None  # what the last total was computed for, and that total
+
+
+def store(obj: Object, measured: Measured, scene: Scene) -> None:
+    """Write what was measured on the object, and remember what its sliders need. RuntimeError, with the remedy, where
+    the object cannot hold results."""
+    properties.store(obj, measured.measurement)
+    walls.keep(obj, measured, _unit(scene))
 
 
 def refuse(obj: Object, reason: str | None) -> None:

@@ -21,7 +21,6 @@ Reading a file reports no updates.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 
 import bpy
 from bpy.app.handlers import persistent
@@ -29,6 +28,7 @@ from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ..read.digest import shape_digest
 from ..read.fingerprint import VERSION, matrix_hash, scale_hash, settings_hash
+from ..read.quiet import is_paused, paused
 from ..write import section
 
 EDITED = "edited"
@@ -38,7 +38,6 @@ _edited: dict[int, set[str]] = {}  # session uid → the fingerprints that were 
 _changes: dict[int, int] = {}  # session uid → how often its geometry changed
 _shapes: dict[str, bytes] = {}  # fingerprint → digest of what was shown when it was stored, where there is one
 _undone = False
-_paused = False
 _generation = 0
 
 
@@ -99,17 +98,6 @@ def mark_turned(objects: Iterable[Object]) -> None:
     for obj in objects:
         if mark := _symmetry_mark(obj):
             _edited.setdefault(obj.session_uid, set()).add(mark)
-
-
-@contextmanager
-def paused() -> Iterator[None]:
-    """No change is noted in this context: for changes that leave every object's shape as it was."""
-    global _paused
-    before, _paused = _paused, True
-    try:
-        yield
-    finally:
-        _paused = before
 
 
 def generation() -> int:
@@ -224,7 +212,7 @@ def _instancing(updated: list[Object], collections: set[Collection]) -> Iterator
 def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
     global _generation, _undone
     _generation += 1
-    if _paused or depsgraph is None or depsgraph.mode != "VIEWPORT":
+    if is_paused() or depsgraph is None or depsgraph.mode != "VIEWPORT":
         return
     undone, _undone = _undone, False
     updated: dict[Object, None] = {}

@@ -14,11 +14,15 @@ from dataclasses import dataclass, replace
 
 from bpy.types import Context, Object, PropertyGroup
 
-from ...core.measurement import Measurement
 from ...core.numerics.float32 import decimal
+from ..bodies.measure_object import Measured
+from ..bodies.measurement import as_measurement
 from ..bodies.wall import Walls
 from ..read import Reading
+from ..settings import hooks
+from ..settings.options import MeasureOptions, resolved
 from ..write import properties
+from . import staleness
 
 KEPT = 64  # objects
 
@@ -36,10 +40,13 @@ class _Kept:
     unit: float
 
 
-def keep(obj: Object, reading: Reading, walls: Walls, measurement: Measurement, unit: float) -> None:
-    """Remember the walls that an object was measured with. unit: metres per Blender unit."""
-    _, geometry, matrix, _ = measurement.fingerprint.split(":")
-    _kept[obj.session_uid] = _Kept(replace(reading, parts=[]), walls.without_surfaces(), geometry, matrix, unit)
+def keep(obj: Object, measured: Measured, unit: float) -> None:
+    """Remember the walls that an object was measured with, if any. unit: metres per Blender unit."""
+    if measured.walls is None:
+        return
+    _, geometry, matrix, _ = measured.measurement.fingerprint.split(":")
+    reading = replace(measured.reading, parts=[])
+    _kept[obj.session_uid] = _Kept(reading, measured.walls.without_surfaces(), geometry, matrix, unit)
     _kept.move_to_end(obj.session_uid)
     while len(_kept) > KEPT:
         _kept.popitem(last=False)
@@ -62,10 +69,6 @@ def folds(obj: Object) -> bool:
 
 def changed(settings: PropertyGroup, context: Context) -> None:
     """What a change of the wall or its thickness does to the stored numbers."""
-    from ..bodies.measurement import as_measurement
-    from ..settings.options import MeasureOptions, resolved
-    from . import staleness
-
     obj = settings.id_data
     kept = _current(obj)
     scene = context.scene
@@ -101,3 +104,12 @@ def _current(obj: Object) -> _Kept | None:
     kept = _kept.get(obj.session_uid)
     parts = str(obj.get("body_fingerprint", "")).split(":")
     return kept if kept is not None and parts[1:3] == [kept.geometry, kept.matrix] else None
+
+
+def register() -> None:
+    hooks.on_wall_change.append(changed)
+
+
+def unregister() -> None:
+    hooks.on_wall_change.remove(changed)
+    _kept.clear()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""Digests of the settings of a density, for the fingerprint."""
 
 from __future__ import annotations
 

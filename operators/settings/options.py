@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""What overrides the objects' own settings."""
 
 from __future__ import annotations
 
@@ -34,6 +34,9 @@ class MeasureOptions:
     surface: bool = False
     pose: bool = False
     compare: bool = True
+
+
+AS_SET = MeasureOptions()  # every object as its own settings say
 
 
 def resolved(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> MeasureOptions:

@@ -16,7 +16,7 @@ from ...core.density.materials import BY_NAME
 from ...core.density.transfer_function import CT
 from ...core.numerics.float32 import decimal
 from ...core.polyhedron.any_order import MAX_ORDER
-from ..session import walls as wall_slider
+from .hooks import wall_changed
 
 COPIED = (
     *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
@@ -146,7 +146,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
             ),
         ),
         default="THIN",
-        update=wall_slider.changed,
+        update=wall_changed,
     )
     thickness: FloatProperty(
         name="Thickness",
@@ -155,7 +155,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
         min=0.0,
         precision=6,
         unit="LENGTH",
-        update=wall_slider.changed,
+        update=wall_changed,
     )
     overlap: EnumProperty(
         name="Overlaps",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Carried out of its former module."""
+"""Lists and sentences of a report: cut, counted, put in a row."""
 
 from __future__ import annotations
 

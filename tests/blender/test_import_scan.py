@@ -96,7 +96,7 @@ def test_what_cannot_be_imported_leaves_nothing(tmp_path):
 
 
 def test_it_is_in_the_import_menu():
-    import body_moments.operators.import_scan as module
+    import body_moments.operators.actions.setup.import_scan as module
 
     assert module._menu in bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
 

@@ -45,7 +45,7 @@ def compute(order=4):
 
 
 def rows():
-    from body_moments.operators.actions.measure import moments as moments_table
+    from body_moments.operators.session import moments as moments_table
 
     group = bpy.context.scene.body_moments
     text = moments_table.as_csv(
@@ -117,7 +117,7 @@ def test_the_copy_goes_to_the_clipboard_and_is_reported_in_background(box):
 
 
 def test_what_was_computed_is_called_out_of_date_when_the_object_changes(box):
-    from body_moments.operators.actions.measure import moments as moments_table
+    from body_moments.operators.session import moments as moments_table
 
     def reason():
         bpy.context.view_layer.update()
@@ -203,7 +203,7 @@ def test_warnings_follow_as_sentences(box, capfd):
 
 
 def test_only_the_last_objects_are_kept(box, monkeypatch):
-    from body_moments.operators.actions.measure import moments as moments_table
+    from body_moments.operators.session import moments as moments_table
 
     monkeypatch.setattr(moments_table, "KEPT", 2)
     others = [files.add_box(center=(5 * i, 0, 0)) for i in range(3)]
@@ -259,7 +259,7 @@ def test_moments_beyond_the_range_of_numbers_are_refused_not_shown(box, capfd):
 
 
 def test_moments_of_what_undo_took_back_are_out_of_date(box):
-    from body_moments.operators.actions.measure import moments as moments_table
+    from body_moments.operators.session import moments as moments_table
 
     bpy.ops.ed.undo_push(message="As it was")
     bpy.ops.object.mode_set(mode="EDIT")

@@ -601,7 +601,7 @@ def test_a_round_body_turned_within_its_object_stays():
 @pytest.mark.parametrize("cuts", [1, 5])
 def test_faces_change_neither_the_frame_that_is_snapped_to_nor_what_is_told_of_it(cuts, monkeypatch):
     """Measure looks at moments beyond third order up to a number of faces only, and says so beyond."""
-    from body_moments.operators.bodies import measure_object as measure
+    from body_moments.operators.bodies import measurement as measure
     from body_moments.operators.write import properties
 
     monkeypatch.setattr(measure, "AT_ONCE", 100)

@@ -11,7 +11,7 @@ bpy = pytest.importorskip("bpy")
 
 from body_moments.operators.read import Unreadable, measurable_objects, read_object
 
-from tests.blender.read_bodies import (  # noqa: E402
+from tests.blender.read_bodies import (
     collection,
     cube,
     depsgraph,

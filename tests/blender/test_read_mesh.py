@@ -7,11 +7,11 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-import bmesh  # noqa: E402
+import bmesh
 from body_moments.operators.read import read_object
 from body_moments.operators.read.mesh import mesh_surface
 
-from tests.blender.read_bodies import (  # noqa: E402
+from tests.blender.read_bodies import (
     CUBE,
     CUBE_FACES,
     activate,

@@ -11,9 +11,9 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from body_moments.operators.read import Unreadable, measurable, measurable_objects, read_object
-from mathutils import Matrix  # noqa: E402
+from mathutils import Matrix
 
-from tests.blender.read_bodies import (  # noqa: E402
+from tests.blender.read_bodies import (
     activate,
     collection,
     cube,

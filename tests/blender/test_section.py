@@ -55,7 +55,7 @@ def text_of(body):
 
 
 def section_of(obj):
-    from body_moments.operators.write import section
+    from body_moments.operators.actions.measure import section
 
     bpy.context.view_layer.update()
     return section.section_of(obj, bpy.context.evaluated_depsgraph_get())
@@ -76,7 +76,7 @@ def stored(obj):
 
 
 def outdated(obj):
-    from body_moments.operators.write import section
+    from body_moments.operators.actions.measure import section
 
     return section.outdated(obj, bpy.context.scene, stored(obj))
 

@@ -435,7 +435,7 @@ def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
 
 
 def test_the_symmetry_and_the_moments_of_an_instancer_are_out_of_date_too():
-    from body_moments.operators.actions.measure import moments as moments_table
+    from body_moments.operators.session import moments as moments_table
 
     member = add(mesh_body(), "Member")
     shown = instancer("Instancer", member)

@@ -91,7 +91,7 @@ OPERATORS = [
 
 @pytest.mark.parametrize(("cls", "settings"), OPERATORS)
 def test_esc_between_two_objects_leaves_everything_as_it_was(cls, settings, monkeypatch):
-    monkeypatch.setattr("body_moments.operators.measure_selected.AT_ONCE", 1)
+    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.AT_ONCE", 1)
     bodies = three()
     before = [place(body) for body in bodies]
     operator, window = pressed(cls, **settings)
@@ -143,7 +143,7 @@ def test_an_active_object_that_has_no_shape_is_told_and_ends_it(cls):
 
 
 def test_esc_leaves_what_was_said_of_objects_that_could_not_be_measured(monkeypatch):
-    monkeypatch.setattr("body_moments.operators.measure_selected.AT_ONCE", 1)
+    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.AT_ONCE", 1)
     bodies = three()
     whole, nothing = bodies[0].data, bpy.data.meshes.new("Nothing")
     for body in bodies:
@@ -162,7 +162,7 @@ def test_esc_leaves_what_was_said_of_objects_that_could_not_be_measured(monkeypa
 
 
 def test_one_object_with_warnings_is_not_counted(monkeypatch):
-    monkeypatch.setattr("body_moments.operators.measure_selected.AT_ONCE", 0)
+    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.AT_ONCE", 0)
     text = bpy.data.objects.new("Text", bpy.data.curves.new("Text", "FONT"))
     text.data.body, text.data.extrude, text.data.render_resolution_u = "o", 0.1, 30
     bpy.context.scene.collection.objects.link(text)
@@ -174,7 +174,7 @@ def test_one_object_with_warnings_is_not_counted(monkeypatch):
 
 @pytest.mark.parametrize(("cls", "settings"), OPERATORS)
 def test_a_fault_in_a_step_gives_the_window_back(cls, settings, monkeypatch):
-    monkeypatch.setattr("body_moments.operators.measure_selected.AT_ONCE", 1)
+    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.AT_ONCE", 1)
     three()
     operator, window = pressed(cls, **settings)
 

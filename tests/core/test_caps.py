@@ -103,7 +103,7 @@ def test_hundreds_of_sides_at_one_vertex_are_joined_in_pairs():
 
 
 def test_more_pairs_than_allowed_are_joined_in_order(monkeypatch):
-    monkeypatch.setattr("body_moments.core.caps.MOST_PAIRS", 1)
+    monkeypatch.setattr("body_moments.core.solid.holes.MOST_PAIRS", 1)
     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [-1, 0, 0], [-1, -1, 0]]
     loops = loops_of(points, [(0, 1), (1, 2), (2, 0), (0, 3), (3, 4), (4, 0)])
     assert loops.flat.sum() == pytest.approx(1.0, rel=1e-15)

@@ -195,7 +195,7 @@ def test_a_triangle_without_area_and_a_loose_vertex_give_nothing():
 def test_a_mesh_of_many_blocks_is_derived_as_one(monkeypatch):
     part = bodies.moved(bodies.sphere(3), SHEAR)
     whole = volume_gradient(bodies.surface(part), np.zeros(3)).by_vertex
-    monkeypatch.setattr("body_moments.core.gradient.BLOCK", 37)
+    monkeypatch.setattr("body_moments.core.statics.gradient.BLOCK", 37)
     pieces = volume_gradient(bodies.surface(part), np.zeros(3)).by_vertex
     assert np.abs(whole - pieces).max() < 1e-16
 

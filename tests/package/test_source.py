@@ -34,16 +34,6 @@ REFUSED = NETWORK | {
 }
 ALLOWED = (set(sys.stdlib_module_names) - REFUSED) | BLENDER | {"numpy"}
 
-# what each part of the add-on may import of the add-on, the nearest part first
-LAYERS = {
-    ("core",): [("core",)],
-    ("operators", "read"): [("core",), ("operators", "read")],
-    ("operators", "write"): [("core",), ("operators", "write")],
-    ("operators",): [("core",), ("operators",)],
-    ("panels",): [("core",), ("operators",), ("panels",)],
-    (): [("operators",), ("panels",)],
-}
-
 
 def name(path: Path) -> str:
     return path.relative_to(ROOT).as_posix()
@@ -63,36 +53,10 @@ def absolute_imports(tree: ast.AST) -> set[str]:
     return found
 
 
-def relative_imports(path: Path, tree: ast.AST) -> set[tuple[str, ...]]:
-    """The files of the add-on that a file imports, as parts of their path without the ending."""
-    package = path.relative_to(ROOT).parent.parts
-    found = set()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and node.level:
-            assert node.level - 1 <= len(package), f"{name(path)} imports from outside the add-on"
-            base = package[: len(package) - (node.level - 1)]
-            base += tuple(node.module.split(".")) if node.module else ()
-            for alias in node.names:
-                target = (*base, alias.name)
-                is_module = ROOT.joinpath(*target).is_dir()
-                is_module |= ROOT.joinpath(*target).with_suffix(".py").is_file()
-                found.add(target if is_module else base)
-    return found
-
-
 @shipped
 def test_a_file_imports_only_what_blender_brings(path):
     allowed = ALLOWED - BLENDER if name(path).startswith("core/") else ALLOWED
     assert absolute_imports(TREES[path]) <= allowed
-
-
-@shipped
-def test_imports_run_from_panels_to_operators_to_core(path):
-    here = path.relative_to(ROOT).with_suffix("").parts
-    layer = next(layer for layer in LAYERS if here[: len(layer)] == layer)
-    for target in relative_imports(path, TREES[path]) - {()}:
-        allowed = any(target[: len(part)] == part for part in LAYERS[layer])
-        assert allowed, f"{name(path)} imports {'.'.join(target)}"
 
 
 @shipped

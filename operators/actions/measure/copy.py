@@ -8,8 +8,8 @@ import bpy
 from bpy.props import StringProperty
 from bpy.types import Context, Operator, OperatorProperties
 
-from ...read.total_caveats import doubts, unfounded
 from ...session import staleness
+from ...session.total_caveats import doubts, unfounded
 from ...write import properties
 from ...write.report import report_text
 from .. import selection

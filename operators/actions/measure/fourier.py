@@ -14,12 +14,12 @@ from bpy.types import Context, Event, Operator
 
 from ....core.fourier.wave_vectors import Grid
 from ....core.numerics.float32 import decimal
-from ...alarms import alarms
 from ...bodies.fourier import ObjectTransform, object_transform
 from ...bodies.measure_object import THREADS
 from ...read import Unreadable, measurable
 from ...settings.options import MeasureOptions
 from ...write import spectrum
+from ...write.alarms import alarms
 from ..modal import Stepwise
 
 SUFFIX = ".npz"

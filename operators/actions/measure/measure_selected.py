@@ -8,11 +8,11 @@ from collections.abc import Iterator
 
 import bpy
 
-from ...alarms import alarms
-from ...bodies.measure_object import Measurement, Unreadable, measure_object
-from ...session.results import refuse
+from ...bodies.measure_object import Measured, measure_body
+from ...read import Unreadable
+from ...session import results
 from ...session.staleness import settle
-from ...write import properties
+from ...write.alarms import alarms
 from .. import selection
 from ..modal import Stepwise
 
@@ -47,7 +47,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
         return self.begin_modal(context, count)
 
     def _begin(self, context: bpy.types.Context) -> None:
-        self._found: list[tuple[bpy.types.Object, Measurement]] = []
+        self._found: list[tuple[bpy.types.Object, Measured]] = []
         self._refused: list[tuple[bpy.types.Object, str]] = []
         self._failed: list[str] = []
         self._steps = self._measure(_chosen(context), context.evaluated_depsgraph_get())
@@ -55,7 +55,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
     def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Iterator[int]:
         for done, obj in enumerate(objects, 1):
             try:
-                self._found.append((obj, measure_object(obj, depsgraph)))
+                self._found.append((obj, measure_body(obj, depsgraph)))
             except Unreadable as error:
                 self._refused.append((obj, error.reason))
             yield done
@@ -64,12 +64,12 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
         """Nothing is stored before everything is measured, so that a cancelled run leaves nothing behind."""
         for obj, reason in self._refused:
             self._failed.append("{:s}: {:s}".format(obj.name_full, reason))
-            refuse(obj, reason)
+            results.refuse(obj, reason)
         stored = []
-        for obj, measurement in self._found:
-            refuse(obj, None)
+        for obj, measured in self._found:
+            results.refuse(obj, None)
             try:
-                properties.store(obj, measurement)
+                results.store(obj, measured, context.scene)
             except RuntimeError as error:
                 self._failed.append("{:s}: {:s}".format(obj.name_full, str(error)))
                 continue
@@ -80,7 +80,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
         return {"FINISHED"} if stored else {"CANCELLED"}
 
     def _say(self, stored: int) -> None:
-        warned = sum(bool(alarms(measurement.warnings)) for _, measurement in self._found)
+        warned = sum(bool(alarms(measured.measurement.warnings)) for _, measured in self._found)
         tried = stored + len(self._failed)
         parts = ["Measured {:d} of {:d} objects".format(stored, tried)] if tried > 1 else []
         if tried == stored == 1:

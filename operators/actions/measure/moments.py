@@ -1,25 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments to a chosen order, computed by a button and kept in memory, and what a panel and the clipboard show of them.
-
-Nothing is written to the object: a thousand numbers would burden the file, and no undo step is needed. The last few
-objects' moments are kept until Blender ends; they know what they were computed from, and so when they are out of date.
-"""
+"""Moments to a chosen order, computed by a button, and copied to the clipboard."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-import bpy
 from bpy.types import Context, Object, Operator
 
-from ...alarms import alarms
 from ...bodies.measure_object import THREADS, measure_object
 from ...read import Unreadable, measurable
 from ...read.fingerprint import matrix_hash, settings_hash
 from ...session import staleness
-from ...session.moments import KEPT, Computed, _kept, _shown, as_csv, found
+from ...session.moments import Computed, as_csv, found, keep
 from ...settings.options import MeasureOptions
+from ...write.alarms import alarms
 from ...write.text import one_line
 from .copy import to_clipboard
 
@@ -67,10 +62,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         area = one.area_moments.truncated(options.order)
         volume = (one.volume_moments or replace(area * one.thickness, of="volume")).truncated(options.order)
         key = (matrix_hash(obj), settings_hash(obj, scene), staleness.geometry_changes(obj))
-        _kept.pop(obj.session_uid, None)
-        _kept[obj.session_uid] = Computed(obj.name, volume, area, one.rotation, one.location, key)
-        while len(_kept) > KEPT:
-            _kept.popitem(last=False)
+        keep(obj, Computed(obj.name, volume, area, one.rotation, one.location, key))
         told = "Computed {:d} moments of {:s}".format(len(volume.raw), obj.name)
         self.report({"WARNING"} if alarms(one.warnings) else {"INFO"}, one_line([told, *one.warnings]))
         return {"FINISHED"}
@@ -102,15 +94,3 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
 
 
 CLASSES = (OBJECT_OT_body_moments_compute_moments, OBJECT_OT_body_moments_copy_moments)
-
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
-    _kept.clear()
-    _shown.cache_clear()

@@ -11,13 +11,13 @@ from bpy.types import Context, Depsgraph, Object, Operator
 from ....core.numerics.float32 import decimal
 from ....core.plane.polygon import flaws, nested
 from ....core.plane.section import Section, fit_plane, measure_section, region
-from ...alarms import alarms
 from ...read import Unreadable
 from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
 from ...read.section import SECTION_TYPES, SectionReading, read_section
 from ...session import staleness
 from ...write import properties
 from ...write import section as record
+from ...write.alarms import alarms
 from .. import selection
 from .copy import to_clipboard
 

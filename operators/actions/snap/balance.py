@@ -26,8 +26,8 @@ from ....core.numerics.float32 import decimal
 from ....core.statics.balance import Balanced, balance
 from ...bodies.measure_object import measure_object
 from ...read import Part, read_object
+from ...read.quiet import paused
 from ...scene.transforms import FLOAT32, Refused
-from ...session import staleness
 from ...write.units import Units
 from .. import selection
 from . import base as snapping
@@ -126,7 +126,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         )
         try:
             mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, self.group)
-            with staleness.paused():  # what is tried and put back is no edit
+            with paused():  # what is tried and put back is no edit
                 told, notes = _balance(context, obj, mesh, wanted, unit)
             obj.data.update_tag()  # for others that show the mesh it is one
         except snapping.REFUSALS as error:

@@ -21,11 +21,12 @@ from numpy.typing import NDArray
 
 from ....core.inertia.principal_frame import EQUAL_AXES, strict_frame
 from ....core.numerics.float32 import decimal
-from ...bodies.measure_object import measure_body, measure_object
+from ...bodies.measure_object import measure_body
 from ...read import Unreadable
+from ...read.quiet import paused
 from ...scene import reframe
 from ...scene.transforms import Refused
-from ...session import staleness
+from ...session import results, staleness
 from ...settings.options import MeasureOptions
 from ...write import properties
 from .. import selection
@@ -92,7 +93,8 @@ class Body:
 def body_of(context: Context, obj: Object, strict: bool = False) -> Body:
     """Measure an object; Refused where its numbers depend on a reference point. strict: with the
     axes of Zhang and Chen's rule, or refused where it has none."""
-    measurement, measured = measure_body(obj, context.evaluated_depsgraph_get(), MeasureOptions(pose=True))
+    measured = measure_body(obj, context.evaluated_depsgraph_get(), MeasureOptions(pose=True))
+    measurement = measured.measurement
     if measurement.method.endswith("open"):
         raise Refused(
             "it is open and cannot be capped, so that its center is not its own; close it, or set its kind to Shell"
@@ -101,8 +103,8 @@ def body_of(context: Context, obj: Object, strict: bool = False) -> Body:
     body = measurement.mass_properties
     principal = body.principal
     if strict:
-        varied = measurement.kind == "shell" or measured.mass is not None
-        principal = strict_frame(measurement.mass_moments[0], None if varied else measured.refined)
+        varied = measurement.kind == "shell" or measured.body.mass is not None
+        principal = strict_frame(measurement.mass_moments[0], None if varied else measured.body.refined)
     return Body(
         obj=obj,
         center=body.center / unit,
@@ -128,7 +130,7 @@ def refresh(context: Context, objects: list[Object]) -> None:
     fresh = []
     for obj in stored:
         try:
-            properties.store(obj, measure_object(obj, depsgraph, MeasureOptions(pose=True)))
+            results.store(obj, measure_body(obj, depsgraph, MeasureOptions(pose=True)), context.scene)
         except REFUSALS:  # what is stored stays, and the panel says that it is out of date
             continue
         fresh.append(obj)
@@ -158,7 +160,7 @@ def reframe_selected(
         return True
 
     _, failures = selection.each(objects, plan, REFUSALS)
-    with staleness.paused(), selection.progress(len(plans)) as step:
+    with paused(), selection.progress(len(plans)) as step:
         done, refused = reframe.reframe(context, plans, step)
         failures += [(obj.name, reason) for obj, reason in refused]
         if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body

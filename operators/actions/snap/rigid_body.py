@@ -13,9 +13,9 @@ from bpy.props import BoolProperty
 from bpy.types import Context, Object, Operator
 
 from ....core.numerics.float32 import decimal
+from ...read.quiet import paused
 from ...scene import reframe
 from ...scene.transforms import Refused, require_own, world
-from ...session import staleness
 from .. import selection
 from . import base as snapping
 
@@ -63,7 +63,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
             return True
 
         context.view_layer.update()  # edits of before are noted as such
-        with staleness.paused():  # Blender reports a rigid body as a change of the shape
+        with paused():  # Blender reports a rigid body as a change of the shape
             _, failures = selection.each(objects, measure, snapping.REFUSALS)
             new = [body.obj for body in bodies if body.obj.rigid_body is None]
             failures += _add(context, new)

@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The button that lets an object's numbers follow its edits."""
+
+from __future__ import annotations
+
+from bpy.types import Context, Operator
+
+from ...session import live
+
+
+class OBJECT_OT_body_moments_live(Operator):
+    """Show what the numbers are while control points are edited or animated"""
+
+    bl_idname = "object.body_moments_live"
+    bl_label = "Live"
+    bl_description = (
+        "Show what the numbers are while control points are edited or animated, until the file is closed. Measure "
+        "stores them"
+    )
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if context.object is None or context.object.type != "SURFACE":
+            cls.poll_message_set("Only the numbers of NURBS surfaces can follow an edit")
+            return False
+        return True
+
+    def execute(self, context: Context) -> set[str]:
+        obj = context.object
+        if live.is_live(obj):
+            live.stop(obj)
+            return {"FINISHED"}
+        found = live.start(obj, context.evaluated_depsgraph_get())
+        if found.reason:
+            self.report({"WARNING"}, "{:s}: {:s}".format(obj.name, found.reason))
+        return {"FINISHED"}
+
+
+CLASSES = (OBJECT_OT_body_moments_live,)

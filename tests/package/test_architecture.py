@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which part of the add-on may import which, as docs/architecture.md draws it. Read off the syntax trees."""
+
+import ast
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+# Each package may import those of the rows above its own and itself; those of one row do not know each other, but for
+# the two rows that say so.
+CORE = (
+    ("numerics",),
+    ("moments",),
+    ("mesh", "inertia", "verdict", "papers"),
+    ("polyhedron", "shape", "scans"),
+    ("solid", "plane", "fourier", "rigs"),
+    ("density", "nurbs", "offset"),
+    ("statics",),
+    ("measurement",),
+)
+OPERATORS = (
+    ("settings", "write"),
+    ("read",),
+    ("bodies", "scene"),
+    ("session",),
+    ("actions", "command"),
+    ("batch",),
+)
+WITHOUT_WRITE = ("settings", "read", "bodies", "scene")  # what only makes findings and numbers
+# Blender is imported when it is needed: the package can be imported without it, and a script has to be ready first.
+LATE = {"__init__.py", "operators/batch.py", "panels/__init__.py"}
+
+
+def shipped() -> dict[tuple[str, ...], Path]:
+    files = [ROOT / "__init__.py"]
+    for part in ("core", "operators", "panels"):
+        files += (ROOT / part).rglob("*.py")
+    return {path.relative_to(ROOT).with_suffix("").parts: path for path in files}
+
+
+MODULES = shipped()
+
+
+def imports(module: tuple[str, ...]) -> list[tuple[tuple[str, ...], int, bool]]:
+    """What a module imports of the add-on: (module or package, line, whether at the top of the file)."""
+    result = []
+    package = module[:-1]
+    tree = ast.parse(MODULES[module].read_text(encoding="utf-8"))
+    top = {id(node) for node in tree.body}
+    for node in ast.walk(tree):
+        if not (isinstance(node, ast.ImportFrom) and node.level):
+            continue
+        assert node.level - 1 <= len(package), f"{'/'.join(module)} imports from outside the add-on"
+        base = package[: len(package) - (node.level - 1)] + tuple((node.module or "").split("."))
+        base = tuple(part for part in base if part)
+        for alias in node.names:
+            target = (*base, alias.name)
+            known = target in MODULES or (*target, "__init__") in MODULES
+            result.append((target if known else base, node.lineno, id(node) in top))
+    return result
+
+
+def rank(order: tuple[tuple[str, ...], ...], package: str) -> int:
+    rows = [number for number, row in enumerate(order) if package in row]
+    assert rows, f"{package} has no place in the architecture: give it one here and in docs/architecture.md"
+    return rows[0]
+
+
+def complaints() -> list[str]:
+    result = []
+    for module in MODULES:
+        for target, line, at_top in imports(module):
+            place = f"{'/'.join(module)}:{line} imports {'/'.join(target)}"
+            if not at_top and MODULES[module].relative_to(ROOT).as_posix() not in LATE:
+                result.append(place + " inside a function")
+            if not target or module == ("__init__",):
+                continue
+            part = module[0]
+            if part == "core" and target[0] != "core" or part == "operators" and target[0] == "panels":
+                result.append(place + ": up")
+                continue
+            if part != target[0] or part == "panels" or len(target) < 2 or module[1] == "__init__":
+                continue
+            order = CORE if part == "core" else OPERATORS
+            source, destination = rank(order, module[1]), rank(order, target[1])
+            if destination > source:
+                result.append(place + ": up")
+            elif destination == source and module[1] != target[1] and source != 2:
+                result.append(place + ": sideways")
+            if part == "operators" and module[1] in WITHOUT_WRITE and target[1] == "write":
+                result.append(place + ": only what shows or stores may write")
+    return result
+
+
+def cycles() -> list[list[str]]:
+    """Modules that import each other, however far around; a package stands for its own __init__."""
+    graph = {}
+    for module in MODULES:
+        targets = {target if target in MODULES else (*target, "__init__") for target, _, _ in imports(module)}
+        graph["/".join(module)] = sorted("/".join(target) for target in targets if target in MODULES)
+    done, path, result = set(), [], []
+
+    def visit(module: str) -> None:
+        if module in path:
+            result.append([*path[path.index(module) :], module])
+            return
+        if module in done:
+            return
+        path.append(module)
+        for target in graph[module]:
+            visit(target)
+        path.pop()
+        done.add(module)
+
+    for module in graph:
+        visit(module)
+    return result
+
+
+def test_imports_run_one_way():
+    found = complaints()
+    assert not found, "\n".join(found)
+
+
+def test_no_module_imports_itself_by_a_detour():
+    found = cycles()
+    assert not found, "\n".join(" -> ".join(cycle) for cycle in found)
+
+
+def test_every_folder_says_what_it_holds():
+    for module, path in MODULES.items():
+        if module[-1] == "__init__":
+            assert ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))), path
