@@ -2,11 +2,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Body Moments: exact mass properties of objects, and snapping to them.
 
-This file registers the add-on and does nothing else. Blender is imported inside `register`,
-so that `body_moments.core` can be imported, tested and used where there is no Blender.
+This file puts the parts together and does nothing else: it hands the core the sentences of its findings, and registers
+the add-on. Blender is imported inside `register`, so that `body_moments.core` can be imported, tested and used where
+there is no Blender.
 """
 
 from contextlib import ExitStack
+
+from .core.verdict.finding import Finding, use_sentences
+
+
+def _sentence(finding: Finding) -> str:
+    from .operators.write.messages import sentence
+
+    return sentence(finding)
+
+
+use_sentences(_sentence)
 
 
 def register() -> None:

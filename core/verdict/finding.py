@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What was noticed, decided or refused, as data; and the exceptions that carry a refusal.
+
+A finding is a code, the values that its sentence needs, and the elements that it is about. Its severity and its
+sentence belong to the code and stand in one table, `operators/write/messages.py`: no code reads a sentence. This file
+knows that table only as a function that the add-on's root hands in, so that `str` of a refusal is a sentence wherever
+it is caught.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from typing import Any
+
+
+class Severity(StrEnum):
+    """How much a finding matters: a note is no reason to doubt the numbers, an error leaves none."""
+
+    NOTE = "note"
+    WARNING = "warning"
+    ERROR = "error"
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """One decision or observation.
+
+    Attributes
+    ----------
+    code : str
+        From the one list of codes, such as ``holes_capped``.
+    values : mapping
+        What the sentence is filled with: numbers, strings, booleans, lists of these, and findings as mappings with the
+        keys ``code`` and ``values``. Everything is plain enough for JSON. ``sources`` names the objects whose surfaces
+        the finding is about, where that is not simply the measured object.
+    elements : sequence
+        Mesh elements that it is about, in the input's numbers: faces as integers, edges as pairs of vertices.
+    """
+
+    code: str
+    values: Mapping[str, Any] = field(default_factory=dict)
+    elements: Sequence[Any] = ()
+
+    def as_record(self) -> dict[str, Any]:
+        """The code and the values as plain values for JSON, to be read by `from_record`."""
+        return {"code": self.code, "values": dict(self.values)}
+
+    @classmethod
+    def from_record(cls, record: Mapping[str, Any]) -> Finding:
+        """The finding that `as_record` has written."""
+        return cls(str(record["code"]), dict(record["values"]))
+
+    def of_sources(self, names: Sequence[str]) -> Finding:
+        """The same, said of the surfaces of these objects."""
+        return replace(self, values={**self.values, "sources": list(names)})
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Finding) and (self.code, self.values) == (other.code, other.values)
+
+    def __hash__(self) -> int:
+        return hash((self.code, repr(sorted(self.values.items()))))
+
+    def __str__(self) -> str:
+        return _sentence_of(self)
+
+
+def finding(code: str, elements: Sequence[Any] = (), /, **values: Any) -> Finding:
+    """A finding of that code, about these elements, with these values."""
+    return Finding(code, values, elements)
+
+
+def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """The findings in their order, each once."""
+    return tuple(dict.fromkeys(findings))
+
+
+class MeasureError(Exception):
+    """What a user asked for cannot be done, with the reason and the remedy as a finding of severity error.
+
+    Raised for what the user's objects, settings, files or queries make impossible. Wrong arguments of a programmer are
+    ValueError and TypeError; any other exception is a fault of the program.
+
+    Attributes
+    ----------
+    finding : Finding
+        Why, and what to do.
+    subject : str
+        The name of the object or file that it is about, where that is known.
+    """
+
+    def __init__(self, reason: str | Finding, /, *, subject: str = "", elements: Sequence[Any] = (), **values: Any):
+        self.finding = reason if isinstance(reason, Finding) else Finding(reason, values, elements)
+        self.subject = subject
+        super().__init__(self.finding.code)
+
+    def about(self, subject: str) -> MeasureError:
+        """The same error, about an object or a file, unless it is about another one already."""
+        self.subject = self.subject or subject
+        return self
+
+    @property
+    def reason(self) -> str:
+        """The sentence without the subject's name."""
+        return str(self.finding)
+
+    def __str__(self) -> str:
+        return "{}: {}".format(self.subject, self.reason) if self.subject else self.reason
+
+
+class ReadError(MeasureError):
+    """An object cannot be read, or has nothing to measure."""
+
+
+class EditRefusedError(MeasureError):
+    """An object cannot be changed without changing what it is not to change."""
+
+
+class FileError(MeasureError):
+    """A file cannot be read or written."""
+
+
+class QueryError(MeasureError):
+    """What was asked for cannot be answered: a name, a point, an order that does not exist."""
+
+
+def _plain(found: Finding) -> str:
+    """The sentence of a finding where nobody has handed in the table: the code in words, and the values."""
+    words = found.code.replace("_", " ").capitalize()
+    values = ", ".join("{} {}".format(name.replace("_", " "), value) for name, value in found.values.items())
+    return "{} ({}).".format(words, values) if values else words + "."
+
+
+_sentence_of: Callable[[Finding], str] = _plain
+
+
+def use_sentences(sentence: Callable[[Finding], str]) -> None:
+    """Let `str` of findings and refusals be what this function makes of them."""
+    global _sentence_of
+    _sentence_of = sentence
