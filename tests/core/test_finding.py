@@ -56,7 +56,7 @@ def test_a_template_has_only_placeholders_that_the_formatter_knows():
         for text in filter(None, (entry.text, entry.plural)):
             for _, name, spec, conversion in string.Formatter().parse(text):
                 assert conversion in (None, "r") and (name is None or name.isidentifier()), (code, text)
-                assert spec is None or spec in known or spec[-1] in "dgfe%", (code, text, spec)
+                assert spec is None or spec in known or spec[-1] in "dgfes%", (code, text, spec)
 
 
 def made_codes() -> dict[str, str]:
