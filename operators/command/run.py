@@ -13,7 +13,6 @@ from __future__ import annotations
 import os
 import re
 import sys
-import traceback
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Iterator
@@ -24,6 +23,7 @@ import bpy
 
 from ...core.measurement import Measurement
 from ...core.scans import formats as scans
+from ...core.verdict import internal_error
 from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
 from ..bodies.shape import DISPLAY_MESH, OF_SHAPES, POLYGONS, NoShape, shape_of
@@ -105,7 +105,7 @@ class Run:
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
             if self.options.write:
-                errors.extend(_store(path, measured, wanted))
+                errors.extend(self._store(path, measured, wanted))
         except Unusable as refusal:
             errors.append(_error(None, refusal))
         except Exception as error:
@@ -232,8 +232,32 @@ class Run:
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
         self.faults += 1
-        traceback.print_exception(error)
-        return _error(name, "A fault of the program: {}: {}.".format(type(error).__name__, error))
+        return _error(name, internal_error.reason(error))
+
+    def _store(
+        self,
+        path: str | None,
+        measured: list[tuple[str, bpy.types.Object, Measurement]],
+        wanted: MeasureOptions,
+    ) -> Iterator[dict[str, Any]]:
+        """Store the results, once all of them are there: drivers may read them and change what is
+        measured next. The settings that were given go with them, or the results would be out of date.
+        """
+        if path is not None and suffix(path) != BLEND:
+            raise Unusable("Only a .blend file can keep the results; --write did nothing here.")
+        if not bpy.data.filepath:
+            raise Unusable("The scene has never been saved, so --write has no file to save.")
+        for label, obj, one in measured:
+            try:
+                store(obj, one)
+                settings.keep(obj.body_moments, wanted, bpy.context.scene)
+            except Exception as error:
+                if internal_error.is_refusal(error, (RuntimeError,)):
+                    yield _error(label, error)
+                else:
+                    yield self._fault(label, error)
+        settle(bpy.context, [obj for _, obj, _ in measured])
+        save_file(bpy.data.filepath)
 
 
 def _error(name: str | None, reason: object) -> dict[str, Any]:
@@ -325,26 +349,3 @@ def _array_notes(options: Namespace) -> Iterator[str]:
     if given:
         words = ", ".join("--" + name.replace("_", "-") for name in given)
         yield "Only arrays and scans take {}; it was not used here.".format(words)
-
-
-def _store(
-    path: str | None,
-    measured: list[tuple[str, bpy.types.Object, Measurement]],
-    wanted: MeasureOptions,
-) -> Iterator[dict[str, Any]]:
-    """Store the results, once all of them are there: drivers may read them and change what is
-    measured next. The settings that were given go with them, or the results would be out of date.
-    """
-    if path is not None and suffix(path) != BLEND:
-        raise Unusable("Only a .blend file can keep the results; --write did nothing here.")
-    if not bpy.data.filepath:
-        raise Unusable("The scene has never been saved, so --write has no file to save.")
-    for label, obj, one in measured:
-        try:
-            store(obj, one)
-        except RuntimeError as refusal:
-            yield _error(label, refusal)
-            continue
-        settings.keep(obj.body_moments, wanted, bpy.context.scene)
-    settle(bpy.context, [obj for _, obj, _ in measured])
-    save_file(bpy.data.filepath)
