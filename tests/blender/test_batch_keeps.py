@@ -239,6 +239,7 @@ def test_the_standard_output_goes_where_it_is_sent_whatever_is_there(tmp_path):
     with open(tmp_path / "log", "w") as log:
         log.write("before\n")
         log.flush()
-        ended = script("measure", part, "--format", "jsonl", "--output", "/dev/stdout", stdout=log)
-    first, second = (tmp_path / "log").read_text().splitlines()
-    assert ended.returncode == 0 and first == "before" and json.loads(second)["objects"]
+        words = ("measure", part, "--format", "jsonl", "--output", "/dev/stdout")
+        ended = script(*words, stdout=log, stderr=log)
+    lines = (tmp_path / "log").read_text().splitlines()
+    assert ended.returncode == 0 and lines[0] == "before" and json.loads(lines[-1])["objects"]

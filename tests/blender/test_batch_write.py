@@ -311,6 +311,26 @@ def test_a_writer_that_waited_too_long_is_refused_and_removes_nothing_of_the_oth
     assert path.read_bytes() == kept and partial.exists() and file_lock.beside(path, "body_moments.lock").exists()
 
 
+def test_a_lock_that_is_removed_again_and_again_has_one_owner_at_a_time(tmp_path, monkeypatch):
+    path = tmp_path / "count"
+    path.write_text("0")
+    monkeypatch.setattr(file_lock, "_PAUSE", 1e-4)
+
+    def count():
+        for _ in range(100):
+            with file_lock.locked(path):
+                before = int(path.read_text() or -1000)
+                time.sleep(0)
+                path.write_text(str(before + 1))
+
+    threads = [threading.Thread(target=count) for _ in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert path.read_text() == "600" and [file.name for file in tmp_path.iterdir()] == ["count"]
+
+
 def test_two_processes_write_one_file_and_both_results_are_in_it(tmp_path):
     path = tmp_path / "part.blend"
     files.add_box("A")
