@@ -108,8 +108,7 @@ def _of_usd(path: Path) -> Iterator[str]:
 
 
 def _tokens(data: bytes) -> bytes:
-    """The words of a binary USD layer, each with a zero byte behind it. ValueError and struct.error where it has none.
-    """
+    """The words of a binary USD layer, each with a zero byte behind it. Raises ValueError and struct.error."""
     (contents,) = struct.unpack_from("<q", data, 16)
     (count,) = struct.unpack_from("<Q", data, contents)
     for number in range(min(count, 64)):

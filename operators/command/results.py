@@ -38,6 +38,7 @@ def guard(option: str, forced: bool) -> Callable[[Path], None]:
     """What raises FileExistsError where a file has appeared that is not `replaceable`. forced: it may be replaced all
     the same, because it stood there when that was asked for.
     """
+
     def check(path: Path) -> None:
         if not forced and not is_empty(path) and not replaceable(path, option):
             raise FileExistsError(REFUSAL.format(path))
@@ -59,7 +60,7 @@ def _is_result(path: Path, option: str) -> bool:
 
 def _is_table(head: bytes) -> bool:
     columns = head.split(b"\n", 1)[0].decode("utf-8").split(",")
-    return columns[:len(_COLUMNS) - _LAST] == _COLUMNS[:-_LAST] and columns[-_LAST:] == _COLUMNS[-_LAST:]
+    return columns[: len(_COLUMNS) - _LAST] == _COLUMNS[:-_LAST] and columns[-_LAST:] == _COLUMNS[-_LAST:]
 
 
 def _are_documents(text: str) -> bool:

@@ -23,9 +23,11 @@ from .files import Unusable, reason
 
 _PACKED = (b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # how a .blend compressed with zstd or gzip begins
 _CANNOT = "The file cannot be saved: {}."
-_CHANGED = ("something else has saved it since it was opened, and nothing of that was overwritten; measure it again")
-_CHANGED_EARLY = ("it was saved after this Blender had started, which may not have read that; run this again, or name "
-                  "the file after “measure”")
+_CHANGED = "something else has saved it since it was opened, and nothing of that was overwritten; measure it again"
+_CHANGED_EARLY = (
+    "it was saved after this Blender had started, which may not have read that; run this again, or name "
+    "the file after “measure”"
+)
 
 
 @dataclass
@@ -71,8 +73,11 @@ class Place:
             replace(partial, self.path)
         if names < 2:
             return ()
-        return ("The file had {} names (hard links); only “{}” has the results, the others keep what it was.".format(
-            names, self.path.name),)
+        return (
+            "The file had {} names (hard links); only “{}” has the results, the others keep what it was.".format(
+                names, self.path.name
+            ),
+        )
 
 
 @contextmanager

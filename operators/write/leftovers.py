@@ -16,8 +16,7 @@ _present: set[Path] = set()
 
 @contextmanager
 def removed(*paths: Path) -> Iterator[None]:
-    """The files are gone when the block ends, and where a signal ends the process within it. None of them need exist.
-    """
+    """The files are gone when the block ends, and where a signal ends the process within it. None need exist."""
     taken = _take_signals()
     _present.update(paths)
     try:

@@ -25,8 +25,16 @@ def save(path: Path, spectrum: Spectrum, frame: str, check: Callable[[Path], Non
     what rounding and storing coordinates as float32 may have changed, method and frame. check: as in `whole_file`.
     Raises OSError."""
     with whole_file(path, check) as file:
-        np.savez(file, **dict(zip(ARRAYS, (spectrum.q, spectrum.values, spectrum.error, spectrum.input,
-                                           spectrum.method, frame), strict=True)))
+        np.savez(
+            file,
+            **dict(
+                zip(
+                    ARRAYS,
+                    (spectrum.q, spectrum.values, spectrum.error, spectrum.input, spectrum.method, frame),
+                    strict=True,
+                )
+            ),
+        )
 
 
 def picture(name: str, values: NDArray[np.complex128], count: int) -> bpy.types.Image:

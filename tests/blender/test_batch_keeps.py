@@ -23,16 +23,20 @@ from tests.core.scan_files import nrrd
 pytestmark = pytest.mark.usefixtures("scene")
 WAVES = ("--grid", "2", "--qmax", "1")
 # What usd-core writes for a stage with the sublayer ./shape.usda.
-CRATE = zlib.decompress(base64.b85decode(
-    "c-jky2+|D=c5!ClU;u;Hj0{u(j5yc`@WCD?4zijX%1(gNaWG|Hm92F(85nX?OHzx915%4Z^D;{qq8LgG94j)58T9mvGZG6@^-7CV5*dn1lY9~@"
-    "fy%fTK8X3Jr4^@^6f^jjWTX}`6clCVI%j0&q!gv*F%%c1CTFH)0)=5NU<G0}D4Ppra|08QaA09%)PadC01DbOFmO6B19cj3J4CQEI5HS9q;N188Z"
-    "y*yFf7o7D%5g-1}6g#TrbEj#t??zY`>VGLQF{hhj<>W28quO;xn?t_yPZcfCz1DSd3x$5A$G%zqhMjFd`y4pmZ6O4h{+O^m9ij_=n~dH&0g|7bN"
-    "{$&`|V4k#`M&DT#o}%fNi$7~+AXouLFOZx6FSz||R9elt|w0?G#fxaUTS"))
+CRATE = zlib.decompress(
+    base64.b85decode(
+        "c-jky2+|D=c5!ClU;u;Hj0{u(j5yc`@WCD?4zijX%1(gNaWG|Hm92F(85nX?OHzx915%4Z^D;{qq8LgG94j)58T9mvGZG6@^-7CV5*dn1lY9~@"
+        "fy%fTK8X3Jr4^@^6f^jjWTX}`6clCVI%j0&q!gv*F%%c1CTFH)0)=5NU<G0}D4Ppra|08QaA09%)PadC01DbOFmO6B19cj3J4CQEI5HS9q;N188Z"
+        "y*yFf7o7D%5g-1}6g#TrbEj#t??zY`>VGLQF{hhj<>W28quO;xn?t_yPZcfCz1DSd3x$5A$G%zqhMjFd`y4pmZ6O4h{+O^m9ij_=n~dH&0g|7bN"
+        "{$&`|V4k#`M&DT#o}%fNi$7~+AXouLFOZx6FSz||R9elt|w0?G#fxaUTS"
+    )
+)
 
 
 @pytest.fixture
 def main(capfd):
     """The command line in this process: its exit code, and what it said of it."""
+
     def run(*words):
         with open(os.devnull, "wb") as nowhere:
             kept = os.dup(1)
@@ -102,8 +106,13 @@ def test_older_results_of_all_formats_are_replaced_and_keep_their_mode(tmp_path,
     target, arrays = tmp_path / "out", tmp_path / "out.npz"
     target.touch()  # as mktemp does
     target.chmod(0o600)
-    for words in ((part,), (part, part), (part, part, "--format", "jsonl"), (part, "--format", "csv"),
-                  (part, "--format", "csv", "--order", "1", "--pose")):
+    for words in (
+        (part,),
+        (part, part),
+        (part, part, "--format", "jsonl"),
+        (part, "--format", "csv"),
+        (part, "--format", "csv", "--order", "1", "--pose"),
+    ):
         assert main(*words, "--output", target)[0] == 0
         before = target.read_bytes()
     assert main(part, "--output", target)[0] == 0 and target.read_bytes() != before
@@ -149,7 +158,7 @@ def companion(kind, folder):
         return "part.obj", "part.mtl" if kind == "obj" else "a picture.png"
     if kind == "usda":
         files.write_text(folder / "shape.usda", files.usda_text(1.0))
-        files.write_text(folder / "layer.usda", '#usda 1.0\n(subLayers = [@./shape.usda@])\n')
+        files.write_text(folder / "layer.usda", "#usda 1.0\n(subLayers = [@./shape.usda@])\n")
         files.write_text(folder / "part.usda", '#usda 1.0\ndef "A" (references = @layer.usda@</Tetra>) {}\n')
         return "part.usda", "shape.usda"
     if kind == "usdc":
