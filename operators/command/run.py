@@ -16,6 +16,7 @@ import sys
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -36,7 +37,8 @@ from ..write import record
 from ..write.properties import store
 from ..write.text import listed
 from . import fourier
-from .files import BLEND, UNITLESS, Unusable, open_file, save_file, suffix
+from .files import BLEND, UNITLESS, Unusable, open_file, suffix
+from .saving import Place, reserved
 
 _OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale")
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
@@ -74,6 +76,19 @@ class Run:
 
     def _document(self, path: str | None) -> dict[str, Any]:
         file = path or bpy.data.filepath or _asked_for()
+        with self._place(path) as place:
+            return self._measured(path, file, place)
+
+    def _place(self, path: str | None) -> AbstractContextManager[Place | None]:
+        """Where --write is going to store the results."""
+        target = path or bpy.data.filepath
+        if not self.options.write or path is not None and suffix(path) != BLEND or not os.path.isfile(target):
+            return nullcontext()
+        asked = _asked_for() if path is None else None
+        at_start = asked is not None and os.path.realpath(asked) == os.path.realpath(target)
+        return reserved(target, path is None, at_start)
+
+    def _measured(self, path: str | None, file: str | None, place: Place | None) -> dict[str, Any]:
         measured: list[tuple[str, bpy.types.Object, Measurement]] = []
         objects, errors, doubtful = [], [], []
         try:
@@ -106,6 +121,7 @@ class Run:
                     errors.extend(self._fourier(chosen, wanted, objects))
             if self.options.write:
                 errors.extend(self._store(path, measured, wanted))
+                doubtful += _save(place, file)
         except Unusable as refusal:
             errors.append(_error(None, refusal))
         except Exception as error:
@@ -257,7 +273,6 @@ class Run:
                 else:
                     yield self._fault(label, error)
         settle(bpy.context, [obj for _, obj, _ in measured])
-        save_file(bpy.data.filepath)
 
 
 def _error(name: str | None, reason: object) -> dict[str, Any]:
@@ -349,3 +364,13 @@ def _array_notes(options: Namespace) -> Iterator[str]:
     if given:
         words = ", ".join("--" + name.replace("_", "-") for name in given)
         yield "Only arrays and scans take {}; it was not used here.".format(words)
+
+
+def _save(place: Place | None, file: str | None) -> tuple[str, ...]:
+    """Save the file that was opened. Returns warnings, which are on the standard error too."""
+    if place is None:
+        raise Unusable("The file cannot be saved: it is no longer there.")
+    warnings = place.save()
+    for warning in warnings:
+        sys.stderr.write("body_moments: {}: {}\n".format(file, warning))
+    return warnings
