@@ -33,7 +33,7 @@ class Space:
     def __post_init__(self) -> None:
         knots = np.asarray(self.knots, np.float64)
         if self.order < 1 or self.count < 1 or len(knots) < 2 * self.order or self.functions < self.count:
-            raise ValueError("too few points or knots")
+            raise ValueError("too few control points")
         if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
             raise ValueError("knots must ascend")
         if not self.domain[0] < self.domain[1]:

@@ -634,8 +634,8 @@ MESSAGES: dict[str, Message] = {
     "polynomial_not_constant": _error("“{part}” must be a number, without x, y and z."),
     "polynomial_overflow": _error("“{part}” has coefficients outside the range of numbers."),
     "polynomial_beyond_numbers": _error(
-        "About the body, the polynomial has coefficients outside the range of numbers. Use smaller coefficients, or move "
-        "the object nearer to the origin."
+        "The polynomial has values outside the range of numbers at the object. Use smaller coefficients, or move the "
+        "object nearer to the origin."
     ),
     # ------------------------------------------------------------------ Grids of voxels
     "grid_density": _note("Density from the grid “{grid}”, {samples:size} voxels. {cause}"),
