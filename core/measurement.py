@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from .inertia.mass_properties import MassProperties
 from .moments.moments import Moments
+from .verdict.finding import Finding, finding
 from .verdict.health import Health
 
-ONE_DENSITY = ("one value", "given mass")
+ONE_DENSITY = ("density_from_value", "density_from_mass")
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,12 +31,12 @@ class Measurement:
     rotation, location: (3, 3) and (3,) the object frame, its unit scale.
     error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"
         for what storing coordinates as float32 may have moved; "estimated": True where the former are estimates.
-    warnings: one sentence for each decision taken on the way.
+    findings: the decisions taken on the way.
     fingerprint: of what the numbers were computed from.
     length: of a wire, m, whose density in kg/m is its mass by that and whose `density` is 0; else None.
     display_volume: what the display mesh of B-spline patches would have given, m³; None where none was asked.
-    density_from: "one value", "given mass", or where else the density came from, as a text. materials: names of those
-        that were looked at for it.
+    density_from: where the density came from, with a code `density_from_…`. materials: names of those that were looked
+        at for it.
     """
 
     name: str
@@ -51,12 +52,12 @@ class Measurement:
     area_moments: Moments
     mass_moments: tuple[Moments, float]
     health: Health
-    warnings: tuple[str, ...]
+    findings: tuple[Finding, ...]
     rotation: NDArray[np.float64]
     location: NDArray[np.float64]
     error_bound: dict
     fingerprint: str
-    density_from: str = "one value"
+    density_from: Finding = finding("density_from_value")
     materials: tuple[str, ...] = ()
     length: float | None = None
     display_volume: float | None = None
@@ -64,7 +65,7 @@ class Measurement:
     @property
     def one_density(self) -> bool:
         """Whether the density is the same everywhere."""
-        return self.density_from in ONE_DENSITY
+        return self.density_from.code in ONE_DENSITY
 
     def in_object_frame(self) -> MassProperties:
         """The mass properties in the object's own frame."""

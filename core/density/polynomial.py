@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import U
 from ..moments.monomials import index, monomial_count, monomials, order_of
+from ..verdict.finding import MeasureError
 
 HIGHEST = 17  # mass moments to order 3 then need those of the body to order 20
 LONGEST = 4096  # bits of a number, and characters of a text
@@ -33,7 +34,6 @@ HALVINGS = 600  # boxes that are looked at for a bound
 Exponents = tuple[int, int, int]
 AXES: dict[str, Exponents] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 CORNERS = tuple(product((0, -1), repeat=3))
-ALLOWED = "numbers, x, y, z, +, -, *, / by a number, ** with a whole number, and parentheses"
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,10 +45,10 @@ class Polynomial:
     @classmethod
     def from_coefficients(cls, coefficients: ArrayLike) -> Polynomial:
         """From the coefficients of 1, x, y, z, x², xy, xz, y², yz, z², … in this order, as many as there are; taken
-        exactly. ValueError where one is not finite, or there are too many."""
+        exactly. ValueError where one is not finite, MeasureError where there are too many."""
         values = np.asarray(coefficients, float).tolist()
         if not all(map(math.isfinite, values)):
-            raise ValueError("The coefficients of a polynomial are finite numbers.")
+            raise ValueError("coefficients must be finite")
         return cls(_from_list(list(map(Fraction, values))))
 
     @property
@@ -64,11 +64,11 @@ class Polynomial:
         return values
 
     def rounded(self) -> dict[Exponents, float]:
-        """The terms, each rounded once. ValueError where one is beyond the range of numbers."""
+        """The terms, each rounded once. MeasureError where one is beyond the range of numbers."""
         try:
             return {powers: float(value) for powers, value in self.terms.items()}
         except OverflowError as error:
-            raise ValueError("The polynomial is beyond the range of numbers there.") from error
+            raise MeasureError("polynomial_beyond_numbers") from error
 
     def shifted(self, point: ArrayLike) -> Polynomial:
         """The polynomial q with q(u) = p(point + u), exactly."""
@@ -122,36 +122,34 @@ def parse(text: str) -> Polynomial:
     """The polynomial that an expression such as `1000 + 20*z` means, or a list of coefficients (`1000, 0, 0, 20`) in
     the order of `Polynomial.from_coefficients`.
 
-    ValueError, in sentences that name the offending part and say what is allowed.
+    MeasureError, which names the offending part, where it means none.
     """
     text = text.strip()
     if not text:
-        raise ValueError("There is no polynomial; type one, such as 1000 + 20*z.")
+        raise MeasureError("polynomial_empty")
     if len(text) > LONGEST:
-        raise ValueError("The polynomial is too long: at most {:d} characters.".format(LONGEST))
+        raise MeasureError("polynomial_too_long", limit=LONGEST)
     try:
         tree = ast.parse(text, mode="eval").body
     except SyntaxError as error:
         place = text[max((error.offset or 1) - 1, 0) :][:20] if error.lineno in (None, 1) else ""
-        raise ValueError(
-            "The polynomial cannot be read{:s}; a product needs its *, as in 20*z.".format(
-                " at “{:s}”".format(place) if place else ""
-            )
-        ) from error
+        if place:
+            raise MeasureError("polynomial_syntax_at", part=place) from error
+        raise MeasureError("polynomial_syntax") from error
     except (ValueError, RecursionError, MemoryError) as error:
-        raise ValueError("The polynomial cannot be read; it is nested too deeply or holds odd characters.") from error
+        raise MeasureError("polynomial_nested") from error
     try:
         if isinstance(tree, (ast.Tuple, ast.List)):
             return Polynomial(_from_list([_constant(_terms(item, text), item, text) for item in tree.elts]))
         return Polynomial(_terms(tree, text))
     except RecursionError as error:
-        raise ValueError("The polynomial cannot be read; it is nested too deeply.") from error
+        raise MeasureError("polynomial_nested") from error
 
 
 def _from_list(values: list[Fraction]) -> dict[Exponents, Fraction]:
     degree = order_of(len(values))
     if degree > HIGHEST:
-        raise ValueError("There are too many coefficients: the degree is at most {:d}.".format(HIGHEST))
+        raise MeasureError("polynomial_coefficients", limit=HIGHEST)
     return {tuple(row): value for row, value in zip(monomials(degree).tolist(), values) if value}
 
 
@@ -159,7 +157,7 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
     """The terms of a part of an expression."""
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         if isinstance(node.value, float) and not math.isfinite(node.value):
-            raise ValueError("“{:s}” is too large a number.".format(_part(node, text)))
+            raise MeasureError("polynomial_number_too_large", part=_part(node, text))
         number = Fraction(node.value if isinstance(node.value, int) else str(node.value))  # the decimal that was typed
         return _checked(_only({(0, 0, 0): number}), node, text)
     if isinstance(node, ast.Name) and node.id in AXES:
@@ -170,8 +168,8 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
     if isinstance(node, ast.BinOp):
         return _checked(_operation(node, text), node, text)
     if isinstance(node, ast.Name):
-        raise ValueError("“{:s}” is none of x, y, z.".format(node.id))
-    raise ValueError("“{:s}” cannot be part of a polynomial; it may hold {:s}.".format(_part(node, text), ALLOWED))
+        raise MeasureError("polynomial_unknown_name", part=node.id)
+    raise MeasureError("polynomial_not_allowed", part=_part(node, text))
 
 
 def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
@@ -189,23 +187,19 @@ def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
     if isinstance(node.op, ast.Div):
         divisor = _constant(right, node.right, text)
         if not divisor:
-            raise ValueError("“{:s}” divides by zero.".format(_part(node, text)))
+            raise MeasureError("polynomial_division_by_zero", part=_part(node, text))
         return {powers: value / divisor for powers, value in left.items()}
     if isinstance(node.op, ast.Pow):
         return _power(left, _constant(right, node.right, text), node, text)
-    hint = "; a power is written **" if isinstance(node.op, ast.BitXor) else ""
-    raise ValueError(
-        "“{:s}” cannot be part of a polynomial{:s}; it may hold {:s}.".format(_part(node, text), hint, ALLOWED)
-    )
+    caret = isinstance(node.op, ast.BitXor)
+    raise MeasureError("polynomial_caret" if caret else "polynomial_not_allowed", part=_part(node, text))
 
 
 def _power(
     base: dict[Exponents, Fraction], exponent: Fraction, node: ast.BinOp, text: str
 ) -> dict[Exponents, Fraction]:
     if exponent.denominator != 1 or not 0 <= exponent <= HIGHEST:
-        raise ValueError(
-            "“{:s}” has an exponent that is not a whole number from 0 to {:d}.".format(_part(node, text), HIGHEST)
-        )
+        raise MeasureError("polynomial_exponent", part=_part(node, text), limit=HIGHEST)
     result = {(0, 0, 0): Fraction(1)}
     for _ in range(int(exponent)):
         result = _checked(_times(result, base, node, text), node, text)
@@ -217,7 +211,7 @@ def _times(
 ) -> dict[Exponents, Fraction]:
     degrees = [max((sum(powers) for powers in terms), default=0) for terms in (left, right)]
     if sum(degrees) > HIGHEST:
-        raise ValueError("“{:s}” has a degree above {:d}.".format(_part(node, text), HIGHEST))
+        raise MeasureError("polynomial_degree", part=_part(node, text), limit=HIGHEST)
     result: dict[Exponents, Fraction] = {}
     for one, factor in left.items():
         for other, value in right.items():
@@ -233,7 +227,7 @@ def _only(terms: dict[Exponents, Fraction]) -> dict[Exponents, Fraction]:
 
 def _constant(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> Fraction:
     if set(terms) - {(0, 0, 0)}:
-        raise ValueError("“{:s}” must be a number here, without x, y and z.".format(_part(node, text)))
+        raise MeasureError("polynomial_not_constant", part=_part(node, text))
     return terms.get((0, 0, 0), Fraction(0))
 
 
@@ -241,7 +235,7 @@ def _checked(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> dic
     for value in terms.values():
         above, below = value.numerator.bit_length(), value.denominator.bit_length()
         if max(above, below) > LONGEST or abs(above - below) > LARGEST:
-            raise ValueError("“{:s}” holds numbers that are too large or too small.".format(_part(node, text)))
+            raise MeasureError("polynomial_overflow", part=_part(node, text))
     return terms
 
 

@@ -40,7 +40,7 @@ def graded_sum(
     """
     order = moments.order - density.degree
     if order < 0:
-        raise ValueError("the moments do not reach the degree of the density")
+        raise ValueError("moments below density's degree")
     fields = matrices if fields is None else fields
     linear, places = maps_last(matrices)
     turn, shift = maps_last(fields)

@@ -28,6 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Moments, U, monomials
+from ..verdict.finding import MeasureError
 from .spline_tables import Axis
 
 BLOCK = 1 << 17  # coefficients at a time: 1 MB of float64
@@ -48,15 +49,11 @@ def density_moments(
         blocks of them, (offset, array) each, none twice, all else zero: the grid need not be dense.
     axes: the spline spaces of u, v, w. value: what makes coefficients of a block's numbers.
 
-    Raises ValueError where a coefficient is not finite.
+    ValueError where the shapes differ; MeasureError where a coefficient is not finite.
     """
     axes = tuple(axes)
     if not callable(coefficients) and coefficients.shape != tuple(axis.count for axis in axes):
-        raise ValueError(
-            "The coefficients are {:s}, but the knots are for {:s}.".format(
-                " x ".join(map(str, np.shape(coefficients))), " x ".join(str(axis.count) for axis in axes)
-            )
-        )
+        raise ValueError("{}, knots for {}".format(coefficients.shape, tuple(axis.count for axis in axes)))
     about = np.array([axis.middle for axis in axes])
     moments = _about(coefficients, axes, order, value, about)
     if order < 2 or not moments.total > 0.0:
@@ -82,10 +79,11 @@ def grid_moments(
 
     shape: of the grid, also where `samples` yields blocks. matrix: (4, 4) affine; the sample (i, j, k) stands at
     matrix @ (i, j, k, 1). For each voxel's own moments: spline order 1.
+    MeasureError where the matrix flattens the grid, or is not finite.
     """
     matrix = np.asarray(matrix, np.float64)
     if not np.isfinite(matrix).all() or not np.linalg.det(matrix[:3, :3]):
-        raise ValueError("The transform of the grid is singular or not finite.")
+        raise MeasureError("grid_transform_singular")
     axes = [Axis.uniform(count, spline_order) for count in shape]
     inside = density_moments(samples, axes, order, value)
     return replace(replace(inside, of="volume").mapped(matrix), of="mass")
@@ -115,7 +113,7 @@ class Trivariate:
     def set_coefficient(self, i: int, j: int, k: int, value: float) -> Moments:
         """Change one coefficient; the moments after it."""
         if not math.isfinite(value):
-            raise ValueError("The coefficient is not finite.")
+            raise ValueError("coefficients must be finite")
         change = value - self.coefficients[i, j, k]
         self.coefficients[i, j, k] = value
         x, y, z = self._tables
@@ -129,9 +127,9 @@ class Trivariate:
         place = tuple(slice(first, first + count) for first, count in zip(start, values.shape))
         old = self.coefficients[place]
         if old.shape != values.shape or min(start) < 0:
-            raise ValueError("The block does not fit into the coefficients.")
+            raise ValueError("block exceeds coefficients")
         if not np.isfinite(values).all():
-            raise ValueError("A coefficient is not finite.")
+            raise ValueError("coefficients must be finite")
         change = values - old
         self.coefficients[place] = values
 
@@ -179,7 +177,7 @@ def _about(
         size += added if block.min() >= 0.0 else _contract(np.abs(block), factors)
         blocks, longest = blocks + 1, max(longest, sum(block.shape))
     if not np.isfinite(total).all():
-        raise ValueError("The density has values that are not finite, or too large to be summed.")
+        raise MeasureError("density_non_finite")
     p, q, r = monomials(order)[:, turn].T
     bounds = [_bounding(axes[i], order, about[i]) for i in turn]
     size = np.einsum("ax,by,cz,xyz->abc", *bounds, size)

@@ -42,13 +42,13 @@ class Axis:
         knots = np.asarray(self.knots, np.float64)
         object.__setattr__(self, "knots", knots)
         if not 1 <= self.order <= MAX_ORDER:
-            raise ValueError("The order of a spline is a number from 1 to {:d}.".format(MAX_ORDER))
+            raise ValueError("order beyond 1…{:d}".format(MAX_ORDER))
         if knots.ndim != 1 or len(knots) <= self.order:
-            raise ValueError("A spline of order {:d} needs at least {:d} knots.".format(self.order, self.order + 1))
+            raise ValueError("too few knots")
         if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
-            raise ValueError("The knots must be finite and ascending.")
+            raise ValueError("knots must ascend")
         if self.domain is not None and not self.domain[0] < self.domain[1]:
-            raise ValueError("The domain is empty: its lower end must be below its upper end.")
+            raise ValueError("empty domain")
 
     @classmethod
     def uniform(cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0) -> Axis:

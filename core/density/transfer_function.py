@@ -13,13 +13,15 @@ import re
 import numpy as np
 from numpy.typing import NDArray
 
+from ..verdict.finding import MeasureError
+
 # CT numbers in Hounsfield units to kg/m³: air, fat, water and soft tissue, bone, after Schneider, Bortfeld and Schlegel
 # (Phys. Med. Biol. 45, 2000), as the table of densities that comes with GATE has them.
 CT = "-1000 1.21, -98 930, -97 930.486, 14 1030, 23 1031, 100 1119.9, 101 1076.2, 1600 1964.2, 3000 2800"
 
 
 def parse_table(text: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(n,) values, ascending, and (n,) densities in kg/m³. ValueError where the text is no such table."""
+    """(n,) values, ascending, and (n,) densities in kg/m³. MeasureError where the text is no such table."""
     rows = []
     for pair in re.split(r"[,;\n]", text):
         words = pair.split()
@@ -28,16 +30,13 @@ def parse_table(text: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         try:
             value, density = map(float, words)
         except ValueError:
-            raise ValueError(
-                "The transfer table is pairs of a value and a density in kg/m³, separated by commas; "
-                "“{:s}” is none.".format(pair.strip())
-            ) from None
+            raise MeasureError("transfer_table_syntax", part=pair.strip()) from None
         rows.append((value, density))
     table = np.array(rows, np.float64).reshape(-1, 2)
     if len(table) < 2:
-        raise ValueError("The transfer table needs at least two pairs of a value and a density.")
+        raise MeasureError("transfer_table_too_short")
     if not np.isfinite(table).all() or (table[:, 1] < 0.0).any():
-        raise ValueError("The transfer table has numbers that are not finite, or negative densities.")
+        raise MeasureError("transfer_table_numbers")
     if (np.diff(table[:, 0]) <= 0.0).any():
-        raise ValueError("The values of the transfer table must ascend, none twice.")
+        raise MeasureError("transfer_table_order")
     return table[:, 0], table[:, 1]

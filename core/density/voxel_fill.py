@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Moments, U, monomials
 from ..numerics.quadrature import triangle_rule
+from ..verdict.finding import MeasureError
 
 PIECES = 1 << 17  # that are expected of the triangles taken at a time
 LARGEST = 1 << 27  # voxels of the box around the surface
@@ -37,7 +38,7 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
     with np.errstate(invalid="ignore"):  # of NaN that signal
         densities = np.asarray(densities, np.float64)
     if not np.isfinite(densities).all():
-        raise ValueError("The density has values that are not finite, or too large to be summed.")
+        raise MeasureError("density_non_finite")
     shape = np.array(densities.shape)
     about = np.round(np.clip((triangles.min(axis=(0, 1)) + triangles.max(axis=(0, 1))) / 2.0, 0, shape))
     exponents = monomials(order)

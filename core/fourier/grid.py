@@ -192,7 +192,7 @@ def _width(half: int, tolerance: float, divided: bool) -> int:
     for width in WIDTHS:
         if (3.0 * np.maximum.accumulate(aliasing(half, width))[1:] / k).max() <= tolerance:
             return width
-    raise ValueError("The fast transform does not reach this tolerance on this grid; take the closed form.")
+    raise ValueError("tolerance out of reach")
 
 
 def _points(spans: NDArray, tolerance: float) -> NDArray[np.int64]:

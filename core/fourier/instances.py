@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh.surface import Surface
 from ..moments.affine_maps import distinct_linear
 from ..numerics.compensated import wave
+from ..verdict.finding import MeasureError
 from .grid import GridTransform
 from .spectrum import Spectrum
 from .transform import Transform
@@ -40,7 +41,7 @@ class BodyTransform:
         self.of, self.threads = of, threads
         self.jobs = [job for surface, matrices in parts for job in _placed(surface, matrices)]
         if not self.jobs:
-            raise ValueError("It has no faces. Give it faces, or choose an object that has some.")
+            raise MeasureError("no_faces")
         self.weights = [len(surface.triangles) for surface, _ in self.jobs]
         places = sum(len(offsets) for _, offsets in self.jobs)
         self.tolerance = None
@@ -49,7 +50,7 @@ class BodyTransform:
         self.spectrum: Spectrum | None = None
 
     def steps(self) -> Iterator[float]:
-        """Do the work. Yields after each part of it the fraction done, from 0 to 1. ValueError as `Transform`."""
+        """Do the work. Yields after each part of it the fraction done, from 0 to 1. MeasureError as `Transform`."""
         done, everything = 0, sum(self.weights)
         for weight, (surface, offsets) in zip(self.weights, self.jobs):
             if self.tolerance is None:

@@ -30,15 +30,15 @@ def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
     """F(q) = ∫ exp(-i q·x) dA over polygons at wave vectors (M, 2).
 
     loops: outlines (n, 2), counter-clockwise; holes clockwise. Where they overlap, each one counts, with its sign.
-    Raises ValueError for loops and wave vectors that are not rows of two finite numbers.
+    ValueError for loops that are not three or more rows of two finite numbers, MeasureError for such wave vectors.
     """
     q = wave_vectors(q, 2)
     corners = [np.asarray(loop, np.float64) for loop in loops]
     if not corners or any(loop.ndim != 2 or loop.shape[1] != 2 or len(loop) < 3 for loop in corners):
-        raise ValueError("A polygon is one or more loops of three or more points with two coordinates each.")
+        raise ValueError("not loops (n, 2)")
     points = np.concatenate(corners)
     if not np.isfinite(points).all():
-        raise ValueError("Some coordinates of the polygon are not finite.")
+        raise ValueError("coordinates must be finite")
     center = points.min(axis=0) / 2.0 + points.max(axis=0) / 2.0
     reach = np.sqrt(((points - center) ** 2).sum(axis=1)).max()
     scale = float(np.ldexp(1.0, int(np.ceil(np.log2(reach))))) if reach > 0.0 else 1.0

@@ -27,6 +27,7 @@ from ..mesh.surface import Surface
 from ..moments.moments import U
 from ..numerics.compensated import two_sum, wave
 from ..polyhedron.third_order import solid_and_area
+from ..verdict.finding import MeasureError
 from .spectrum import Spectrum
 from .triangle_kernel import BLOCK, PAIRS, Faces, Means
 from .wave_vectors import Grid, GridWaves, ListWaves, wave_vectors
@@ -41,8 +42,9 @@ ERROR = 64.0
 def solid_transform(surface: Surface, q: ArrayLike | Grid, threads: int = 1) -> Spectrum:
     """F(q) = ∫ exp(-i q·x) dV of the body in a closed surface, at wave vectors (M, 3) or on a grid.
 
-    Signed as a volume is: positive for outward faces. Raises ValueError for an open surface, for coordinates and wave
-    vectors that are not finite and for indices that name no point.
+    Signed as a volume is: positive for outward faces. MeasureError for an open surface, for none, for wave vectors
+    that are not finite and for sizes beyond the range of numbers; ValueError for coordinates that are not finite and
+    for indices that name no point.
     """
     return finished(Transform(surface, q, "volume", threads))
 
@@ -71,7 +73,7 @@ class Transform:
         if of == "volume":
             self.gap = float(np.linalg.norm(np.cross(ASKEW[0], self._vector_sum()))) / 1.5
             if self.gap > OPEN * self.faces.area:
-                raise ValueError("The surface is not closed and bounds no body: close it, or take its area instead.")
+                raise MeasureError("fourier_of_open_surface")
         scale = self.faces.scale
         self.waves = GridWaves(q, scale) if isinstance(q, Grid) else ListWaves(self.q * scale)
         self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface, all_there
 from ..numerics.arrays import spread_bits
 from ..numerics.compensated import normals
+from ..verdict.finding import MeasureError
 from .wave_vectors import GridWaves, ListWaves
 
 BLOCK = 128  # triangles
@@ -49,25 +50,25 @@ class Faces:
     def __init__(self, surface: Surface):
         points = np.asarray(surface.points)
         if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
-            raise ValueError("A face names a vertex that does not exist.")
+            raise ValueError("no such vertex")
         triangles = surface.all_triangles()[0]
         if not len(triangles):
-            raise ValueError("It has no faces. Give it faces, or choose an object that has some.")
+            raise MeasureError("no_faces")
         used = np.zeros(len(points), bool)
         used[triangles] = True
         corners = points[used].astype(np.float64)
         low, high = corners.min(axis=0), corners.max(axis=0)
         if not (np.isfinite(low).all() and np.isfinite(high).all()):
-            raise ValueError("The coordinates are not all finite.")
+            raise ValueError("coordinates must be finite")
         center = low / 2.0 + high / 2.0
         if points.dtype == np.float32:
             center = center.astype(np.float32).astype(np.float64)  # then subtracting it is exact
         self.center = center
         reach = hypot(*np.maximum(high - center, center - low).tolist())
         if not reach < LARGEST:
-            raise ValueError("It is too large for its transform to be a number. Scale it down.")
+            raise MeasureError("fourier_too_large")
         if 0.0 < reach < SMALLEST:
-            raise ValueError("It is too small for its transform to be a number. Scale it up.")
+            raise MeasureError("fourier_too_small")
         exponent = int(np.ceil(np.log2(reach))) if reach > 0.0 else 0
         self.scale = float(np.ldexp(1.0, exponent))
         self.points = np.ascontiguousarray(np.ldexp(points.astype(np.float64) - center, -exponent))

@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..verdict.finding import MeasureError
+
 LARGEST = 1e100  # frequency, whose square is still a number whatever the body's size
 
 # Both fill arrays of shape (wave vectors of some rows, k); the last argument is overwritten.
@@ -27,6 +29,7 @@ class Grid:
 
     count: frequencies along each axis. largest: rad/m, the largest |q| along each axis. With h = count // 2 the j-th
     frequency of an axis is (j - h) / h · largest: 0 is always one of them, and an even count leaves out +largest.
+    MeasureError where there is no such grid.
     """
 
     count: int
@@ -34,9 +37,9 @@ class Grid:
 
     def __post_init__(self) -> None:
         if self.count < 2:
-            raise ValueError("A grid needs at least two frequencies along each axis.")
+            raise MeasureError("frequency_count")
         if not 0.0 < self.largest <= LARGEST:
-            raise ValueError("The largest frequency of a grid must be a positive number up to 1e100.")
+            raise MeasureError("frequency_range")
 
     @property
     def half(self) -> int:
@@ -68,19 +71,15 @@ class Grid:
 
 
 def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
-    """(M, dimension) wave vectors from a user. ValueError where they are none."""
+    """(M, dimension) wave vectors from a user. MeasureError where they are none."""
     q = np.asarray(q)
     if q.dtype.kind not in "fiu" or q.ndim != 2 or q.shape[1] != dimension:
-        raise ValueError(
-            "Wave vectors are rows of {:d} real numbers; this array has the shape {:s} and the type {:s}.".format(
-                dimension, str(q.shape), str(q.dtype)
-            )
-        )
+        raise MeasureError("wave_vectors_shape", dimension=dimension, shape=list(q.shape), type=str(q.dtype))
     q = q.astype(np.float64)
     if not np.isfinite(q).all():
-        raise ValueError("Some wave vectors are not finite.")
+        raise MeasureError("wave_vectors_non_finite")
     if np.abs(q).max(initial=0.0) > LARGEST:
-        raise ValueError("Some wave vectors are too large: their components may be up to 1e100.")
+        raise MeasureError("wave_vectors_too_large")
     return q
 
 

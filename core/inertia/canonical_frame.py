@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Moments, index, monomials
 from ..moments.symmetric_tensors import _contracted, _places, _rotated, distinct, tensor_index
+from ..verdict.finding import MeasureError
 
 ORDER = 6  # by which the axes of every prism to a hexagon's, of a cube and of an icosahedron are found
 NOISE = 1e-5  # a normalized third moment below this is noise: ten times what float32 coordinates make
@@ -66,13 +67,11 @@ class Frames:
 
 def canonical_frames(moments: Moments, spread: Spread, starts: NDArray) -> Frames:
     """moments: to some order from 3 to ORDER, about any point. starts: (k, 3, 3) the frames along the spread's axes
-    that third moments allow. ValueError where their size is beyond the range of numbers."""
+    that third moments allow. MeasureError where their size is beyond the range of numbers."""
     central = moments.about_center()
     total = central.raw[0]
     if not np.finfo(float).tiny < total * spread.size.max() ** central.order < np.inf:
-        raise ValueError(
-            "It is too small or too large for moments of order {:d} to be numbers. Scale it.".format(central.order)
-        )
+        raise MeasureError("moments_overflow", order=central.order)
     central = replace(central, raw=central.raw / total, error=central.error / total, of="mass")
     frames, round_about, tilt = _candidates(central, spread, starts)
     values, noise = _written(central, spread, frames)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import SECOND, Moments, U, monomial_count, sum_moments
+from ..verdict.finding import MeasureError
 from .principal_frame import PrincipalFrame, principal_frame
 
 IDENTITY = np.eye(3)
@@ -48,18 +49,16 @@ class MassProperties:
     ) -> MassProperties:
         """From moments to order 3 of a body with constant density.
 
-        prefer, refine, higher: as for `principal_frame`. ValueError where the body has no mass, or a density that is
-        none.
+        prefer, refine, higher: as for `principal_frame`. MeasureError where the body has no certain volume; ValueError
+        for lower orders and for a density that is none.
         """
         if moments.order < 3:
-            raise ValueError("Mass properties need moments to third order; these go to {:d}.".format(moments.order))
+            raise ValueError("moments below third order")
         if not 0.0 <= density < np.inf:
-            raise ValueError("A density is a finite number that is not negative; this one is {!r}.".format(density))
+            raise ValueError("impossible density: {!r}".format(density))
         total = moments.raw[0]
         if not total > moments.error[0]:
-            raise ValueError(
-                "The body has no volume, or none that rounding leaves sure; see whether vertices lie far astray."
-            )
+            raise MeasureError("no_certain_volume")
         frame = principal_frame(moments, prefer, refine, higher)
         shift = moments.raw[1:4] / total
         second = density * (moments.raw[SECOND] - total * (shift[:, None] * shift))

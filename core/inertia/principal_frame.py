@@ -8,7 +8,7 @@ every body with a mirror plane, where M_300 is noise, so it is made robust: an a
 that is noise by the other third moments odd in that axis only; the two axes with the clearest scores turn positive and
 the third completes a right-handed frame. What equal moments or a want of skewness leave, moments to sixth order decide
 (see `canonical`). What is still free is the body's own freedom: there the frame nearest to the axes that the caller
-prefers is taken, and `note` says so.
+prefers is taken, and `finding` says so.
 
 The pose of a body is its center at the origin and that frame along the axes: two copies of a part, however they lie and
 whatever their faces, have one pose.
@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import SECOND, THIRD, Moments
+from ..verdict.finding import Finding, MeasureError, finding
 from .canonical_frame import NOISE, Frames, Spread, canonical_frames
 
 EQUAL = 1e-6  # moments closer than this, relatively, are equal
@@ -36,18 +37,18 @@ TURNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(s
 
 # by symmetry, the axes whose moments are equal
 EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
-NOTES = {
-    "isotropic": "Every axis through the center is a principal axis; the object's own axes are used",
-    "prolate": "Axes 2 and 3 have equal moments; the directions nearest to the object's axes are used",
-    "oblate": "Axes 1 and 2 have equal moments; the directions nearest to the object's axes are used",
-    "asymmetric": "The body looks the same after half a turn; the directions nearest to the object's axes are used",
+# What was chosen where the body leaves a choice: the object's own directions, or of the body's own ones the nearest.
+FREE = {
+    "isotropic": finding("axes_all_free"),
+    "prolate": finding("axes_2_3_free"),
+    "oblate": finding("axes_1_2_free"),
+    "asymmetric": finding("axes_ambiguous"),
 }
-OWN_NOTES = {
-    "isotropic": "Every axis through the center is a principal axis; the body's own axes, as near to the object's "
-    "as can be, are used",
-    "prolate": "Axes 2 and 3 have equal moments; the body's own directions nearest to the object's are used",
-    "oblate": "Axes 1 and 2 have equal moments; the body's own directions nearest to the object's are used",
-    "asymmetric": NOTES["asymmetric"],
+FREE_BY_SHAPE = {
+    "isotropic": finding("axes_all_free_by_shape"),
+    "prolate": finding("axes_2_3_free_by_shape"),
+    "oblate": finding("axes_1_2_free_by_shape"),
+    "asymmetric": finding("axes_ambiguous"),
 }
 
 
@@ -55,14 +56,14 @@ OWN_NOTES = {
 class PrincipalFrame:
     """moments: (3,) principal moments of inertia, ascending. axes: (3, 3), the axes as columns, det +1.
     symmetry: "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1 and 2 equal) or "isotropic".
-    unique: whether the body alone fixes the frame; otherwise `note` says what was chosen. free: the axes of which
+    unique: whether the body alone fixes the frame; otherwise `finding` says what was chosen. free: the axes of which
     nothing that was looked at fixes the directions; the symmetry tells them where only second moments were."""
 
     moments: NDArray[np.float64]
     axes: NDArray[np.float64]
     symmetry: str
     unique: bool
-    note: str
+    finding: Finding | None
     free: tuple[int, ...] = ()
 
     def turned(self, rotation: NDArray) -> PrincipalFrame:
@@ -76,7 +77,7 @@ def principal_frame(
     refine: Callable[[], Moments] | None = None,
     higher: Callable[[], Moments] | None = None,
 ) -> PrincipalFrame:
-    """The principal frame of a body with positive total.
+    """The principal frame of a body with positive total. MeasureError where its second moments are those of no body.
 
     moments: to order 3. prefer: (3, 3) rotation whose columns are the axes to stay near to, by default the
     coordinate axes. refine: gives the moments with exact third order; called where their bounds do not decide.
@@ -84,18 +85,18 @@ def principal_frame(
     """
     prefer = np.eye(3) if prefer is None else np.asarray(prefer, np.float64)
     fixed = _fixed(moments, refine)
-    free, symmetry, note = fixed.spread.free, fixed.symmetry, ""
+    free, symmetry, chosen = fixed.spread.free, fixed.symmetry, None
     if not free and len(fixed.frames) == 1:
         axes = fixed.frames[0]
     elif higher is None:
         settled_frames = [settled(frame, free, prefer) for frame in fixed.frames]
-        axes, note = _nearest(settled_frames, prefer, fixed.spread.tilt), NOTES[symmetry]
+        axes, chosen = _nearest(settled_frames, prefer, fixed.spread.tilt), FREE[symmetry]
     else:
         alike = canonical_frames(higher(), fixed.spread, fixed.frames)
         axes, free = chosen_frame(alike, prefer), free_axes(alike)
         if alike.round_about or len(alike.frames) > 1:
-            note = (NOTES if alike.round_about else OWN_NOTES)[symmetry]
-    return PrincipalFrame(fixed.moments, axes, symmetry, not note, note, free)
+            chosen = (FREE if alike.round_about else FREE_BY_SHAPE)[symmetry]
+    return PrincipalFrame(fixed.moments, axes, symmetry, chosen is None, chosen, free)
 
 
 def frames_alike(moments: Moments, noise: float = NOISE) -> Frames:
@@ -117,7 +118,7 @@ def free_axes(alike: Frames) -> tuple[int, ...]:
 
 def strict_frame(moments: Moments, refine: Callable[[], Moments] | None = None) -> PrincipalFrame:
     """Zhang and Chen's own rule (eq. 11): axes 1 and 2 in the direction of positive M_300 and M_030, axis 3 completing
-    a right-handed frame. ValueError where one of these is noise, or second moments are equal: there it has no answer.
+    a right-handed frame. MeasureError where one of these is noise, or second moments are equal: there it has no answer.
 
     refine: as for `principal_frame`.
     """
@@ -125,13 +126,13 @@ def strict_frame(moments: Moments, refine: Callable[[], Moments] | None = None) 
     if refine is not None and not (np.abs(fixed.skew[:2]) > 2.0 * fixed.doubt[:2]).all():
         fixed = _fixed(refine(), None)
     if fixed.spread.free:
-        raise ValueError("Zhang and Chen's rule does not pose a body with equal principal moments.")
+        raise MeasureError("strict_rule_equal_moments")
     if not (np.abs(fixed.skew[:2]) > fixed.doubt[:2]).all():
-        raise ValueError("Zhang and Chen's rule does not pose a body without skewness along axes 1 and 2.")
+        raise MeasureError("strict_rule_no_skewness")
     axes = fixed.spread.axes.copy()
     axes[:, :2] *= np.sign(fixed.skew[:2])
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
-    return PrincipalFrame(fixed.moments, axes, fixed.symmetry, True, "")
+    return PrincipalFrame(fixed.moments, axes, fixed.symmetry, True, None)
 
 
 def pose_matrix(center: NDArray, axes: NDArray) -> NDArray[np.float64]:
@@ -164,10 +165,7 @@ def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float
     axes = axes * [1.0, 1.0, np.sign(np.linalg.det(axes))]
     rounding = 4.0 * moments.error[SECOND].max() / (total * scale) + 8.0 * np.finfo(float).eps
     if spread[2] < -rounding:
-        raise ValueError(
-            "It intersects itself or cannot be closed, and parts of it count with the opposite sign, so "
-            "that its moments are those of no body; unite its shells, mend it, or measure a shell."
-        )
+        raise MeasureError("negative_inertia")
     spread = np.maximum(spread, 0.0)
 
     size = np.sqrt(np.maximum(spread, 1e-30 * spread[0]))  # a lamina has no extent along an axis, and no skewness

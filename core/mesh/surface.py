@@ -103,15 +103,15 @@ class Surface:
         no point."""
         points, triangles = np.asarray(points), np.asarray(triangles)
         if points.ndim != 2 or points.shape[1] != 3 or triangles.ndim != 2 or triangles.shape[1] != 3:
-            raise ValueError("points are rows of 3 coordinates, and triangles rows of 3 indices")
+            raise ValueError("points (n, 3), triangles (m, 3)")
         if triangles.dtype.kind not in "iu":
-            raise ValueError("a triangle is named by whole numbers")
+            raise ValueError("triangles must be integers")
         if np.iscomplexobj(points):
-            raise ValueError("coordinates are real numbers")
+            raise ValueError("coordinates must be real")
         if points.dtype.newbyteorder("=") not in (np.float32, np.float64):
             points = points.astype(np.float64)
         if not all_there(triangles, len(points)):
-            raise ValueError("a triangle names a point that is not there")
+            raise ValueError("no such point")
         return cls(points, triangles if triangles.dtype in (np.int32, np.int64) else triangles.astype(np.int64))
 
     def all_triangles(self) -> tuple[NDArray[np.integer], NDArray[np.integer]]:

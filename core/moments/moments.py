@@ -19,6 +19,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..verdict.finding import MeasureError
 from .affine_maps import horner, maps_last, shift, turn
 from .monomials import index, monomial_count, monomials, order_of, raised_places
 
@@ -111,7 +112,7 @@ class Moments:
         if np.array_equal(point, self.about):
             return self
         if point.shape != (3,) or not np.isfinite(point).all():
-            raise ValueError("The point that moments are about has three finite coordinates.")
+            raise ValueError("about must be finite (3,)")
         offset = self.about - point
         away = np.abs(offset)
         raw, error, moved, size = shift(
@@ -140,13 +141,13 @@ class Moments:
 
         by: "size", μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas: those of the body scaled to a volume, or area,
         of 1. "gyration", μ / (m R^n) with R² = ∫ r² dm / m: those of the body scaled to a radius of gyration and a mass
-        of 1. `error` and `input` hold for the body's true center. ValueError where there is too little to divide by.
+        of 1. `error` and `input` hold for the body's true center. MeasureError where there is too little to divide by.
         """
         dimension = {"volume": 3, "area": 2}.get(self.of)
         if by == "size" and dimension is None:
-            raise ValueError("Masses have no size of their own: normalize them by the radius of gyration.")
+            raise ValueError("masses need 'gyration'")
         if self.order < (2 if by == "gyration" else 1) or not self.total > 2.0 * (self.error[0] + self.input[0]):
-            raise ValueError("There is too little, or too low an order, to normalize moments by.")
+            raise MeasureError("normalization_undefined")
         body = self.about_center()
         n = monomials(self.order).sum(axis=1)
         trace = float(body.raw[[4, 7, 9]].sum()) if by == "gyration" else 1.0
@@ -163,7 +164,7 @@ class Moments:
             if by == "gyration":
                 spread = delta[[4, 7, 9]].sum() + away[[4, 7, 9]].sum()
                 if not trace > 2.0 * spread:
-                    raise ValueError("There is too little, or too low an order, to normalize moments by.")
+                    raise MeasureError("normalization_undefined")
                 stretch = total ** np.abs(n / 2.0 - 1.0) * (trace / (trace - spread)) ** (n / 2.0)
             else:
                 stretch = total ** (1.0 + n / dimension)
@@ -192,7 +193,7 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
     be the same."""
     first = parts[0]
     if any(part.of != first.of for part in parts):
-        raise ValueError("moments of different measures cannot be added")
+        raise ValueError("different measures")
     order = min(part.order for part in parts)
     parts = [part.truncated(order).shifted(first.about) for part in parts]
     raws = np.array([part.raw for part in parts])
@@ -245,7 +246,7 @@ def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None)
 def _checked(matrices: NDArray) -> NDArray[np.float64]:
     """The maps. ValueError where they are none."""
     if matrices.ndim != 3 or matrices.shape[1:] != (4, 4) or not len(matrices) or not np.isfinite(matrices).all():
-        raise ValueError("Moments are mapped by one or more (4, 4) matrices of finite numbers.")
+        raise ValueError("matrices not finite (4, 4)")
     return matrices
 
 
@@ -323,7 +324,7 @@ def measure_factors(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray
         return det, 8 * U * permanent, exact
     deviation = _stretch_deviation(linear)
     if np.any(deviation > SIMILARITY):
-        raise ValueError("areas change unevenly under a map that shears or scales unevenly: measure the mapped surface")
+        raise ValueError("not a similarity")
     power = 1 if of == "length" else 2
     return np.cbrt(det) ** power, 8 * U * np.cbrt(permanent) ** power, deviation
 

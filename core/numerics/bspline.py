@@ -33,13 +33,11 @@ class Space:
     def __post_init__(self) -> None:
         knots = np.asarray(self.knots, np.float64)
         if self.order < 1 or self.count < 1 or len(knots) < 2 * self.order or self.functions < self.count:
-            raise ValueError(
-                "A spline of order {:d} needs at least as many points, and points plus order knots.".format(self.order)
-            )
+            raise ValueError("too few control points")
         if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
-            raise ValueError("Knots must be finite and must not decrease.")
+            raise ValueError("knots must ascend")
         if not self.domain[0] < self.domain[1]:
-            raise ValueError("The knots span no interval.")
+            raise ValueError("empty domain")
 
     @property
     def functions(self) -> int:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.bspline import Space
+from ..verdict.finding import MeasureError
 
 
 def checked_points(
@@ -18,22 +19,20 @@ def checked_points(
     """Control points (*shape, 3) and weights (*shape), float64; weights that are all the same are none. They are copies
     that cannot be written to: what has been found out about them stays true.
 
-    ValueError for another shape, what is not finite, and weights that are not positive.
+    ValueError for another shape; MeasureError for what is not finite, and weights that are not positive.
     """
     points = _own(points)
     if points.shape != (*shape, 3):
-        raise ValueError("Its function space needs control points of the shape {}.".format((*shape, 3)))
+        raise ValueError("points not {}".format((*shape, 3)))
     if not np.isfinite(points).all():
-        raise ValueError("Some of its control points are not finite. Delete them, or mend what moves them.")
+        raise MeasureError("non_finite_control_points")
     if weights is None:
         return points, None
     weights = _own(weights)
     if weights.shape != shape:
-        raise ValueError("Its function space needs weights of the shape {}.".format(shape))
+        raise ValueError("weights not {}".format(shape))
     if not (np.isfinite(weights).all() and (weights > 0.0).all()):
-        raise ValueError(
-            "Some of its weights are not positive, so that it may reach infinity. Give them weights above zero."
-        )
+        raise MeasureError("non_positive_weights")
     return points, None if (weights == weights.flat[0]).all() else weights
 
 

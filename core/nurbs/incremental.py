@@ -83,7 +83,7 @@ class Evaluator:
 
     def _require_rational(self, weights: NDArray | float | None) -> None:
         if weights is not None and not self.rational:
-            raise ValueError("The patch that it was made of is polynomial. Make one of a patch with weights.")
+            raise ValueError("made without weights")
 
     def _evaluate(self, rows: slice, columns: slice) -> None:
         home = (self._home - self.about)[None]

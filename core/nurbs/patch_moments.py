@@ -28,6 +28,7 @@ from ..moments.monomials import monomial_count
 from ..numerics.bspline import Space
 from ..numerics.quadrature import gauss, gauss_and_ends
 from ..numerics.vectors import cross, dot
+from ..verdict.finding import MeasureError
 from .bezier import Cells, Rule, Weights, cells_of
 from .patch import Patch
 
@@ -223,7 +224,7 @@ def sheet_moments(
     """The volume moments of {S + h n : inner ≤ h ≤ outer}, n the patches' unit normal: a sheet with real thickness.
 
     Across the sheet the integrand is a polynomial of degree n + 2, so a rule of ceil((n + 3) / 2) points is exact.
-    ValueError where the sheet is thicker than its surface's radius of curvature, so that it runs through itself there.
+    MeasureError where the sheet is thicker than its surface's radius of curvature, so that it runs through itself.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
     parts = list(cells_of(patches, about))
@@ -247,10 +248,7 @@ def sheet_moments(
         for height in (inner, outer):
             product = _stretch(along, across, turning, unit, height)
             if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
-                raise ValueError(
-                    "The sheet is thicker than its surface's radius of curvature, so that it runs through "
-                    "itself. Make it thinner."
-                )
+                raise MeasureError("wall_thicker_than_curvature")
         rows = 0.0
         for height, step in zip(heights, steps):
             element = step * _stretch(along, across, turning, unit, height)

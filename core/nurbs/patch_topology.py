@@ -25,6 +25,7 @@ from ..mesh.boxes import overlapping_boxes
 from ..numerics.arrays import ramp
 from ..numerics.bspline import Space, clamped
 from ..numerics.graph import components
+from ..verdict.finding import MeasureError
 from .curve import Curve
 from .patch import Patch
 from .patch_moments import vector_area
@@ -87,13 +88,10 @@ class Closure:
 def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
     """Find out how patches close. tolerance: the distance within which points are the same.
 
-    ValueError where knots may tear one: what gapes within a patch is no side of it.
+    MeasureError where knots may tear one: what gapes within a patch is no side of it.
     """
     if any(space.is_torn for patch in patches for space in patch.spaces):
-        raise ValueError(
-            "One of its patches has an inner knot that is repeated as often as its order, so that it may "
-            "be torn there. Make two patches of it, split at that knot."
-        )
+        raise MeasureError("discontinuous_patch")
     sides = [Side(i, patch.side(axis, end), forward) for i, patch in enumerate(patches) for axis, end, forward in SIDES]
     count = max([SAMPLES] + [2 * len(side.curve.space.spans) + 1 for side in sides])
     points = np.array([side.curve.combined(_evenly(side.curve.space, count)) for side in sides])

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..verdict.finding import MeasureError
 from ..verdict.tolerances import TOLERANCE
 from .curve import Curve
 from .curve_moments import curves_center
@@ -23,7 +24,7 @@ def plane_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cur
 
     stored: by how much storing their points may have moved them.
     Every second curve inside of others is a hole, as Blender fills them. The normal is the coordinate axis, or other
-    direction, that points most along +z, then +y, then +x. ValueError, with what to do, where the curves are not
+    direction, that points most along +z, then +y, then +x. MeasureError where the curves are not
     closed, not in one plane, or cross.
     """
     center = curves_center(curves)
@@ -33,13 +34,11 @@ def plane_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cur
     if any(np.linalg.norm(loop[0] - loop[-1]) > tolerance for loop in loops) or any(
         curve.space.is_torn for curve in curves
     ):
-        raise ValueError("One of its curves is not closed, so that it bounds nothing. Close it, or measure a wire.")
+        raise MeasureError("curve_open")
     points = np.concatenate([curve.points for curve in curves]) - center
     _, _, axes = np.linalg.svd(np.concatenate([points, np.zeros((3, 3))]), full_matrices=False)
     if np.abs(points @ axes[2]).max() > tolerance:
-        raise ValueError(
-            "Its curves are not in one plane, so that they bound no flat region. Flatten them, or measure a wire."
-        )
+        raise MeasureError("curves_not_coplanar")
     normal = axes[2]
     leading = next(axis for axis in (2, 1, 0) if abs(normal[axis]) > 1e-6)
     normal = normal * np.sign(normal[leading])
@@ -50,19 +49,14 @@ def plane_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cur
 
     flat = polygons(EACH[0])
     if min(map(len, flat)) < 3:
-        raise ValueError(
-            "One of its curves is too small to be told from a point, as small as what its coordinates' "
-            "rounding leaves. Delete it, move its points nearer to the origin, or measure a wire."
-        )
+        raise MeasureError("curve_too_small")
     spans, crossing = sum(len(curve.space.spans) for curve in curves), cross(flat, tolerance)
     for each in EACH[1:]:
         if crossing and spans * each <= MOST_CHORDS:
             flat = polygons(each)
             crossing = cross(flat, tolerance)
     if crossing:
-        raise ValueError(
-            "Its curves cross or touch, so that it is not clear what they bound. Separate them, or measure a wire."
-        )
+        raise MeasureError("curves_cross")
     found = []
     for i, (curve, loop) in enumerate(zip(curves, flat)):
         depth = sum(_within(loop[0], other) for j, other in enumerate(flat) if j != i)

@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 from ..mesh.bvh import Shells, sort_shells
 from ..moments.moments import Moments, monomials, sum_moments
 from ..solid.nesting import Relations, decide, relate
+from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.health import Health
-from ..verdict.tolerances import NO_VOLUME, ROUNDING, TOLERANCE
+from ..verdict.tolerances import NEGLIGIBLE, NO_VOLUME, ROUNDING, TOLERANCE
 from .patch import Patch
 from .patch_moments import area_moments, area_slope, control_box, patches_center, sheet_moments, volume_moments
 from .patch_topology import Closure, close_patches
@@ -32,7 +33,7 @@ MOST_TRIANGLES = 1_000_000  # compared where samples cross
 @dataclass(frozen=True, eq=False)
 class PatchMeasure:
     """volume: Moments of the body; its error is an estimate. area: Moments of the patches, without caps; an estimate.
-    method: "exact", "capped", "reoriented" or "open". warnings: one sentence for each decision taken.
+    method: "exact", "capped", "reoriented" or "open". findings: the decisions taken.
     patches: those whose signed sum `volume` is, caps among them. signs: (n,) how each of those that were given counts:
     1, -1, or 0 for a flat part. closure: how they close.
     """
@@ -41,7 +42,7 @@ class PatchMeasure:
     area: Moments
     health: Health
     method: str
-    warnings: tuple[str, ...]
+    findings: tuple[Finding, ...]
     patches: tuple[Patch, ...]
     signs: NDArray[np.float64]
     closure: Closure
@@ -53,20 +54,20 @@ def measure_patches(
     """The moments of the body that patches bound, in their own coordinates and unit.
 
     order: of the volume's moments; area_order: of the area's. stored: by how much storing the control points may have
-    moved each, for the moments' `input`. ValueError, with what to do, where there is nothing to measure.
+    moved each, for the moments' `input`. MeasureError where there is nothing to measure.
     """
     if not patches:
-        raise ValueError("It has no patches. Give it some.")
+        raise MeasureError("no_patches")
     size = patches_size(patches)
     if not size > 0.0:
-        raise ValueError("All of its control points are in one place. Give it an extent.")
+        raise MeasureError("no_extent")
     about = patches_center(patches)
     closure = close_patches(patches, max(TOLERANCE * size, 4.0 * stored))
     area, settled = area_moments(patches, area_order, about)
-    notes = () if settled else ("The estimate of its area's error is above what was asked for.",)
+    findings = () if settled else (finding("area_error_estimate_large"),)
     parts = parts_of(patches, closure)
     measured = [volume_moments(part, order, about) for part in parts]
-    return judged(patches, closure, parts, measured, area, area_slope(patches), stored, notes)
+    return judged(patches, closure, parts, measured, area, area_slope(patches), stored, findings)
 
 
 def parts_of(patches: Sequence[Patch], closure: Closure) -> list[list[Patch]]:
@@ -87,14 +88,14 @@ def judged(
     area: Moments,
     slope: float,
     stored: float,
-    notes: Sequence[str] = (),
+    findings: Sequence[Finding] = (),
 ) -> PatchMeasure:
-    """What the moments of parts, as they face, come to, and what is said about it.
+    """What the moments of parts, as they face, come to, with findings.
 
     measured: of each of `parts_of`, as `volume_moments` gives them. area: of all patches; slope: as `area_slope` gives
-    it. notes: further sentences.
+    it. findings: further ones.
     """
-    size, notes = patches_size(patches), list(notes)
+    size, findings = patches_size(patches), list(findings)
     caps = np.zeros((closure.number, 3))
     for loop in closure.loops:
         if not loop.slim:
@@ -107,7 +108,7 @@ def judged(
     kept = solid if solid.any() else closure.broken
     volumes = [moments * (-1.0 if flip else 1.0) for (moments, _), flip, keep in zip(measured, turn, kept) if keep]
     if not all(fine for (_, fine), keep in zip(measured, kept) if keep):
-        notes.append("The estimate of its volume's error is above rounding; its weights are extreme.")
+        findings.append(finding("volume_error_estimate_large"))
     volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
     is_open = bool(closure.broken.any() or not solid.any())
     if is_open and volume.total < 0.0:
@@ -118,7 +119,12 @@ def judged(
     volume = replace(volume, input=_moved(volume, stored, closure.gap, skin, reach))
     area = replace(area, input=_moved(area, stored, 0.0, slope + area.total / reach, reach))
     mixed = _mixed(closure)
-    notes = [*_told(closure, mixed, turn, caps[solid], area.total, solid, size), *compared["notes"], *notes]
+    findings = [
+        *_orientation_findings(closure, mixed, turn),
+        *_closing_findings(closure, solid, area.total, volume.total, size),
+        *compared["findings"],
+        *findings,
+    ]
     share = float(caps[solid, 2].sum() / area.total) if area.total > 0.0 else 0.0
     method = (
         "open" if is_open else "capped" if capped[solid].any() else "reoriented" if mixed or turn.any() else "exact"
@@ -138,15 +144,15 @@ def judged(
     ]
     counted = np.where(turn, -1.0, 1.0) * kept
     signs = counted[closure.component] * np.where(closure.turned, -1.0, 1.0)
-    return PatchMeasure(volume, area, health, method, tuple(notes), tuple(outward), signs, closure)
+    return PatchMeasure(volume, area, health, method, tuple(findings), tuple(outward), signs, closure)
 
 
 def measure_sheet(
     patches: Sequence[Patch], inner: float, outer: float, *, stored: float = 0.0
 ) -> tuple[Moments, Moments, bool]:
     """The volume moments to order 3 of a sheet of real thickness, from the height `inner` to `outer` along the patches'
-    normals, their area's moments, and whether both estimates are below the tolerance. ValueError where the sheet would
-    run through itself."""
+    normals, their area's moments, and whether both estimates are below the tolerance. MeasureError where the sheet
+    would run through itself."""
     about = patches_center(patches)
     area, fine = area_moments(patches, 3, about)
     sheet, settled = sheet_moments(patches, inner, outer, 3, about)
@@ -172,10 +178,10 @@ def _moved(moments: Moments, stored: float, gap: float, area: float, reach: floa
 def _compared(
     parts: list[list[Patch]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
 ) -> tuple[NDArray[np.bool_], dict]:
-    """Which parts to turn, with the counts and sentences about parts in others' material."""
+    """Which parts to turn, with the counts and findings about parts in others' material."""
     turned = solid & (total < 0.0)
     if len(parts) == 1 or not solid.any():
-        return turned, {"counts": {}, "notes": []}
+        return turned, {"counts": {}, "findings": []}
     shells, relations = _related(parts, solid, EACH, tolerance)
     shells = replace(shells, volume=total)
     shared = np.unique(relations.crossing)
@@ -194,27 +200,20 @@ def _compared(
         )
     turned, nested, cavities = decide(shells, relations, solid)
     crossing = len(np.unique(relations.crossing))
-    notes = []
+    findings = []
     if nested.any():
-        notes.append(
-            "{:d} of its parts lie inside others and face outward, so that space counts twice. Flip what is a "
-            "cavity.".format(int(nested.sum()))
-        )
+        findings.append(finding("components_nested", count=int(nested.sum())))
     if crossing:
-        notes.append("{:d} of its parts overlap, so that what they share counts twice.".format(crossing))
+        findings.append(finding("components_overlap", count=crossing))
     if relations.unchecked:
-        notes.append(
-            "Whether {:d} pairs of its parts overlap was not checked, as it would have taken too long.".format(
-                relations.unchecked
-            )
-        )
+        findings.append(finding("overlap_unchecked", count=int(relations.unchecked)))
     return turned, {
         "counts": {
             "nested_components": int(nested.sum()),
             "cavities": int(cavities.sum()),
             "overlapping_components": crossing,
         },
-        "notes": notes,
+        "findings": findings,
     }
 
 
@@ -254,68 +253,50 @@ def _mixed(closure: Closure) -> int:
     return int(np.minimum(turned, np.bincount(closure.component, minlength=closure.number) - turned).sum())
 
 
-def _told(
-    closure: Closure, mixed: int, turn: NDArray, caps: NDArray, area: float, solid: NDArray, size: float
-) -> list[str]:
-    notes = []
+def _orientation_findings(closure: Closure, mixed: int, turn: NDArray[np.bool_]) -> list[Finding]:
+    """About patches, and whole parts, that were turned. mixed: patches that face against the rest of their part."""
+    findings = []
     if mixed:
-        notes.append(
-            "One patch faces against the rest and was measured as if turned; switch its direction."
-            if mixed == 1
-            else "{:d} patches face against the rest and were measured as if turned; switch their direction.".format(
-                mixed
-            )
-        )
+        findings.append(finding("flipped_patches", count=mixed))
         if closure.crowded:
-            notes.append(
-                "Of its sides {:d} meet more than one other, so that which patches belong together, and face "
-                "against the rest, is a guess; make all of them face outward.".format(closure.crowded)
-            )
+            findings.append(finding("ambiguous_patch_sides", count=int(closure.crowded)))
     if turn.any():
-        notes.append(
-            "{:s} inside out and measured as if turned; switch the direction of its patches to mend that.".format(
-                "It is" if closure.number == 1 else "{:d} of its {:d} parts are".format(int(turn.sum()), closure.number)
-            )
-        )
+        findings.append(finding("inverted_patch_components", count=int(turn.sum()), total=int(closure.number)))
+    return findings
+
+
+def _closing_findings(
+    closure: Closure, solid: NDArray[np.bool_], area: float, volume: float, size: float
+) -> list[Finding]:
+    """About what is open, flat or was capped. solid: (c,) the parts with a volume."""
+    findings = []
     if closure.broken.any():
-        notes.append(
-            "The open sides of its patches make no loops that could be capped, or it has one side only: these "
-            "numbers depend on the reference point."
-        )
+        findings.append(finding("open_patch_sides"))
     if not solid.any():
-        if not closure.broken.any():
-            notes.append("It is flat and encloses no volume: measure a shell.")
-        return notes
+        return findings if closure.broken.any() else [finding("flat_surface")]
     flattened = int((~solid & ~closure.broken).sum())
     if flattened:
-        notes.append(
-            "{:d} of its {:d} parts {:s} flat, enclose{:s} no volume and {:s} left out; delete what is flat, "
-            "or measure it as a shell.".format(
-                flattened, closure.number, *(("is", "s", "is") if flattened == 1 else ("are", "", "are"))
-            )
-        )
-    flat, curved, share = caps.sum(axis=0)
+        findings.append(finding("flat_components", count=flattened, total=int(closure.number)))
+    loops = [loop for loop in closure.loops if solid[closure.component[loop.patch]]]
+    flat, curved = ([loop for loop in loops if not loop.slim and loop.flat == level] for level in (True, False))
     if flat:
-        notes.append(
-            "{:s} capped exactly ({:.3g} % of the area).".format(
-                "One flat rim was" if flat == 1 else "{:d} flat rims were".format(int(flat)), 100.0 * share / area
+        capped = sum(loop.area for loop in flat)
+        slight = capped * size < NEGLIGIBLE * volume
+        findings.append(
+            finding(
+                "flat_patch_holes_capped_slightly" if slight else "flat_patch_holes_capped",
+                count=len(flat),
+                share=float(capped / area),
             )
         )
-    crossing = sum(loop.crossing and bool(solid[closure.component[loop.patch]]) for loop in closure.loops)
+    crossing = sum(bool(loop.crossing) for loop in loops)
     if crossing:
-        notes.append(
-            "{:s}: what lies on the other side of the crossing counts as negative.".format(
-                "One rim crosses itself" if crossing == 1 else "{:d} rims cross themselves".format(crossing)
-            )
-        )
+        findings.append(finding("patch_boundary_crosses_itself", count=crossing))
     if curved:
-        worst = max(loop.out_of_plane for loop in closure.loops)
-        notes.append(
-            "{:s} capped by the cone to {:s} center, {:.2g} % of the size out of plane ({:.3g} % of the area).".format(
-                "One rim in space was" if curved == 1 else "{:d} rims in space were".format(int(curved)),
-                "its" if curved == 1 else "each one's",
-                100.0 * worst / size,
-                100.0 * share / area,
-            )
-        )
-    return notes
+        capped, worst = sum(loop.area for loop in curved), max(loop.out_of_plane for loop in curved)
+        values = {"count": len(curved), "share": float(capped / area)}
+        if capped * size < NEGLIGIBLE * volume:
+            findings.append(finding("curved_patch_holes_capped_slightly", **values))
+        else:
+            findings.append(finding("curved_patch_holes_capped", **values, out_of_plane=float(worst / size)))
+    return findings

@@ -29,6 +29,7 @@ from ..moments.moments import PAIRWISE, Moments, U, index, monomial_count, monom
 from ..numerics.graph import components
 from ..numerics.vectors import cross
 from ..solid.nesting import pierced, relate, winds_twice
+from ..verdict.finding import MeasureError
 from .directions import UNEVEN, blocks, offset_directions
 
 ORDER = 3
@@ -80,7 +81,7 @@ class Sweep:
         ValueError where the wall folds over.
         """
         if not (inward < self.inward or inward == 0.0) or not (outward < self.outward or outward == 0.0):
-            raise ValueError("The offset folds over; choose a thinner wall.")
+            raise ValueError("offset folds over")
         degree = np.arange(1, POWERS + 1)
         up, down = outward**degree / degree, -((-inward) ** degree) / degree
         both = outward**degree / degree + inward**degree / degree
@@ -158,8 +159,8 @@ def share(side: str, thickness: float) -> tuple[float, float]:
 def sweep(surface: Surface) -> Sweep:
     """The walls of a surface, closed or open, whose faces agree which side is outward.
 
-    Points at exactly the same place are one. ValueError, with what to do, where faces disagree, more than two meet in
-    an edge, or float32 has lost which way they face.
+    Points at exactly the same place are one. MeasureError where faces disagree, more than two meet in an edge, or
+    float32 has lost which way they face; its edges are pairs of the surface's vertices.
     """
     points, triangles = _joined(surface)
     stored = float(np.linalg.norm(surface.coordinate_error))
@@ -182,10 +183,7 @@ def sweep(surface: Surface) -> Sweep:
     solid = directions.solid
     lost = float(double[~solid].sum()) / (float(double.sum()) or 1.0)
     if stored and lost > UNKNOWN:
-        raise ValueError(
-            "{:.0f} % of its area is in faces so small, for how far they are from the object's origin, that float32 "
-            "has lost which way they face. Model it nearer to its origin, or set Wall to Thin.".format(100.0 * lost)
-        )
+        raise MeasureError("wall_precision_lost", share=lost)
     rest = np.flatnonzero(solid)
     outward, inward = (
         first_fold(jacobian[:, :, solid] * signs[:, None, None], doubt[:, solid])
@@ -221,22 +219,24 @@ def _joined(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]
     triangles = first[triangles.astype(np.intp)]
     triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
     if not len(triangles):
-        raise ValueError("Its faces have no area; there is nothing to make thick.")
+        raise MeasureError("no_face_area")
     used, number = np.unique(triangles, return_inverse=True)
     triangles = number.reshape(-1, 3)
     edges = find_edges(triangles)
-    if (edges.count > 2).any():
-        raise ValueError(
-            "{:d} of its edges have more than two faces, where a wall has no inside. Separate the parts, "
-            "or measure it as a thin shell.".format(int(np.count_nonzero(edges.count > 2)))
-        )
+    crowded = edges.count > 2
+    if crowded.any():
+        pairs = used[_vertex_pairs(triangles, edges.first[crowded])]
+        raise MeasureError("wall_non_manifold", elements=pairs, count=len(pairs))
     against = (edges.count == 2) & (edges.balance(np.zeros(len(triangles), bool)) != 0.0)
     if against.any():
-        raise ValueError(
-            "Its faces do not agree which side is outward at {:d} edges. Recalculate Outside, or measure "
-            "it as a thin shell.".format(int(np.count_nonzero(against)))
-        )
+        pairs = used[_vertex_pairs(triangles, edges.first[against])]
+        raise MeasureError("wall_inconsistent_faces", elements=pairs, count=len(pairs))
     return surface.points[used].astype(np.float64), triangles
+
+
+def _vertex_pairs(triangles: NDArray, sides: NDArray) -> NDArray[np.integer]:
+    """(k, 2) the vertices of triangle sides, the lower first."""
+    return np.sort(np.stack([triangles.ravel()[sides], np.roll(triangles, -1, axis=1).ravel()[sides]], axis=1), axis=1)
 
 
 class _Prisms:

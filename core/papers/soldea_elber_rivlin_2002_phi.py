@@ -29,7 +29,7 @@ def phi(spaces: tuple[Space, Space], order: int) -> NDArray[np.float64]:
     """
     size = (spaces[0].count * spaces[1].count) ** (3 + order)
     if size > MOST_ENTRIES:
-        raise ValueError("This Φ would hold {:d} entries; it is for small patches.".format(size))
+        raise ValueError("{:d} entries of Φ".format(size))
     s, t = (_integrals(space, order) for space in spaces)
     swapped = (1, 0, *range(2, 3 + order))
     table = np.multiply.outer(s, t.transpose(swapped)) - np.multiply.outer(s.transpose(swapped), t)

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.arrays import ramp
 from ..numerics.graph import components
 from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, facet_moments
+from ..verdict.finding import MeasureError
 
 SAMPLES = 16  # midpoints of an outline's edges that are asked what it lies in
 PAIRS = 10_000_000  # of edges that are compared, and of rays and the edges they may meet; more rays are thinned out
@@ -45,13 +46,13 @@ def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLi
     """∫ x^p y^q dA for all p + q ≤ order, with error bounds.
 
     points: (n, 2). edges: (m, 2) indices. about: by default the center of the points' box.
-    ValueError where the edges do not close.
+    MeasureError where the edges do not close.
     """
     edges = np.asarray(edges)
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)] if len(edges) else [np.zeros(1)] * 2
     loose = int(np.count_nonzero(ends[0] != ends[1]))
     if loose:
-        raise ValueError("The outline is open at {:d} of its corners; close it.".format(loose))
+        raise MeasureError("outline_open", count=loose)
     return enclosed_moments(points, edges, order, about)
 
 
@@ -72,7 +73,7 @@ def nested(points: NDArray, loops: Sequence[NDArray]) -> NDArray[np.intp]:
     """(m, 2) the edges of loops of any direction, turned so that what lies in an odd number of them is inside:
     outlines, holes in those, islands in holes.
 
-    ValueError where one loop runs along another all the way, so that neither is in the other.
+    MeasureError where one loop runs along another all the way, so that neither is in the other.
     """
     lows, highs = (np.array([rim(points[loop], axis=0) for loop in loops]).reshape(-1, 2) for rim in (np.min, np.max))
     order = []
@@ -85,7 +86,7 @@ def nested(points: NDArray, loops: Sequence[NDArray]) -> NDArray[np.intp]:
             winding = np.abs(winding_numbers(points, directed([loops[j]]), middle))
             clear = np.abs(winding - 0.5)  # a midpoint on the other loop has half a turn
             if clear.max() < 0.25:
-                raise ValueError("Two of its outlines lie on one another; remove one of them.")
+                raise MeasureError("outlines_coincide")
             depth += int(winding[np.argmax(clear)] > 0.5)
         ahead = _signed_area(points, edges) > 0.0
         order.append(loop if ahead == (depth % 2 == 0) else loop[::-1])

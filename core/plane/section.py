@@ -21,6 +21,7 @@ from ..mesh.surface import normals
 from ..mesh.welding import equal_positions
 from ..moments.moments import U
 from ..polyhedron.n_dimensions import SimplexMoments
+from ..verdict.finding import MeasureError
 from .polygon import area_moments, boundary_edges, outline_areas, outline_moments
 
 FLAT = 1e-5  # of a region's size: points farther off their plane are not planar; an area is off by the square of this
@@ -131,7 +132,7 @@ def fit_plane(
 
     prefer: (3, 3) columns, axes that the plane's x is to be near to: the first, or where that stands upright on the
     plane the second. origin: (3,) a point whose foot on the plane becomes its origin. error: how far the points may be
-    from where they were meant. ValueError where they are not planar, or have no area.
+    from where they were meant. MeasureError where they are not planar, or have no area.
     """
     vectors = normals(points, triangles)
     sizes = np.sqrt((vectors * vectors).sum(axis=1))
@@ -139,7 +140,7 @@ def fit_plane(
     size = float(np.sqrt(((used.max(axis=0) - used.min(axis=0)) ** 2).sum()))
     largest = int(np.argmax(sizes))
     if not sizes[largest] > 0.0:
-        raise ValueError("It has no area.")
+        raise MeasureError("section_no_area")
     # Faces that look the other way are of the same plane.
     side = np.sign(vectors @ vectors[largest])
     total = (vectors * side[:, None]).sum(axis=0)
@@ -151,10 +152,7 @@ def fit_plane(
     level = float(heights.min() + heights.max()) / 2.0
     off = float(np.ptp(heights)) / 2.0
     if off > FLAT * size + 4.0 * error:
-        raise ValueError(
-            "It is not flat: its points are up to {:.3g} of its size off a plane. Choose faces of one "
-            "plane, or flatten it.".format(off / size)
-        )
+        raise MeasureError("section_not_flat", share=off / size)
     axes, named = _axes(normal, prefer)
     distance = float((middle - origin) @ normal) + level
     return Plane(origin + distance * normal, axes, off, named)
@@ -193,7 +191,7 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
     whether that is one region, and the length that edges share, which the perimeter leaves out twice.
 
     error: how far storing the points as float32 may have moved each of them.
-    ValueError where the edges enclose no area, or do not close.
+    MeasureError where the edges enclose no area, or do not close.
     """
     flat = plane.flat(points)
     used = flat[edges.ravel()] if len(edges) else np.zeros((1, 2))
@@ -202,7 +200,7 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
     first = area_moments(flat, edges, 1, about)
     moved = _moved(flat, edges, about, rounded)[:3] + first.error
     if not first.raw[0] > moved[0]:
-        raise ValueError("It encloses no area.")
+        raise MeasureError("section_encloses_nothing")
     about = about + first.raw[1:] / first.raw[0]
     moments = area_moments(flat, edges, 2, about)  # about the centroid as far as floats go: nothing cancels
     length = outline_moments(flat, edges)

@@ -30,6 +30,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh.surface import Surface, all_there, flipped_quads
 from ..moments.moments import Moments, U
 from ..moments.monomials import monomial_count, monomials, predecessors, rows_of
+from ..verdict.finding import MeasureError
 from .any_order_kernel import TINY, Levels, Sums, layout, sizes
 from .third_order import finite_box, middle, pairs, solid_and_area
 from .third_order_kernel import NO_VERTEX
@@ -41,7 +42,6 @@ FEWEST = 4608  # faces in a block; of rows less than half its buffer of 8192 lon
 BATCH = 8  # blocks that are handed to a thread at once
 USUAL = 8  # powers of two up to which coordinates are left as they are
 RANGE = 1000.0  # powers of two beyond which a moment is no number
-TOO_LARGE = "It is too large for moments of order {:d} to be numbers. Scale it down."
 
 
 def moments_to_order(
@@ -66,14 +66,15 @@ def moments_to_order(
     `error` bounds the rounding of every moment, `input` what storing coordinates as float32 may have changed (of a
     closed surface). Memory beside what `body` holds: for each thread a block's scratch, some 13 MB at order 4, 30 MB at
     order 20 and 65 MB at order 30, and some 15 MB for the bounds. ValueError where coordinates are not finite, a face
-    names no vertex, or a moment would be beyond the range of numbers.
+    names no vertex, or a piece of a stream reaches much farther than the first; MeasureError where a moment would be
+    beyond the range of numbers.
     """
     if not isinstance(order, (int, np.integer)) or order < 0:
-        raise ValueError("The order of moments is a whole number, 0 or more.")
+        raise ValueError("order not a natural number")
     if about is not None:
         about = np.array(about, np.float64)
         if about.shape != (3,) or not np.isfinite(about).all():
-            raise ValueError("The point that moments are about has three finite coordinates.")
+            raise ValueError("about must be finite (3,)")
     pieces = [body] if isinstance(body, Surface) else body
     if isinstance(pieces, (list, tuple)) and about is None:
         about = _middle_of([_as_surface(piece) for piece in pieces])
@@ -88,7 +89,7 @@ def _as_surface(piece: Surface | NDArray) -> Surface:
         return piece
     corners = np.asarray(piece)
     if corners.ndim != 3 or corners.shape[1:] != (3, 3) or np.iscomplexobj(corners):
-        raise ValueError("Triangles are an array of shape (m, 3, 3): corners, and their real coordinates.")
+        raise ValueError("corners not real (m, 3, 3)")
     return Surface(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
 
 
@@ -127,7 +128,7 @@ def _fast(
             progress(done)
     total = total or [_nothing(order, of, about) for of in ("volume", "area")]
     if not all(np.isfinite(moments.error).all() for moments in total):
-        raise ValueError(TOO_LARGE.format(order))
+        raise MeasureError("moments_overflow", order=int(order))
     return total[0], total[1] if area else None
 
 
@@ -283,12 +284,9 @@ class _Stream:
             self.exponent = _exponent(largest)
         beyond = frexp(largest)[1] - self.exponent
         if (max(beyond, 0) + 2) * (self.order + 3) > RANGE:
-            raise ValueError(
-                "A piece of the body reaches much farther than the first. Give a point of the body, and "
-                "how far it reaches from there."
-            )
+            raise ValueError("about and reach needed")
         if (max(beyond, 0) + self.exponent) * (self.order + 3) > RANGE:
-            raise ValueError(TOO_LARGE.format(self.order))
+            raise MeasureError("moments_overflow", order=int(self.order))
 
     def _run(self, task: _Task) -> tuple[int, list[Sums]]:
         """One task, in whatever thread: how many faces it has, and what each of its blocks adds."""

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import PAIRWISE, U
+from ..verdict.finding import MeasureError
 
 MEMORY = 1 << 20  # numbers in the table of a block
 LEAST = 64  # simplices in a block, whatever the table takes
@@ -76,7 +77,7 @@ def enclosed_moments(
     counter-clockwise in the plane, triangles counter-clockwise from outside in space. about: (n,), by default the
     center of the points' box. signs: (k,) 1 or -1, the orientation of each simplex beside the order of its corners; on
     a line, where a corner alone has none, it tells the upper ends from the lower ones. ValueError for coordinates that
-    are not finite and for indices that name no point.
+    are not finite and for indices that name no point; MeasureError where moments are beyond the range of numbers.
     """
     return _measure(points, simplices, order, about, signs, enclosed=True)
 
@@ -99,30 +100,30 @@ def _measure(
 ) -> SimplexMoments:
     points, simplices = np.asarray(points), np.asarray(simplices)
     if points.ndim != 2 or not points.shape[1] or np.iscomplexobj(points):
-        raise ValueError("points must be rows of coordinates, real numbers")
+        raise ValueError("points not real (n, d)")
     points = points.astype(np.float64, copy=False)
     dimension = points.shape[1]
     if simplices.ndim != 2 or simplices.shape[1] != dimension:
-        raise ValueError("the boundary of a body in n dimensions is made of simplices of n corners")
+        raise ValueError("simplices not (k, d)")
     if simplices.size and simplices.dtype.kind not in "iu":
-        raise ValueError("a simplex names its points by whole numbers")
+        raise ValueError("simplices must be integers")
     if simplices.size and not (simplices.min() >= 0 and simplices.max() < len(points)):
-        raise ValueError("a simplex names a point that is not there")
+        raise ValueError("no such point")
     if not isinstance(order, (int, np.integer)) or order < 0:
-        raise ValueError("the order of moments is a whole number, 0 or more")
+        raise ValueError("order not a natural number")
     indices = multi_indices(dimension, order)
     used = points[simplices.ravel()] if simplices.size else np.zeros((1, dimension))
     low, high = used.min(axis=0), used.max(axis=0)
     if not all(map(isfinite, [*low, *high])):
-        raise ValueError("the coordinates are not all finite")
+        raise ValueError("coordinates must be finite")
     about = low / 2.0 + high / 2.0 if about is None else np.asarray(about, np.float64)
     if about.shape != (dimension,) or not np.isfinite(about).all():
-        raise ValueError("the point that moments are about has as many finite coordinates as the space dimensions")
+        raise ValueError("about must be finite (d,)")
     reach = float(np.maximum(np.abs(high - about), np.abs(low - about)).max())
     exponent = int(np.frexp(reach)[1]) if reach else 0  # the body is brought to size 1, which rounds nothing
 
     if signs is not None and np.shape(signs) != (len(simplices),):
-        raise ValueError("each simplex has one sign")
+        raise ValueError("signs not (k,)")
     measure = dimension if enclosed else dimension - 1
     degree = indices.sum(axis=1)
     raw, size = np.zeros((2, len(indices)))
@@ -148,7 +149,7 @@ def _measure(
     with np.errstate(over="ignore"):
         raw, error = np.ldexp(raw * factor, power), np.ldexp(error * factor, power)
     if not np.isfinite(raw).all():
-        raise ValueError("The moments leave the range of float64; use a larger unit or a lower order.")
+        raise MeasureError("moments_overflow", order=int(order))
     return SimplexMoments(raw, about, order, error + np.finfo(np.float64).smallest_subnormal)
 
 

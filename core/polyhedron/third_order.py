@@ -132,7 +132,7 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
     """The least and the largest coordinates. ValueError where they are not finite."""
     low, high = surface.box
     if not all(map(isfinite, low.tolist() + high.tolist())):
-        raise ValueError("the coordinates are not all finite")
+        raise ValueError("coordinates must be finite")
     return low, high
 
 

@@ -38,7 +38,7 @@ GAP = 8  # numbers between rows: numpy < 2 leaves its vector loop where output e
 FLIP_MARGIN = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
 FLOAT32_UNDERFLOW = 1e-36  # the cosine up to which they do at its other end
-NO_VERTEX = "a face names a vertex that does not exist"
+NO_VERTEX = "no such vertex"
 TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
 TENSOR = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 # Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, x, y, z, the terms of the symmetric products stand: two of

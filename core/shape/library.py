@@ -8,13 +8,30 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass
+from enum import StrEnum
 from pathlib import Path
 
+from ..verdict.finding import FileError, Finding, finding
 from .signature import ALIKE, Likeness, Signature, compared
 
 SAME = 1e-4  # signatures nearer than this are one shape's: some float32 steps, and no more than a careless export
 SAME_SIZE = 1e-4
-UNCLEAR = ("copy or mirror", "scaled copy or mirror")  # verdicts where the signatures do not tell the hand
+
+
+class Similarity(StrEnum):
+    """What a shape is to the one that it was compared with."""
+
+    COPY = "copy"
+    SCALED_COPY = "scaled_copy"
+    MIRROR = "mirror"
+    SCALED_MIRROR = "scaled_mirror"
+    COPY_OR_MIRROR = "copy_or_mirror"
+    SCALED_COPY_OR_MIRROR = "scaled_copy_or_mirror"
+    SIMILAR = "similar"
+    DIFFERENT = "different"
+
+
+UNCLEAR = (Similarity.COPY_OR_MIRROR, Similarity.SCALED_COPY_OR_MIRROR)  # the signatures do not tell the hand
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,34 +45,33 @@ class Entry:
     @property
     def label(self) -> str:
         """FILE:NAME, by which the command line tells bodies of one name apart."""
-        return "{:s}:{:s}".format(self.file, self.name) if self.file else self.name
+        return _label(self.file, self.name)
 
 
-def read_library(path: Path) -> tuple[list[Entry], list[str]]:
-    """The bodies with a signature, and a sentence for each without. ValueError where the file is no library."""
-    entries, faults = [], []
-    for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
+def _label(file: str, name: str) -> str:
+    return "{:s}:{:s}".format(file, name) if file else name
+
+
+def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
+    """The bodies with a signature, and a finding for each without. FileError where the file is no library."""
+    entries, missing = [], []
+    for number, line in enumerate(path.read_bytes().split(b"\n"), 1):
         if not line.strip():
             continue
         try:
             document = json.loads(line)
-            objects = document["objects"]
+            records = [dict(record) for record in document["objects"]]
         except (ValueError, KeyError, TypeError) as error:
-            raise ValueError(
-                "Line {:d} is no document of body_moments; write the library with --format jsonl.".format(number)
-            ) from error
-        for record in objects:
+            raise FileError("library_line", file=path.name, line=number) from error
+        for record in records:
             name, file = str(record.get("name")), str(document.get("file") or "")
             try:
                 entries.append(Entry(name, file, Signature.from_record(record.get("signature") or {})))
-            except ValueError:
-                reason = (
-                    "It has no shape that a signature could tell; the warnings of its record say why."
-                    if "signature" in record and record["signature"] is None
-                    else "It has no signature; measure it with --signature."
-                )
-                faults.append("{:s}:{:s}: {:s}".format(file, name, reason))
-    return entries, faults
+            except FileError:
+                shapeless = "signature" in record and record["signature"] is None
+                label = _label(file, name)
+                missing.append(finding("record_without_shape" if shapeless else "record_without_signature", name=label))
+    return entries, missing
 
 
 def nearest(
@@ -71,14 +87,14 @@ def same_size(likeness: Likeness) -> bool:
     return abs(likeness.scale - 1.0) <= SAME_SIZE
 
 
-def verdict(likeness: Likeness) -> str:
-    """What a shape is to the one that it was compared with, in a few words."""
+def verdict(likeness: Likeness) -> Similarity:
+    """What a shape is to the one that it was compared with."""
     if likeness.shape > ALIKE:
-        return "different"
+        return Similarity.DIFFERENT
     if likeness.shape > SAME:
-        return "similar"
+        return Similarity.SIMILAR
     if likeness.mirrored is None:
-        return UNCLEAR[0] if same_size(likeness) else UNCLEAR[1]
+        return Similarity.COPY_OR_MIRROR if same_size(likeness) else Similarity.SCALED_COPY_OR_MIRROR
     if likeness.mirrored:
-        return "mirror image" if same_size(likeness) else "scaled mirror"
-    return "copy" if same_size(likeness) else "scaled copy"
+        return Similarity.MIRROR if same_size(likeness) else Similarity.SCALED_MIRROR
+    return Similarity.COPY if same_size(likeness) else Similarity.SCALED_COPY

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Moments, monomials
 from ..moments.solid_harmonics import coupled, harmonic_moments
+from ..verdict.finding import FileError
 from .zernike import BY_MOMENTS, Multiplets, degrees, descriptors, loss, radial_power, zernike_moments
 
 Key = tuple[int, int]  # (n, l) of a multiplet
@@ -63,22 +64,22 @@ class Signature:
 
     @classmethod
     def from_record(cls, record: dict) -> Signature:
-        """From JSON. ValueError where it is none."""
+        """From JSON. FileError where it is none."""
         try:
             arrays = {
                 name: np.array(record[name], np.float64).reshape(-1)
                 for name in ("invariants", "zernike", "fourier", "chirality")
             }
             found = cls(size=float(record["size"]), **arrays)
-        except (KeyError, TypeError, ValueError) as error:
-            raise ValueError("The signature is not one that --signature wrote.") from error
+        except (KeyError, TypeError, ValueError, OverflowError) as error:
+            raise FileError("signature_unrecognized") from error
         if not (
             np.isfinite(np.concatenate(list(arrays.values()))).all()
             and found.size > 0.0
             and len(found.zernike)
             and len(found.chirality) == len(_chiral_triples())
         ):
-            raise ValueError("The signature is incomplete.")
+            raise FileError("signature_incomplete")
         return found
 
 

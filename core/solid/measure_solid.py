@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What kind of body a surface is, what had to be mended to measure it, and its moments.
+"""What kind of body a surface is, what had to be repaired to measure it, and its moments.
 
-A mesh whose own edges prove it closed is measured as it stands. Any other is mended on a copy, one decision after the
+A mesh whose own edges prove it closed is measured as it stands. Any other is repaired on a copy, one decision after the
 other, and each decision is reported: equal positions are welded, then, along open edges only, positions that differ by
 rounding; copies of faces that keep edges from closing are left out; faces that run against the rest of their part are
 turned; gaps without area (T-junctions) close; other rims are capped. Then the shells are compared: a shell that is
@@ -26,9 +26,9 @@ from ..mesh.surface import Surface, all_there
 from ..moments.moments import SECOND, Moments, sum_moments
 from ..numerics.graph import components
 from ..polyhedron import third_order as polyhedron
-from ..verdict import messages as sentences
+from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.health import NO_FACES, Faults, Health
-from ..verdict.tolerances import LARGEST, NO_VOLUME, ROUNDING, SMALLEST, TOLERANCE
+from ..verdict.tolerances import LARGEST, NEGLIGIBLE, NO_VOLUME, ROUNDING, SMALLEST, TOLERANCE
 from .nesting import cut_from, decide, relate
 from .parts import Components
 from .repair import Mended, mend
@@ -40,7 +40,8 @@ SPREAD = 1e-6  # of the volume: below, nobody needs to know
 @dataclass(frozen=True, eq=False)
 class SolidMeasure:
     """volume: Moments to order 3, about the body's reference point. area: Moments of the input's faces, without caps.
-    method: "exact", "capped", "reoriented" or "open". warnings: one sentence for each decision taken.
+    method: "exact", "capped", "reoriented" or "open". findings: the decisions taken; those about the whole surface have
+    no elements.
 
     Of a body that is flat the volume's moments are zero; of an open one they depend on the reference point. Where
     vertices were welded across gaps, `input` bounds what that may have changed too.
@@ -51,7 +52,7 @@ class SolidMeasure:
     area: Moments
     health: Health
     method: str
-    warnings: tuple[str, ...]
+    findings: tuple[Finding, ...]
     mended: Surface
     components: Callable[[], Components]
 
@@ -65,15 +66,13 @@ def measure_solid(
     *,
     shell: bool = False,
     threads: int = 1,
-    names: Callable[[NDArray], str] = sentences.listed,
     near: bool = True,
 ) -> SolidMeasure:
     """The moments of the body that a surface bounds, in the surface's own coordinates and unit, and how they came.
 
     shell: the area's moments to order 3 (else order 0). threads: for the sums over faces, and for the verdict.
-    names: what mesh faces are called in `warnings`, by default the first few of their numbers. near: whether vertices
-    along open edges that differ by rounding are welded, unless the body is so thin that it would collapse.
-    ValueError, with what to do, where there are no faces or a face uses a vertex that has no finite position.
+    near: whether vertices along open edges that differ by rounding are welded, unless the body is so thin that it would
+    collapse. MeasureError where there are no faces, or a face uses a vertex that has no finite position.
     """
     given = surface
     surface, vertices, size = _used(surface)
@@ -82,7 +81,7 @@ def measure_solid(
     own, body, flatness = _as_it_stands(surface, shell, threads, error)
     proven = body is not None
     if not proven:
-        body = mend(surface, tolerance, size, names, near)
+        body = mend(surface, tolerance, near)
     compared = _compared(body, tolerance, error) if body.number > 1 else None
     turn = np.zeros(body.number, bool) if compared is None else compared.turned
     turn_each = turn
@@ -95,7 +94,7 @@ def measure_solid(
         if caps is not None:
             volume = sum_moments([own[0], volume])
     if body.moved * area.total > COLLAPSED * abs(volume.total):
-        apart = measure_solid(given, shell=shell, threads=threads, names=names, near=False)
+        apart = measure_solid(given, shell=shell, threads=threads, near=False)
         if apart.method != "open":
             return apart
     if compared is None:
@@ -121,29 +120,20 @@ def measure_solid(
         method = "capped"
     else:
         method = "reoriented" if len(flipped) or len(inverted) else "exact"
-    notes = [
-        *body.notes,
-        *sentences.turned(flipped, inverted, body.number, names),
-        *sentences.capped(*caps[:2].astype(int), cap_share),
-    ]
+    findings = _weld_finding(body, size, area.total, volume.total)
+    findings += [_of_input(found, vertices) for found in body.findings]
+    findings += _turned_findings(body, flipped, inverted)
+    capped = np.ones(1, bool) if compared is None else compared.solid
+    findings += _cap_finding(body, capped, vertices, caps, cap_share, caps[2] * size < NEGLIGIBLE * volume.total)
     if compared is not None:
-        flat = int(np.count_nonzero(~compared.solid & ~body.open)) if compared.solid.any() else 0
-        notes += sentences.compared(
-            compared.counts["nested_components"], compared.counts["overlapping_components"], flat, compared.unchecked
-        )
+        findings += compared.findings
     if impossible:
-        notes.append(
-            "It intersects itself, and parts of it count with the opposite sign: these are the moments of no "
-            "body. Unite its shells, or mend it."
-        )
+        findings.append(finding("self_intersecting"))
     if not solid:
-        notes.append("It is flat and encloses no volume: measure a shell.")
+        findings.append(finding("flat_surface"))
     elif flatness.spread > SPREAD * volume.total > 0.0:
-        notes.append(
-            "Faces that are not flat: the choice of their diagonals can change the volume by up to {:.2g} %.".format(
-                100.0 * flatness.spread / volume.total
-            )
-        )
+        share = float(flatness.spread / volume.total)
+        findings.append(finding("non_planar_faces_slightly" if share < NEGLIGIBLE else "non_planar_faces", share=share))
     counts = body.counts | (compared.counts if compared else {})
     faults = {
         key: vertices[value] if vertices is not None and key.endswith("edges") else value
@@ -162,9 +152,7 @@ def measure_solid(
     def parts() -> Components:
         return _parts(measured, body, compared, turn_each ^ inside_out, proven)
 
-    return SolidMeasure(
-        volume=volume, area=area, health=health, method=method, warnings=tuple(notes), mended=measured, components=parts
-    )
+    return SolidMeasure(volume, area, health, method, tuple(findings), mended=measured, components=parts)
 
 
 def _as_it_stands(
@@ -200,13 +188,13 @@ def _possible(volume: Moments, surface: Surface, size: float) -> bool:
 
 def _used(surface: Surface) -> tuple[Surface, NDArray[np.intp] | None, float]:
     """The surface without vertices that no face uses, the old number of each vertex (None where all are used), and the
-    diagonal of the bounding box. ValueError where the surface cannot be measured."""
+    diagonal of the bounding box. MeasureError where the surface cannot be measured."""
     faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
     if not faces:
-        raise ValueError("It has no faces. Give it faces, or choose an object that has some.")
-    points = surface.points
+        raise MeasureError("no_faces")
+    points, total = surface.points, len(surface.points)
     if not all(all_there(corners, len(points)) for corners in faces):
-        raise ValueError("Its faces use vertices that do not exist. Run Mesh > Validate on it.")
+        raise MeasureError("invalid_faces")
     used = np.zeros(len(points), bool)
     for column in (0, 2, 1, 3):  # opposite corners first: they reach most vertices
         for corners in faces:
@@ -231,15 +219,12 @@ def _used(surface: Surface) -> tuple[Surface, NDArray[np.intp] | None, float]:
     if not np.isfinite(size):
         astray = np.flatnonzero(~np.isfinite(surface.points).all(axis=1))
         if len(astray):
-            raise ValueError(
-                "{:d} of its vertices have no finite position: {:s}. Delete them, or repair what moves them.".format(
-                    len(astray), sentences.listed(astray if vertices is None else vertices[astray])
-                )
-            )
+            elements = astray if vertices is None else vertices[astray]
+            raise MeasureError("non_finite_vertices", elements=elements, count=len(astray), total=total)
     if not max(size, float(np.abs([low, high]).max())) < LARGEST:
-        raise ValueError("It is too large for its moments to be numbers. Scale it down.")
+        raise MeasureError("object_too_large")
     if 0.0 < size < SMALLEST:
-        raise ValueError("It is too small for its moments to be numbers. Scale it up.")
+        raise MeasureError("object_too_small")
     return surface, vertices, size
 
 
@@ -276,12 +261,12 @@ def _proven(surface: Surface) -> Mended | None:
 @dataclass(frozen=True, eq=False)
 class _Compared:
     """What comparing the shells of a body came to. turned, solid: (c,) the shells to turn, and those with a volume.
-    counts: entries of `Health`. unchecked: pairs of shells that were not compared. within: (c,) as in `Components`."""
+    counts: entries of `Health`. within: (c,) as in `Components`."""
 
     turned: NDArray[np.bool_]
     solid: NDArray[np.bool_]
     counts: dict
-    unchecked: int
+    findings: list[Finding]
     within: NDArray[np.intp]
 
 
@@ -293,15 +278,29 @@ def _compared(body: Mended, tolerance: float, error: float) -> _Compared:
     solid = ~body.open & (np.abs(shells.volume) > noise)
     relations = relate(body.points, shells, solid, tolerance)
     turned, nested, cavities = decide(shells, relations, solid)
+    crossing = np.zeros(body.number, bool)
+    crossing[relations.crossing] = True
+    flat = ~solid & ~body.open if solid.any() else np.zeros(body.number, bool)
+    findings = []
+    if nested.any():
+        findings.append(finding("components_nested", _faces_of(body, nested), count=int(nested.sum())))
+    if crossing.any():
+        findings.append(finding("components_overlap", _faces_of(body, crossing), count=int(crossing.sum())))
+    if flat.any():
+        findings.append(
+            finding("flat_components", _faces_of(body, flat), count=int(flat.sum()), total=int(body.number))
+        )
+    if relations.unchecked:
+        findings.append(finding("overlap_unchecked", count=int(relations.unchecked)))
     return _Compared(
         turned,
         solid,
         {
             "nested_components": int(nested.sum()),
             "cavities": int(cavities.sum()),
-            "overlapping_components": len(np.unique(relations.crossing)),
+            "overlapping_components": int(crossing.sum()),
         },
-        relations.unchecked,
+        findings,
         cut_from(relations, cavities),
     )
 
@@ -361,6 +360,56 @@ def _parts(
         kept |= not kept.any()
     triangles = np.where(turn[body.shell][:, None], body.triangles[:, ::-1], body.triangles)
     return Components(body.points, triangles[kept], body.face[kept], body.shell[kept], body.number, within)
+
+
+def _faces_of(body: Mended, which: NDArray[np.bool_]) -> NDArray[np.integer]:
+    """The mesh faces of some shells, sorted."""
+    return np.unique(body.face[which[body.shell] & (body.face >= 0)])
+
+
+def _of_input(found: Finding, vertices: NDArray[np.intp] | None) -> Finding:
+    """The finding with edges in the input's vertices, where those of no face were left out before."""
+    edges = np.ndim(found.elements) == 2
+    return replace(found, elements=vertices[found.elements]) if edges and vertices is not None else found
+
+
+def _weld_finding(body: Mended, size: float, area: float, volume: float) -> list[Finding]:
+    if not body.moved > 0.0:
+        return []
+    slight = body.moved * area < NEGLIGIBLE * abs(volume)
+    return [finding("vertices_welded_slightly" if slight else "vertices_welded", share=float(body.moved / size))]
+
+
+def _turned_findings(body: Mended, flipped: NDArray[np.integer], inverted: NDArray[np.intp]) -> list[Finding]:
+    findings = []
+    if len(flipped):
+        findings.append(finding("flipped_faces", flipped, count=len(flipped)))
+    if len(inverted):
+        which = np.zeros(body.number, bool)
+        which[inverted] = True
+        faces = NO_FACES if which.all() else _faces_of(body, which)
+        findings.append(finding("inverted_components", faces, count=len(inverted), total=int(body.number)))
+    return findings
+
+
+def _cap_finding(
+    body: Mended,
+    solid: NDArray[np.bool_],
+    vertices: NDArray[np.intp] | None,
+    caps: NDArray[np.float64],
+    share: float,
+    slight: bool,
+) -> list[Finding]:
+    """About the capped holes of shells that have a volume. caps: (3,) flat ones, curved ones, and their area; share: of
+    the surface's. slight: whether all their moments together are negligible."""
+    flat, curved = map(int, caps[:2])
+    if not flat + curved:
+        return []
+    edges = body.capped_edges[solid[body.capped_shell]]
+    edges = np.unique(edges if vertices is None else vertices[edges], axis=0)
+    if slight:
+        return [finding("holes_capped_slightly", edges, count=flat + curved, share=share)]
+    return [finding("holes_capped", edges, count=flat + curved, flat=flat, curved=curved, share=share)]
 
 
 def _turned_faces(body: Mended, turn: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A surface that its mesh does not prove closed, mended on a copy as far as it can be.
+"""A surface that its mesh does not prove closed, repaired on a copy as far as it can be.
 
 In this order: equal positions are welded where edges are odd (one face, or three), then positions that differ by
 rounding; copies of faces are left out where the edges around them say so; gaps without area are recognized; the faces
@@ -10,7 +10,6 @@ itself is touched at any step.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -20,7 +19,8 @@ from ..mesh.edges import Edges, find_edges, named_edges, orientation, shells
 from ..mesh.surface import Surface, normals
 from ..mesh.welding import equal_positions, face_groups, near_positions, vertex_tolerance
 from ..numerics.graph import components
-from ..verdict.messages import counted
+from ..verdict.finding import Finding, finding
+from ..verdict.tolerances import NEGLIGIBLE
 from .holes import find_loops, join_sides
 
 NO_COPIES = np.empty(0, np.intp), np.empty(0, np.intp)
@@ -34,7 +34,9 @@ class Mended:
     open: (number,) shells that cannot be closed. caps: (number, 3) of each shell how many flat caps and curved caps it
     has, and their area. changed: whether the triangles, apart from their direction and from caps, are not simply the
     input's. moved: (length) how far welding has moved a vertex at most. counts: entries of `Health`. faults: entries of
-    `Faults`. notes: what was decided, as sentences."""
+    `Faults`. capped_edges, capped_shell: (k, 2) the boundary edges of capped holes, and (k,) the shell of each.
+    findings: what was decided, but for welding and caps, whose effect depends on the volume. Edges are pairs of the
+    vertices of the surface that was given."""
 
     points: NDArray[np.floating]
     triangles: NDArray[np.integer]
@@ -48,26 +50,22 @@ class Mended:
     moved: float = 0.0
     counts: dict = field(default_factory=dict)
     faults: dict = field(default_factory=dict)
-    notes: list[str] = field(default_factory=list)
+    capped_edges: NDArray[np.intp] = field(default_factory=lambda: NO_EDGES)
+    capped_shell: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, np.intp))
+    findings: list[Finding] = field(default_factory=list)
 
 
-def mend(surface: Surface, tolerance: float, size: float, names: Callable[[NDArray], str], near: bool = True) -> Mended:
-    """Mend a surface.
+def mend(surface: Surface, tolerance: float, near: bool = True) -> Mended:
+    """Repair a surface on a copy.
 
-    tolerance: (length) positions nearer than this are one where edges are open. size: the diagonal of the body.
-    names: what mesh faces are called in `notes`. near: whether positions that differ are welded at all.
+    tolerance: (length) positions nearer than this are one where edges are open. near: whether positions that differ are
+    welded at all.
     """
     points = surface.points
     given, face = surface.all_triangles()
     given, face = given.astype(np.intp), np.asarray(face, np.intp)
-    notes: list[str] = []
+    findings: list[Finding] = []
     triangles, welded, moved, edges = _welded(surface, given, face, tolerance if near else 0.0)
-    if moved > 0.0:
-        notes.append(
-            "Vertices along open edges were welded to others, up to {:.1g} of the body's size away.".format(
-                moved / size
-            )
-        )
     rows = np.flatnonzero(_proper(triangles))
     copies, crowded, named = NO_COPIES, 0, NO_EDGES
     if len(rows):
@@ -75,7 +73,7 @@ def mend(surface: Surface, tolerance: float, size: float, names: Callable[[NDArr
         if edges.count.max() > 2:  # elsewhere copies of faces would have no others beside them
             sides = _crowded(edges, face[rows])
             crowded, named = len(np.unique(edges.of_side[sides])), _named(given[rows], sides)
-            copies, left_out = _copies(points, triangles[rows], face[rows], edges, notes, names)
+            copies, left_out = _copies(points, triangles[rows], face[rows], edges, findings)
             if left_out.any():
                 rows = rows[~left_out]
                 edges = find_edges(triangles[rows])
@@ -91,7 +89,7 @@ def mend(surface: Surface, tolerance: float, size: float, names: Callable[[NDArr
         np.zeros((0, 3)),
         changed=moved > 0.0 or len(copies[1]) > 0,
         moved=moved,
-        notes=notes,
+        findings=findings,
     )
     body.counts = {
         "welded": welded,
@@ -182,7 +180,7 @@ def _distinct(values: NDArray[np.integer], width: int) -> NDArray[np.intp]:
 
 
 def _copies(
-    points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, notes: list[str], names: Callable[[NDArray], str]
+    points: NDArray, triangles: NDArray, face: NDArray, edges: Edges, findings: list[Finding]
 ) -> tuple[tuple[NDArray, NDArray], NDArray[np.bool_]]:
     """The faces on the same vertices as an earlier one; those left out; and (m,) which triangles these are.
 
@@ -217,27 +215,24 @@ def _copies(
     reduced = np.where(asked, votes > 0, (parallel > 0) | closed)[region]
 
     left_out = later & reduced
-    gone = np.unique(face[left_out])
-    if len(gone):
-        notes.append(
-            counted(
-                gone,
-                "Face {:s} lies exactly on another one and was left out.",
-                "{:d} faces lie exactly on others and were left out: {:s}.",
-                names,
+    area = np.linalg.norm(vector, axis=1)  # of each face, doubled
+    ignored = np.unique(face[left_out])
+    if len(ignored):
+        slight = area[ignored].sum() < NEGLIGIBLE * area.sum()
+        findings.append(
+            finding(
+                "duplicate_faces_ignored_slightly" if slight else "duplicate_faces_ignored", ignored, count=len(ignored)
             )
         )
     twice = np.unique(face[later & ~reduced & (agree > 0.0)])
     if len(twice):
-        notes.append(
-            counted(
-                twice,
-                "Face {:s} lies exactly on another one and counts twice: delete one of them.",
-                "{:d} faces lie exactly on others and count twice: {:s}. Delete the copies.",
-                names,
+        slight = area[twice].sum() < NEGLIGIBLE * area.sum()
+        findings.append(
+            finding(
+                "duplicate_faces_counted_slightly" if slight else "duplicate_faces_counted", twice, count=len(twice)
             )
         )
-    return (np.unique(face[later]), gone), left_out
+    return (np.unique(face[later]), ignored), left_out
 
 
 def _copied(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np.bool_]:
@@ -267,7 +262,7 @@ def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:
     body.open[shell[twisted]] = True
     twists = int(np.count_nonzero(body.open))
 
-    settled, gaps = _close(body, edges, gap, tolerance)
+    settled, gaps, capped = _close(body, edges, gap, tolerance)
     rim = edges.first[(edges.count == 1) & ~filled]
     rim = rim[~settled[rim]]
     body.counts |= {
@@ -279,23 +274,19 @@ def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:
         "boundary_edges": _named(given, rim),
         "inconsistent_edges": _named(given, np.concatenate([one[against], other[against]])),
     }
+    capped = capped[~body.open[shell[capped // 3]]]
+    body.capped_edges, body.capped_shell = _pairs(given, capped), shell[capped // 3]
     if gaps:
-        body.notes.append(
-            "Edges meet in {:d} {:s} whose vertices do not: without area, and counted as closed.".format(
-                gaps, "gap" if gaps == 1 else "gaps"
-            )
+        sides = np.concatenate([gap.sides, np.flatnonzero(settled)])
+        body.findings.append(finding("t_junctions", _named(given, sides), count=gaps))
+    if twists:
+        body.findings.append(
+            finding("one_sided_components", body.faults["inconsistent_edges"], count=twists, total=number)
         )
-    if body.open.any():
-        count = int(np.count_nonzero(body.open))
-        torn = count > twists
-        causes = ["one-sided"] * (twists > 0) + ["inner walls, or holes, where more than two faces meet"] * torn
-        body.notes.append(
-            "{:s} cannot be closed ({:s}): volume, center and inertia depend on the reference point. {:s}.".format(
-                "It" if number == 1 else "{:d} of its {:d} parts".format(count, number),
-                "; ".join(causes),
-                "Delete inner faces and fill holes, or measure a shell" if torn else "Measure a shell",
-            )
-        )
+    torn = int(np.count_nonzero(body.open)) - twists
+    if torn:
+        edges = np.concatenate([body.faults["non_manifold_edges"], body.faults["boundary_edges"]])
+        body.findings.append(finding("non_manifold_components", edges, count=torn, total=number))
 
 
 def _crowded(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.intp]:
@@ -309,9 +300,13 @@ def _crowded(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.intp]:
 
 def _named(given: NDArray, sides: NDArray) -> NDArray[np.intp]:
     """(k, 2) the sides as vertex pairs of the input, the lower first, sorted, each once."""
+    return np.unique(_pairs(given, sides), axis=0)
+
+
+def _pairs(given: NDArray, sides: NDArray) -> NDArray[np.intp]:
+    """(k, 2) the sides as vertex pairs of the input, the lower first."""
     triangle, corner = sides // 3, sides % 3
-    pair = np.stack([given[triangle, corner], given[triangle, (corner + 1) % 3]], axis=1)
-    return np.unique(np.sort(pair, axis=1), axis=0)
+    return np.sort(np.stack([given[triangle, corner], given[triangle, (corner + 1) % 3]], axis=1), axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -356,9 +351,11 @@ def _ends(triangles: NDArray, sides: NDArray) -> tuple[NDArray, NDArray]:
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
 
 
-def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> tuple[NDArray[np.bool_], int]:
-    """Tell the shells that cannot be closed; fill the gaps and cap the rims of the others. Returns (3m,) the sides that
-    `_spikes` found to be closed, and how many gaps there are."""
+def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> tuple[NDArray[np.bool_], int, NDArray]:
+    """Find the shells that cannot be closed; fill the gaps and cap the holes of the others.
+
+    Returns (3m,) the sides that `_spikes` found to be closed, how many gaps there are, and (k,) the sides around caps.
+    """
     if np.any(edges.count > 2) and body.number > 1:
         # Shells that meet in an edge are judged one by one, each with vertices of its own.
         key, own = np.unique(body.shell.repeat(3) * len(body.points) + body.triangles.ravel(), return_inverse=True)
@@ -397,7 +394,7 @@ def _close(body: Mended, edges: Edges, gap: _Gaps, tolerance: float) -> tuple[ND
     body.face = np.concatenate([body.face, np.full(len(caps), -1)])
     body.turned = np.concatenate([body.turned, np.zeros(len(caps), bool)])
     body.shell = np.concatenate([body.shell, body.shell[owner]])
-    return settled, gaps
+    return settled, gaps, rim[~filled]
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,6 +26,7 @@ from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
 from ..offset.walls import first_fold
 from ..polyhedron.third_order import solid_and_area
+from ..verdict.finding import MeasureError
 from .gradient import Gradient, area_gradient, volume_gradient
 
 STEPS = 100  # of Newton's method at most; it takes a few
@@ -59,7 +60,7 @@ def balance(
     across: (r, 3) orthonormal rows: along these directions only; by default all three. willing: (k,) above 0 to 1.
     limit: how far a vertex may move. shell: the mass is in the surface, else in the body it bounds, which must be
     closed. Uniform density, and all lengths in one unit.
-    ValueError, with the reason, where the center cannot come there, or where faces would be turned over.
+    MeasureError where the center cannot come there, or where faces would be turned over.
     """
     across = np.eye(3) if across is None else np.asarray(across, np.float64)
     movable = np.asarray(movable, np.intp)
@@ -69,22 +70,24 @@ def balance(
     area = fans.areas[movable]
     used = (area > 0.0) & (willing > 0.0)
     if not used.any():
-        raise ValueError("None of the vertices that may move belongs to a face with an area; select others.")
+        raise MeasureError("balance_no_area")
     movable = movable[used]
     start = problem.at(problem.start)
     if start is None:
-        raise ValueError("It has no {:s}.".format("area" if shell else "volume that its faces enclose"))
+        raise MeasureError("balance_zero_area" if shell else "balance_zero_volume")
     before, _, gradient = start
     pull = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
     pull *= (willing[used] / area[used])[:, None]
     if not _strong(_slope(pull, np.zeros(len(across)), gradient[:, movable], np.inf)):
-        raise ValueError("The vertices that may move cannot bring the center there, however far they go; select more.")
+        raise MeasureError("balance_no_effect")
     points, center, far = _reached(problem, start, pull, movable, np.inf)
     left = far
     if limit < np.inf and (far or np.linalg.norm(points - problem.start, axis=1).max() > limit):
         points, center, left = _reached(problem, start, pull, movable, limit)
+    if left and far:  # without a limit too: it is not the limit that stands against it
+        raise MeasureError("balance_short", distance=float(far))
     if left:
-        raise ValueError(_short(far, np.inf) if far else _short(left, limit))
+        raise MeasureError("balance_short_by_limit", limit=float(limit), distance=float(left))
     problem.check(points, movable)
     return Balanced(points, before, center)
 
@@ -116,20 +119,6 @@ def _reached(
             return points, center, far if far > 16.0 * problem.tolerance else 0.0
         points, multiplier, (center, residual, gradient) = moved, trial, found
     return points, center, far
-
-
-def _short(far: float, limit: float) -> str:
-    """Why the center stays `far` from its target."""
-    if limit < np.inf:
-        return (
-            "With moves of at most {:.3g} m per vertex the center stays {:.2g} m short; allow more, or select more "
-            "vertices.".format(limit, far)
-        )
-    return (
-        "Moving these vertices leaves the center {:.2g} m short; select more of them, or choose a nearer point.".format(
-            far
-        )
-    )
 
 
 def _strong(system: NDArray) -> bool:
@@ -190,8 +179,8 @@ class _Problem:
         )
 
     def check(self, points: NDArray, movable: NDArray) -> None:
-        """ValueError where a triangle turns by a right angle or more on its way: N(s)·N(0), a quadratic in s, must stay
-        positive to s = 1."""
+        """MeasureError where a triangle turns by a right angle or more on its way: N(s)·N(0), a quadratic in s, must
+        stay positive to s = 1."""
         moved = np.zeros(len(points), bool)
         moved[movable] = True
         triangles = self.triangles[moved[self.triangles].any(axis=1)]
@@ -209,9 +198,7 @@ class _Problem:
         doubt = 32.0 * U * np.array([long * long, 2.0 * long * turned, turned * turned]) * double
         folded = int(np.count_nonzero(first_fold(jacobian, doubt[:, solid]) <= 1.0))
         if folded:
-            raise ValueError(
-                "It would turn {:d} of its faces over; select more vertices, or a point that is nearer.".format(folded)
-            )
+            raise MeasureError("balance_folds_faces", count=folded)
 
 
 class _Fans:

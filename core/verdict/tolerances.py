@@ -14,3 +14,6 @@ ROUNDING = 1e-14  # the same for a closed one
 
 
 TOLERANCE = 1e-6  # of the body's diagonal
+
+
+NEGLIGIBLE = 1e-4  # of mass, size and inertia: a decision that changes them by less is a note

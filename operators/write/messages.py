@@ -633,6 +633,10 @@ MESSAGES: dict[str, Message] = {
     "polynomial_degree": _error("“{part}” has a degree above {limit}."),
     "polynomial_not_constant": _error("“{part}” must be a number, without x, y and z."),
     "polynomial_overflow": _error("“{part}” has coefficients outside the range of numbers."),
+    "polynomial_beyond_numbers": _error(
+        "The polynomial has values outside the range of numbers at the object. Use smaller coefficients, or move the "
+        "object nearer to the origin."
+    ),
     # ------------------------------------------------------------------ Grids of voxels
     "grid_density": _note("Density from the grid “{grid}”, {samples:size} voxels. {cause}"),
     "grid_density_of": _note(

@@ -14,6 +14,7 @@ from body_moments.core.nurbs.curve_moments import length_moments, plane_moments
 from body_moments.core.nurbs.planar_region import plane_region
 
 from tests.core.exact_splines import ROUND, circle
+from tests.core.findings import refused
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -109,7 +110,7 @@ def test_a_region_far_away_is_one_as_long_as_its_points_are_known(far):
     moments = plane_moments(curves, normal)
     assert abs(moments.total / (0.75 * np.pi) - 1.0) <= 1e-14 + 1e-15 * far
     if far == 1e8:
-        with pytest.raises(ValueError, match="too small"):
+        with refused("curve_too_small"):
             plane_region(rings, 2.0**-24 * far)
 
 
@@ -119,17 +120,17 @@ def test_a_reversed_curve_is_the_same_run_backwards():
 
 
 @pytest.mark.parametrize(
-    "curves, reason",
+    "curves, code",
     [
-        ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 0)])], "not closed"),
-        ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0), (0, 0, 0)])], "one plane"),
-        ([polyline([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0)])], "cross"),
-        ([polyline([(1, 0, 0), (1, 0, 0)])], "point"),  # a closed curve of one point
-        ([ring(), ring(1.0, (0.5, 0.0, 0.0))], "cross"),
+        ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 0)])], "curve_open"),
+        ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0), (0, 0, 0)])], "curves_not_coplanar"),
+        ([polyline([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0)])], "curves_cross"),
+        ([polyline([(1, 0, 0), (1, 0, 0)])], "curve_too_small"),  # a closed curve of one point
+        ([ring(), ring(1.0, (0.5, 0.0, 0.0))], "curves_cross"),
     ],
 )
-def test_curves_that_bound_no_region_are_refused(curves, reason):
-    with pytest.raises(ValueError, match=reason):
+def test_curves_that_bound_no_region_are_refused(curves, code):
+    with refused(code):
         plane_region(curves)
 
 

@@ -13,6 +13,8 @@ from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.moments.moments import monomials
 from body_moments.tests.core.trivariate import exact_moments
 
+from tests.core.findings import refused
+
 
 def knots(rng, order: int, count: int) -> np.ndarray:
     return np.sort(rng.integers(-64, 64, count + order)) / 16.0
@@ -193,15 +195,15 @@ def test_values_that_are_not_finite_are_refused():
     for bad in (np.nan, np.inf, -np.inf):
         values = np.ones((3, 3, 3))
         values[1, 2, 0] = bad
-        with pytest.raises(ValueError, match="finite"), np.errstate(invalid="ignore"):
+        with refused("density_non_finite"), np.errstate(invalid="ignore"):
             grid_moments(values, values.shape, np.eye(4))
 
 
 def test_shapes_and_transforms_that_do_not_fit_are_refused():
     axes = [Axis.uniform(2)] * 3
-    with pytest.raises(ValueError, match="2 x 2 x 3"):
+    with pytest.raises(ValueError, match="2, 2, 3"):
         density_moments(np.ones((2, 2, 3)), axes)
-    with pytest.raises(ValueError, match="singular"):
+    with refused("grid_transform_singular"):
         grid_moments(np.ones((2, 2, 2)), (2, 2, 2), np.diag([1.0, 1.0, 0.0, 1.0]))
 
 
@@ -213,5 +215,5 @@ def test_values_are_mapped_before_they_are_summed():
 
 def test_samples_that_signal_that_they_are_no_numbers_are_refused_without_a_warning():
     samples = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)  # what a damaged file may hold
-    with pytest.raises(ValueError, match="finite"):
+    with refused("density_non_finite"):
         grid_moments(samples, samples.shape, np.eye(4))

@@ -12,8 +12,10 @@ from body_moments.core.fourier.transform import Transform, finished, solid_trans
 from body_moments.core.fourier.wave_vectors import Grid
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron.third_order import solid_and_area, solid_moments
+from body_moments.core.verdict.finding import MeasureError
 
 from tests.core import bodies, exact
+from tests.core.findings import refused
 
 U = 2.0**-53
 TETRAHEDRON = (
@@ -248,10 +250,10 @@ def test_an_open_surface_is_refused_and_an_unwelded_one_is_not():
         bodies.grid(3),
         bodies.with_flipped(sphere, 5),
     ):
-        with pytest.raises(ValueError, match="not closed"):
+        with refused("fourier_of_open_surface"):
             solid_transform(bodies.surface(part), [[1.0, 0.0, 0.0]])
     tube = bodies.without(BOX, 0, 1, *bodies.TOP)  # its faces' normals add up to zero
-    with pytest.raises(ValueError, match="not closed"):
+    with refused("fourier_of_open_surface"):
         solid_transform(bodies.surface(tube), [[1.0, 0.0, 0.0]])
     q = [[1.0, 2.0, 3.0]]
     apart, whole = (solid_transform(bodies.surface(part), q).values[0] for part in (bodies.soup(sphere), sphere))
@@ -271,7 +273,7 @@ def test_an_open_surface_is_refused_and_an_unwelded_one_is_not():
     ],
 )
 def test_wave_vectors_that_are_none_are_refused(q):
-    with pytest.raises(ValueError, match="[Ww]ave vectors"):
+    with refused("wave_vectors_shape", "wave_vectors_non_finite"):
         solid_transform(bodies.surface(BOX), q)
 
 
@@ -285,7 +287,7 @@ def test_no_wave_vectors_give_no_values():
 )
 def test_broken_surfaces_are_refused(part):
     for transform in (solid_transform, surface_transform):
-        with pytest.raises(ValueError, match=r"^[A-Z].*\.$"):
+        with pytest.raises((MeasureError, ValueError)):
             transform(Surface(*part), [[1.0, 0.0, 0.0]])
 
 
@@ -339,7 +341,7 @@ def test_quads_that_name_no_point_are_refused():
     for index in (8, -1, 2**40):
         quads = bodies.SIDES.astype(np.int64)
         quads[3, 2] = index
-        with pytest.raises(ValueError, match="does not exist"):
+        with pytest.raises(ValueError, match="vertex"):
             surface_transform(Surface(bodies.CORNERS, quads=quads), np.ones((1, 3)))
 
 
@@ -352,12 +354,12 @@ def test_bodies_of_any_size_have_a_transform_at_rest_and_at_their_own_frequencie
 
 def test_what_no_number_can_tell_is_refused():
     points, triangles = bodies.box()
-    for scale, reason in ((1e-200, "too small"), (1e-120, "too small"), (1e60, "too large"), (1e200, "too large")):
-        with pytest.raises(ValueError, match=reason):
+    for scale in (1e-200, 1e-120, 1e60, 1e200):
+        with refused("fourier_too_small" if scale < 1.0 else "fourier_too_large"):
             solid_transform(Surface.from_triangles(points * scale, triangles), np.zeros((1, 3)))
-    with pytest.raises(ValueError, match="too large"):
+    with refused("wave_vectors_too_large"):
         solid_transform(Surface.from_triangles(points, triangles), np.full((1, 3), 1.7e308))
-    with pytest.raises(ValueError, match="positive number"):
+    with refused("frequency_range"):
         Grid(8, 1e200)
     found = solid_transform(Surface.from_triangles(points, triangles), np.full((1, 3), 1e100))
     assert abs(found.values[0]) <= found.error[0] < 1e-13

@@ -10,6 +10,7 @@ from body_moments.core.fourier.transform import finished, solid_transform, surfa
 from body_moments.core.fourier.wave_vectors import Grid
 
 from tests.core import bodies
+from tests.core.findings import refused
 
 Q = np.random.default_rng(3).normal(size=(40, 3)) * np.logspace(-9, 2, 40)[:, None]
 PART = bodies.moved(bodies.sphere(2), np.diag([1, 0.5, 2]), (30, 1, -2))
@@ -85,5 +86,5 @@ def test_steps_tell_how_much_is_done():
 
 def test_nothing_is_refused():
     empty = bodies.surface((PART[0], PART[1][:0]))
-    with pytest.raises(ValueError, match="no faces"):
+    with refused("no_faces"):
         BodyTransform([(empty, MAPS)], Q, "area", 1.0)

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from body_moments.core.fourier.polygon import polygon_transform
 
+from tests.core.findings import refused
+
 OUTLINE = np.array([[0, 0], [3, 0], [3.5, 1], [1, 1], [1, 2.5], [0, 2]])
 HOLE = np.array([[0.2, 0.3], [0.4, 0.9], [0.7, 0.4]])
 SIZES = (1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.5, 1.5, 3.0, 5.0, 20.0, 100.0, 1000.0)
@@ -62,10 +64,10 @@ def test_opposite_frequencies_are_conjugate_and_long_lists_are_their_parts():
     "loops", [[], [[[0, 0], [1, 0]]], [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], [[[0, 0], [1, 0], [0, np.nan]]]]
 )
 def test_loops_that_are_none_are_refused(loops):
-    with pytest.raises(ValueError, match=r"^[A-Z].*\.$"):
+    with pytest.raises(ValueError, match="loops|finite"):
         polygon_transform(loops, [[1.0, 2.0]])
 
 
 def test_wave_vectors_of_three_numbers_are_refused():
-    with pytest.raises(ValueError, match="rows of 2"):
+    with refused("wave_vectors_shape", dimension=2):
         polygon_transform([OUTLINE], [[1.0, 2.0, 3.0]])

@@ -12,6 +12,7 @@ from body_moments.core.moments.moments import Moments, monomials, sum_moments
 from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.core import exact
+from tests.core.findings import refused
 
 
 def box(low, high):
@@ -79,7 +80,7 @@ def test_different_densities_combine_by_mass():
 @pytest.mark.parametrize("shape", [(1, 2, 3), (1, 1, 1e-9), (1e-9, 2e-9, 3e-9), (1e6, 1e6, 2e6)])
 def test_a_body_without_volume_is_refused_and_a_thin_or_tiny_one_is_not(shape):
     assert MassProperties.from_moments(box((0, 0, 0), shape)).mass == pytest.approx(np.prod(shape))
-    with pytest.raises(ValueError, match="no volume"):
+    with refused("no_certain_volume"):
         MassProperties.from_moments(Moments(np.zeros(20), np.zeros(3)))
 
 
@@ -136,7 +137,7 @@ def test_the_bounds_hold_at_any_size(exponent):
 
 
 def test_too_low_an_order_and_a_density_that_is_none_are_refused():
-    with pytest.raises(ValueError, match="third order; these go to 2"):
+    with pytest.raises(ValueError, match="third order"):
         MassProperties.from_moments(box((0, 0, 0), (1, 1, 1)).truncated(2))
     for density in (-1.0, float("nan"), float("inf")):
         with pytest.raises(ValueError, match="density"):

@@ -17,6 +17,8 @@ from body_moments.core.moments.moments import (
     sum_moments,
 )
 
+from tests.core.findings import refused
+
 ORDER = 4
 
 
@@ -241,9 +243,9 @@ def test_what_cannot_be_normalized_is_refused():
     with pytest.raises(ValueError, match="gyration"):
         Moments(np.ones(10), np.zeros(3), "mass").normalized()
     for body in (Moments(np.zeros(10), np.zeros(3)), Moments(np.ones(1), np.zeros(3))):
-        with pytest.raises(ValueError, match="too little"):
+        with refused("normalization_undefined"):
             body.normalized()
-    with pytest.raises(ValueError, match="too low"):
+    with refused("normalization_undefined"):
         Moments(np.ones(4), np.zeros(3)).normalized("gyration")
 
 
@@ -258,7 +260,7 @@ def test_areas_follow_similarities_only():
     area = Moments(np.ones(10), np.zeros(3), "area")
     doubled = area.mapped(np.diag([2.0, -2.0, 2.0, 1.0]))
     assert doubled.total == pytest.approx(4.0, rel=1e-15)
-    with pytest.raises(ValueError, match="unevenly"):
+    with pytest.raises(ValueError, match="similarity"):
         area.mapped(np.diag([2.0, 1.0, 1.0, 1.0]))
     maps = np.array([np.diag([3.0, 3.0, -3.0]), np.diag([1.0, 1.0, 1.001]), np.zeros((3, 3))])
     assert are_similarities(maps).tolist() == [True, False, False]
@@ -301,5 +303,5 @@ def test_maps_that_are_none_are_refused(matrix):
 
 @pytest.mark.parametrize("point", [(1, 2), (1, 2, np.nan), (np.inf, 0, 0)])
 def test_points_that_are_none_are_refused(point):
-    with pytest.raises(ValueError, match="finite coordinates"):
+    with pytest.raises(ValueError, match="about"):
         Moments(np.ones(20), np.zeros(3)).shifted(point)

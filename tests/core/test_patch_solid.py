@@ -15,8 +15,10 @@ from body_moments.core.nurbs.patch import Patch
 from body_moments.core.nurbs.patch_topology import close_patches
 from body_moments.core.nurbs.planar_region import plane_region
 from body_moments.core.nurbs.solid import measure_patches, measure_sheet
+from body_moments.core.verdict.finding import Finding
 
 from tests.core.exact_splines import sphere, torus, tube
+from tests.core.findings import codes, only, refused
 
 BALL = 4.0 * np.pi / 3.0
 
@@ -44,7 +46,7 @@ def box(size=(1.0, 2.0, 3.0), offset=(5.0, -3.0, 2.0), orders=((2, 2),) * 6, inn
 def test_closed_patches_are_exact_without_a_word():
     for patch, volume in ((sphere(), BALL), (torus(), 2.0 * np.pi**2 * 0.75 / 16.0)):
         found = measure_patches([patch])
-        assert (found.method, found.warnings, found.health.closed) == ("exact", (), True)
+        assert (found.method, found.findings, found.health.closed) == ("exact", (), True)
         assert abs(found.volume.total / volume - 1.0) <= 1e-14
 
 
@@ -78,7 +80,7 @@ def test_moments_to_sixth_order_of_a_ball_a_capped_cylinder_and_a_box():
 def test_a_patch_that_is_inside_out_is_turned_and_said():
     found = measure_patches([sphere().turned()])
     assert found.method == "reoriented" and found.health.inverted_components == 1
-    assert "inside out" in found.warnings[0]
+    assert only(found) == Finding("inverted_patch_components", {"count": 1, "total": 1})
     assert abs(found.volume.total / BALL - 1.0) <= 1e-14
 
 
@@ -100,7 +102,7 @@ def test_the_volume_of_a_capped_patch_does_not_depend_on_where_it_is(far):
     points = np.concatenate([bowl, rng.uniform(0.0, 2.0, (6, 6, 1))], axis=2)
     here, there = (measure_patches([Patch((space, space), points + shift)]) for shift in (0.0, far))
     assert here.method == there.method == "capped"
-    assert "space" in here.warnings[-1]
+    assert codes(here)[-1] == "curved_patch_holes_capped"
     assert abs(there.volume.total / here.volume.total - 1.0) <= 1e-9
 
 
@@ -110,7 +112,8 @@ def test_the_cap_of_a_flat_rim_is_exact_whatever_the_rims_shape():
     space = Space((0.0, *map(float, range(7)), 6.0), 2, 7)
     points = np.array([[(x, y, z) for z in (2.0, 5.0)] for x, y in outline])
     found = measure_patches([Patch((space, clamped(2)), points)])
-    assert found.method == "capped" and "2 flat rims" in found.warnings[0]
+    finding = only(found)
+    assert found.method == "capped" and finding.code == "flat_patch_holes_capped" and finding.values["count"] == 2
     assert abs(found.volume.total - 7.0 * 3.0) <= 1e-13
     center = (2.0 * 4.0 + 0.5 * 3.0) / 7.0
     assert np.abs(found.volume.center - [center, (0.5 * 4.0 + 2.5 * 3.0) / 7.0, 3.5]).max() <= 1e-14
@@ -127,7 +130,7 @@ def test_rims_that_cross_themselves_are_told(crossing, shift):
     space = Space((0.0, *map(float, range(33)), 32.0), 2, 33)
     points = np.stack([np.stack([x, y, np.full(33, z)], axis=1) for z in (0.0, 1.0)], axis=1)
     found = measure_patches([Patch((space, clamped(2)), points)])
-    assert any("2 rims cross themselves" in warning for warning in found.warnings) == crossing
+    assert (Finding("patch_boundary_crosses_itself", {"count": 2}) in found.findings) == crossing
     assert found.method == "capped"
 
 
@@ -135,7 +138,7 @@ def test_six_patches_of_different_resolution_make_a_box():
     orders = ((2, 2), (3, 4), (2, 3), (5, 2), (4, 4), (2, 2))
     inner = (((), ()), ((0.5,), ()), ((0.25, 0.5), ()), ((), (0.5,)), ((0.1,), (0.9,)), ((0.5,), (0.5,)))
     found = measure_patches(box(orders=orders, inner=inner))
-    assert (found.method, found.warnings, found.health.components) == ("exact", (), 1)
+    assert (found.method, found.findings, found.health.components) == ("exact", (), 1)
     assert abs(found.volume.total - 6.0) <= 1e-13
     assert np.abs(found.volume.center - [5.5, -2.0, 3.5]).max() <= 1e-13
 
@@ -147,7 +150,7 @@ def test_sides_coincide_whatever_their_parameters_are():
     between = points[:1] * 0.7 + points[1:] * 0.3
     patches[0] = Patch((space, patches[0].spaces[1]), np.concatenate([points[:1], between, points[1:]]))
     found = measure_patches(patches)
-    assert (found.method, found.warnings) == ("exact", ())
+    assert (found.method, found.findings) == ("exact", ())
     assert abs(found.volume.total - 6.0) <= 1e-13
 
 
@@ -164,7 +167,7 @@ def test_round_sides_coincide_wherever_they_begin(turn):
             Patch(wall.spaces, np.stack([around, np.broadcast_to([0.0, 0.0, top], (8, 3))], axis=1), wall.weights)
         )
     found = measure_patches([wall, lids[0].turned(), lids[1]])
-    assert (found.method, found.warnings, found.health.components) == ("exact", (), 1)
+    assert (found.method, found.findings, found.health.components) == ("exact", (), 1)
     assert abs(found.volume.total / (2.0 * np.pi + 2.0 * np.pi / 3.0) - 1.0) <= 1e-13
     assert measure_patches([wall, *lids]).health.inconsistent_edges == 1
 
@@ -174,7 +177,7 @@ def test_patches_that_face_against_the_rest_are_turned_and_counted():
     patches[1], patches[4] = patches[1].turned(), patches[4].turned()
     found = measure_patches(patches)
     assert found.method == "reoriented"
-    assert "2 patches face against" in found.warnings[0]
+    assert only(found) == Finding("flipped_patches", {"count": 2})
     assert found.health.inconsistent_edges == 6  # the two share one
     assert abs(found.volume.total - 6.0) <= 1e-13
 
@@ -222,7 +225,7 @@ def test_bodies_that_touch_are_measured_whatever_the_order_of_their_patches(name
     found = measure_patches([patches[k] for k in order], order=0)
     assert found.method == method and found.health.non_manifold_edges > 0
     assert abs(found.volume.total - len(patches) // 6 - (name == "with one wall")) <= 1e-13
-    assert bool(found.warnings) == (method != "exact")
+    assert bool(found.findings) == (method != "exact")
 
 
 @pytest.mark.parametrize("name", ["face to face", "at an edge", "one inside out"])
@@ -233,7 +236,7 @@ def test_bodies_that_touch_are_told_from_each_other_though_their_patches_face_an
             [patches[k].turned() if rng.random() < 0.5 else patches[k] for k in rng.permutation(len(patches))], order=0
         )
         assert found.method == "reoriented" and abs(found.volume.total - 2.0) <= 1e-13
-        assert any("is a guess" in warning for warning in found.warnings)
+        assert "ambiguous_patch_sides" in codes(found)
 
 
 def test_a_patch_of_one_side_only_is_open():
@@ -244,7 +247,7 @@ def test_a_patch_of_one_side_only_is_open():
     space = Space((0.0, *map(float, range(17)), 16.0), 2, 17)
     found = measure_patches([Patch((space, clamped(2)), np.stack([middle - arm, middle + arm], axis=1))])
     assert found.method == "open"
-    assert "one side" in found.warnings[0]
+    assert codes(found) == ["open_patch_sides"]
 
 
 def test_a_cavity_is_subtracted_and_a_nested_ball_counted_twice():
@@ -253,7 +256,7 @@ def test_a_cavity_is_subtracted_and_a_nested_ball_counted_twice():
     assert (hollow.method, hollow.health.cavities) == ("exact", 1)
     assert abs(hollow.volume.total / (BALL * 0.875) - 1.0) <= 1e-14
     nested = measure_patches([sphere(), small])
-    assert nested.health.nested_components == 1 and "twice" in nested.warnings[0]
+    assert nested.health.nested_components == 1 and only(nested) == Finding("components_nested", {"count": 1})
     assert abs(nested.volume.total / (BALL * 1.125) - 1.0) <= 1e-14
 
 
@@ -263,7 +266,7 @@ def test_a_cavity_near_the_surface_is_one_whatever_their_samples_cross(gap):
     inner = np.eye(4)
     inner[:3, :3] = turn * np.sign(np.linalg.det(turn)) * (1.0 - gap)
     hollow = measure_patches([sphere(), sphere().mapped(inner).turned()])
-    assert (hollow.method, hollow.warnings, hollow.health.cavities) == ("exact", (), 1)
+    assert (hollow.method, hollow.findings, hollow.health.cavities) == ("exact", (), 1)
     assert abs(hollow.volume.total / (BALL * (1.0 - (1.0 - gap) ** 3)) - 1.0) <= 1e-11
 
 
@@ -274,13 +277,13 @@ def test_balls_that_overlap_by_a_hundredth_are_told_in_whatever_direction(apart,
         move[:3, 3] = apart * direction / np.linalg.norm(direction)
         found = measure_patches([sphere(), sphere().mapped(move)])
         assert found.health.overlapping_components == crossing
-        assert bool(found.warnings) == (crossing > 0)
+        assert bool(found.findings) == (crossing > 0)
 
 
 def test_a_flat_patch_encloses_nothing_and_says_so():
     found = measure_patches([flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], (3, 3))])
     assert found.method == "open" and abs(found.volume.total) <= 1e-15
-    assert "shell" in found.warnings[-1]
+    assert codes(found) == ["flat_surface"]
 
 
 def test_a_sheet_has_volume_of_its_own():
@@ -360,20 +363,20 @@ def test_creases_within_patches_and_between_them_are_found(patches, degrees):
 def test_a_flat_part_beside_a_body_is_left_out_and_said():
     found = measure_patches([sphere(), flat([(5, 0, 0), (6, 0, 0), (6, 1, 0), (5, 1, 0)])])
     assert abs(found.volume.total / BALL - 1.0) <= 1e-14
-    assert any("1 of its 2 parts is flat" in warning for warning in found.warnings)
+    assert only(found) == Finding("flat_components", {"count": 1, "total": 2})
 
 
 def test_all_points_in_one_place_are_refused():
-    with pytest.raises(ValueError, match="one place"):
+    with refused("no_extent"):
         measure_patches([Patch((clamped(2), clamped(2)), np.ones((2, 2, 3)))])
 
 
 def test_knots_that_may_tear_a_patch_are_refused():
     """Two strips of one patch, apart: their inner sides are no sides of the patch, and would not be seen to be open."""
     space = Space((0.0, 0.0, 1.0, 1.0, 2.0, 2.0), 2, 4)
-    with pytest.raises(ValueError, match="torn"):
+    with refused("discontinuous_patch"):
         measure_patches([Patch((space, clamped(2)), np.random.default_rng(0).uniform(-1.0, 1.0, (4, 2, 3)))])
-    with pytest.raises(ValueError, match="not closed"):
+    with refused("curve_open"):
         plane_region([Curve(space, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 0, 0)])])
     assert not Space((0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0), 3, 5).is_torn
 

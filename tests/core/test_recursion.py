@@ -16,6 +16,7 @@ from body_moments.core.polyhedron import third_order as polyhedron
 from body_moments.core.polyhedron.any_order import moments_to_order
 
 from tests.core import exact
+from tests.core.findings import refused
 from tests.core.test_polyhedron import PLACES, SHAPES, SIZES, grid_torus
 
 
@@ -252,7 +253,7 @@ def test_nothing_has_moments_of_zero():
 @pytest.mark.parametrize("order", [2, 5])
 def test_what_cannot_be_measured_is_refused(order):
     points, quads = grid_torus()
-    with pytest.raises(ValueError, match="does not exist"):
+    with pytest.raises(ValueError, match="vertex"):
         moments_to_order(Surface(points, quads=quads + 1), order)
     with pytest.raises(ValueError, match="finite"):
         moments_to_order(Surface(np.where(points > 1.0, np.nan, points), quads=quads), order)
@@ -260,19 +261,19 @@ def test_what_cannot_be_measured_is_refused(order):
         with pytest.raises(ValueError, match="corners"):
             moments_to_order([wrong], order)
     for about in ((0.0, 1.0), (0.0, np.nan, 0.0)):
-        with pytest.raises(ValueError, match="three finite"):
+        with pytest.raises(ValueError, match="about"):
             moments_to_order(Surface(points, quads=quads), order, about=about)
     for wrong in (-1, 2.5, 2.0, "3", None):
-        with pytest.raises(ValueError, match="whole number"):
+        with pytest.raises(ValueError, match="order"):
             moments_to_order(Surface(points, quads=quads), wrong)
 
 
 def test_what_leaves_the_range_of_numbers_is_refused():
     points, quads = grid_torus()
-    with pytest.raises(ValueError, match="too large"):
+    with refused("moments_overflow", order=20):
         moments_to_order(Surface(points * 1e20, quads=quads), 20)
     triangles = points[quads[:, :3]]
-    with pytest.raises(ValueError, match="much farther"):
+    with pytest.raises(ValueError, match="reach"):
         moments_to_order(iter([triangles[:1] * 1e-30, triangles]), 20)
 
 
@@ -283,7 +284,7 @@ def test_what_leaves_it_at_low_orders_is_refused_too_and_what_stays_is_told():
     whole = moments_to_order(iter([triangles, triangles]), 1)[0]
     assert whole.total == pytest.approx(2e180 * moments_to_order([points[quads[:, :3]]], 1)[0].total, rel=1e-12)
     for order in (3, 4):
-        with pytest.raises(ValueError, match="too large"):
+        with refused("moments_overflow", order=order):
             moments_to_order(iter([triangles, triangles]), order)
 
 

@@ -6,11 +6,13 @@ import json
 
 import numpy as np
 import pytest
-from body_moments.core.shape.library import SAME, verdict
+from body_moments.core.shape.library import SAME, UNCLEAR, read_library, verdict
 from body_moments.core.shape.signature import HANDED, Signature, compared, signature
+from body_moments.core.verdict.finding import Finding
 from body_moments.operators.write.record import plain
 
 from tests.core import bodies, shapes
+from tests.core.findings import refused
 from tests.core.recursion import moments
 
 PARTS = ("invariants", "zernike", "fourier", "chirality")
@@ -76,7 +78,7 @@ def test_the_hand_of_a_cube_with_one_corner_moved_a_little_is_told(height):
     first = signed(part, 12)
     copy = signed(bodies.moved(part, rotation, (1, 2, 3)), 12)
     image = signed(bodies.moved(shapes.mirrored(part), rotation, (1, 2, 3)), 12)
-    assert verdict(compared(first, copy)) == "copy" and verdict(compared(first, image)) == "mirror image"
+    assert verdict(compared(first, copy)) == "copy" and verdict(compared(first, image)) == "mirror"
 
 
 def test_what_noise_may_have_made_is_no_hand():
@@ -90,7 +92,7 @@ def test_what_noise_may_have_made_is_no_hand():
             likeness = compared(one, other)
             handed = max(np.linalg.norm(found.chirality) for found in (one, other)) > HANDED
             assert likeness.mirrored is (None if handed else False), (name, noise)
-            assert ("copy or mirror" in verdict(likeness)) == (handed and likeness.shape <= SAME)
+            assert (verdict(likeness) in UNCLEAR) == (handed and likeness.shape <= SAME)
 
 
 def test_different_shapes_are_far_apart_and_noisy_copies_near():
@@ -121,8 +123,32 @@ def test_a_record_gives_the_signature_back():
 @pytest.mark.parametrize("damage", [{"zernike": []}, {"size": None}, {"chirality": [1.0]}, {"invariants": [None, "x"]}])
 def test_a_damaged_record_is_refused(damage):
     record = {**plain(signed(shapes.WEDGE, 6).as_record()), **damage}
-    with pytest.raises(ValueError, match="signature"):
+    with refused("signature_unrecognized", "signature_incomplete"):
         Signature.from_record(record)
     del record["size"]
-    with pytest.raises(ValueError, match="signature"):
+    with refused("signature_unrecognized"):
         Signature.from_record(record)
+
+
+def test_a_library_has_entries_and_a_finding_for_each_body_without_a_signature(tmp_path):
+    shape = plain(signed(shapes.WEDGE, 6).as_record())
+    records = [{"name": "A", "signature": shape}, {"name": "B", "signature": None}, {"name": "C"}]
+    path = tmp_path / "parts.jsonl"
+    lines = [json.dumps({"file": "ä.blend", "objects": records}, ensure_ascii=False), "", json.dumps({"objects": []})]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    entries, missing = read_library(path)
+    assert [entry.label for entry in entries] == ["ä.blend:A"]
+    assert missing == [
+        Finding("record_without_shape", {"name": "ä.blend:B"}),
+        Finding("record_without_signature", {"name": "ä.blend:C"}),
+    ]
+
+
+@pytest.mark.parametrize(
+    "line", [b"{", b"[]", b'{"objects": 3}', b'{"objects": [3]}', b'{"objects": [{"name": "\xff"}]}']
+)
+def test_a_line_that_is_no_document_is_refused_by_its_number(line, tmp_path):
+    path = tmp_path / "parts.jsonl"
+    path.write_bytes(b'{"objects": []}\n' + line)
+    with refused("library_line", file="parts.jsonl", line=2):
+        read_library(path)

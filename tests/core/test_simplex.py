@@ -14,6 +14,7 @@ from body_moments.core.polyhedron.n_dimensions import enclosed_moments, facet_mo
 from body_moments.core.polyhedron.third_order import solid_and_area
 
 from tests.core import bodies, rational
+from tests.core.findings import refused
 
 U = 2.0**-53
 
@@ -160,7 +161,7 @@ def test_size_costs_no_digits(size):
 
 def test_an_order_that_leaves_the_range_of_floats_is_refused():
     points, facets, _ = cube(2)
-    with pytest.raises(ValueError, match="larger unit"):
+    with refused("moments_overflow", order=6):
         enclosed_moments(points * 1e60, facets, 6)
 
 
@@ -196,12 +197,12 @@ def test_many_blocks_give_what_one_gives(monkeypatch):
     "points, simplices, words",
     [
         ([[0.0, 0.0], [1.0, np.nan]], [[0, 1]], "finite"),
-        ([[0.0, 0.0], [1.0, 0.0]], [[0, 2]], "not there"),
-        ([[0.0, 0.0], [1.0, 0.0]], [[0, 1, 1]], "n corners"),
-        ([0.0, 1.0], [[0]], "rows"),
+        ([[0.0, 0.0], [1.0, 0.0]], [[0, 2]], "no such point"),
+        ([[0.0, 0.0], [1.0, 0.0]], [[0, 1, 1]], "simplices"),
+        ([0.0, 1.0], [[0]], "points"),
         ([[0.0, 1j], [1.0, 0.0]], [[0, 1]], "real"),
-        ([[0.0, 0.0], [1.0, 0.0]], [[0.0, 1.0]], "whole numbers"),
-        ([[0.0, 0.0], [1.0, 0.0]], [[False, True]], "whole numbers"),
+        ([[0.0, 0.0], [1.0, 0.0]], [[0.0, 1.0]], "integers"),
+        ([[0.0, 0.0], [1.0, 0.0]], [[False, True]], "integers"),
     ],
 )
 def test_bad_input_is_refused(points, simplices, words):
@@ -212,9 +213,9 @@ def test_bad_input_is_refused(points, simplices, words):
 @pytest.mark.parametrize(
     ("order", "about", "words"),
     [
-        (-1, None, "0 or more"),
-        (2.5, None, "whole number"),
-        (2, (0.0, 0.0), "as many"),
+        (-1, None, "order"),
+        (2.5, None, "order"),
+        (2, (0.0, 0.0), "about"),
         (2, (0.0, np.nan, 0.0), "finite"),
     ],
 )
@@ -227,7 +228,7 @@ def test_what_is_asked_for_is_looked_at_too(order, about, words):
 def test_each_simplex_has_a_sign():
     points, facets, _ = cube(3)
     for signs in (np.ones(len(facets) - 1), np.ones((1, len(facets))), 1.0):
-        with pytest.raises(ValueError, match="one sign"):
+        with pytest.raises(ValueError, match="signs"):
             enclosed_moments(points, facets, 2, signs=signs)
 
 

@@ -12,8 +12,10 @@ from body_moments.core.moments.moments import monomials
 from body_moments.core.offset.directions import offset_directions
 from body_moments.core.offset.walls import share, sweep
 from body_moments.core.polyhedron.third_order import solid_moments
+from body_moments.core.verdict.finding import MeasureError
 
 from tests.core import bodies, exact
+from tests.core.findings import refused
 
 SIDES = ("inward", "outward", "centered")
 SHEAR = np.array([[1.0, 0.4, -0.2], [0.1, 0.7, 0.3], [0.0, -0.25, 1.5]])
@@ -265,16 +267,16 @@ def test_noise_on_a_flat_side_does_not_send_its_edge_sliding():
 
 
 @pytest.mark.parametrize(
-    ("part", "reason"),
+    ("part", "code"),
     [
-        (bodies.with_flipped(cube(), 0), "agree"),
-        (bodies.moebius(), "agree"),
-        (bodies.welded(bodies.joined(bodies.box(), bodies.box((0, 1, 1), (1, 2, 2)))), "more than two faces"),
-        ((np.zeros((3, 3)), np.array([[0, 1, 2]])), "no area"),
+        (bodies.with_flipped(cube(), 0), "wall_inconsistent_faces"),
+        (bodies.moebius(), "wall_inconsistent_faces"),
+        (bodies.welded(bodies.joined(bodies.box(), bodies.box((0, 1, 1), (1, 2, 2)))), "wall_non_manifold"),
+        ((np.zeros((3, 3)), np.array([[0, 1, 2]])), "no_face_area"),
     ],
 )
-def test_what_has_no_side_is_refused_with_the_remedy(part, reason):
-    with pytest.raises(ValueError, match=reason):
+def test_what_has_no_side_is_refused_with_the_remedy(part, code):
+    with refused(code):
         sweep(bodies.surface(part))
 
 
@@ -421,16 +423,18 @@ FAR = 1000.0 * np.array([0.3, 0.7, 0.61])
 @pytest.mark.parametrize(
     ("part", "share"),
     [
-        (bodies.moved(bodies.sphere(2), offset=10.0 * FAR), "65 %"),
-        (bodies.moved(bodies.box((0, 0, 0), (1, 1, 0.01)), offset=FAR), "2 %"),
-        (bodies.moved(bodies.sphere(1), 0.05 * np.eye(3), FAR), "100 %"),
+        (bodies.moved(bodies.sphere(2), offset=10.0 * FAR), 0.65),
+        (bodies.moved(bodies.box((0, 0, 0), (1, 1, 0.01)), offset=FAR), 0.02),
+        (bodies.moved(bodies.sphere(1), 0.05 * np.eye(3), FAR), 1.0),
     ],
     ids=["ball", "plate", "small"],
 )
 def test_faces_of_which_float32_has_lost_the_direction_make_no_wall(part, share):
     """Their share of the wall was left out, and they were not asked when it folds over."""
-    with pytest.raises(ValueError, match=share):
+    with pytest.raises(MeasureError) as caught:
         sweep(bodies.surface(part, np.float32))
+    assert caught.value.finding.code == "wall_precision_lost"
+    assert caught.value.finding.values["share"] == pytest.approx(share, abs=0.005)
     assert sweep(bodies.surface(part)).ignored == 0
 
 

@@ -10,9 +10,9 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 # Each package may import those of the rows above its own and itself; those of one row do not know each other, but for
 # the two rows that say so.
 CORE = (
-    ("numerics",),
+    ("numerics", "verdict"),
     ("moments",),
-    ("mesh", "inertia", "verdict", "papers"),
+    ("mesh", "inertia", "papers"),
     ("polyhedron", "shape", "scans"),
     ("solid", "plane", "fourier", "rigs"),
     ("density", "nurbs", "offset"),

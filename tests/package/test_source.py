@@ -8,6 +8,7 @@ a review.
 
 import ast
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -110,6 +111,37 @@ def test_reports_can_be_translated(path):
 @shipped
 def test_a_file_says_what_it_is(path):
     assert ast.get_docstring(TREES[path]), f"{name(path)} has no docstring"
+
+
+def words(text: str) -> int:
+    """How many words of two letters or more a text has; of a list with commas but no spaces, its longest entry."""
+    parts = [part.split() for part in re.split(r",(?=\S)", text)]
+    return max(sum(re.search(r"[^\W\d_]{2}", word) is not None for word in part) for part in parts)
+
+
+def test_the_core_says_nothing():
+    """It makes findings; sentences stand in operators/write/messages.py. The names of materials are data."""
+    for path in SHIPPED:
+        if not name(path).startswith("core/") or name(path) == "core/density/materials.py":
+            continue
+        documented = {id(node.value) for node in ast.walk(TREES[path]) if isinstance(node, ast.Expr)}
+        for node in ast.walk(TREES[path]):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in documented:
+                assert words(node.value) < 5, f"{name(path)}:{node.lineno}: {node.value!r}"
+
+
+def test_importing_the_add_on_loads_nothing_heavy():
+    """Blender imports every add-on that is installed when it starts."""
+    code = (
+        "import importlib.util, sys\n"
+        "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + '/__init__.py', "
+        "submodule_search_locations=[sys.argv[1]])\n"
+        "sys.modules['body_moments'] = module = importlib.util.module_from_spec(spec)\n"
+        "spec.loader.exec_module(module)\n"
+        "assert 'body_moments.core.verdict.finding' in sys.modules\n"
+        "assert not {'numpy', 'bpy', 'body_moments.operators'} & set(sys.modules)\n"
+    )
+    subprocess.run([sys.executable, "-P", "-c", code, str(ROOT)], check=True, timeout=120)
 
 
 def project_files() -> list[Path]:

@@ -1,0 +1,30 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What tests ask of findings and refusals: their codes and values, never their sentences."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from body_moments.core.verdict.finding import Finding, MeasureError
+
+
+def codes(found) -> list[str]:
+    """The codes of a result's findings, in their order."""
+    return [finding.code for finding in found.findings]
+
+
+def only(found) -> Finding:
+    """The one finding of a result."""
+    (finding,) = found.findings
+    return finding
+
+
+@contextmanager
+def refused(*allowed: str, **values) -> Iterator[None]:
+    """A refusal with one of these codes and, among others, these values."""
+    with pytest.raises(MeasureError) as caught:
+        yield
+    finding = caught.value.finding
+    assert finding.code in allowed, finding
+    assert {name: finding.values[name] for name in values} == values, finding
