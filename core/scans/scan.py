@@ -3,7 +3,7 @@
 """The samples of a scan in a file: mapped into memory where they are not packed, so that a scan may be larger than it.
 
 Nothing that a header says of them is believed before it has been compared with the size of the file. Every fault of a
-file is a ValueError with a sentence that says what is wrong.
+file is a FileError that says what is wrong.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..verdict.finding import FileError, Finding
+
 DEFLATED = 1032  # bytes that a byte of a gzip file can hold, at most
 
 
@@ -24,7 +26,7 @@ DEFLATED = 1032  # bytes that a byte of a gzip file can hold, at most
 class Scan:
     """samples: (nx, ny, nz), any real type, perhaps a memory map; a sample stands for slope · sample + intercept.
     matrix: (4, 4), the sample (i, j, k) stands at matrix @ (i, j, k, 1), in units of `unit` metres (None: the file does
-    not say). placed: whether the file says where samples stand. notes: one sentence for each decision."""
+    not say). placed: whether the file says where samples stand. findings: what was decided on the way."""
 
     samples: NDArray
     matrix: NDArray[np.float64]
@@ -32,7 +34,7 @@ class Scan:
     placed: bool = False
     slope: float = 1.0
     intercept: float = 0.0
-    notes: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
 
 
 def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
@@ -41,22 +43,20 @@ def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
     while len(sizes) > 3 and sizes[-1] == 1:
         sizes = sizes[:-1]
     if len(sizes) != 3:
-        raise ValueError(
-            "It has {:d} dimensions, and a scan of densities has 3; save one volume of it.".format(len(sizes))
-        )
+        raise FileError("scan_dimensions", dimensions=len(sizes))
     if min(sizes) < 1 or max(sizes) > 1 << 40 or math.prod(sizes) > 1 << 48:
-        raise ValueError("Its size, {:s}, is impossible.".format(" x ".join(map(str, sizes))))
+        raise FileError("scan_size", samples=list(sizes))
     return sizes
 
 
 def real_samples(array: NDArray) -> NDArray:
     """An array that can be a scan of densities."""
     if array.dtype.kind not in "biuf":
-        raise ValueError("Its samples are of the type {:s}, and a density is a real number.".format(str(array.dtype)))
+        raise FileError("scan_sample_type", type=str(array.dtype))
     if array.ndim != 3:
-        raise ValueError("It has {:d} dimensions, and a scan of densities has 3.".format(array.ndim))
+        raise FileError("scan_dimensions", dimensions=array.ndim)
     if not array.size:
-        raise ValueError("It has no samples.")
+        raise FileError("scan_empty")
     return array
 
 
@@ -65,11 +65,7 @@ def mapped(path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int
     size, wanted = path.stat().st_size, dtype.itemsize * math.prod(shape)
     offset = size - wanted if from_end else offset
     if offset < 0 or size - offset < wanted:
-        raise ValueError(
-            "The file is cut short: {:s} samples of {:d} bytes do not fit into it.".format(
-                " x ".join(map(str, shape)), dtype.itemsize
-            )
-        )
+        raise FileError("scan_cut_short", samples=list(shape))
     return np.memmap(path, dtype, "r", offset, shape, "F")
 
 
@@ -77,14 +73,12 @@ def unpacked(path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int
     """Samples that are compressed by gzip from byte `start` of the file on, x fastest; skip: unpacked bytes before."""
     wanted = dtype.itemsize * math.prod(shape)
     if skip < 0 or skip + wanted > DEFLATED * path.stat().st_size:
-        raise ValueError(
-            "The file is cut short: {:s} samples cannot be packed into it.".format(" x ".join(map(str, shape)))
-        )
+        raise FileError("scan_cut_short", samples=list(shape))
     with open(path, "rb") as file:
         file.seek(start)
         with gzip.GzipFile(fileobj=file) as packed:
             packed.read(skip)
             data = packed.read(wanted)
     if len(data) < wanted:
-        raise ValueError("The file is cut short: it holds {:d} of {:d} bytes of samples.".format(len(data), wanted))
+        raise FileError("scan_bytes_missing", bytes=len(data), total=wanted)
     return np.frombuffer(data, dtype).reshape(shape, order="F")

@@ -9,7 +9,7 @@ Values stay numbers, strings, booleans and lists; only the table formats them:
     {thickness:length}   meters, as the scene shows them     {point:point}    three of these
     {names}              a list, the first 8: “A”, “B”, 3 more
     {cause}, {causes}    another finding, or several ({"code", "values"}): their messages
-    {elements}           what it is about (`Finding.elements`, handed in as a value): 3, 5, 9, or 3 of “Cube”
+    {elements}           what it is about (`Finding.elements`, of which there are `count`): 3, 5, 9, or 3 of “Cube”
 
 The optional value `sources` (names of the objects that a surface came from, where that is not the measured object
 itself) puts “A”, “B”: before any message.
@@ -22,9 +22,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ...core.verdict.finding import Finding, Severity
+from ...core.verdict.finding import MAX_STORED_ELEMENTS, Finding, Severity
 
-MAX_LISTED = 8
+MAX_LISTED = MAX_STORED_ELEMENTS
 
 
 @dataclass(frozen=True)
@@ -57,11 +57,12 @@ def _item(item: Any) -> str:
     return "“{}”".format(item) if isinstance(item, str) else "{}".format(item)
 
 
-def listed(items: Sequence[Any]) -> str:
-    """The first items, names in quotation marks, and how many more there are."""
+def listed(items: Sequence[Any], count: int | None = None) -> str:
+    """The first items, names in quotation marks, and how many more there are. count: of all, where `items` are only the
+    first of them."""
     shown = [_item(item) for item in items[:MAX_LISTED]]
-    more = ["{:d} more".format(len(items) - MAX_LISTED)] if len(items) > MAX_LISTED else []
-    return ", ".join(shown + more)
+    more = (count or len(items)) - len(shown)
+    return ", ".join(shown + (["{:d} more".format(more)] if more > 0 else []))
 
 
 class _Formatter(string.Formatter):
@@ -72,7 +73,9 @@ class _Formatter(string.Formatter):
 
     def format_field(self, value: Any, format_spec: str) -> str:
         if isinstance(value, Mapping):
-            return _filled(value["code"], value["values"], self.translate, self.lengths)
+            return sentence(Finding.from_record(value), self.translate, self.lengths)
+        if value is None:  # what was not finite before it was stored
+            return "unknown"
         if format_spec == "percent":
             return "{:.3g}%".format(100.0 * value)
         if format_spec == "length":
@@ -98,7 +101,11 @@ def sentence(
 ) -> str:
     """The sentence of a finding. translate: applied to each template before it is filled. lengths: what shows a length
     in meters, by default in meters."""
-    return _filled(finding.code, {**finding.values, "elements": finding.elements}, translate, lengths)
+    entry, values = MESSAGES[finding.code], finding.values
+    template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
+    elements = listed(finding.elements, values.get("count"))
+    text = _Formatter(translate, lengths).vformat(translate(template), (), {**values, "elements": elements})
+    return "{}: {}".format(listed(values["sources"]), text) if values.get("sources") else text
 
 
 def severity(finding: Finding) -> Severity:
@@ -109,15 +116,6 @@ def severity(finding: Finding) -> Severity:
 def of_severity(findings: Iterable[Finding], *severities: Severity) -> list[Finding]:
     """Those of the findings that have one of the severities."""
     return [finding for finding in findings if severity(finding) in severities]
-
-
-def _filled(
-    code: str, values: Mapping[str, Any], translate: Callable[[str], str], lengths: Callable[[float], str] | None
-) -> str:
-    entry = MESSAGES[code]
-    template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
-    text = _Formatter(translate, lengths).vformat(translate(template), (), values)
-    return "{}: {}".format(listed(values["sources"]), text) if values.get("sources") else text
 
 
 MESSAGES: dict[str, Message] = {
@@ -785,7 +783,7 @@ MESSAGES: dict[str, Message] = {
     "scan_own_unit": _warning(
         "The file has its own unit; the unit scale applies only to the given spacing and origin."
     ),
-    "scan_placement_overridden": _note("The header's {fields} was replaced by the given one."),
+    "scan_placement_overridden": _note("Given values replace those of the header: {fields}."),
     "scan_without_spacing": _warning("The file has no spacing: 1 unit was assumed. Use Set Spacing, or --spacing."),
     "scan_without_unit": _warning("The file has no unit: 1 unit was taken as 1 m. Use Set Spacing, or --unit-scale."),
     "scan_ct_numbers": _note("Negative values are taken as CT numbers, by the transfer table."),
@@ -1114,6 +1112,7 @@ MESSAGES: dict[str, Message] = {
     "usage_folder_missing": _error("argument --{option}: no folder {folder}"),
     "usage_is_folder": _error("argument --{option}: {path} is a folder"),
     "usage_overwrites_input": _error("argument --{option}: {path} is the measured file. Use another name"),
+    "usage_value": _error("argument --{option}: {cause}"),
     "usage_not_positive": _error("{text!r} is not a positive number"),
     "usage_not_triple": _error("{text!r} is not three numbers X,Y,Z"),
     "usage_not_positive_triple": _error("{text!r} is not three positive numbers X,Y,Z"),
@@ -1129,7 +1128,6 @@ MESSAGES: dict[str, Message] = {
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
-    "usage_module_missing": _error("{error}. Install it, or use Blender"),
     # ------------------------------------------------------------------ Stored results: out of date
     "stale_fingerprint": _warning("Fingerprint damaged"),
     "stale_settings": _warning("Settings changed"),
