@@ -33,7 +33,7 @@ def test_the_tensor_is_stored_in_one_and_in_two_rows():
     box = files.add_box()
     properties.store(box, measured(box))
     assert [*box["body_inertia_diagonal"], *box["body_inertia_products"]] == [*box["body_inertia"]]
-    assert properties.clear(box) and not [key for key in box.keys() if key.startswith("body_")]
+    assert properties.clear(box) and not [key for key in properties.DESCRIPTIONS if key in box]
 
 
 def test_findings_are_stored_as_data_and_warnings_as_lines():
