@@ -27,10 +27,10 @@ from ...core.scans import formats as scans
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding
 from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
-from ..bodies.shape import NoShape, shape_of
+from ..bodies.shape import NoShapeError, shape_of
 from ..read import measurable, measurable_objects
+from ..read.total_caveats import open_body_caveats, total_caveats
 from ..session.staleness import settle
-from ..session.total_caveats import doubts, unfounded
 from ..settings import properties as settings
 from ..settings.options import MeasureOptions
 from ..write import record
@@ -98,9 +98,9 @@ class Run:
                     else:
                         objects.append(entry)
                         measured.append((label, obj, one))
-                caveats += unfounded((label, one.method) for label, _, one in measured)
+                caveats += open_body_caveats((label, one.method) for label, _, one in measured)
                 if self.options.object is None:  # else whoever named them knows what they count
-                    caveats += doubts([obj for _, obj, _ in measured], bpy.context.view_layer)
+                    caveats += total_caveats([obj for _, obj, _ in measured], bpy.context.view_layer)
                     caveats += _other_scenes(bpy.context.scene)
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
@@ -217,7 +217,7 @@ class Run:
             return measure_object(obj, depsgraph, wanted), {}, ()
         try:
             shape = shape_of(obj, depsgraph, wanted)
-        except NoShape as refusal:
+        except NoShapeError as refusal:
             return refusal.measurement, dict.fromkeys(asked), (refusal.finding,)
         more = {"pose": shape.pose()} if self.options.pose else {}
         findings = ()
