@@ -74,7 +74,7 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     """The lines of one object, or of a total."""
     if "method" in entry:
         method = entry["method"]
-        _, explanation = METHODS.get(method) or METHODS.get(method.rpartition(" ")[2], ("", ""))
+        _, explanation = METHODS.get(_method_shown(entry), ("", ""))
         yield _line("Verdict", ": ".join(filter(None, (method, explanation))))
         counts = list(_counts(entry.get("health", {})))
         if counts:
@@ -108,6 +108,14 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     for label, name in (("Warning", "warnings"), ("Note", "notes")):
         for message in entry.get(name, []):
             yield _line(label, message)
+
+
+def _method_shown(entry: dict[str, Any]) -> str:
+    """The key of METHODS that a record belongs to."""
+    method = entry["method"]
+    if method.endswith("shell") and any(one["code"] == "wall_measured" for one in entry.get("findings", ())):
+        return "wall"
+    return method if method in METHODS else method.rpartition(" ")[2]
 
 
 def _counts(health: dict[str, Any]) -> Iterable[str]:

@@ -152,7 +152,7 @@ def test_a_binary_stl_whose_header_says_solid_is_binary(tmp_path):
     path.write_bytes(b"solid binary".ljust(80) + struct.pack("<I", 4) + b"".join(facets))
     assert measured(path)["volume"] == pytest.approx(1.0)
     path.write_bytes(path.read_bytes()[:-1])
-    assert reason(path) == sentence("stl_size")
+    assert reason(path) == sentence("stl_cut_short")  # it says that it is text
 
 
 def test_what_is_no_file_is_an_error(tmp_path):

@@ -144,3 +144,11 @@ def test_results_that_no_longer_hold_say_so():
 
 def test_nothing_selected_is_an_empty_report():
     assert report.report_text(bpy.context, []) == "Mass properties, SI units, world frame\n"
+
+
+def test_a_wall_is_told_as_one():
+    box = files.add_box()
+    box.body_moments.kind, box.body_moments.wall, box.body_moments.thickness = "SHELL", "INWARD", 0.01
+    for text in (report.text(document()), stored(box)):
+        assert line(text, "Verdict") == "shell: The mass is in a wall of real thickness"
+        assert any("0.01 m" in note for note in re.findall(r"^  Note +(.*)$", text, re.MULTILINE))

@@ -68,11 +68,11 @@ def test_what_is_written_is_not_out_of_date_when_the_file_is_opened(tmp_path):
     measured(path, "--write", "--density", "5.123456789")
     box = reopened(path)[files.BOX_NAME]
     assert box["body_density"] == 5.123456789 and box.body_moments.density == np.float32(5.123456789)
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
     measured(path, "--write", "--kind", "shell", "--thickness", "0.002", "--mass", "3")
     box = reopened(path)[files.BOX_NAME]
     assert box.body_moments.kind == "SHELL" and box.body_moments.mass_from == "MASS"
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
 
 
 def test_relative_paths_stay_as_they_are(tmp_path):
