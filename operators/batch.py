@@ -40,15 +40,15 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     from .command import arguments, output, similar
 
     channel = output.claim_stdout() if channel is None else channel
-    told = io.StringIO()
+    printed = io.StringIO()
     try:
-        with redirect_stdout(told):
+        with redirect_stdout(printed):
             if argv[:1] == ["similar"]:
                 return _similar(similar.parse(argv), channel)
             options = arguments.parse(argv, file_needed)
     except SystemExit as ended:
         # the help, where it was asked for
-        return ended.code if _written(told.getvalue(), None, channel) else OUR_FAULT
+        return ended.code if _written(printed.getvalue(), None, channel) else OUR_FAULT
 
     from .command import results
     from .command.run import Run
@@ -69,11 +69,12 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
 
 def _similar(options, channel: int) -> int:
     """Compare what was measured, and print the nearest."""
+    from ..core.verdict.finding import MeasureError
     from .command import similar
 
     try:
         text, faults = similar.answer(options)
-    except similar.Unanswerable as error:
+    except MeasureError as error:
         sys.stderr.write("body_moments: {}\n".format(error))
         return WRONG_USAGE
     except Exception:
@@ -86,12 +87,13 @@ def _similar(options, channel: int) -> int:
 
 def _written(text: str, path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> bool:
     """Whether a result could be written; the reason goes to the standard error where it could not."""
+    from ..core.verdict.finding import finding
     from .command import output
 
     try:
         output.write(text, path, channel, check)
     except OSError as error:
-        sys.stderr.write("body_moments: the result cannot be written: {}\n".format(error))
+        sys.stderr.write("body_moments: {}\n".format(finding("usage_result_not_written", error=str(error))))
         return False
     return True
 
@@ -121,7 +123,8 @@ def _run_script() -> None:
     try:
         code = _run()
     except ModuleNotFoundError as error:
-        sys.stderr.write("body_moments: {}; install it, or use Blender\n".format(error))
+        # Not by the table of messages, which cannot be imported either where numpy is missing.
+        sys.stderr.write("body_moments: {}. Install it, or use Blender.\n".format(error))
         code = WRONG_USAGE
     except Exception:
         traceback.print_exc()

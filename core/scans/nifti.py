@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics.rotations import rotation_matrix
+from ..verdict.finding import FileError
 from .scan import Scan, damaged, gzip_blocks, mapped, shape_of, unpacked
 
 HEADER = 348  # bytes
@@ -24,25 +25,25 @@ def read_nifti(path: Path) -> Scan:
     packed = path.name.lower().endswith(".gz")
     head = _head(path, packed)
     if len(head) < HEADER:
-        raise damaged(path, "it is cut short, for a NIfTI-1 header has {:d} bytes".format(HEADER))
+        raise damaged(path, "damage_header", bytes=HEADER)
     order = next((mark for mark in "<>" if struct.unpack_from(mark + "i", head)[0] == 348), None)
     if order is None or head[344:348] not in (b"n+1\0", b"ni1\0"):
-        raise ValueError("The file does not begin as a NIfTI-1 file does.")
+        raise FileError("nifti_unrecognized")
     if head[344:348] == b"ni1\0":
-        raise ValueError("It is the header of a pair .hdr and .img; save it as one .nii file.")
+        raise FileError("nifti_header_of_pair")
     dim = struct.unpack_from(order + "8h", head, 40)
     if not 1 <= dim[0] <= 7:
-        raise ValueError("The NIfTI header tells of {:d} dimensions.".format(dim[0]))
+        raise FileError("nifti_dimensions", dimensions=dim[0])
     shape = shape_of(dim[1 : dim[0] + 1])
     code, bits = struct.unpack_from(order + "2h", head, 70)
     if code not in TYPES:
-        raise ValueError("The NIfTI data type {:d} is no real number that can be read.".format(code))
+        raise FileError("nifti_type", type=code)
     dtype = np.dtype(TYPES[code]).newbyteorder(order)
     if bits not in (0, 8 * dtype.itemsize):
-        raise ValueError("The NIfTI header contradicts itself: {:d} bits for the data type {:d}.".format(bits, code))
+        raise FileError("nifti_type_size", bits=bits, type=code)
     offset, slope, intercept = struct.unpack_from(order + "3f", head, 108)
     if not 348.0 <= offset < 1 << 40 or offset != int(offset):
-        raise ValueError("The NIfTI header tells an impossible place of the samples, {:g}.".format(offset))
+        raise FileError("nifti_offset", offset=offset)
     matrix, placed = _place(head, order)
     samples = unpacked(path, 0, dtype, shape, int(offset)) if packed else mapped(path, dtype, shape, int(offset))
     if slope == 0.0:  # by the standard: not scaled
@@ -72,13 +73,13 @@ def _place(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
         matrix[:3] = np.array(struct.unpack_from(order + "12f", head, 280)).reshape(3, 4)
         return matrix, True
     spacing = np.abs(pixdim[1:4])
-    if not all(0.0 < one < math.inf for one in spacing):
+    if not all(0.0 < distance < math.inf for distance in spacing):
         if qform > 0 or any(pixdim[1:4]):
-            raise ValueError("The NIfTI header tells an impossible spacing, {:g} x {:g} x {:g}.".format(*spacing))
+            raise FileError("nifti_spacing", **dict(zip("xyz", spacing.tolist())))
         return matrix, False
     if qform > 0:
         if not all(map(math.isfinite, (b, c, d, *offset))) or b * b + c * c + d * d > 1.0 + 1e-5:
-            raise ValueError("The NIfTI header tells a rotation that is none.")
+            raise FileError("nifti_rotation")
         a = math.sqrt(max(0.0, 1.0 - (b * b + c * c + d * d)))
         turn = rotation_matrix((a, b, c, d))
         turn[:, 2] *= -1.0 if pixdim[0] < 0.0 else 1.0

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..verdict.finding import FileError
 from .scan import Scan, damaged, mapped, shape_of, unpacked
 
 HEADER = 1 << 20  # bytes of a header, at most
@@ -52,7 +53,7 @@ def read_nrrd(path: Path) -> Scan:
     with open(path, "rb") as file:
         head = file.read(HEADER)
     if not re.match(rb"NRRD000[1-5]\r?\n", head):
-        raise ValueError("The file does not begin as an NRRD file does (NRRD0001 to NRRD0005).")
+        raise FileError("nrrd_unrecognized")
     end = re.search(rb"\r?\n\r?\n", head)
     fields = {}
     text = head[: end.start() if end else len(head)].decode("latin-1")
@@ -68,28 +69,26 @@ def read_nrrd(path: Path) -> Scan:
 def _nrrd(path: Path, fields: dict[str, str], start: int | None) -> Scan:
     def needed(name: str) -> str:
         if name not in fields:
-            raise ValueError("The NRRD header lacks the field “{:s}”.".format(name))
+            raise FileError("nrrd_field_missing", field=name)
         return fields[name]
 
     def numbers(name: str, kind: type, default: str = "") -> list:
         try:
             return [kind(word) for word in fields.get(name, default).split()]
         except (ValueError, OverflowError):
-            raise ValueError(
-                "The NRRD field “{:s}” is no row of numbers: {:.60s}.".format(name, fields[name])
-            ) from None
+            raise FileError("nrrd_field_not_numbers", field=name, text=fields[name]) from None
 
     sizes = numbers("sizes", int) if needed("sizes") else []
     if numbers("dimension", int) != [len(sizes)] or not needed("dimension"):
-        raise ValueError("The NRRD fields “dimension” and “sizes” do not agree.")
+        raise FileError("nrrd_dimension_mismatch")
     shape = shape_of(sizes)
     kind = TYPES.get(needed("type").lower())
     if kind is None:
-        raise ValueError("The NRRD type “{:.40s}” is no real number.".format(fields["type"]))
+        raise FileError("nrrd_type", type=fields["type"])
     dtype = np.dtype(kind)
     endian = fields.get("endian", "").lower()
     if dtype.itemsize > 1 and endian not in ("little", "big"):
-        raise ValueError("The NRRD header does not say in which order bytes stand (the field “endian”).")
+        raise FileError("nrrd_endian_missing")
     dtype = dtype.newbyteorder(">" if endian == "big" else "<")
     matrix, placed, unit = _place(fields, numbers)
     (line_skip,), (byte_skip,) = (
@@ -98,12 +97,12 @@ def _nrrd(path: Path, fields: dict[str, str], start: int | None) -> Scan:
     source, name = path, fields.get("data file", fields.get("datafile"))
     if name is not None:
         if name.upper().startswith("LIST") or "%" in name or len(name.split()) > 3:
-            raise ValueError("Its samples are spread over several files; join them into one.")
+            raise FileError("nrrd_several_files")
         source, start = path.parent / name, 0
         if not source.is_file():
-            raise ValueError("The file of its samples, “{:.80s}”, is not there.".format(name))
+            raise FileError("nrrd_data_file_missing", file=name)
     elif start is None:
-        raise ValueError("The NRRD header has no end: the empty line before the samples is missing.")
+        raise FileError("nrrd_header_unended")
     if line_skip:
         start = _after_lines(source, start, line_skip)
     encoding = needed("encoding").lower()
@@ -112,15 +111,13 @@ def _nrrd(path: Path, fields: dict[str, str], start: int | None) -> Scan:
     elif encoding in ("gzip", "gz"):
         samples = unpacked(source, start, dtype, shape, byte_skip)
     else:
-        raise ValueError(
-            "The NRRD encoding “{:.40s}” is not supported; save it raw or packed by gzip.".format(encoding)
-        )
+        raise FileError("nrrd_encoding", encoding=encoding)
     return Scan(samples, matrix, unit, placed)
 
 
 def _one(values: list, name: str) -> list:
     if len(values) != 1 or values[0] < -1:
-        raise ValueError("The NRRD field “{:s}” is not one number.".format(name))
+        raise FileError("nrrd_field_not_one_number", field=name)
     return values
 
 
@@ -134,7 +131,7 @@ def _after_lines(path: Path, start: int, count: int) -> int:
         file.seek(start)
         for _ in range(count):
             if not file.readline(HEADER).endswith(b"\n"):
-                raise damaged(path, "it is cut short, for it has not the lines that its header tells to skip")
+                raise damaged(path, "damage_lines")
         return file.tell()
 
 
@@ -148,7 +145,7 @@ def _place(fields: dict[str, str], numbers: Callable[..., list]) -> tuple[NDArra
         rows = [_vector(text, "space directions") for text in re.findall(r"\([^)]*\)|none", fields["space directions"])]
         rows = [row for row in rows if row is not None]
         if len(rows) != 3:
-            raise ValueError("The NRRD field “space directions” does not have three vectors.")
+            raise FileError("nrrd_space_directions")
         matrix[:3, :3] = np.array(rows).T
         if "space origin" in fields:
             origin = _vector(fields["space origin"], "space origin")
@@ -156,8 +153,8 @@ def _place(fields: dict[str, str], numbers: Callable[..., list]) -> tuple[NDArra
         return matrix, True, unit
     spacings = numbers("spacings", float)
     if spacings:
-        if len(spacings) < 3 or not all(0.0 < abs(one) < math.inf for one in spacings[:3]):
-            raise ValueError("The NRRD field “spacings” must have three numbers other than zero.")
+        if len(spacings) < 3 or not all(0.0 < abs(spacing) < math.inf for spacing in spacings[:3]):
+            raise FileError("nrrd_spacings")
         matrix[:3, :3] = np.diag(spacings[:3])
     mins = numbers(_alias(fields, "axis mins"), float)
     if len(mins) >= 3 and np.isfinite(mins[:3]).all():
@@ -173,5 +170,5 @@ def _vector(text: str, name: str) -> list[float] | None:
     except ValueError:
         row = []
     if len(row) != 3 or not np.isfinite(row).all():
-        raise ValueError("The NRRD field “{:s}” has a vector that is not three numbers: {:.60s}.".format(name, text))
+        raise FileError("nrrd_vector", field=name, text=text)
     return row

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..verdict.finding import FileError, finding
 from .scan import Scan, check_length, damaged, mapped, real_samples, shape_of
 
 TYPES = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float32", "float64")
@@ -25,7 +26,7 @@ def read_npy(path: Path) -> Scan:
     except MemoryError:
         raise
     except Exception as error:  # of a damaged header NumPy evaluates what it finds, and may raise anything
-        raise damaged(path, "it is no whole array of numbers in NumPy's format") from error
+        raise damaged(path, "damage_array") from error
     real_samples(array)
     check_length(path, path.stat().st_size - array.offset, array.nbytes)
     return Scan(array, np.eye(4))
@@ -38,7 +39,7 @@ def read_npz(path: Path) -> Scan:
         with zipfile.ZipFile(path) as archive:
             entries = archive.infolist()
             if any(ENTRY in entry.comment + entry.extra for entry in entries):
-                raise zipfile.BadZipFile("an entry of its directory hides the next")  # by a wrong length
+                raise zipfile.BadZipFile("overlapping entries")  # by a wrong length
             heads = {entry.filename: _npz_header(archive, entry) for entry in entries}
             volumes = [name.removesuffix(".npy") for name, shape in heads.items() if len(shape) == 3]
             name = "density" if "density" in volumes else volumes[0] if volumes else None
@@ -48,19 +49,14 @@ def read_npz(path: Path) -> Scan:
     except MemoryError:
         raise
     except zipfile.BadZipFile as error:
-        raise damaged(path, "it is no whole archive ({:s})".format(str(error).rstrip("."))) from error
+        raise damaged(path, "damage_archive", error=str(error).rstrip(".")) from error
     except Exception as error:  # as above, and whatever unpacking raises
-        raise damaged(path, "it is no whole archive of arrays in NumPy's format") from error
+        raise damaged(path, "damage_arrays") from error
     if not name:
-        raise ValueError("None of its arrays has 3 dimensions.")
-    notes = ()
-    if len(volumes) > 1:
-        notes = (
-            "Of its arrays “{:s}” is measured; left out: {:s}.".format(
-                name, ", ".join("“{:s}”".format(one) for one in volumes if one != name)
-            ),
-        )
-    return Scan(real_samples(array), np.eye(4), notes=notes)
+        raise FileError("no_3d_array")
+    others = [volume for volume in volumes if volume != name]
+    findings = (finding("arrays_left_out", array=name, arrays=others),) if others else ()
+    return Scan(real_samples(array), np.eye(4), findings=findings)
 
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
@@ -70,24 +66,21 @@ def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, 
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
         shape, _, dtype = read(file)
         if not dtype.hasobject and file.tell() + dtype.itemsize * math.prod(shape) != entry.file_size:
-            raise ValueError("The array does not fill its entry.")
+            raise ValueError("length of entry")
     return shape
 
 
 def read_raw(path: str | Path, shape: Sequence[int], dtype: str, big_endian: bool = False) -> Scan:
     """Samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of TYPES."""
     if dtype not in TYPES:
-        raise ValueError("The type “{:s}” is none of {:s}.".format(dtype, ", ".join(TYPES)))
+        raise FileError("raw_type_unknown", type=dtype, types=", ".join(TYPES))
     kind = np.dtype(dtype).newbyteorder(">" if big_endian else "<")
     return Scan(mapped(Path(path), kind, shape_of(shape), 0), np.eye(4))
 
 
 def read_named_raw(path: Path) -> Scan:
     """A raw file that is called NAME_XxYxZ_TYPE.raw, as those of the Open SciVis collection are."""
-    found = re.search(r"_(\d+)x(\d+)x(\d+)_({:s})\.raw$".format("|".join(TYPES)), path.name, re.IGNORECASE)
-    if not found:
-        raise ValueError(
-            "A raw file does not say what is in it. Call it NAME_XxYxZ_TYPE.raw, for example "
-            "head_128x128x54_uint16.raw (x fastest, little-endian), or give it a detached NRRD header."
-        )
-    return read_raw(path, [int(size[:20]) for size in found.groups()[:3]], found[4].lower())
+    layout = re.search(r"_(\d+)x(\d+)x(\d+)_({:s})\.raw$".format("|".join(TYPES)), path.name, re.IGNORECASE)
+    if not layout:
+        raise FileError("raw_without_layout")
+    return read_raw(path, [int(size[:20]) for size in layout.groups()[:3]], layout[4].lower())

@@ -3,7 +3,7 @@
 """The samples of a scan in a file: mapped into memory where they are not packed, so that a scan may be larger than it.
 
 Nothing that a header says of them is believed before it has been compared with the size of the file, and no packed
-sample before its checksum. Every fault of a file is a ValueError with a sentence that says what is wrong.
+sample before its checksum. Every fault of a file is a FileError that says what is wrong.
 """
 
 from __future__ import annotations
@@ -17,14 +17,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..verdict.finding import FileError, Finding, finding
+
 DEFLATED = 1032  # bytes that a byte of a gzip file can hold, at most
 PACKED = 1 << 16  # bytes that are unpacked at a time: what a small member leaves of them is copied
 BLOCK = 1 << 18  # unpacked bytes at a time
-FAULT = "its packed part cannot be unpacked ({:s})"
-FAULTS = {  # what zlib calls those that need plainer words
-    "incorrect data check": "its packed part does not have the checksum that was stored with it",
-    "incorrect length check": "its packed part does not have the length that was stored with it",
-    "incorrect header check": "what is packed in it by gzip, or what follows that, does not begin as gzip does",
+FAULTS = {  # codes of what zlib reports, where there is more to say than its words
+    "incorrect data check": "damage_checksum",
+    "incorrect length check": "damage_unpacked_length",
+    "incorrect header check": "damage_packed_start",
 }
 
 
@@ -32,7 +33,7 @@ FAULTS = {  # what zlib calls those that need plainer words
 class Scan:
     """samples: (nx, ny, nz), any real type, perhaps a memory map; a sample stands for slope · sample + intercept.
     matrix: (4, 4), the sample (i, j, k) stands at matrix @ (i, j, k, 1), in units of `unit` metres (None: the file does
-    not say). placed: whether the file says where samples stand. notes: one sentence for each decision."""
+    not say). placed: whether the file says where samples stand. findings: what was decided on the way."""
 
     samples: NDArray
     matrix: NDArray[np.float64]
@@ -40,7 +41,7 @@ class Scan:
     placed: bool = False
     slope: float = 1.0
     intercept: float = 0.0
-    notes: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
 
 
 def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
@@ -49,40 +50,35 @@ def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
     while len(sizes) > 3 and sizes[-1] == 1:
         sizes = sizes[:-1]
     if len(sizes) != 3:
-        raise ValueError(
-            "It has {:d} dimensions, and a scan of densities has 3; save one volume of it.".format(len(sizes))
-        )
+        raise FileError("scan_dimensions", dimensions=len(sizes))
     if min(sizes) < 1 or max(sizes) > 1 << 40 or math.prod(sizes) > 1 << 48:
-        raise ValueError("Its size, {:s}, is impossible.".format(" x ".join(map(str, sizes))))
+        raise FileError("scan_size", samples=list(sizes))
     return sizes
 
 
 def real_samples(array: NDArray) -> NDArray:
     """An array that can be a scan of densities."""
     if array.dtype.kind not in "biuf":
-        raise ValueError("Its samples are of the type {:s}, and a density is a real number.".format(str(array.dtype)))
+        raise FileError("scan_sample_type", type=str(array.dtype))
     if array.ndim != 3:
-        raise ValueError("It has {:d} dimensions, and a scan of densities has 3.".format(array.ndim))
+        raise FileError("scan_dimensions", dimensions=array.ndim)
     if not array.size:
-        raise ValueError("It has no samples.")
+        raise FileError("scan_empty")
     return array
 
 
-def damaged(path: Path, what: str, remedy: str = "Obtain it again, or export it anew.") -> ValueError:
-    """The error for a file that is not what was once written."""
-    return ValueError("The file “{:s}” is damaged: {:s}. {:s}".format(path.name, what, remedy))
+def damaged(path: Path, code: str, **values: object) -> FileError:
+    """The error for a file that is not what was once written, with the code of what is wrong with it."""
+    return FileError("file_damaged", file=path.name, cause=finding(code, **values).as_record())
 
 
 def check_length(path: Path, held: int, wanted: int) -> None:
     """A file must hold just the bytes of samples that its sizes ask for. More of them mean that the sizes are wrong, or
     that nobody knows what the rest is; of samples without a checksum nothing else can show damage."""
-    if held == wanted:
-        return
     if held < wanted:
-        what = "it is cut short or its sizes are wrong: it holds {:d} of the {:d} bytes of samples that they ask for"
-    else:
-        what = "its sizes are wrong or more follows: it holds more than the {1:d} bytes of samples that they ask for"
-    raise damaged(path, what.format(held, wanted), "Obtain it again, export it anew, or correct its sizes.")
+        raise damaged(path, "damage_too_short", bytes=held, total=wanted)
+    if held > wanted:
+        raise damaged(path, "damage_too_long", total=wanted)
 
 
 def mapped(path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False) -> NDArray:
@@ -101,9 +97,9 @@ def unpacked(path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int
     They are read to the end of the file, for the checksum stands behind them; see `gzip_blocks`."""
     wanted = dtype.itemsize * math.prod(shape)
     if skip < 0:
-        raise ValueError("Samples that are packed are counted from their beginning; “byte skip: -1” is for raw ones.")
+        raise FileError("nrrd_skip_from_end")
     if skip + wanted > DEFLATED * path.stat().st_size:
-        raise damaged(path, "{:s} samples cannot be packed into it".format(" x ".join(map(str, shape))))
+        raise damaged(path, "damage_too_small", samples=list(shape))
     samples = np.empty(wanted, np.uint8)
     begin = -skip  # where a block stands among the samples
     for block in gzip_blocks(path, start):
@@ -134,9 +130,11 @@ def gzip_blocks(path: Path, start: int) -> Iterator[bytes]:
                     block = member.decompress(waiting, BLOCK)
                 except zlib.error as error:
                     reason = str(error).rpartition(": ")[2]
-                    raise damaged(path, FAULTS.get(reason, FAULT).format(reason)) from error
+                    if reason in FAULTS:
+                        raise damaged(path, FAULTS[reason]) from error
+                    raise damaged(path, "damage_packed", error=reason) from error
                 if not (block or waiting or member.eof):
-                    raise damaged(path, "it is cut short, for its packed part has no end")
+                    raise damaged(path, "damage_packed_end")
                 yield block
                 waiting = member.unused_data if member.eof else member.unconsumed_tail or file.read(PACKED)
             first = False

@@ -15,6 +15,8 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any
 
+MAX_STORED_ELEMENTS = 8  # of a finding that is stored or is a value of another one: as many as a sentence names
+
 
 class Severity(StrEnum):
     """How much a finding matters: a note is no reason to doubt the numbers, an error leaves none."""
@@ -45,13 +47,17 @@ class Finding:
     elements: Sequence[Any] = ()
 
     def as_record(self) -> dict[str, Any]:
-        """The code and the values as plain values for JSON, to be read by `from_record`."""
-        return {"code": self.code, "values": dict(self.values)}
+        """The code, the values and the first elements as plain values for JSON, to be read by `from_record`."""
+        record = {"code": self.code, "values": dict(self.values)}
+        first = self.elements[:MAX_STORED_ELEMENTS]
+        if len(first):
+            record["elements"] = [item.tolist() if hasattr(item, "tolist") else item for item in first]
+        return record
 
     @classmethod
     def from_record(cls, record: Mapping[str, Any]) -> Finding:
         """The finding that `as_record` has written."""
-        return cls(str(record["code"]), dict(record["values"]))
+        return cls(str(record["code"]), dict(record["values"]), tuple(record.get("elements", ())))
 
     def of_sources(self, names: Sequence[str]) -> Finding:
         """The same, said of the surfaces of these objects."""

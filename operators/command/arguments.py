@@ -15,6 +15,7 @@ import bpy
 
 from ...core.density.spline_tables import MAX_ORDER as MAX_SPLINE_ORDER
 from ...core.polyhedron.any_order import MAX_ORDER
+from ...core.verdict.finding import finding
 from ..write.record import FORMATS, FRAMES
 from . import fourier, inputs, output, results
 
@@ -39,13 +40,13 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     parser = _parser()
     options = parser.parse_intermixed_args(_negatives_joined(argv))
     if file_needed and not options.files:
-        parser.error("the name of a FILE is needed")
+        parser.error(str(finding("usage_file_needed")))
     if options.surface_moments and options.order is None:
         options.order = DEFAULT_ORDER
     if options.output is not None and not options.output.parent.is_dir():
-        parser.error("argument --output: there is no folder {}".format(options.output.parent))
+        parser.error(str(finding("usage_folder_missing", option="output", folder=str(options.output.parent))))
     if options.output is not None and options.output.is_dir():
-        parser.error("argument --output: {} is a folder".format(options.output))
+        parser.error(str(finding("usage_is_folder", option="output", path=str(options.output))))
     fourier.check(options, parser)
     _keep_files(options, parser)
     return options
@@ -74,25 +75,24 @@ def _keep_files(options: argparse.Namespace, parser: argparse.ArgumentParser) ->
         target = getattr(options, name)
         if target is None or not target.exists() or output.is_stdout(target):
             continue
-        message = "argument --{}: {{}}; name another file".format(name)
         if any(os.path.samefile(path, target) for path in read):
-            parser.error(message.format("{} is a file that is read".format(target)))
+            parser.error(str(finding("usage_overwrites_input", option=name, path=str(target))))
         try:
             if results.replaceable(target, name):
                 continue
             empty = results.is_empty(target)
         except OSError as error:
-            parser.error(message.format("{} cannot be replaced: {}".format(target, error.strerror)))
+            parser.error(str(finding("usage_not_replaceable", option=name, path=str(target), error=error.strerror)))
         if not (empty or options.force):
-            parser.error(message.format(results.REFUSAL.format(target)) + ", or give --force")
-        replaced.append((target, message))
+            parser.error(str(finding("usage_foreign_file", option=name, path=str(target))))
+        replaced.append((target, name))
         if not empty:
             options.forced.append(target)
     # Opening what is measured takes its time, and only here does it matter what that reads.
     for path in inputs.files_read(options.files) if replaced else ():
-        for target, message in replaced:
+        for target, name in replaced:
             if target.samefile(path):
-                parser.error(message.format("{} is read with what is measured".format(target)))
+                parser.error(str(finding("usage_overwrites_dependency", option=name, path=str(target))))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -233,7 +233,7 @@ def _positive(text: str) -> float:
     except ValueError:
         value = math.nan
     if not (0.0 < value < math.inf):
-        raise argparse.ArgumentTypeError("{!r} is not a positive number".format(text))
+        raise argparse.ArgumentTypeError(str(finding("usage_not_positive", text=text)))
     return value
 
 
@@ -243,20 +243,20 @@ def _triple(text: str) -> tuple[float, ...]:
     except ValueError:
         values = ()
     if len(values) != 3 or not all(map(math.isfinite, values)):
-        raise argparse.ArgumentTypeError("{!r} is not three numbers X,Y,Z".format(text))
+        raise argparse.ArgumentTypeError(str(finding("usage_not_triple", text=text)))
     return values
 
 
 def _spacing(text: str) -> tuple[float, ...]:
     values = _triple(text)
     if min(values) <= 0.0:
-        raise argparse.ArgumentTypeError("{!r} is not three positive numbers X,Y,Z".format(text))
+        raise argparse.ArgumentTypeError(str(finding("usage_not_positive_triple", text=text)))
     return values
 
 
 def _spline_order(text: str) -> int:
     if text not in {str(order) for order in range(1, MAX_SPLINE_ORDER + 1)}:
-        raise argparse.ArgumentTypeError("{!r} is not an order from 1 to {}".format(text, MAX_SPLINE_ORDER))
+        raise argparse.ArgumentTypeError(str(finding("usage_spline_order", text=text, limit=MAX_SPLINE_ORDER)))
     return int(text)
 
 
@@ -266,15 +266,15 @@ def _order(text: str) -> int:
     except ValueError:
         value = -1
     if value < 0:
-        raise argparse.ArgumentTypeError("{!r} is not an order, 0 to {}".format(text, MAX_ORDER))
+        raise argparse.ArgumentTypeError(str(finding("usage_order", text=text, limit=MAX_ORDER)))
     if value > MAX_ORDER:
-        raise argparse.ArgumentTypeError("{} is too high an order; the highest is {}".format(value, MAX_ORDER))
+        raise argparse.ArgumentTypeError(str(finding("usage_order_too_high", text=text, limit=MAX_ORDER)))
     return value
 
 
 def _format(text: str) -> str:
     if text in _LATER_FORMATS:
-        raise argparse.ArgumentTypeError("{} is not supported yet".format(text))
+        raise argparse.ArgumentTypeError(str(finding("usage_format_unsupported", text=text)))
     if text not in FORMATS:
-        raise argparse.ArgumentTypeError("{!r} is none of {}".format(text, ", ".join(FORMATS)))
+        raise argparse.ArgumentTypeError(str(finding("usage_format_unknown", text=text, formats=", ".join(FORMATS))))
     return text

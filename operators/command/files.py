@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A user's file becomes the open scene, or a sentence that says why it cannot.
+"""A user's file becomes the open scene, or a FileError that says why it cannot.
 
 Every file starts from an empty scene of factory settings, so that nothing of the one before it, or
 of a person's own start-up file, is measured with it. Scripts inside .blend files never run. What
@@ -19,6 +19,7 @@ import addon_utils
 import bpy
 
 from ...core.scans import formats as scans
+from ...core.verdict.finding import FileError
 
 BLEND = ".blend"
 UNITLESS = (".stl", ".obj", ".ply")
@@ -41,17 +42,13 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
 }
 
 
-class Unusable(Exception):
-    """A file that cannot be opened or saved. Its text is a sentence for the person who gave it."""
-
-
 def suffix(path: str) -> str:
     """What the file's name ends with, in lower case."""
     return scans.suffix(path) or Path(path.lower()).suffix
 
 
 def open_file(path: str) -> None:
-    """Make a file the open scene. Raises Unusable."""
+    """Make a file the open scene. Raises FileError."""
     kind = suffix(path)
     _check(path, kind)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
@@ -66,23 +63,22 @@ def open_file(path: str) -> None:
             addon_utils.enable("io_scene_gltf2")
         _IMPORTERS[kind](absolute)
     except AttributeError as error:
-        raise Unusable("This Blender was built without an importer of {} files.".format(kind)) from error
+        raise FileError("importer_missing", suffix=kind) from error
     except RuntimeError as error:
-        raise Unusable("Blender cannot read the file: {}.".format(reason(error))) from error
+        raise FileError("import_failed", error=reason(error)) from error
     if not bpy.context.scene.objects:
-        raise Unusable("Blender finds no object in the file; check that it really is {}.".format(kind))
+        raise FileError("file_without_objects", suffix=kind)
 
 
 def _check(path: str, kind: str) -> None:
     if os.path.isdir(path):
-        raise Unusable("This is a folder; name the files in it.")
+        raise FileError("file_is_folder")
     if kind != BLEND and kind not in _IMPORTERS:
-        known = " ".join((BLEND, *_IMPORTERS, *scans.SUFFIXES))
-        raise Unusable("Files of this kind cannot be measured; these can: {}.".format(known))
+        raise FileError("file_type", suffixes=" ".join((BLEND, *_IMPORTERS, *scans.SUFFIXES)))
     if not os.path.exists(path):
-        raise Unusable("There is no such file.")
+        raise FileError("file_missing")
     if not os.path.isfile(path):
-        raise Unusable("This is not a regular file.")
+        raise FileError("file_not_regular")
     try:
         with open(path, "rb") as file:
             head = file.read(84)
@@ -90,9 +86,9 @@ def _check(path: str, kind: str) -> None:
             file.seek(max(0, size - 1024))
             tail = file.read()
     except OSError as error:
-        raise Unusable("The file cannot be read: {}.".format(error.strerror)) from error
+        raise FileError("file_unreadable", error=error.strerror) from error
     if not size:
-        raise Unusable("The file is empty.")
+        raise FileError("file_empty")
     if kind == ".stl":
         _check_stl(head, tail, size)
 
@@ -104,11 +100,9 @@ def _check_stl(head: bytes, tail: bytes, size: int) -> None:
     if len(head) == 84 and size == 84 + 50 * struct.unpack_from("<I", head, 80)[0]:
         return
     if not head.lstrip().lower().startswith(b"solid"):
-        raise Unusable(
-            "The STL file is cut short or damaged: its size does not fit the number of triangles that it promises."
-        )
+        raise FileError("stl_size")
     if b"endsolid" not in tail.lower():
-        raise Unusable('The STL file is cut short: its last line, "endsolid", is missing.')
+        raise FileError("stl_cut_short")
 
 
 def reason(error: Exception) -> str:

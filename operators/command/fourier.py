@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.fourier.wave_vectors import Grid, wave_vectors
+from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
 from ..bodies.fourier import object_transform
 from ..settings.options import MeasureOptions
 from ..write import spectrum
@@ -47,46 +48,48 @@ def check(options: Namespace, parser: ArgumentParser) -> None:
     if target is None:
         for name in ("q", "grid", "qmax"):
             if getattr(options, name) is not None:
-                parser.error("argument --{}: it needs --fourier OUT.npz".format(name))
+                parser.error(str(finding("usage_needs_fourier", option=name)))
         return
     if (options.q is None) == (options.grid is None):
-        parser.error("argument --fourier: it needs either --q Q.npy or --grid N --qmax Q")
+        parser.error(str(finding("usage_fourier_points")))
     if (options.grid is None) != (options.qmax is None):
-        parser.error("arguments --grid and --qmax go together")
+        parser.error(str(finding("usage_grid_and_qmax")))
     if len(options.files) > 1 or len(options.object or ()) > 1:
-        parser.error("argument --fourier: it takes one object of one FILE")
+        parser.error(str(finding("usage_fourier_one_object")))
     if not target.parent.is_dir():
-        parser.error("argument --fourier: there is no folder {}".format(target.parent))
+        parser.error(str(finding("usage_folder_missing", option="fourier", folder=str(target.parent))))
     if target.is_dir():
-        parser.error("argument --fourier: {} is a folder".format(target))
+        parser.error(str(finding("usage_is_folder", option="fourier", path=str(target))))
     for one, other in ((target, options.q), (target, options.output), (options.output, options.q)):
         if one is not None and other is not None and one.resolve() == other.resolve():
-            parser.error("argument --fourier: {} is named twice".format(one))
+            parser.error(str(finding("usage_path_twice", path=str(one))))
     try:
         options.waves = Grid(options.grid, options.qmax) if options.q is None else _listed(options.q)
-    except ValueError as error:
-        parser.error("argument --{}: {}".format("grid" if options.q is None else "q", error))
+    except MeasureError as error:
+        parser.error(
+            str(finding("usage_value", option="grid" if options.q is None else "q", cause=error.finding.as_record()))
+        )
 
 
-def write(obj: bpy.types.Object, options: Namespace, wanted: MeasureOptions) -> tuple[str, ...]:
-    """Transform the object and write the file. Returns the decisions taken. Raises `Unreadable` and OSError."""
+def write(obj: bpy.types.Object, options: Namespace, wanted: MeasureOptions) -> tuple[Finding, ...]:
+    """Transform the object and write the file. Returns the decisions taken. Raises MeasureError and OSError."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
     under_way = object_transform(obj, depsgraph, wanted, options.waves, frame=options.frame)
     for _ in under_way.steps():
         pass
-    found, notes = under_way.result()
-    spectrum.save(options.fourier, found, options.frame, guard("fourier", options.fourier in options.forced))
-    return notes
+    transform, findings = under_way.result()
+    spectrum.save(options.fourier, transform, options.frame, guard("fourier", options.fourier in options.forced))
+    return findings
 
 
 def _listed(path: Path) -> NDArray[np.float64]:
     try:
         array = np.load(path, allow_pickle=False)
     except (OSError, ValueError, EOFError) as error:
-        raise ValueError("{} cannot be read as an .npy file: {}".format(path, error)) from error
+        raise QueryError("wave_vectors_unreadable", file=str(path), error=str(error)) from error
     if not isinstance(array, np.ndarray):
         array.close()
-        raise ValueError("{} holds several arrays; an .npy file of one is needed".format(path))
+        raise QueryError("wave_vectors_archive", file=str(path))
     return wave_vectors(array, 3)
 
 
@@ -96,5 +99,5 @@ def _count(text: str) -> int:
     except ValueError:
         value = 0
     if not 2 <= value <= LARGEST_GRID:
-        raise ArgumentTypeError("{!r} is not a number of frequencies, 2 to {}".format(text, LARGEST_GRID))
+        raise ArgumentTypeError(str(finding("usage_frequency_count", text=text, limit=LARGEST_GRID)))
     return value

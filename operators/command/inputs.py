@@ -16,7 +16,8 @@ from pathlib import Path
 import bpy
 
 from ...core.scans.nrrd import HEADER
-from .files import Unusable, open_file
+from ...core.verdict.finding import MeasureError
+from .files import open_file
 
 _CRATE = b"PXR-USDC"  # how a binary USD layer begins
 
@@ -29,7 +30,7 @@ def files_read(paths: Iterable[str]) -> Iterator[Path]:
     known: set[Path] = set()
     waiting = [Path(path) for path in paths] or _open_files()
     for path in paths:
-        with suppress(Unusable, RuntimeError):
+        with suppress(MeasureError, RuntimeError):
             open_file(path)
             waiting += _open_files()
     while waiting:

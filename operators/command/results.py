@@ -11,10 +11,9 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
+from ...core.verdict.finding import finding
 from ..write.record import SCHEMA, to_csv
 from ..write.spectrum import ARRAYS
-
-REFUSAL = "{} is no result of body_moments and would be lost"
 
 _HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
 _DOCUMENT = re.compile(rb'\s*\[?\s*\{\s*"schema"\s*:\s*"' + re.escape(SCHEMA.encode()) + rb'"')
@@ -41,7 +40,7 @@ def guard(option: str, forced: bool) -> Callable[[Path], None]:
 
     def check(path: Path) -> None:
         if not forced and not is_empty(path) and not replaceable(path, option):
-            raise FileExistsError(REFUSAL.format(path))
+            raise FileExistsError(str(finding("result_foreign_file", path=str(path))))
 
     return check
 

@@ -25,19 +25,19 @@ import bpy
 from ...core.measurement import Measurement
 from ...core.scans import formats as scans
 from ...core.verdict import internal_error
+from ...core.verdict.finding import FileError, Finding, MeasureError, finding
 from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
-from ..bodies.shape import DISPLAY_MESH, OF_SHAPES, POLYGONS, NoShape, shape_of
-from ..read import Unreadable, measurable, measurable_objects
+from ..bodies.shape import NoShapeError, shape_of
+from ..read import measurable, measurable_objects
+from ..read.total_caveats import open_body_caveats, total_caveats
 from ..session.staleness import settle
-from ..session.total_caveats import LISTED, doubts, unfounded
 from ..settings import properties as settings
 from ..settings.options import MeasureOptions
 from ..write import record
 from ..write.properties import store
-from ..write.text import listed
 from . import fourier
-from .files import BLEND, UNITLESS, Unusable, open_file, suffix
+from .files import BLEND, UNITLESS, open_file, suffix
 from .saving import Place, reserved
 
 _OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale")
@@ -90,14 +90,14 @@ class Run:
 
     def _measured(self, path: str | None, file: str | None, place: Place | None) -> dict[str, Any]:
         measured: list[tuple[str, bpy.types.Object, Measurement]] = []
-        objects, errors, doubtful = [], [], []
+        objects, errors, caveats = [], [], []
         try:
             if path is not None and scans.suffix(path):
                 objects, measured, errors = self._array(path)
                 wanted = self._wanted
             else:
                 self._open(path, file)
-                note = (*_unit_note(path, self.options.unit_scale), *_array_notes(self.options))
+                of_file = (*_unit_findings(path, self.options.unit_scale), *_unused_array_options(self.options))
                 # Not by way of the scene, whose unit scale is a float32 with limits.
                 unit = (self.options.unit_scale or 1.0) if _unitless(path) else None
                 wanted = replace(self._wanted, unit_scale=unit)
@@ -105,25 +105,25 @@ class Run:
                 errors.extend(_missing_links())
                 for label, obj in chosen:
                     try:
-                        one, told = self._recorded(label, obj, wanted, note, errors)
-                    except Unreadable as refusal:
-                        errors.append(_error(label, refusal.reason))
+                        one, entry = self._recorded(label, obj, wanted, of_file, errors)
+                    except MeasureError as refusal:
+                        errors.append(_error(label, refusal.finding))
                     except Exception as error:
                         errors.append(self._fault(label, error))
                     else:
-                        objects.append(told)
+                        objects.append(entry)
                         measured.append((label, obj, one))
-                doubtful = unfounded((label, one.method) for label, _, one in measured)
+                caveats += open_body_caveats((label, one.method) for label, _, one in measured)
                 if self.options.object is None:  # else whoever named them knows what they count
-                    doubtful += doubts([obj for _, obj, _ in measured], bpy.context.view_layer)
-                    doubtful += _other_scenes(bpy.context.scene)
+                    caveats += total_caveats([obj for _, obj, _ in measured], bpy.context.view_layer)
+                    caveats += _other_scenes(bpy.context.scene)
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
             if self.options.write:
                 errors.extend(self._store(path, measured, wanted))
-                doubtful += _save(place, file)
-        except Unusable as refusal:
-            errors.append(_error(None, refusal))
+                caveats += _save(place, file)
+        except MeasureError as refusal:
+            errors.append(_error(None, refusal.finding))
         except Exception as error:
             errors.append(self._fault(None, error))
         for one in errors:
@@ -131,7 +131,7 @@ class Run:
             sys.stderr.write("{}: {}\n".format(": ".join(where), one["reason"]))
         return record.document(
             objects,
-            record.total([one for _, _, one in measured], doubtful),
+            record.total([one for _, _, one in measured], caveats),
             errors,
             file=file,
             blender=".".join(map(str, bpy.app.version)),
@@ -143,28 +143,29 @@ class Run:
         label: str,
         obj: bpy.types.Object,
         wanted: MeasureOptions,
-        notes: tuple[str, ...],
+        findings: tuple[Finding, ...],
         errors: list[dict[str, Any]],
     ) -> tuple[Measurement, dict[str, Any]]:
         """An object's measurement and its record. What has no moments of the order that was asked for may have a mass:
-        then the record goes without them, and an error is added that says so.
+        then the record goes without them, and an error is added that says so. findings: about its file.
         """
         order = self.options.order
         try:
-            one, more = self._measure(obj, wanted)
-        except Unreadable as refusal:
+            one, more, of_shape = self._measure(obj, wanted)
+        except MeasureError as refusal:
             if order is None:
                 raise
-            one, more = self._measure(obj, replace(wanted, order=None, surface=False))
-            errors.append(_error(label, "It has no such moments: " + refusal.reason))
+            one, more, of_shape = self._measure(obj, replace(wanted, order=None, surface=False))
+            errors.append(_error(label, finding("moments_unavailable", cause=refusal.finding.as_record())))
             order = None
         surface = one.area_moments if self.options.surface_moments and order is not None else None
-        told = replace(one, name=label, warnings=(*one.warnings, *notes, *self._unused(one)))
-        return one, record.record(told, self.options.frame, order, surface, more)
+        findings = (*one.findings, *of_shape, *findings, *self._unused_options(one))
+        named = replace(one, name=label, findings=findings)
+        return one, record.record(named, self.options.frame, order, surface, more)
 
-    def _unused(self, one: Measurement) -> Iterator[str]:
+    def _unused_options(self, one: Measurement) -> Iterator[Finding]:
         if self.options.thickness is not None and one.kind != "shell":
-            yield "Only a shell has a thickness; --thickness was not used here (see --kind)."
+            yield finding("thickness_option_unused")
 
     def _array(self, path: str) -> tuple[list, list, list]:
         """The records, measurements and errors of a scan or an array, which is one body, called like
@@ -172,28 +173,29 @@ class Run:
         """
         name = os.path.basename(path)[: -len(scans.suffix(path))]
         names = [name] if self.options.object is None else self.options.object
-        errors = [_error(one, "The file has no object of this name.") for one in names if one != name]
+        errors = [_error(one, finding("object_not_in_file")) for one in names if one != name]
         if self.options.fourier:
-            errors.append(_error(None, "Of an array of densities no Fourier transform is computed."))
+            errors.append(_error(None, finding("fourier_of_array")))
         if name not in names:
             return [], [], errors
         taken = {one: getattr(self.options, one) for one in (*_OF_ARRAYS, "unit_scale")}
         array = ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
         try:
             one = measure_array(path, name, array, self._wanted)
-        except Unreadable as refusal:
-            return [], [], [*errors, _error(None, refusal.reason)]
+        except MeasureError as refusal:
+            return [], [], [*errors, _error(None, refusal.finding)]
         asked = [more for more in ("pose", "signature") if getattr(self.options, more)]
         surface = one.area_moments if self.options.surface_moments else None
-        one = replace(one, warnings=(*one.warnings, *self._unused(one), *([OF_SHAPES] if asked else ())))
-        told = record.record(one, self.options.frame, self.options.order, surface, dict.fromkeys(asked))
-        return [told], [(name, None, one)], errors
+        shapeless = [finding("shape_of_grid")] if asked else []
+        one = replace(one, findings=(*one.findings, *self._unused_options(one), *shapeless))
+        entry = record.record(one, self.options.frame, self.options.order, surface, dict.fromkeys(asked))
+        return [entry], [(name, None, one)], errors
 
     def _open(self, path: str | None, file: str | None) -> None:
         if path is not None:
             open_file(path)
         elif file and not bpy.data.filepath:
-            raise Unusable("Blender could not open the file; check that it is there, and whole.")
+            raise FileError("file_not_opened")
 
     def _fourier(
         self,
@@ -201,54 +203,52 @@ class Run:
         wanted: MeasureOptions,
         objects: list[dict[str, Any]],
     ) -> Iterator[dict[str, Any]]:
-        """Write the Fourier transform of the one object that was measured, and tell what was decided on the way in
+        """Write the Fourier transform of the one object that was measured, and add what was decided on the way to
         its record.
         """
         if len(chosen) != 1:
-            reason = "A Fourier transform takes one object, and there are {}; name it with --object."
-            yield _error(None, reason.format(len(chosen)))
+            yield _error(None, finding("fourier_object_count", count=len(chosen)))
             return
         if not objects:
-            return  # the reason is told already
-        (label, obj), (told,) = chosen[0], objects
+            return  # the reason is among the errors already
+        (label, obj), (entry,) = chosen[0], objects
         try:
-            notes = fourier.write(obj, self.options, wanted)
-            told["warnings"] += [note for note in notes if note not in told["warnings"]]
-        except Unreadable as refusal:
-            yield _error(label, "It has no Fourier transform: {}".format(refusal.reason))
+            record.add_findings(entry, fourier.write(obj, self.options, wanted))
+        except MeasureError as refusal:
+            yield _error(label, finding("fourier_failed", cause=refusal.finding.as_record()))
         except OSError as error:
-            yield _error(label, "Its Fourier transform cannot be written: {}.".format(error.strerror or error))
+            yield _error(label, finding("fourier_not_written", error=error.strerror or str(error)))
         except Exception as error:
             yield self._fault(label, error)
 
-    def _measure(self, obj: bpy.types.Object, wanted: MeasureOptions) -> tuple[Measurement, dict[str, Any]]:
-        """The object's measurement, and its pose and signature where they are asked for: None of
-        what has no shape of its own, which is measured all the same.
+    def _measure(
+        self, obj: bpy.types.Object, wanted: MeasureOptions
+    ) -> tuple[Measurement, dict[str, Any], tuple[Finding, ...]]:
+        """The object's measurement, its pose and signature where they are asked for, and findings about these. Pose and
+        signature are None for what has no shape of its own, which is measured all the same.
         """
         depsgraph = bpy.context.evaluated_depsgraph_get()
         asked = [name for name in ("pose", "signature") if getattr(self.options, name)]
         if not asked:
-            return measure_object(obj, depsgraph, wanted), {}
+            return measure_object(obj, depsgraph, wanted), {}, ()
         try:
             shape = shape_of(obj, depsgraph, wanted)
-        except NoShape as refusal:
-            one = refusal.measurement
-            told = replace(one, warnings=(*one.warnings, refusal.reason))
-            return told, dict.fromkeys(asked)
+        except NoShapeError as refusal:
+            return refusal.measurement, dict.fromkeys(asked), (refusal.finding,)
         more = {"pose": shape.pose()} if self.options.pose else {}
-        one = shape.measurement
+        findings = ()
         if self.options.signature and shape.has_surface:
             more["signature"] = shape.signature().as_record()
-            if one.method.startswith("NURBS"):
-                one = replace(one, warnings=(*one.warnings, DISPLAY_MESH))
+            if shape.measurement.method.startswith("NURBS"):
+                findings = (finding("signature_of_display_mesh"),)
         elif self.options.signature:
             more["signature"] = None
-            one = replace(one, warnings=(*one.warnings, POLYGONS))
-        return one, more
+            findings = (finding("signature_needs_polygons"),)
+        return shape.measurement, more, findings
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
         self.faults += 1
-        return _error(name, internal_error.reason(error))
+        return _error(name, internal_error.finding_of(error))
 
     def _store(
         self,
@@ -260,22 +260,21 @@ class Run:
         measured next. The settings that were given go with them, or the results would be out of date.
         """
         if path is not None and suffix(path) != BLEND:
-            raise Unusable("Only a .blend file can keep the results; --write did nothing here.")
+            raise FileError("results_need_blend")
         if not bpy.data.filepath:
-            raise Unusable("The scene has never been saved, so --write has no file to save.")
+            raise FileError("scene_never_saved")
         for label, obj, one in measured:
             try:
                 store(obj, one)
                 settings.keep(obj.body_moments, wanted, bpy.context.scene)
+            except MeasureError as refusal:
+                yield _error(label, refusal.finding)
             except Exception as error:
-                if internal_error.is_refusal(error, (RuntimeError,)):
-                    yield _error(label, error)
-                else:
-                    yield self._fault(label, error)
+                yield self._fault(label, error)
         settle(bpy.context, [obj for _, obj, _ in measured])
 
 
-def _error(name: str | None, reason: object) -> dict[str, Any]:
+def _error(name: str | None, reason: Finding) -> dict[str, Any]:
     return {"name": name, "reason": str(reason)}
 
 
@@ -299,7 +298,7 @@ def _chosen(
         found = found or [(label, obj) for obj, label in labels.items() if obj.name == name]
         chosen += [pair for pair in found if pair not in chosen]
         if not found:
-            errors.append(_error(name, "The scene has no object of this name."))
+            errors.append(_error(name, finding("object_not_in_scene")))
     return chosen, errors
 
 
@@ -309,8 +308,7 @@ def _missing_links() -> Iterator[dict[str, Any]]:
     groups = (data.objects, data.meshes, data.curves, data.metaballs, data.collections)
     missing = [item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing]
     if missing:
-        reason = "Linked data is missing; put the linked files back, or make the data local: {}."
-        yield _error(None, reason.format(", ".join(sorted(missing))))
+        yield _error(None, finding("missing_links", names=sorted(missing)))
 
 
 def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.types.Object]:
@@ -323,13 +321,12 @@ def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.typ
     return {obj for obj in {*scene.objects} - {*layer.objects} - members if measurable(obj)}
 
 
-def _other_scenes(scene: bpy.types.Scene) -> Iterator[str]:
+def _other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
     """That a file holds more than its open scene, where it does."""
     here = {*scene.objects}
-    others = [one for one in bpy.data.scenes if any(measurable(obj) for obj in {*one.objects} - here)]
+    others = [other.name for other in bpy.data.scenes if any(measurable(obj) for obj in {*other.objects} - here)]
     if others:
-        names = listed(("“{}”".format(one.name) for one in others), LISTED)
-        yield "Only the scene “{}” was measured; objects of others were not: {}.".format(scene.name, ", ".join(names))
+        yield finding("other_scenes", scene=scene.name, scenes=others)
 
 
 def _asked_for() -> str | None:
@@ -348,29 +345,27 @@ def _unitless(path: str | None) -> bool:
     return path is not None and suffix(path) in UNITLESS
 
 
-def _unit_note(path: str | None, scale: float | None) -> tuple[str, ...]:
+def _unit_findings(path: str | None, scale: float | None) -> Iterator[Finding]:
     """The decision about the file's unit, where there was one."""
     unitless = _unitless(path)
     if unitless and scale is None:
-        return ("The file carries no unit; 1 unit is taken as 1 m (set --unit-scale).",)
-    if not unitless and scale is not None:
-        return ("The file carries its own unit; --unit-scale was not used.",)
-    return ()
+        yield finding("unit_assumed")
+    elif not unitless and scale is not None:
+        yield finding("unit_scale_option_unused")
 
 
-def _array_notes(options: Namespace) -> Iterator[str]:
+def _unused_array_options(options: Namespace) -> Iterator[Finding]:
     """What was asked of arrays only, of a file that is none."""
     given = [name for name in _OF_ARRAYS if getattr(options, name) is not None]
     if given:
-        words = ", ".join("--" + name.replace("_", "-") for name in given)
-        yield "Only arrays and scans take {}; it was not used here.".format(words)
+        yield finding("array_options_unused", options=["--" + name.replace("_", "-") for name in given])
 
 
-def _save(place: Place | None, file: str | None) -> tuple[str, ...]:
+def _save(place: Place | None, file: str | None) -> tuple[Finding, ...]:
     """Save the file that was opened. Returns warnings, which are on the standard error too."""
     if place is None:
-        raise Unusable("The file cannot be saved: it is no longer there.")
-    warnings = place.save()
-    for warning in warnings:
-        sys.stderr.write("body_moments: {}: {}\n".format(file, warning))
-    return warnings
+        raise FileError("file_vanished")
+    findings = place.save()
+    for one in findings:
+        sys.stderr.write("body_moments: {}: {}\n".format(file, one))
+    return findings

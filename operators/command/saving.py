@@ -17,17 +17,12 @@ from pathlib import Path
 
 import bpy
 
+from ...core.verdict.finding import FileError, Finding, finding
 from ..write.file_lock import locked
 from ..write.whole_file import partial_file, replace
-from .files import Unusable, reason
+from .files import reason
 
 _PACKED = (b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # how a .blend compressed with zstd or gzip begins
-_CANNOT = "The file cannot be saved: {}."
-_CHANGED = "something else has saved it since it was opened, and nothing of that was overwritten; measure it again"
-_CHANGED_EARLY = (
-    "it was saved after this Blender had started, which may not have read that; run this again, or name "
-    "the file after “measure”"
-)
 
 
 @dataclass
@@ -40,23 +35,23 @@ class Place:
 
     path: Path
     digest: bytes = b""
-    refusal: str = ""
+    refusal: Finding | None = None
     alone: bool = False
 
-    def save(self) -> tuple[str, ...]:
-        """Save the open scene, whole or not at all. Returns warnings. Raises Unusable."""
+    def save(self) -> tuple[Finding, ...]:
+        """Save the open scene, whole or not at all. Returns warnings. Raises FileError."""
         if self.refusal:
-            raise Unusable(self.refusal)
+            raise FileError(self.refusal)
         try:
             return self._save()
         except (RuntimeError, OSError) as error:
-            raise Unusable(_CANNOT.format(reason(error))) from error
+            raise FileError("file_not_saved", error=reason(error)) from error
 
-    def _save(self) -> tuple[str, ...]:
+    def _save(self) -> tuple[Finding, ...]:
         if not os.path.lexists(self.path):
-            raise Unusable(_CANNOT.format("it is no longer there"))
+            raise FileError("file_vanished")
         if not os.access(self.path, os.W_OK):
-            raise Unusable(_CANNOT.format("it is read-only"))
+            raise FileError("file_read_only")
         with open(self.path, "rb") as file:
             packed = file.read(4).startswith(_PACKED)
         with partial_file(self.path, self.alone) as partial:
@@ -68,16 +63,12 @@ class Place:
             finally:
                 os.umask(mask)
             if _digest(self.path) != self.digest:
-                raise Unusable(_CANNOT.format(_CHANGED))
+                raise FileError("file_changed_meanwhile")
             names = os.stat(self.path).st_nlink
             replace(partial, self.path)
         if names < 2:
             return ()
-        return (
-            "The file had {} names (hard links); only “{}” has the results, the others keep what it was.".format(
-                names, self.path.name
-            ),
-        )
+        return (finding("hard_link_severed", count=names, file=self.path.name),)
 
 
 @contextmanager
@@ -93,11 +84,11 @@ def reserved(path: str, opened: bool, at_start: bool) -> Iterator[Place]:
             place.alone = held.enter_context(locked(place.path))
             place.digest = _digest(place.path)
             if before not in (None, place.digest):
-                place.refusal = _CANNOT.format(_CHANGED)
+                place.refusal = finding("file_changed_meanwhile")
             elif at_start and _saved_since_start(place.path):
-                place.refusal = _CANNOT.format(_CHANGED_EARLY)
+                place.refusal = finding("file_changed_since_start")
         except OSError as error:
-            place.refusal = _CANNOT.format(error.strerror or error)
+            place.refusal = finding("file_not_saved", error=str(error.strerror or error))
         yield place
 
 

@@ -9,12 +9,10 @@ import sys
 from pathlib import Path
 
 from ...core.shape.library import Entry, nearest, read_library, verdict
+from ...core.verdict.finding import QueryError, finding
+from ..write.messages import SIMILARITY
 
-_COLUMNS = "{:>12} {:>10}  {:<21} {}\n"
-
-
-class Unanswerable(Exception):
-    """A library or a name that leaves nothing to compare. Its text is a sentence for the person who gave it."""
+_COLUMNS = "{:>12} {:>10}  {:<27} {}\n"
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
@@ -43,20 +41,19 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 def _count(text: str) -> int:
     if not text.isdecimal() or not int(text):
-        raise argparse.ArgumentTypeError("{!r} is not a positive number".format(text))
+        raise argparse.ArgumentTypeError(str(finding("usage_not_positive", text=text)))
     return int(text)
 
 
 def answer(options: argparse.Namespace) -> tuple[str, int]:
-    """The table, and how many records could not be compared. Raises Unanswerable."""
+    """The table, and how many records could not be compared. Raises MeasureError."""
     entries, faults = [], []
     for path in options.libraries:
         try:
-            found, missing = read_library(path)
-        except (OSError, ValueError) as error:
-            reason = "{}.".format(getattr(error, "strerror", None) or str(error).removesuffix("."))
-            raise Unanswerable("{}: {}".format(path, reason)) from error
-        entries += found
+            readable, missing = read_library(path)
+        except OSError as error:
+            raise QueryError("library_unreadable", file=str(path), error=error.strerror or str(error)) from error
+        entries += readable
         faults += missing
     for fault in faults:
         sys.stderr.write("body_moments: {}\n".format(fault))
@@ -66,18 +63,15 @@ def answer(options: argparse.Namespace) -> tuple[str, int]:
     ranked = nearest(wanted.signature, others, options.any_size, options.any_hand)
     for entry, likeness in ranked[: options.count]:
         distance = "{:.3e}".format(likeness.distance(options.any_size, options.any_hand))
-        rows.append(_COLUMNS.format(distance, "{:.4g}".format(likeness.scale), verdict(likeness), entry.label))
+        similarity = SIMILARITY[verdict(likeness)]
+        rows.append(_COLUMNS.format(distance, "{:.4g}".format(likeness.scale), similarity, entry.label))
     return "".join(rows), len(faults)
 
 
 def _named(entries: list[Entry], name: str) -> Entry:
-    found = [entry for entry in entries if entry.name == name] or [entry for entry in entries if entry.label == name]
-    if not found:
-        raise Unanswerable("No body with a signature is called {}.".format(name))
-    if len(found) > 1:
-        raise Unanswerable(
-            "Several bodies are called {}; name one of them: {}.".format(
-                name, ", ".join(entry.label for entry in found)
-            )
-        )
-    return found[0]
+    named = [entry for entry in entries if entry.name == name] or [entry for entry in entries if entry.label == name]
+    if not named:
+        raise QueryError("name_not_in_library", name=name)
+    if len(named) > 1:
+        raise QueryError("name_ambiguous", name=name, names=[entry.label for entry in named])
+    return named[0]

@@ -9,7 +9,7 @@ Values stay numbers, strings, booleans and lists; only the table formats them:
     {thickness:length}   meters, as the scene shows them     {point:point}    three of these
     {names}              a list, the first 8: “A”, “B”, 3 more
     {cause}, {causes}    another finding, or several ({"code", "values"}): their messages
-    {elements}           what it is about (`Finding.elements`, handed in as a value): 3, 5, 9, or 3 of “Cube”
+    {elements}           what it is about (`Finding.elements`, of which there are `count`): 3, 5, 9, or 3 of “Cube”
 
 The optional value `sources` (names of the objects that a surface came from, where that is not the measured object
 itself) puts “A”, “B”: before any message.
@@ -22,9 +22,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ...core.verdict.finding import Finding, Severity
+from ...core.verdict.finding import MAX_STORED_ELEMENTS, Finding, Severity
 
-MAX_LISTED = 8
+MAX_LISTED = MAX_STORED_ELEMENTS
 
 
 @dataclass(frozen=True)
@@ -57,11 +57,12 @@ def _item(item: Any) -> str:
     return "“{}”".format(item) if isinstance(item, str) else "{}".format(item)
 
 
-def listed(items: Sequence[Any]) -> str:
-    """The first items, names in quotation marks, and how many more there are."""
+def listed(items: Sequence[Any], count: int | None = None) -> str:
+    """The first items, names in quotation marks, and how many more there are. count: of all, where `items` are only the
+    first of them."""
     shown = [_item(item) for item in items[:MAX_LISTED]]
-    more = ["{:d} more".format(len(items) - MAX_LISTED)] if len(items) > MAX_LISTED else []
-    return ", ".join(shown + more)
+    more = (count or len(items)) - len(shown)
+    return ", ".join(shown + (["{:d} more".format(more)] if more > 0 else []))
 
 
 class _Formatter(string.Formatter):
@@ -72,7 +73,9 @@ class _Formatter(string.Formatter):
 
     def format_field(self, value: Any, format_spec: str) -> str:
         if isinstance(value, Mapping):
-            return _filled(value["code"], value["values"], self.translate, self.lengths)
+            return sentence(Finding.from_record(value), self.translate, self.lengths)
+        if value is None:  # what was not finite before it was stored
+            return "unknown"
         if format_spec == "percent":
             return "{:.3g}%".format(100.0 * value)
         if format_spec == "length":
@@ -98,7 +101,11 @@ def sentence(
 ) -> str:
     """The sentence of a finding. translate: applied to each template before it is filled. lengths: what shows a length
     in meters, by default in meters."""
-    return _filled(finding.code, {**finding.values, "elements": finding.elements}, translate, lengths)
+    entry, values = MESSAGES[finding.code], finding.values
+    template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
+    elements = listed(finding.elements, values.get("count"))
+    text = _Formatter(translate, lengths).vformat(translate(template), (), {**values, "elements": elements})
+    return "{}: {}".format(listed(values["sources"]), text) if values.get("sources") else text
 
 
 def severity(finding: Finding) -> Severity:
@@ -109,15 +116,6 @@ def severity(finding: Finding) -> Severity:
 def of_severity(findings: Iterable[Finding], *severities: Severity) -> list[Finding]:
     """Those of the findings that have one of the severities."""
     return [finding for finding in findings if severity(finding) in severities]
-
-
-def _filled(
-    code: str, values: Mapping[str, Any], translate: Callable[[str], str], lengths: Callable[[float], str] | None
-) -> str:
-    entry = MESSAGES[code]
-    template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
-    text = _Formatter(translate, lengths).vformat(translate(template), (), values)
-    return "{}: {}".format(listed(values["sources"]), text) if values.get("sources") else text
 
 
 MESSAGES: dict[str, Message] = {
@@ -738,8 +736,22 @@ MESSAGES: dict[str, Message] = {
     "transfer_table_numbers": _error("The transfer table has negative densities or numbers that are not finite."),
     "transfer_table_order": _error("The values of the transfer table must ascend."),
     # ------------------------------------------------------------------ Arrays and scans
-    "npy_damaged": _error("The file is damaged or not a NumPy array (.npy)."),
-    "npz_damaged": _error("The file is damaged or not a NumPy archive (.npz)."),
+    "file_damaged": _error("The file “{file}” is damaged: {cause}. Obtain it again, or export it again."),
+    # clauses of `cause` in file_damaged
+    "damage_header": _error("its header has fewer than {bytes} bytes"),
+    "damage_lines": _error("it lacks the lines that its header skips"),
+    "damage_array": _error("it is not a complete NumPy array"),
+    "damage_arrays": _error("it is not a complete archive of NumPy arrays"),
+    "damage_archive": _error("it is not a complete archive ({error})"),
+    "damage_too_short": _error("it holds {bytes} of the {total} bytes of samples that its sizes require"),
+    "damage_too_long": _error("it holds more than the {total} bytes of samples that its sizes require"),
+    "damage_too_small": _error("{samples:size} samples cannot be compressed into it"),
+    "damage_checksum": _error("the checksum of its compressed part is wrong"),
+    "damage_unpacked_length": _error("the length of its compressed part is wrong"),
+    "damage_packed_start": _error("its compressed part, or what follows it, does not begin as gzip does"),
+    "damage_packed": _error("its compressed part cannot be decompressed ({error})"),
+    "damage_packed_end": _error("its compressed part is cut short"),
+    "nrrd_skip_from_end": _error("“byte skip: -1” is for raw samples; compressed ones are counted from their start."),
     "no_3d_array": _error("No array in the file has 3 dimensions."),
     "arrays_left_out": _warning("The array “{array}” was measured; left out: {arrays}."),
     "raw_type_unknown": _error("Unknown sample type “{type}”. Use one of {types}."),
@@ -748,7 +760,6 @@ MESSAGES: dict[str, Message] = {
         "head_128x128x54_uint16.raw, or add "
         "an NRRD header."
     ),
-    "nifti_cut_short": _error("The file is cut short: a NIfTI-1 header has 348 bytes."),
     "nifti_unrecognized": _error("Not a NIfTI-1 file."),
     "nifti_header_of_pair": _error("The file is the header of a .hdr and .img pair. Save it as one .nii file."),
     "nifti_dimensions": _error("The NIfTI header gives {dimensions} dimensions."),
@@ -768,7 +779,6 @@ MESSAGES: dict[str, Message] = {
     "nrrd_data_file_missing": _error("The data file “{file:.80s}” is missing."),
     "nrrd_header_unended": _error("The NRRD header has no end: the empty line before the samples is missing."),
     "nrrd_encoding": _error("The NRRD encoding “{encoding:.40s}” is not supported. Save it as raw or gzip."),
-    "nrrd_lines_missing": _error("The file is cut short: it lacks the lines that its header skips."),
     "nrrd_space_directions": _error("The NRRD field “space directions” must have three vectors."),
     "nrrd_spacings": _error("The NRRD field “spacings” must have three nonzero numbers."),
     "nrrd_vector": _error("The NRRD field “{field}” has a vector that is not three numbers: {text:.60s}."),
@@ -776,10 +786,7 @@ MESSAGES: dict[str, Message] = {
     "scan_size": _error("The size of the scan is impossible: {samples:size}."),
     "scan_sample_type": _error("Samples of type {type} are not real numbers."),
     "scan_empty": _error("The scan has no samples."),
-    "scan_cut_short": _error("The file is cut short: {samples:size} samples do not fit into it."),
-    "scan_bytes_missing": _error("The file is cut short: it holds {bytes} of {total} bytes of samples."),
     "scan_file_type": _error("Unsupported file type. Supported scans: {suffixes}."),
-    "scan_compression_damaged": _error("The file is damaged or cut short: it cannot be decompressed."),
     "scan_out_of_memory": _error("The samples do not fit into memory. Decompress the file."),
     "scan_placement": _error(
         "The header places all samples in one plane: a spacing or direction is zero or not finite."
@@ -789,7 +796,7 @@ MESSAGES: dict[str, Message] = {
     "scan_own_unit": _warning(
         "The file has its own unit; the unit scale applies only to the given spacing and origin."
     ),
-    "scan_placement_overridden": _note("The header's {fields} was replaced by the given one."),
+    "scan_placement_overridden": _note("Given values replace those of the header: {fields}."),
     "scan_without_spacing": _warning("The file has no spacing: 1 unit was assumed. Use Set Spacing, or --spacing."),
     "scan_without_unit": _warning("The file has no unit: 1 unit was taken as 1 m. Use Set Spacing, or --unit-scale."),
     "scan_ct_numbers": _note("Negative values are taken as CT numbers, by the transfer table."),
@@ -1079,6 +1086,19 @@ MESSAGES: dict[str, Message] = {
     "file_not_opened": _error("Blender cannot open the file. Check that it exists and is complete."),
     "file_read_only": _error("The file is read-only and cannot be saved."),
     "file_not_saved": _error("The file cannot be saved: {error}."),
+    "file_vanished": _error("The file cannot be saved: it is no longer there."),
+    "file_changed_meanwhile": _error(
+        "The file cannot be saved: another program has saved it since it was opened; nothing was overwritten. Measure "
+        "it again."
+    ),
+    "file_changed_since_start": _error(
+        "The file cannot be saved: it was saved after Blender started, which may not have read that. Run this again, "
+        "or name the file after “measure”."
+    ),
+    "hard_link_severed": _warning(
+        "The file had {count} names (hard links); only “{file}” has the results, the others keep the earlier content."
+    ),
+    "result_foreign_file": _error("{path} is not a result of body_moments and would be lost"),
     "file_is_folder": _error("A folder, not a file. Name the files in it."),
     "file_type": _error("Unsupported file type. Supported: {suffixes}."),
     "file_missing": _error("No such file."),
@@ -1117,7 +1137,13 @@ MESSAGES: dict[str, Message] = {
     "usage_file_needed": _error("a FILE is needed"),
     "usage_folder_missing": _error("argument --{option}: no folder {folder}"),
     "usage_is_folder": _error("argument --{option}: {path} is a folder"),
-    "usage_overwrites_input": _error("argument --{option}: {path} is the measured file. Use another name"),
+    "usage_overwrites_input": _error("argument --{option}: {path} is a file that is read. Use another name"),
+    "usage_not_replaceable": _error("argument --{option}: {path} cannot be replaced: {error}. Use another name"),
+    "usage_foreign_file": _error(
+        "argument --{option}: {path} is not a result of body_moments and would be lost. Use another name, or --force"
+    ),
+    "usage_overwrites_dependency": _error("argument --{option}: {path} is read with a measured file. Use another name"),
+    "usage_value": _error("argument --{option}: {cause}"),
     "usage_not_positive": _error("{text!r} is not a positive number"),
     "usage_not_triple": _error("{text!r} is not three numbers X,Y,Z"),
     "usage_not_positive_triple": _error("{text!r} is not three positive numbers X,Y,Z"),
@@ -1133,7 +1159,6 @@ MESSAGES: dict[str, Message] = {
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
-    "usage_module_missing": _error("{error}. Install it, or use Blender"),
     # ------------------------------------------------------------------ Stored results: out of date
     "stale_fingerprint": _warning("Fingerprint damaged"),
     "stale_settings": _warning("Settings changed"),

@@ -8,7 +8,10 @@ of mass, xx, yy, zz, xy, xz, yz, with xy = -∫xy dm.
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import isfinite
 
 import bpy
@@ -19,7 +22,9 @@ from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.principal_frame import PrincipalFrame
 from ...core.measurement import Measurement
 from ...core.numerics.rotations import quaternion, rotation_matrix
-from .record import TENSOR
+from ...core.verdict.finding import EditRefusedError, Finding, Severity
+from .messages import of_severity, sentence
+from .record import TENSOR, plain
 
 DESCRIPTIONS = {
     "body_mass": "Mass in kg",
@@ -29,14 +34,17 @@ DESCRIPTIONS = {
     "body_center_of_mass": "Center of mass in the object's frame (location and rotation, unit scale), in m",
     "body_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the center of mass, along the object's axes, "
     "in kg·m² (xy = −∫xy dm)",
+    "body_inertia_diagonal": "Inertia tensor xx, yy, zz, as in body_inertia, in kg·m²",
+    "body_inertia_products": "Inertia tensor xy, xz, yz, as in body_inertia, in kg·m²",
     "body_principal_moments": "Principal moments of inertia, ascending, in kg·m²",
     "body_principal_axes": "Quaternion w, x, y, z that turns the object's axes into the principal axes",
     "body_error_bound": "What rounding may have changed: volume, area, center of mass, inertia; "
     "then the same four for what storing coordinates as float32 may have",
     "body_density_from": "Where the density came from",
-    "body_materials": "The materials that were looked at for the density, one a line",
+    "body_materials": "The materials that the density came from, one a line",
     "body_method": "How the numbers came about",
-    "body_warnings": "What was decided on the way, one sentence a line",
+    "body_warnings": "Warnings in English, one a line",
+    "body_findings": "What was found and decided, as JSON: codes, values and the first elements",
     "body_length": "Length of a wire in m",
     "body_display_volume": "What the display mesh of a NURBS surface would have given as its volume, in m³",
     "body_fingerprint": "What the numbers were computed from",
@@ -77,21 +85,25 @@ class Stored:
 
 
 def store(obj: bpy.types.Object, measurement: Measurement) -> None:
-    """Writes all results on the object, or none. RuntimeError, with the remedy, where the object cannot hold them."""
+    """Write all results on the object, or none. EditRefusedError where the object cannot hold them."""
     require_storable(obj)
     body, bound = measurement.in_object_frame(), measurement.error_bound
+    entries = tensor_entries(body.inertia).tolist()
     values = {
         "body_mass": body.mass,
         "body_density": measurement.density,
         "body_volume": measurement.volume,
         "body_area": measurement.area,
         "body_center_of_mass": body.center.tolist(),
-        "body_inertia": tensor_entries(body.inertia).tolist(),
+        "body_inertia": entries,
+        "body_inertia_diagonal": entries[:3],
+        "body_inertia_products": entries[3:],
         "body_principal_moments": body.principal.moments.tolist(),
         "body_principal_axes": quaternion(body.principal.axes).tolist(),
         "body_error_bound": [float(source[name]) for source in (bound, bound["input"]) for name in BOUNDED],
-        "body_method": measurement.method,
-        "body_warnings": "\n".join(measurement.warnings),
+        "body_method": str(measurement.method),
+        "body_warnings": warning_lines(measurement.findings),
+        "body_findings": findings_text(measurement.findings),
         "body_fingerprint": measurement.fingerprint,
     }
     optional = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
@@ -99,7 +111,7 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     varying = (
         {}
         if measurement.one_density
-        else {"body_density_from": measurement.density_from, "body_materials": "\n".join(measurement.materials)}
+        else {"body_density_from": str(measurement.density_from), "body_materials": "\n".join(measurement.materials)}
     )
     values |= {key: value for key, value in varying.items() if value}
     before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
@@ -124,24 +136,21 @@ def _write(obj: bpy.types.Object, values: dict) -> None:
 
 
 def require_storable(obj: bpy.types.Object) -> None:
-    """RuntimeError, with the remedy, for an object that cannot hold results."""
+    """Raise EditRefusedError for an object that cannot hold results."""
     if not obj.is_editable:
-        raise RuntimeError("It is linked from another file; make it local to store results on it.")
+        raise EditRefusedError("linked_results", subject=obj.name_full)
     if obj.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
-        raise RuntimeError(
-            "It is a library override, which would lose its results with the file; make it local to "
-            "store results on it."
-        )
+        raise EditRefusedError("override_results", subject=obj.name_full)
 
 
 def clear(obj: bpy.types.Object) -> bool:
-    """Removes all results; whether there were any."""
-    found = [key for key in DESCRIPTIONS if key in obj]
-    for key in found:
+    """Remove all results; whether there were any."""
+    present = [key for key in DESCRIPTIONS if key in obj]
+    for key in present:
         del obj[key]
-    if found:
+    if present:
         follow(obj)
-    return bool(found)
+    return bool(present)
 
 
 def follow(obj: bpy.types.Object) -> None:
@@ -159,15 +168,52 @@ def is_stored(obj: bpy.types.Object) -> bool:
     return numbers(obj) is not None
 
 
-def method_and_warnings(obj: bpy.types.Object) -> tuple[str, list[str]]:
-    """How the stored numbers came about, and what was decided on the way."""
-    return str(obj.get("body_method", "")), str(obj.get("body_warnings", "")).splitlines()
+def method(obj: bpy.types.Object) -> str:
+    """How the stored numbers came about, "" where there are none."""
+    return str(obj.get("body_method", ""))
+
+
+def findings(obj: bpy.types.Object) -> tuple[Finding, ...]:
+    """What was found and decided when the stored numbers were computed; see `findings_in`."""
+    return findings_in(obj.get("body_findings"))
+
+
+def warning_lines(findings: Iterable[Finding]) -> str:
+    """The English sentences of the warnings, one a line."""
+    return "\n".join(sentence(finding) for finding in of_severity(findings, Severity.WARNING))
+
+
+def findings_text(findings: Iterable[Finding]) -> str:
+    """Findings as JSON text, to be read by `findings_in`."""
+    return json.dumps(plain([finding.as_record() for finding in findings]), ensure_ascii=False, allow_nan=False)
+
+
+def findings_in(text: object) -> tuple[Finding, ...]:
+    """The findings in a stored text. Text that `findings_text` has not written gives none; a finding that this version
+    of the add-on cannot put into words is left out."""
+    return _findings_in(text) if isinstance(text, str) else ()
+
+
+@lru_cache(maxsize=256)  # panels ask for them at every redraw
+def _findings_in(text: str) -> tuple[Finding, ...]:
+    try:
+        findings = tuple(Finding.from_record(record) for record in json.loads(text))
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        return ()
+    return tuple(finding for finding in findings if _has_sentence(finding))
+
+
+def _has_sentence(finding: Finding) -> bool:
+    try:
+        return bool(sentence(finding))
+    except (ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError):
+        return False
 
 
 def is_estimated(obj: bpy.types.Object) -> bool:
     """Whether the stored bounds are estimates: those of splines are, and those of solids filled with a grid."""
-    method = str(obj.get("body_method", ""))
-    return method.startswith("NURBS") or method == "wire" or (method.startswith("grid") and obj.type != "VOLUME")
+    word = method(obj)
+    return word.startswith("NURBS") or word == "wire" or (word.startswith("grid") and obj.type != "VOLUME")
 
 
 def optional(obj: bpy.types.Object, key: str) -> float | None:
@@ -203,7 +249,7 @@ def stored(rows: tuple[tuple[float, ...], ...]) -> Stored:
     tensor[ROWS, COLUMNS] = tensor[COLUMNS, ROWS] = entries
     axes = rotation_matrix(turn) if any(turn) else np.eye(3)
     rounding, inputs = (dict(zip(BOUNDED, bounds[i : i + 4])) for i in (0, 4))
-    frame = PrincipalFrame(np.array(moments), axes, symmetry="", unique=False, note="")
+    frame = PrincipalFrame(np.array(moments), axes, symmetry="", unique=False, finding=None)
     error, moved = (
         {"mass": bound["volume"] * density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
         for bound in (rounding, inputs)

@@ -26,9 +26,12 @@ import numpy as np
 from ...core.inertia.mass_properties import MassProperties, combined
 from ...core.measurement import Measurement
 from ...core.moments.moments import Moments, monomials
+from ...core.verdict.finding import Finding, MeasureError, Severity
+from .messages import sentence, severity
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
+MAX_ELEMENTS = 1000  # of a finding
 
 # The inertia tensor's six entries, in the order in which they are stored on an object.
 TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2))
@@ -58,7 +61,7 @@ def record(
         "kind": measurement.kind,
         "method": measurement.method,
         "density": measurement.density,
-        **({} if measurement.one_density else {"density_from": measurement.density_from}),
+        **({} if measurement.one_density else {"density_from": str(measurement.density_from)}),
         "mass": properties.mass,
         "volume": measurement.volume,
         "area": measurement.area,
@@ -90,13 +93,42 @@ def record(
         }
     entry["health"] = measurement.health.as_record()
     entry["error_bound"] = measurement.error_bound
-    entry["warnings"] = list(measurement.warnings)
-    return plain(entry)
+    return plain(entry) | described(measurement.findings)
 
 
-def total(measurements: Sequence[Measurement], warnings: Sequence[str] = ()) -> dict[str, Any]:
+def described(findings: Iterable[Finding]) -> dict[str, list]:
+    """What a record says of findings: `findings` as data with their messages, and the messages alone, as `warnings`
+    from that severity on and as `notes` below it.
+    """
+    entry = {"findings": [], "warnings": [], "notes": []}
+    add_findings(entry, findings)
+    return entry
+
+
+def add_findings(entry: dict[str, Any], findings: Iterable[Finding]) -> None:
+    """Add findings to a record, but for those that it has."""
+    for finding in findings:
+        record = _finding_record(finding)
+        if record not in entry["findings"]:
+            entry["findings"].append(record)
+            entry["notes" if record["severity"] == Severity.NOTE else "warnings"].append(record["message"])
+
+
+def _finding_record(finding: Finding) -> dict[str, Any]:
+    """code, severity, message, values, and the elements where there are any."""
+    entry = {
+        "code": finding.code,
+        "severity": str(severity(finding)),
+        "message": sentence(finding),
+        "values": finding.values,
+    }
+    first = finding.elements[:MAX_ELEMENTS]
+    return plain({**entry, "elements": first} if len(first) else entry)
+
+
+def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ()) -> dict[str, Any]:
     """All objects as one body, in the world frame: masses add, and inertia by the parallel-axis
-    theorem.
+    theorem. findings: about the total.
     """
     entry = {
         "mass": math.fsum(one.mass_properties.mass for one in measurements),
@@ -105,9 +137,9 @@ def total(measurements: Sequence[Measurement], warnings: Sequence[str] = ()) -> 
         **dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry")),
     }
     if measurements:
-        with suppress(ValueError):  # together they have no mass, and so no center
+        with suppress(MeasureError):  # together they have no mass, and so no center
             entry.update(_inertial(combined([one.mass_moments for one in measurements])))
-    return plain(entry | {"warnings": warnings})
+    return plain(entry) | described(findings)
 
 
 def document(
@@ -217,7 +249,7 @@ _COLUMNS = (
     "symmetry",
 )  # fmt: skip
 _SOMETIMES = ("density_from", "thickness", "length", "linear_density", "principal_axes_unique")
-_LAST = ("warnings", "error")
+_LAST = ("warnings", "error")  # notes and findings stand before them
 
 
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
@@ -247,7 +279,8 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             row |= {f"signature_{name}_{number + 1}": value for number, value in enumerate(values)}
         else:
             row[f"signature_{name}"] = values
-    row["warnings"] = entry["warnings"]
+    row["findings"] = [one["code"] for one in entry["findings"]]
+    row |= {name: entry[name] for name in ("notes", "warnings")}
     return row
 
 

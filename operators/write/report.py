@@ -18,31 +18,11 @@ import numpy as np
 
 from ...core.inertia.mass_properties import MassProperties, combined
 from ...core.numerics.float32 import decimal
+from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from . import properties
-from .record import TENSOR, document, plain
+from .messages import HEALTH, METHODS
+from .record import TENSOR, described, document, plain
 
-METHODS = {
-    "grid exact": "from a grid of voxels, whose values are taken as they are",
-    "exact": "closed; nothing had to be mended",
-    "reoriented": "closed after flipped faces were turned",
-    "capped": "open; holes were capped",
-    "open": "open and not to be capped; the numbers depend on the reference point",
-    "shell": "a shell; the mass is in the surface",
-    "union": "overlapping shells, united",
-    "wire": "a wire; the mass is along the curve",
-}
-FINDINGS = {
-    "boundary_edges": "boundary edges",
-    "non_manifold_edges": "non-manifold edges",
-    "inconsistent_edges": "edges between faces that face opposite ways",
-    "inverted_components": "inside-out parts",
-    "nested_components": "parts inside others, counted twice",
-    "overlapping_components": "overlapping parts",
-    "cavities": "cavities",
-    "duplicate_faces": "duplicate faces",
-    "degenerate_faces": "faces without area",
-    "non_planar_faces": "faces that are not flat",
-}
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
 DIGITS = 7  # as many as float32 coordinates carry
 NOISE = 2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; shown as 0
@@ -51,12 +31,12 @@ WIDTH = 22
 
 
 def report_text(
-    context: Any, objects: Sequence[Any], outdated: Collection[str] = (), doubts: Sequence[str] = ()
+    context: Any, objects: Sequence[Any], outdated: Collection[str] = (), caveats: Sequence[Finding] = ()
 ) -> str:
     """The results stored on `objects`, in the frame that the context's scene is set to.
 
     outdated: names of those whose results no longer hold. Objects without results are named too.
-    doubts: warnings of their total.
+    caveats: about their total.
     """
     scene = context.scene
     unit, frame = decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
@@ -64,13 +44,13 @@ def report_text(
     for obj in objects:
         rows = properties.numbers(obj)
         if rows is None:
-            errors.append({"name": obj.name, "reason": "It has no stored results; measure it."})
+            errors.append({"name": obj.name, "reason": ReadError("no_stored_results").reason})
             continue
-        found = properties.stored(rows)
-        world = found.in_world(obj.matrix_world, unit)
+        stored = properties.stored(rows)
+        world = stored.in_world(obj.matrix_world, unit)
         bodies.append(world.body)
-        entries.append(_stored_record(obj, world if frame == "world" else found, obj.name in outdated))
-    total = _stored_total(entries, bodies) | {"warnings": list(doubts)}
+        entries.append(_stored_record(obj, world if frame == "world" else stored, obj.name in outdated))
+    total = _stored_total(entries, bodies) | described(caveats)
     return text(document(entries, total, errors, file=None, blender=None, frame=frame))
 
 
@@ -93,20 +73,12 @@ def text(document: dict[str, Any]) -> str:
 def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     """The lines of one object, or of a total."""
     if "method" in entry:
-        yield _line(
-            "Verdict",
-            "{}: {}".format(
-                entry["method"],
-                METHODS.get(entry["method"]) or METHODS.get(entry["method"].rpartition(" ")[2], ""),
-            ),
-        )
-        found = [
-            "{} {}".format(entry["health"][name], words)
-            for name, words in FINDINGS.items()
-            if entry.get("health", {}).get(name)
-        ]
-        if found:
-            yield _line("Found", ", ".join(found))
+        method = entry["method"]
+        _, explanation = METHODS.get(_method_shown(entry), ("", ""))
+        yield _line("Verdict", ": ".join(filter(None, (method, explanation))))
+        counts = list(_counts(entry.get("health", {})))
+        if counts:
+            yield _line("Found", ", ".join(counts))
         yield _line("Kind", "{}, {}".format(entry["kind"], entry["type"].lower()))
     yield _line("Mass", _number(entry["mass"]), "kg")
     if "length" in entry:
@@ -133,8 +105,25 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     yield from _principal(entry)
     yield from _tensor(entry["inertia"], frame)
     yield from _bounds(entry.get("error_bound", {}))
-    for warning in entry.get("warnings", []):
-        yield _line("Warning", warning)
+    for label, name in (("Warning", "warnings"), ("Note", "notes")):
+        for message in entry.get(name, []):
+            yield _line(label, message)
+
+
+def _method_shown(entry: dict[str, Any]) -> str:
+    """The key of METHODS that a record belongs to."""
+    method = entry["method"]
+    if method.endswith("shell") and any(one["code"] == "wall_measured" for one in entry.get("findings", ())):
+        return "wall"
+    return method if method in METHODS else method.rpartition(" ")[2]
+
+
+def _counts(health: dict[str, Any]) -> Iterable[str]:
+    for name, (one, several) in HEALTH.items():
+        count = health.get(name, 0)
+        count = len(count) if isinstance(count, list) else count
+        if count:
+            yield "{} {}".format(count, one if count == 1 else several)
 
 
 def _principal(entry: dict[str, Any]) -> Iterable[str]:
@@ -194,34 +183,34 @@ def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | No
     return [0.0 if value is not None and abs(value) <= NOISE * largest else value for value in values]
 
 
-def _stored_record(obj: Any, found: properties.Stored, outdated: bool) -> dict[str, Any]:
+def _stored_record(obj: Any, stored: properties.Stored, outdated: bool) -> dict[str, Any]:
     """A record without health, which is not stored."""
-    method, warnings = properties.method_and_warnings(obj)
+    method, findings = properties.method(obj), properties.findings(obj)
     source = properties.density_from(obj)
     if outdated:
-        warnings.insert(0, "Out of date: the object has changed since it was measured.")
+        findings = (finding("stale_results"), *findings)
     entry = {
         "name": obj.name,
         "type": obj.type,
         "kind": {"shell": "shell", "wire": "wire"}.get(method.rpartition(" ")[2], "solid"),
         "method": method,
-        "density": found.density,
+        "density": stored.density,
         **({"density_from": source} if source else {}),
-        "mass": found.body.mass,
-        "volume": found.volume,
-        "area": found.area,
-        "center_of_mass": found.body.center,
-        "inertia": found.body.inertia,
-        "principal_moments": found.body.principal.moments,
-        "principal_axes": found.body.principal.axes,
-        "error_bound": {**found.error_bound, **({"estimated": True} if properties.is_estimated(obj) else {})},
-        "warnings": warnings,
+        "mass": stored.body.mass,
+        "volume": stored.volume,
+        "area": stored.area,
+        "center_of_mass": stored.body.center,
+        "inertia": stored.body.inertia,
+        "principal_moments": stored.body.principal.moments,
+        "principal_axes": stored.body.principal.axes,
+        "error_bound": {**stored.error_bound, **({"estimated": True} if properties.is_estimated(obj) else {})},
+        **described(findings),
     }
     length, display = (properties.optional(obj, key) for key in properties.OPTIONAL)
     if length is not None:
-        entry |= {"length": length, "linear_density": found.body.mass / length}
+        entry |= {"length": length, "linear_density": stored.body.mass / length}
     if display is not None:
-        entry["display_mesh"] = {"volume": display, "difference": display - found.volume}
+        entry["display_mesh"] = {"volume": display, "difference": display - stored.volume}
     return plain(entry)
 
 
@@ -230,7 +219,7 @@ def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[MassProper
     total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
     if bodies:
-        with suppress(ValueError):  # together they have no mass
+        with suppress(MeasureError):  # together they have no mass
             whole = combined([(body.as_moments(), 1.0) for body in bodies])
             total |= {"center_of_mass": whole.center, "inertia": whole.inertia}
             total |= {"principal_moments": whole.principal.moments}

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A stored section: one group of ID properties, `body_section`, on the object it was measured of, and its text report.
 
-SI units, world axes. Beside what a `core.section.Section` holds: what was measured, the warnings, a fingerprint.
+SI units, world axes. Beside what a `core.plane.section.Section` holds: what was measured, findings, a fingerprint.
 """
 
 from __future__ import annotations
@@ -16,6 +16,9 @@ import bpy
 import numpy as np
 
 from ...core.plane.section import Plane, Section
+from ...core.verdict.finding import Finding, Severity
+from .messages import sentence, severity
+from .properties import findings_in, findings_text, warning_lines
 
 KEY = "body_section"
 BOUNDED = ("area", "perimeter", "centroid", "second")
@@ -33,7 +36,7 @@ LENGTHS = {
     "input": 4,
     "unit": 1,
 }
-WORDS = ("what", "named", "warnings", "fingerprint")
+WORDS = ("what", "named", "findings", "fingerprint")
 ABOUT = ("x", "y", "1", "2")
 DIGITS = 7
 NOISE = 2.5e-7  # beside the largest of several values: what float32 leaves of a zero
@@ -45,15 +48,15 @@ class StoredSection:
 
     section: Section
     what: str
-    warnings: tuple[str, ...]
+    findings: tuple[Finding, ...]
     fingerprint: str
     unit: float
 
 
 def store(
-    obj: bpy.types.Object, section: Section, what: str, warnings: tuple[str, ...], fingerprint: str, unit: float
+    obj: bpy.types.Object, section: Section, what: str, findings: tuple[Finding, ...], fingerprint: str, unit: float
 ) -> None:
-    """Writes the section on the object, in place of an older one."""
+    """Write the section on the object, in place of an older one."""
     plane = section.plane
     obj[KEY] = {
         "area": [section.area],
@@ -70,7 +73,8 @@ def store(
         "unit": [unit],
         "what": what,
         "named": plane.named,
-        "warnings": "\n".join(warnings),
+        "warnings": warning_lines(findings),
+        "findings": findings_text(findings),
         "fingerprint": fingerprint,
     }
 
@@ -88,7 +92,7 @@ def stored(obj: bpy.types.Object) -> StoredSection | None:
         return None
     try:
         numbers = tuple(tuple(float(value) for value in group[key]) for key in LENGTHS)
-        words = tuple(str(group[key]) for key in WORDS)
+        words = tuple(str(group.get(key, "") if key == "findings" else group[key]) for key in WORDS)
     except (KeyError, TypeError, ValueError):
         return None
     if tuple(map(len, numbers)) != tuple(LENGTHS.values()):
@@ -97,7 +101,7 @@ def stored(obj: bpy.types.Object) -> StoredSection | None:
 
 
 def clear(obj: bpy.types.Object) -> bool:
-    """Removes the section; whether there was one."""
+    """Remove the section; whether there was one."""
     if KEY not in obj:
         return False
     del obj[KEY]
@@ -106,7 +110,7 @@ def clear(obj: bpy.types.Object) -> bool:
 
 @lru_cache(maxsize=64)
 def _made(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> StoredSection:
-    found, (what, named, warnings, fingerprint) = dict(zip(LENGTHS, numbers)), words
+    found, (what, named, findings, fingerprint) = dict(zip(LENGTHS, numbers)), words
     plane = Plane(np.array(found["origin"]), np.array(found["axes"]).reshape(3, 3).T, found["off"][0], named)
     section = Section(
         plane,
@@ -119,22 +123,22 @@ def _made(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> Sto
         dict(zip(BOUNDED, found["error"])),
         dict(zip(BOUNDED, found["input"])),
     )
-    return StoredSection(section, what, tuple(warnings.splitlines()), fingerprint, found["unit"][0])
+    return StoredSection(section, what, findings_in(findings), fingerprint, found["unit"][0])
 
 
-def text(name: str, found: StoredSection, outdated: str = "") -> str:
-    """A report that a person reads, in SI units."""
+def text(name: str, found: StoredSection, outdated: Finding | None = None) -> str:
+    """A report that a person reads, in SI units. outdated: why the section no longer holds."""
     return "\n".join(_lines(name, found, outdated)) + "\n"
 
 
-def _lines(name: str, found: StoredSection, outdated: str) -> Iterator[str]:
+def _lines(name: str, found: StoredSection, outdated: Finding | None) -> Iterator[str]:
     section, plane = found.section, found.section.plane
     x, y, normal = plane.axes.T
     yield "Section properties, SI units, world frame"
     yield ""
     yield name
     if outdated:
-        yield _line("Out of date", outdated)
+        yield _line("Out of date", str(outdated))
     yield _line("Measured", "{}; outer outlines {}, holes {}".format(found.what, section.outlines, section.holes))
     yield _line("Area", "{} m²".format(_number(section.area)))
     yield _line("Perimeter", "{} m".format(_number(section.perimeter)))
@@ -173,8 +177,8 @@ def _lines(name: str, found: StoredSection, outdated: str) -> Iterator[str]:
                 *(bound[name] for name in BOUNDED)
             ),
         )
-    for warning in found.warnings:
-        yield _line("Warning", warning)
+    for finding in found.findings:
+        yield _line("Note" if severity(finding) == Severity.NOTE else "Warning", sentence(finding))
 
 
 def _line(label: str, value: str) -> str:

@@ -5,6 +5,7 @@
 from pathlib import Path
 
 import bpy
+from body_moments.core.verdict.finding import finding
 
 # A tetrahedron with its right angle at the origin and legs of 1, 2 and 3 along x, y and z.
 CORNERS = ((0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3))
@@ -135,3 +136,19 @@ def reason(*words):
     (error,) = found["errors"]
     assert error["name"] is None
     return error["reason"]
+
+
+def sentence(code, **values):
+    """What the table makes of a finding."""
+    return str(finding(code, **values))
+
+
+def codes(entry):
+    """Those of the findings in a record or a total."""
+    return [told["code"] for told in entry["findings"]]
+
+
+def values(entry, code):
+    """Those of the one finding of this code in a record or a total."""
+    (told,) = (told for told in entry["findings"] if told["code"] == code)
+    return told["values"]

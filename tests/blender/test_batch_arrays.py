@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from body_moments.operators import batch
 
+from tests.blender.batch_files import codes, sentence
 from tests.core.scan_files import nifti, nrrd, written
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -84,28 +85,30 @@ def test_given_mass_object_names_and_notes(tmp_path):
     code, document = run(tmp_path, tmp_path / "m.npz", "--density", "5", "--object", "m", "--object", "n")
     assert code == 1
     assert [error["name"] for error in document["errors"]] == ["n"]
-    warnings = document["objects"][0]["warnings"]
-    assert any("density was not used" in warning for warning in warnings)
-    assert any("1 unit is taken" in warning for warning in warnings)
+    assert {"given_density_ignored", "scan_without_spacing"} <= {*codes(document["objects"][0])}
+
+
+def damaged(file: str, code: str) -> str:
+    return sentence("file_damaged", file=file, cause={"code": code, "values": {}})
 
 
 @pytest.mark.parametrize(
-    "data, options, text",
+    "data, options, reason",
     [
-        (b"nonsense", (), "does not begin"),
-        (nrrd(-box()), (), "Write densities into the file first"),
-        (nrrd(box("f4", 0.0)), (), "Every voxel"),
-        (nrrd(box("f4", np.nan)), (), "not finite"),
-        (nrrd(box()), ("--kind", "shell"), "no sheet"),
-        (nrrd(box()), ("--write",), "Only a .blend"),
-        (nrrd(box(), encoding="gzip")[:-1] + b"!", (), "“a.nrrd” is damaged: its packed part"),
+        (b"nonsense", (), sentence("nrrd_unrecognized")),
+        (nrrd(-box()), (), sentence("array_negative", density=-1.0)),
+        (nrrd(box("f4", 0.0)), (), sentence("grid_empty")),
+        (nrrd(box("f4", np.nan)), (), sentence("density_non_finite")),
+        (nrrd(box()), ("--kind", "shell"), sentence("grid_as_shell")),
+        (nrrd(box()), ("--write",), sentence("results_need_blend")),
+        (nrrd(box(), encoding="gzip")[:-1] + b"!", (), damaged("a.nrrd", "damage_unpacked_length")),
     ],
 )
-def test_what_cannot_be_measured_is_an_error_and_no_crash(tmp_path, data, options, text):
+def test_what_cannot_be_measured_is_an_error_and_no_crash(tmp_path, data, options, reason):
     code, document = run(tmp_path, written(tmp_path / "a.nrrd", data), *options)
     assert code == 1
     (error,) = document["errors"]
-    assert error["name"] is None and text in error["reason"]
+    assert error["name"] is None and error["reason"] == reason
 
 
 @pytest.mark.parametrize(
@@ -151,7 +154,7 @@ def test_a_scene_with_a_cloud_goes_through_every_option(tmp_path):
     assert (entry["type"], entry["method"]) == ("VOLUME", "grid exact")
     assert entry["mass"] == pytest.approx(2.0 * values.sum(dtype=float), rel=1e-12)
     assert entry["pose"] is None and entry["signature"] is None
-    assert any("has none" in warning for warning in entry["warnings"])
+    assert "shape_of_grid" in codes(entry)
     assert set(entry["moments"]["surface"].values()) == {0.0}
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
     obj = bpy.data.objects["Cloud"]
@@ -166,4 +169,4 @@ def test_that_an_array_has_no_pose_is_said(tmp_path):
     np.save(tmp_path / "b.npy", np.ones((2, 3, 4)))
     code, document = run(tmp_path, tmp_path / "b.npy", "--pose")
     assert code == 0 and document["objects"][0]["pose"] is None
-    assert any("has none" in warning for warning in document["objects"][0]["warnings"])
+    assert "shape_of_grid" in codes(document["objects"][0])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of high order from the command line: instances, mended surfaces, unions, shells and frames, against the
+"""Moments of high order from the command line: instances, repaired surfaces, unions, shells and frames, against the
 closed form of the box."""
 
 import math
@@ -10,6 +10,7 @@ import pytest
 pytest.importorskip("bpy")
 import bmesh
 import bpy
+from body_moments.core.verdict.finding import finding
 from mathutils import Matrix
 
 from tests.blender import batch_files as files
@@ -76,7 +77,7 @@ def test_high_orders_of_instances_are_the_sum_over_their_places():
             assert surface[powers] == pytest.approx(exact, rel=1e-12, abs=1e-11)
 
 
-def test_high_orders_of_a_mended_body_are_those_of_the_body_and_its_own_faces():
+def test_high_orders_of_a_repaired_body_are_those_of_the_body_and_its_own_faces():
     box = files.add_box(center=(0, 0, 0), size=(2, 2, 2))
     bm = bmesh.new()
     bm.from_mesh(box.data)
@@ -153,7 +154,8 @@ def test_a_thick_wall_keeps_its_mass_where_its_moments_are_refused():
     found = files.document("--order", "4", *words)
     (entry,), (error,) = found["objects"], found["errors"]
     assert entry["mass"] == pytest.approx(488.0, rel=1e-12) and "moments" not in entry
-    assert error["name"] == entry["name"] and "set Wall to Thin" in error["reason"]
+    cause = finding("wall_order", order=3).as_record()
+    assert error["name"] == entry["name"] and error["reason"] == files.sentence("moments_unavailable", cause=cause)
     assert measured("--order", "3", *words)["moments"]["volume"]["0,0,0"] == pytest.approx(0.488, rel=1e-12)
 
 

@@ -14,7 +14,7 @@ from body_moments.operators.write.properties import store
 from mathutils import Euler, Matrix
 
 from tests.blender import batch_files as files
-from tests.blender.batch_files import document
+from tests.blender.batch_files import document, sentence
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -67,7 +67,7 @@ def test_several_objects_have_a_total_and_errors_their_reasons():
     assert "Total of 2 objects, world frame" in text
     assert line(text, "Mass", 2) == "16000 kg"
     assert line(text, "Center of mass", 2) == "(2, 0, 0) m, world frame"
-    assert "Not measured\n  C: The scene has no object of this name." in text
+    assert "Not measured\n  C: " + sentence("object_not_in_scene") in text
 
 
 def test_what_is_wrong_with_a_body_is_told():
@@ -80,14 +80,14 @@ def test_what_is_wrong_with_a_body_is_told():
     bpy.ops.mesh.delete(type="FACE")
     bpy.ops.object.mode_set(mode="OBJECT")
     text = report.text(document())
-    assert line(text, "Verdict").startswith("capped")
+    assert line(text, "Verdict").startswith("capped: The surface is open")
     assert "4 boundary edges" in line(text, "Found")
     assert line(text, "Warning")
 
 
 def test_a_file_that_cannot_be_read_is_told(tmp_path):
     text = report.text(document(tmp_path / "gone.stl"))
-    assert "gone.stl" in text and "File: There is no such file." in text
+    assert "gone.stl" in text and "File: " + sentence("file_missing") in text
 
 
 @pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])
@@ -131,7 +131,7 @@ def test_objects_without_results_are_named_and_so_are_damaged_ones():
     objects["D"]["body_mass"] = "heavy"
     text = report.report_text(bpy.context, list(objects.values()))
     for name in "BCDE":
-        assert f"  {name}: It has no stored results; measure it." in text
+        assert f"  {name}: {sentence('no_stored_results')}" in text
     assert "\nA\n" in text and "Total" not in text
 
 
@@ -139,8 +139,16 @@ def test_results_that_no_longer_hold_say_so():
     box = files.add_box()
     stored(box)
     text = report.report_text(bpy.context, [box], outdated={box.name})
-    assert line(text, "Warning").startswith("Out of date")
+    assert line(text, "Warning") == sentence("stale_results")
 
 
 def test_nothing_selected_is_an_empty_report():
     assert report.report_text(bpy.context, []) == "Mass properties, SI units, world frame\n"
+
+
+def test_a_wall_is_told_as_one():
+    box = files.add_box()
+    box.body_moments.kind, box.body_moments.wall, box.body_moments.thickness = "SHELL", "INWARD", 0.01
+    for text in (report.text(document()), stored(box)):
+        assert line(text, "Verdict") == "shell: The mass is in a wall of real thickness"
+        assert any("0.01 m" in note for note in re.findall(r"^  Note +(.*)$", text, re.MULTILINE))

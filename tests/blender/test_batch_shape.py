@@ -13,7 +13,7 @@ import bpy
 from body_moments.core.shape.library import read_library
 from body_moments.operators import batch
 
-from tests.blender.batch_files import add_box, document
+from tests.blender.batch_files import add_box, codes, document, sentence
 from tests.blender.bodies import add, mesh_body, strip_mesh
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -82,7 +82,7 @@ def test_an_open_surface_is_measured_but_has_no_pose():
     add(strip_mesh(), "Open")
     (entry,) = document("--pose", "--signature")["objects"]
     assert entry["method"] == "open" and entry["pose"] is None and entry["signature"] is None
-    assert any("reference point" in warning for warning in entry["warnings"])
+    assert "shape_of_open_surface" in codes(entry)
 
 
 def test_similar_tells_copies_mirror_images_and_sizes(tmp_path):
@@ -152,8 +152,9 @@ def test_a_wrong_question_is_wrong_usage(tmp_path, capsys):
     text.write_text("no json\n", encoding="utf-8")
     assert ask(tmp_path, text, "--to", "Box")[0] == 2
     assert ask(tmp_path, "--help")[0] == 0
-    told = capsys.readouterr().err
-    assert "Nobody" in told and "Several bodies" in told and "--format jsonl" in told
+    printed = capsys.readouterr().err
+    assert sentence("name_not_in_library", name="Nobody") in printed and "Several bodies" in printed
+    assert "--format jsonl" in printed
 
 
 def test_records_without_a_signature_are_named(tmp_path, capsys):
@@ -170,7 +171,7 @@ def test_a_nurbs_surface_has_the_signature_of_its_display_mesh_and_a_wire_has_no
     bpy.ops.surface.primitive_nurbs_surface_sphere_add(location=(1, 2, 3))
     ball = document("--pose", "--signature")["objects"][0]
     assert ball["method"].startswith("NURBS") and ball["pose"]["unique"] is False and ball["signature"]
-    assert any("display mesh" in warning for warning in ball["warnings"])
+    assert "signature_of_display_mesh" in codes(ball)
     bpy.ops.curve.primitive_nurbs_path_add()
     wire = bpy.context.object
     wire.body_moments.kind = "WIRE"
@@ -185,6 +186,6 @@ def test_what_has_no_shape_is_not_asked_to_be_measured_with_what_it_was(tmp_path
     library["objects"].append({"name": "Cloud", "signature": None})
     path.write_text(json.dumps(library) + "\n", encoding="utf-8")
     assert ask(tmp_path, path, "--to", "Box")[0] == 1
-    assert "Cloud: It has no shape" in capsys.readouterr().err
+    assert sentence("record_without_shape", name="Cloud") in capsys.readouterr().err
     assert ask(tmp_path, tmp_path / "none.jsonl", "--to", "Box")[0] == 2
-    assert "none.jsonl: No such file or directory." in capsys.readouterr().err
+    assert "none.jsonl cannot be read: No such file or directory." in capsys.readouterr().err

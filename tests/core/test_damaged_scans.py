@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from body_moments.core.scans import scan as samples
 from body_moments.core.scans.formats import read_scan
+from body_moments.core.verdict.finding import FileError
 from body_moments.tests.core.scan_files import nifti, nrrd, written
 
 pytestmark = pytest.mark.filterwarnings("ignore")  # NumPy's, of headers that it can still make out
@@ -93,7 +94,7 @@ class Files:
         self.target.write_bytes(data)
         try:
             scan = read_scan(self.path)
-        except ValueError as error:
+        except FileError as error:
             assert str(error).endswith("."), error
             return None
         return (
@@ -154,44 +155,53 @@ def test_a_file_with_something_behind_it(tmp_path, name):
 
 
 @pytest.mark.parametrize(
-    "change, text",
+    "change, code",
     [
-        (lambda data: data + b"1", "holds more than the 120 bytes"),
-        (lambda data: data + bytes(9 * samples.BLOCK), "holds more than the 120 bytes"),
-        (lambda data: data[:-1], "holds 119 of the 120 bytes"),
+        (lambda data: data + b"1", "damage_too_long"),
+        (lambda data: data + bytes(9 * samples.BLOCK), "damage_too_long"),
+        (lambda data: data[:-1], "damage_too_short"),
     ],
 )
-def test_a_whole_stream_of_another_length_is_refused(tmp_path, change, text):
-    with pytest.raises(ValueError, match=text):
-        read_scan(written(tmp_path / "a.nii.gz", gzip.compress(change(NIFTI))))
-    with pytest.raises(ValueError, match=text):
-        read_scan(written(tmp_path / "a.nii", change(NIFTI)))
+def test_a_whole_stream_of_another_length_is_refused(tmp_path, change, code):
     head = nrrd(VALUES, "byte skip: 2", encoding="gzip", head=False)
-    with pytest.raises(ValueError, match=text):
-        read_scan(written(tmp_path / "a.nrrd", head + gzip.compress(b"12" + change(PAYLOAD))))
-    with pytest.raises(ValueError, match="no whole archive"):
-        read_scan(written(tmp_path / "a.npz", npz(io.BytesIO(), zipfile.ZIP_DEFLATED, change(npy()))))
+    paths = [
+        written(tmp_path / "a.nii.gz", gzip.compress(change(NIFTI))),
+        written(tmp_path / "a.nii", change(NIFTI)),
+        written(tmp_path / "a.nrrd", head + gzip.compress(b"12" + change(PAYLOAD))),
+    ]
+    assert [damage_of(path) for path in paths] == [code] * 3
+    archive = written(tmp_path / "a.npz", npz(io.BytesIO(), zipfile.ZIP_DEFLATED, change(npy())))
+    assert damage_of(archive) == "damage_arrays"
+
+
+def damage_of(path) -> str:
+    """The code of what is wrong with a damaged file."""
+    with pytest.raises(FileError) as refused:
+        read_scan(path)
+    assert refused.value.finding.code == "file_damaged"
+    return refused.value.finding.values["cause"]["code"]
 
 
 @pytest.mark.parametrize(
-    "name, damage, text",
+    "name, damage, code",
     [
-        ("nii.gz", lambda data: data[:-8] + bytes([data[-8] ^ 1]) + data[-7:], "checksum that was stored"),
-        ("nii.gz", lambda data: data[:-1] + bytes([data[-1] ^ 1]), "length that was stored"),
-        ("nii.gz", lambda data: data[:-1], "cut short"),
-        ("nii.gz", lambda data: data + b"xx", "does not begin as gzip"),
-        ("nii.gz", lambda data: data[:10] + b"\xff" + data[11:], "cannot be unpacked"),
-        ("npz stored", lambda data: data.replace(VALUES.tobytes(), VALUES[::-1].tobytes()), "CRC"),
-        ("npz stored", lambda data: data.replace(b"(3, 4, 5)", b"(3, 4, 4)"), "no whole archive"),
-        ("nhdr gzip", lambda data: data[:-1], "cut short"),
-        ("raw", lambda data: data[:-1], "119 of the 120"),
+        ("nii.gz", lambda data: data[:-8] + bytes([data[-8] ^ 1]) + data[-7:], "damage_checksum"),
+        ("nii.gz", lambda data: data[:-1] + bytes([data[-1] ^ 1]), "damage_unpacked_length"),
+        ("nii.gz", lambda data: data[:-1], "damage_packed_end"),
+        ("nii.gz", lambda data: data + b"xx", "damage_packed_start"),
+        ("nii.gz", lambda data: data[:10] + b"\xff" + data[11:], "damage_packed"),
+        ("npz stored", lambda data: data.replace(VALUES.tobytes(), VALUES[::-1].tobytes()), "damage_archive"),
+        ("npz stored", lambda data: data.replace(b"(3, 4, 5)", b"(3, 4, 4)"), "damage_archive"),
+        ("nhdr gzip", lambda data: data[:-1], "damage_packed_end"),
+        ("raw", lambda data: data[:-1], "damage_too_short"),
     ],
 )
-def test_a_refusal_names_the_damaged_file_the_damage_and_the_remedy(tmp_path, name, damage, text):
+def test_a_refusal_names_the_damaged_file_the_damage_and_the_remedy(tmp_path, name, damage, code):
     files = Files(tmp_path, name)
     files.target.write_bytes(damage(files.data))
-    with pytest.raises(ValueError, match=text) as refused:
+    with pytest.raises(FileError) as refused:
         read_scan(files.path)
+    assert refused.value.finding.values["cause"]["code"] == code
     assert "The file “{}” is damaged".format(files.target.name) in str(refused.value)
     assert "Obtain it again" in str(refused.value)
 
@@ -199,13 +209,11 @@ def test_a_refusal_names_the_damaged_file_the_damage_and_the_remedy(tmp_path, na
 def test_samples_at_the_end_of_a_file_do_not_begin_in_its_header(tmp_path):
     head = nrrd(VALUES, "byte skip: -1", head=False)
     assert np.array_equal(read_scan(written(tmp_path / "a.nrrd", head + b"12" + PAYLOAD)).samples, VALUES)
-    with pytest.raises(ValueError, match="119 of the 120"):
-        read_scan(written(tmp_path / "a.nrrd", head + PAYLOAD[1:]))
+    assert damage_of(written(tmp_path / "a.nrrd", head + PAYLOAD[1:])) == "damage_too_short"
 
 
 def test_an_archive_called_an_array_is_refused(tmp_path):
-    with pytest.raises(ValueError, match="no whole array"):
-        read_scan(written(tmp_path / "a.npy", CHECKED["npz stored"][2]))
+    assert damage_of(written(tmp_path / "a.npy", CHECKED["npz stored"][2])) == "damage_array"
 
 
 def test_blocks_join_whatever_they_and_the_members_are(tmp_path, monkeypatch):

@@ -44,6 +44,19 @@ def test_numbers_lists_causes_and_sources_are_filled_in():
     assert "12.5%" in sentence(finding("holes_capped_slightly", count=1, share=0.125))
 
 
+def test_what_is_stored_names_the_same_elements():
+    first = finding("flipped_faces", np.arange(3, 15), count=12)
+    stored = json.loads(json.dumps(first.as_record()))
+    assert stored["elements"] == list(range(3, 11)) and sentence(Finding.from_record(stored)) == sentence(first)
+    assert "3, 4, 5, 6, 7, 8, 9, 10, 4 more" in sentence(finding("failure", object="Cube", cause=stored))
+    of_source = finding("flipped_faces", [[np.int64(3), "Cube"]], count=1)
+    assert "3 of “Cube”" in sentence(of_source) and "elements" not in finding("no_faces").as_record()
+
+
+def test_a_number_that_json_cannot_hold_is_unknown():
+    assert "unknown of the area" in sentence(finding("holes_capped_slightly", count=1, share=None))
+
+
 def test_severity_belongs_to_the_code():
     assert severity(finding("no_faces")) == Severity.ERROR
     both = [finding("holes_capped_slightly", count=1, share=1e-5), finding("flat_surface")]

@@ -16,6 +16,7 @@ import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.measurement import Measurement
 from body_moments.core.moments.moments import Moments, monomials
+from body_moments.core.verdict.finding import finding
 from body_moments.operators.write import record
 
 HEALTH = {
@@ -25,6 +26,7 @@ HEALTH = {
     "volume_spread": 0.0,
     "flipped_faces": [],
 }
+CAUSE = {"cause": {"code": "hidden_in_viewport", "values": {}}}
 UNTURNED = np.eye(3)
 QUARTER_TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])  # about z: x to y
 
@@ -60,7 +62,7 @@ def box(
         area_moments=Moments(np.array([2.0 * (a * b + b * c + c * a)]), np.zeros(3), "area"),
         mass_moments=(moments, density),
         health=SimpleNamespace(as_record=lambda: dict(HEALTH)),
-        warnings=("It is a box",),
+        findings=(finding("flipped_faces", np.array([4, 7]), count=2), finding("hidden_object_measured", **CAUSE)),
         rotation=np.asarray(rotation, float),
         location=np.asarray(location, float),
         error_bound={"volume": 1e-15, "input": {"volume": 1e-7}},
@@ -83,8 +85,9 @@ def test_a_record_has_the_keys_of_the_contract_in_its_order():
     assert list(record.record(box())) == [
         *("name", "type", "kind", "method", "density", "mass", "volume", "area", "center_of_mass"),
         *("inertia", "principal_moments", "principal_axes", "symmetry", "principal_axes_unique"),
-        *("health", "error_bound", "warnings"),
+        *("health", "error_bound", "findings", "warnings", "notes"),
     ]
+    assert list(one_document(box())["total"])[-3:] == ["findings", "warnings", "notes"]
     keys = ["schema", "blender", "file", "frame", "objects", "total", "errors"]
     assert list(one_document(box())) == keys
 
@@ -100,7 +103,41 @@ def test_a_box_of_one_by_two_by_three_has_its_closed_form():
     assert entry["symmetry"] == "asymmetric"
     assert entry["health"] == HEALTH
     assert entry["error_bound"] == {"volume": 1e-15, "input": {"volume": 1e-7}}
-    assert entry["warnings"] == ["It is a box"]
+
+
+def test_findings_are_data_with_their_messages():
+    slightly = finding("holes_capped_slightly", count=np.int64(1), share=math.nan)
+    one = replace(box(), findings=(*box().findings, slightly))
+    entry = record.record(one)
+    first, _, last = entry["findings"]
+    assert first == {
+        "code": "flipped_faces",
+        "severity": "warning",
+        "message": entry["warnings"][0],
+        "values": {"count": 2},
+        "elements": [4, 7],
+    }
+    assert first["message"].startswith("2 flipped faces measured as reversed: 4, 7.")
+    assert last["severity"] == "note" and last["values"] == {"count": 1, "share": None}
+    notes = [told["message"] for told in entry["findings"] if told["severity"] == "note"]
+    assert entry["notes"] == notes and last["message"] in notes and len(entry["findings"]) == 3
+    assert len(entry["warnings"]) + len(notes) == 3
+    assert json.loads(record.to_json([one_document(one)]))["objects"][0] == entry
+
+
+def test_a_refusal_in_a_record_is_a_warning_and_a_finding_is_told_once():
+    refusal = finding("shape_of_open_surface")
+    entry = record.record(replace(box(), findings=(refusal,)))
+    record.add_findings(entry, [refusal, finding("flat_surface")])
+    assert [told["code"] for told in entry["findings"]] == ["shape_of_open_surface", "flat_surface"]
+    assert entry["findings"][0]["severity"] == "error" and len(entry["warnings"]) == 2 and entry["notes"] == []
+
+
+def test_at_most_a_thousand_elements_are_listed():
+    pairs = [[np.int32(face), "Cube"] for face in range(1200)]
+    (told,) = record.described([finding("duplicate_faces_ignored", pairs, count=1200)])["findings"]
+    assert told["elements"] == [[face, "Cube"] for face in range(1000)]
+    assert "0 of “Cube”, 1 of “Cube”" in told["message"] and "1192 more" in told["message"]
 
 
 def test_the_axes_are_the_columns_of_the_principal_axes():
@@ -216,7 +253,8 @@ def test_one_document_is_itself_and_several_are_an_array():
 
 def test_laying_rows_of_numbers_on_one_line_changes_no_value_and_no_text():
     name = 'a [\n  1,\n 2 ] "x" \\n [ 1.5, 2 ] Ünï 立方体 \udcff'
-    body = replace(box(name), warnings=("[\n      1\n    ]",), density=1e-300)
+    odd = finding("object_defects", object="[\n      1\n    ]", defects=[])
+    body = replace(box(name), findings=(odd,), density=1e-300)
     document = one_document(body, order=3)
     assert json.loads(record.to_json([document])) == document
     assert '"center_of_mass": [0.5, 1.0, 1.5]' in record.to_json([document])
@@ -244,7 +282,9 @@ def test_csv_has_one_row_an_object_under_one_header():
     assert float(row["principal_axis_1_z"]) == entry["principal_axes"][2][0]
     assert row["health_closed"] == "true" and row["health_boundary_edges"] == "0"
     assert float(row["error_bound_volume"]) == 1e-15 and float(row["error_bound_input_volume"]) == 1e-7
-    assert row["warnings"] == "It is a box" and row["error"] == ""
+    assert row["warnings"] == " | ".join(entry["warnings"]) and row["error"] == ""
+    assert row["findings"] == " | ".join(told["code"] for told in entry["findings"])
+    assert row["notes"] == " | ".join(entry["notes"])
     assert all(None not in row for row in table)
 
 
