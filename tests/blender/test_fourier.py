@@ -11,7 +11,7 @@ from body_moments.core.fourier import instances as fourier_body
 from body_moments.operators import batch
 from body_moments.operators.bodies.fourier import object_transform
 from body_moments.operators.command import fourier as command
-from body_moments.operators.read import Unreadable
+from body_moments.core.verdict.finding import MeasureError
 from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender import batch_files as files
@@ -91,14 +91,14 @@ def test_a_shell_is_its_area_times_its_thickness():
     assert found.values[0] == pytest.approx(22.0 * 0.25, rel=1e-14)
     found, _ = transform(box, np.zeros((1, 3)), area=True)
     assert found.values[0] == pytest.approx(22.0, rel=1e-14)
-    with pytest.raises(Unreadable, match="thickness"):
+    with pytest.raises(MeasureError, match="thickness"):
         transform(box, options=MeasureOptions(kind="shell", thickness=0.0))
 
 
 def test_a_wall_of_real_thickness_is_refused_with_the_remedy():
     box = files.add_box(center=(0, 0, 0))
     thick = MeasureOptions(kind="shell", thickness=0.1, wall="inward")
-    with pytest.raises(Unreadable, match="Thin.*area.*Solidify"):
+    with pytest.raises(MeasureError, match="Thin.*area.*Solidify"):
         transform(box, options=thick)
     assert transform(box, np.zeros((1, 3)), thick, area=True)[0].values[0] == pytest.approx(22.0, rel=1e-14)
 
@@ -125,7 +125,7 @@ def test_it_is_said_of_an_instance_and_of_a_flat_curve_as_well():
 
 def test_a_wire_is_refused_with_the_remedy():
     box = files.add_box()
-    with pytest.raises(Unreadable, match="wire.*solid.*area"):
+    with pytest.raises(MeasureError, match="wire.*solid.*area"):
         transform(box, options=MeasureOptions(kind="wire"))
 
 
@@ -155,7 +155,7 @@ def test_what_cannot_be_closed_is_refused_with_the_remedy():
     mesh = bpy.data.meshes.new("Fins")
     mesh.from_pydata([(0, 0, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, -1, 0)], [], [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
     obj = bodies.add(mesh)
-    with pytest.raises(Unreadable, match="open.*shell.*area"):
+    with pytest.raises(MeasureError, match="open.*shell.*area"):
         transform(obj)
     found, _ = transform(obj, np.zeros((1, 3)), area=True)
     assert found.values[0] == pytest.approx(0.5 + 0.5 + 2**0.5 / 2, rel=1e-12)

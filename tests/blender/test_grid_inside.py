@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.read import Unreadable
+from body_moments.core.verdict.finding import MeasureError
 from body_moments.operators.session import staleness
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties
@@ -92,10 +92,10 @@ def test_what_is_outside_of_the_grid_is_empty_and_told(tmp_path):
     assert measure(box, density=2.0).mass_properties.mass == pytest.approx(16.0)
     assert measure(box, density=2.0).method == "exact"
     box.location = (50, 0, 0)
-    with pytest.raises(Unreadable, match="no density inside"):
+    with pytest.raises(MeasureError, match="no density inside"):
         measure(box)
     volume.scale = (0, 1, 1)
-    with pytest.raises(Unreadable, match="flattened"):
+    with pytest.raises(MeasureError, match="flattened"):
         measure(box)
 
 
@@ -103,7 +103,7 @@ def test_a_source_that_cannot_be_read_says_whose(tmp_path):
     box = cube()
     box.body_moments.density_from = "VOLUME"
     box.body_moments.density_volume = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
-    with pytest.raises(Unreadable, match="Cube: Its density is to come from “Empty”: It has no grids"):
+    with pytest.raises(MeasureError, match="Cube: Its density is to come from “Empty”: It has no grids"):
         measure(box)
 
 
@@ -114,14 +114,14 @@ def test_stored_numbers_know_when_the_grid_moves(tmp_path):
     box.body_moments.density_volume = volume
     properties.store(box, measure(box))
     staleness.settle(bpy.context, [box])
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
     volume.body_moments.value_density = 5.0
-    assert staleness.reason(box, bpy.context.scene) == "Settings Changed"
+    assert staleness.reason(box, bpy.context.scene) == "stale_settings"
     volume.body_moments.value_density = 1.0
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
     volume.location.x = 1.0
     bpy.context.view_layer.update()
-    assert staleness.reason(box, bpy.context.scene) == "Settings Changed"
+    assert staleness.reason(box, bpy.context.scene) == "stale_settings"
 
 
 def test_stored_numbers_know_when_the_voxels_change(tmp_path):
@@ -133,19 +133,19 @@ def test_stored_numbers_know_when_the_voxels_change(tmp_path):
     for obj in (box, plain):
         properties.store(obj, measure(obj))
     staleness.settle(bpy.context, [box, plain])
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
     fog.body_moments.value_density = 5.0  # a setting is no change of voxels
     bpy.context.view_layer.update()
     fog.body_moments.value_density = 1.0
     bpy.context.view_layer.update()
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
     fog.modifiers[0].density = 3.0
     bpy.context.view_layer.update()
-    assert staleness.reason(box, bpy.context.scene) == "Geometry Changed"
-    assert staleness.reason(plain, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) == "stale_geometry"
+    assert staleness.reason(plain, bpy.context.scene) is None
     properties.store(box, measure(box))
     staleness.settle(bpy.context, [box])
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
 
 
 def chosen(tmp_path):
@@ -163,11 +163,11 @@ def test_the_button_stores_a_clouds_numbers_and_they_stay_fresh(tmp_path):
     found = measure(obj)
     assert obj["body_mass"] == found.mass_properties.mass
     assert obj["body_method"] == "grid exact"
-    assert staleness.reason(obj, bpy.context.scene) == ""
+    assert staleness.reason(obj, bpy.context.scene) is None
     obj.body_moments.density = 5.0  # not what a grid weighs by
-    assert staleness.reason(obj, bpy.context.scene) == ""
+    assert staleness.reason(obj, bpy.context.scene) is None
     obj.body_moments.value_density = 5.0
-    assert staleness.reason(obj, bpy.context.scene) == "Settings Changed"
+    assert staleness.reason(obj, bpy.context.scene) == "stale_settings"
 
 
 def test_snapping_of_a_cloud(tmp_path):
