@@ -156,7 +156,9 @@ def test_overlapping_shells_are_summed_with_a_warning_or_united():
 def test_a_nested_shell_counts_twice_or_not_at_all_and_a_cavity_subtracts():
     outer, inner = box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3))
     nested = add(outer, inner)
-    assert measure(nested).volume == pytest.approx(72.0) and said(measure(nested)) == {"components_nested": {"count": 1}}
+    assert measure(nested).volume == pytest.approx(72.0) and said(measure(nested)) == {
+        "components_nested": {"count": 1}
+    }
     assert measure(nested, overlap="union").volume == pytest.approx(64.0, rel=1e-6)
     hollow = measure(add(outer, box((1, 1, 1), (3, 3, 3), turned=True)))
     assert hollow.volume == pytest.approx(56.0) and hollow.method == "exact"
