@@ -11,17 +11,13 @@ import numpy as np
 
 from ...core.measurement import Measurement
 from ...core.scans.formats import placed, read_scan
-from ..read import Reading, Unreadable
+from ...core.verdict.finding import MeasureError, ReadError, finding
+from ..read import Reading
 from ..settings.grid import GridOptions
 from ..settings.options import MeasureOptions
 from .grid import density_body
 from .mass import Weighed
 from .measurement import as_measurement, to_order
-
-REMEDY = (
-    "Write densities into the file first, or import the scan in Blender, where a transfer table makes densities "
-    "of CT numbers."
-)
 
 
 @dataclass(frozen=True)
@@ -37,25 +33,28 @@ class ArrayOptions:
 
 
 def measure_array(path: str, name: str, array: ArrayOptions, options: MeasureOptions) -> Measurement:
-    """The mass properties of the samples in a file. Raises `Unreadable` with the reason."""
+    """The mass properties of the samples in a file. Raises MeasureError."""
     if options.kind == "shell":
-        raise Unreadable(name, "A grid of voxels is no sheet; measure it as a solid.")
+        raise ReadError("grid_as_shell", subject=name)
     try:
         scan = read_scan(path)
-        matrix, notes = placed(scan, array.spacing, array.origin, array.unit_scale)
-        grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order, remedy=REMEDY)
-        notes = (
-            *scan.notes,
-            *notes,
-            "Its density is an array of {:d} x {:d} x {:d} samples. {:s}".format(*scan.samples.shape, grid.told()),
+        matrix, findings = placed(scan, array.spacing, array.origin, array.unit_scale)
+        grid = GridOptions(
+            value_density=array.density_scale, spline_order=array.spline_order, negative="array_negative"
         )
+        shape = scan.samples.shape
+        density = finding("array_density", samples=list(shape), cause=grid.meaning().as_record())
+        findings = (*scan.findings, *findings, density)
         if options.density is not None:
-            notes += ("Its samples are densities, so the given density was not used.",)
-        body = density_body(scan.samples, scan.samples.shape, matrix, grid, None, notes, scan.slope, scan.intercept)
+            findings += (finding("given_density_ignored"),)
+        body = density_body(scan.samples, shape, matrix, grid, None, findings, scan.slope, scan.intercept)
         reading = Reading(name, "ARRAY", np.eye(4), np.eye(3), np.zeros(3))
         used = replace(options, kind="solid", density=None, thickness=0.0, overlap="signed", wall="thin")
-        weighed = Weighed(body.mass, "samples")
+        weighed = Weighed(body.mass, finding("density_from_samples"))
         return to_order(as_measurement(None, reading, body, used, 1.0, weighed, repr(grid.key)), body, used)
-    except (ValueError, OSError) as error:
-        reason = error.strerror + "." if isinstance(error, OSError) and error.strerror else str(error)
-        raise Unreadable(name, reason) from error
+    except MeasureError as error:
+        error.about(name)
+        raise
+    except OSError as error:
+        reason = (error.strerror or str(error)).rstrip(".")
+        raise ReadError("file_unreadable", subject=name, error=reason) from error

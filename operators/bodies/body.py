@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Moments
 from ...core.solid.measure_solid import SolidMeasure
+from ...core.verdict.finding import Finding
 from ...core.verdict.health import Health
 
 
@@ -25,7 +26,7 @@ class Body:
     volume, area: their moments, the volume's to order 3 at least. mass: of a body whose density is not one number, its
     moments in kg; else None.
     wall: of a shell of real thickness, the volume moments of its material; None of a thin one.
-    method, warnings: as in `Measurement`.
+    method, findings: as in `Measurement`.
     refined: gives what the principal frame is made from, with exact third order, where its bounds leave it undecided.
     length: of a wire, its moments; else None.
     estimated: whether the bounds of its errors are estimates.
@@ -42,7 +43,7 @@ class Body:
     area: Moments
     health: Health
     method: str
-    warnings: tuple[str, ...]
+    findings: tuple[Finding, ...]
     mass: Moments | None = None
     wall: Moments | None = None
     refined: Callable[[], Moments] | None = None

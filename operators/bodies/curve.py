@@ -12,6 +12,7 @@ from ...core.moments.moments import HALF_ULP, Moments, monomial_count, monomials
 from ...core.nurbs.curve import Curve
 from ...core.nurbs.curve_moments import length_moments, plane_moments
 from ...core.nurbs.planar_region import plane_region
+from ...core.verdict.finding import ReadError
 from ...core.verdict.health import Health
 from .body import Body
 
@@ -23,7 +24,7 @@ def wire_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
     curves, stored = _placed(curves, matrix, unit)
     length = length_moments(curves)
     if not length.total > 0.0:
-        raise ValueError("It has no length; move its points apart.")
+        raise ReadError("no_length")
     nothing = Moments(np.zeros(monomial_count(3)), length.about, "volume")
     # a length moves by as much as its ends, and by its turning as much again: an estimate for smooth curves
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
@@ -49,7 +50,7 @@ def wire_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
 def region_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
     """The flat region that closed curves bound, holes left out, as a sheet without thickness of its own.
 
-    Arguments as for `wire_body`. ValueError where they bound none, with what to do.
+    Arguments as for `wire_body`. MeasureError where they bound none.
     """
     curves, stored = _placed(curves, matrix, unit)
     curves, normal = plane_region(curves, stored)

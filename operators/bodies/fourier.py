@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Fourier transform of an object: read and mended as it is measured, then handed to the core."""
+"""The Fourier transform of an object: read and repaired as it is measured, then handed to the core."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from ...core.fourier.spectrum import APPROXIMATE, Spectrum
 from ...core.fourier.wave_vectors import Grid
 from ...core.mesh.surface import Surface
 from ...core.numerics.float32 import decimal
-from ..read import Reading, Unreadable, read_object, shows_flat_region
+from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ..read import Reading, read_object, shows_flat_region
 from ..settings.density import density_field
 from ..settings.options import MeasureOptions, resolved
 from .instances import in_metres
@@ -26,30 +27,28 @@ from .mesh import mesh_body
 @dataclass(frozen=True)
 class ObjectTransform:
     """An object's transform, in SI units: `steps` does the work, `result` gives the outcome. factor: the thickness of
-    a shell, else 1. warnings: as in `Measurement`."""
+    a shell, else 1. findings: as in `Measurement`."""
 
     name: str
     transform: BodyTransform
     factor: float
-    warnings: tuple[str, ...]
+    findings: tuple[Finding, ...]
 
     def steps(self) -> Iterator[float]:
-        """Do the work. Yields the fraction done. Raises `Unreadable`."""
+        """Do the work. Yields the fraction done. Raises MeasureError."""
         try:
             yield from self.transform.steps()
-        except ValueError as error:
-            raise Unreadable(self.name, str(error)) from error
+        except MeasureError as error:
+            error.about(self.name)
+            raise
 
-    def result(self) -> tuple[Spectrum, tuple[str, ...]]:
-        """The spectrum, and a sentence for each decision that was taken."""
-        found = self.transform.result().scaled(self.factor)
-        notes = self.warnings
-        if found.method == APPROXIMATE:
-            notes += (
-                "On a grid as large as this the Fourier transform is found to {:g} of the {:s}, by a fast "
-                "transform. A list of wave vectors has its closed form.".format(TOLERANCE, self.transform.of),
-            )
-        return found, notes
+    def result(self) -> tuple[Spectrum, tuple[Finding, ...]]:
+        """The spectrum, and a finding for each decision that was taken."""
+        spectrum = self.transform.result().scaled(self.factor)
+        findings = self.findings
+        if spectrum.method == APPROXIMATE:
+            findings += (finding("fourier_approximate", share=TOLERANCE),)
+        return spectrum, findings
 
 
 def object_transform(
@@ -66,7 +65,7 @@ def object_transform(
     q: rad/m, (M, 3) or a grid, along the axes of the frame, "world" or "object"; or what makes a grid from the body's
     largest extent in m. area: ∫ exp(-i q·x) dA over its faces, in m²; else of what it is measured as, in m³:
     ∫ exp(-i q·x) dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell.
-    Raises `Unreadable`, with the reason and the remedy, where there is no transform.
+    Raises MeasureError where there is no transform.
     """
     unit = options.unit_scale or decimal(depsgraph.scene.unit_settings.scale_length)
     options = resolved(options, obj, unit)
@@ -81,15 +80,9 @@ def object_transform(
             of, total = "area", body.area.total
         else:
             if options.kind == "wire":
-                raise ValueError(
-                    "A wire bounds no body, and its Fourier transform is not known: measure it as a solid "
-                    "or a shell, or take its area instead."
-                )
+                raise ReadError("fourier_of_wire")
             if body.method == "open":
-                raise ValueError(
-                    "It is open, and only a closed surface bounds a body: close it, measure it as a "
-                    "shell, or take its area instead."
-                )
+                raise ReadError("fourier_of_open_surface")
             parts = [(solid.mended, matrices) for solid, matrices in body.solids]
             of, total = "volume", body.volume.total
         if frame == "object":
@@ -98,25 +91,24 @@ def object_transform(
         if callable(q):
             q = q(_extent(parts))
         transform = BodyTransform(parts, q, of, total, options.threads)
-    except ValueError as error:
-        raise Unreadable(obj.name, str(error)) from error
+        varies = not area and density_field(obj.body_moments) is not None
+    except MeasureError as error:
+        error.about(obj.name)
+        raise
     factor = options.thickness if shell and not area else 1.0
-    notes = ("Of a NURBS surface the Fourier transform is that of its display mesh.",) if reading.has_patches else ()
-    if obj.type == "CURVE" and shell and shows_flat_region(obj):
-        notes += ("Of a flat curve the Fourier transform is that of its display mesh.",)
-    if not area and density_field(obj.body_moments) is not None:
-        notes += ("The Fourier transform is that of its shape, as if its density were the same everywhere.",)
-    return ObjectTransform(obj.name, transform, factor, (*reading.warnings, *body.warnings, *notes))
+    findings = [*reading.findings, *body.findings]
+    if reading.has_patches or (obj.type == "CURVE" and shell and shows_flat_region(obj)):
+        findings.append(finding("fourier_of_display_mesh"))
+    if varies:
+        findings.append(finding("fourier_of_uniform_density"))
+    return ObjectTransform(obj.name, transform, factor, tuple(findings))
 
 
 def _require_thin(options: MeasureOptions) -> None:
     if options.wall != "thin":
-        raise ValueError(
-            "A shell has a Fourier transform only while its wall is thin; set its wall to Thin, take its "
-            "area, or apply a Solidify modifier and measure it as a solid."
-        )
+        raise ReadError("fourier_of_wall")
     if not options.thickness > 0.0:
-        raise ValueError("It has no thickness; set one.")
+        raise ReadError("no_thickness")
 
 
 def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
@@ -129,7 +121,7 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
         low, high = np.minimum(low, (center - extent).min(axis=0)), np.maximum(high, (center + extent).max(axis=0))
     size = float((high - low).max())
     if not 0.0 < size < np.inf:
-        raise ValueError("It has no size; set the largest frequency.")
+        raise ReadError("fourier_no_extent")
     return size
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...core.density.spline_grid import Blocks, grid_moments
 from ...core.moments.moments import Moments
+from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import Health
 from ..read import Part, Reading
 from ..read.volume import VolumeReading
@@ -20,37 +21,21 @@ from .body import Body
 from .mass import LARGEST
 from .mesh import mesh_body
 
-EMPTY = (
-    "Every voxel of its grid is empty, or its value stands for no mass; choose another grid, or see what should "
-    "fill it and what its values stand for."
-)
-
 
 def grid_body(reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1) -> Body:
-    """The body of one grid. unit: metres per Blender unit. ValueError, with what to do, where there is none."""
+    """The body of one grid. unit: metres per Blender unit. MeasureError where there is none."""
     if options.solid:
         return _solid(reading, unit, threads)
     if reading.level_set:
-        raise ValueError(
-            "Its grid “{:s}” is a level set, which holds distances and no densities; measure it as the "
-            "solid that it bounds, or make a fog volume of it.".format(reading.grid)
-        )
+        raise ReadError("grid_is_level_set", grid=reading.grid)
     scaled = np.diag([unit, unit, unit, 1.0])
     first = np.eye(4)
     first[:3, 3] = reading.low
     matrix = scaled @ reading.matrix @ reading.to_object @ first
-    return density_body(
-        reading.blocks,
-        reading.shape,
-        matrix,
-        options,
-        reading.background,
-        (
-            "Its density is the grid “{:s}” of {:d} x {:d} x {:d} voxels. {:s}".format(
-                reading.grid, *reading.shape, options.told()
-            ),
-        ),
+    density = finding(
+        "grid_density", grid=reading.grid, samples=list(reading.shape), cause=options.meaning().as_record()
     )
+    return density_body(reading.blocks, reading.shape, matrix, options, reading.background, (density,))
 
 
 def density_body(
@@ -59,7 +44,7 @@ def density_body(
     matrix: NDArray,
     options: GridOptions,
     background: float | None = None,
-    warnings: tuple[str, ...] = (),
+    findings: tuple[Finding, ...] = (),
     slope: float = 1.0,
     intercept: float = 0.0,
 ) -> Body:
@@ -68,7 +53,7 @@ def density_body(
     background: a value that counts as empty.
     """
     if min(shape) < 1:
-        raise ValueError(EMPTY)
+        raise ReadError("grid_empty")
     weigh = options.weigh(background)
 
     def densities(block: NDArray) -> NDArray[np.float64]:
@@ -76,9 +61,9 @@ def density_body(
 
     mass = grid_moments(samples, shape, matrix, options.spline_order, value=densities)
     if not np.abs(mass.raw).max() < LARGEST:
-        raise ValueError("Its densities make its mass too large a number; take them as smaller ones.")
+        raise ReadError("mass_overflow")
     if not mass.total > 0.0:
-        raise ValueError(EMPTY)
+        raise ReadError("grid_empty")
 
     def held(order: int) -> Moments:
         moments = grid_moments(
@@ -91,16 +76,13 @@ def density_body(
         return volume, Moments(np.zeros_like(volume.raw), volume.about, "area") if area else None
 
     volume = held(3)
-    warnings += (
-        *options.left_empty(background),
-        "It has no surface, and its area is told as 0; its volume is that of the voxels that are not empty.",
-    )
+    findings += (*options.left_empty(background), finding("grid_without_surface"))
     return Body(
         volume,
         Moments(np.zeros(1), volume.about, "area"),
         Health(closed=True),
         "grid exact",
-        warnings,
+        findings,
         mass=mass,
         to_order=to_order,
     )
@@ -109,12 +91,10 @@ def density_body(
 def _solid(reading: VolumeReading, unit: float, threads: int) -> Body:
     """What a level set bounds, by its polygons."""
     if not reading.level_set:
-        raise ValueError(
-            "Its grid “{:s}” does not say to be a level set; measure it as a density.".format(reading.grid)
-        )
+        raise ReadError("grid_is_not_level_set", grid=reading.grid)
     surface = reading.polygons()
     if not len(surface.triangles) and not len(surface.quads):
-        raise ValueError("Its level set “{:s}” bounds nothing.".format(reading.grid))
+        raise ReadError("level_set_empty", grid=reading.grid)
     shown = Reading(
         reading.name,
         reading.type,
@@ -124,8 +104,6 @@ def _solid(reading: VolumeReading, unit: float, threads: int) -> Body:
         [Part(surface, reading.matrix[None])],
     )
     body = mesh_body(shown, unit, shell=False, union=False, threads=threads)
-    note = (
-        "Measured as the solid that its level set “{:s}” bounds, by {:d} polygons through its voxels; the body "
-        "that was sampled may differ by a part of a voxel."
-    ).format(reading.grid, len(surface.triangles) + len(surface.quads))
-    return replace(body, method="grid " + body.method, warnings=(note, *body.warnings))
+    polygons = len(surface.triangles) + len(surface.quads)
+    measured = finding("level_set_measured", grid=reading.grid, polygons=polygons)
+    return replace(body, method="grid " + body.method, findings=(measured, *body.findings))

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Instances of one surface: mapped areas, overlaps, the health and warnings of all together."""
+"""Instances of one surface: mapped areas, overlaps, the health and findings of all together."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,61 +15,69 @@ from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import distinct_linear, translations
 from ...core.moments.moments import Moments, are_similarities, map_sum
 from ...core.polyhedron.sheared_areas import area_of_images
+from ...core.verdict.finding import Finding, finding
 from ...core.verdict.health import Faults, Health
 from ..read import Reading
 
 RANKED = ("open", "capped", "reoriented", "exact")  # methods: of several, the first counts
 
 
-FLATTENED = (
-    "A zero scale flattens it; set its scale, or its parents', to something else than zero, or measure it as a shell."
-)
+def flattened_reason(reading: Reading) -> Finding:
+    """Why nothing of a singular reading encloses anything."""
+    return finding("zero_scale" if reading.flat else "all_instances_zero_scale")
 
 
-ALL_FLATTENED = (
-    "A zero scale flattens all that it instances; give the instances another scale, or measure it as a shell."
-)
+def some_flattened(count: int) -> Finding:
+    """That so many instances enclose nothing."""
+    return finding("instances_zero_scale", count=count)
 
 
-MOST_NAMED = 8  # surfaces, or faces, that a sentence names
+def not_compared(reading: Reading) -> Finding:
+    """That nobody looked for overlap between the instances."""
+    return finding("instance_overlap_unchecked", count=reading.places)
 
 
-NOT_COMPARED = (
-    "Overlap was not looked for between its {:d} instances, and boxes around some of them overlap; what "
-    "those share counts twice."
-)
-
-
-def flattened_reason(reading: Reading) -> str:
-    """Why nothing of a singular reading encloses anything, with the remedy."""
-    return FLATTENED if reading.flat else ALL_FLATTENED
-
-
-def some_flattened(count: int) -> str:
-    """A sentence about so many instances that enclose nothing."""
-    return (
-        "One of its instances is flattened by a zero scale and encloses nothing."
-        if count == 1
-        else "{:d} of its instances are flattened by a zero scale and enclose nothing.".format(count)
-    )
-
-
-def told_of_parts(parts: Iterable[tuple[str, Iterable[str]]], whole: str) -> list[str]:
-    """The sentences of several parts, as (name, sentences), each sentence once. Of a part that is all of the object
-    `whole` they stay as they are; else the names come before them, for “it” is a part then."""
+def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
+    """The findings of several parts, as (name of the surface's object, findings). Equal ones, about the same elements,
+    are one that names all their sources. Of a part that is all of the object `whole` they stay as they are."""
     parts = list(parts)
-    named: dict[str, list[str]] = {}
-    for k, (name, sentences) in enumerate(parts):
-        for sentence in sentences:
-            named.setdefault(sentence, []).append(
-                "“{:s}”".format(name) if name else "Surface {:d} of {:d}".format(k + 1, len(parts))
-            )
     if len(parts) == 1 and parts[0][0] in ("", whole):
-        return list(named)
-    return [
-        "{:s}: {:s}".format(", ".join(names[:MOST_NAMED] + ["…"] * (len(names) > MOST_NAMED)), sentence)
-        for sentence, names in named.items()
-    ]
+        return each_once(parts[0][1])
+    merged: dict[tuple, tuple[Finding, dict[str, None]]] = {}
+    for name, findings in parts:
+        for result in findings:
+            merged.setdefault(_identity(result), (result, {}))[1][name or whole] = None
+    return [result.of_sources(list(names)) for result, names in merged.values()]
+
+
+def each_once(findings: Iterable[Finding]) -> list[Finding]:
+    """The findings in their order, without those that say the same of the same elements."""
+    return list({_identity(result): result for result in findings}.values())
+
+
+def _identity(result: Finding) -> tuple[Finding, object]:
+    elements = result.elements
+    return result, elements.tobytes() if isinstance(elements, np.ndarray) else repr(elements)
+
+
+def with_sources(reading: Reading, result: Finding) -> Finding:
+    """A finding about `reading.joined()`: its faces, and edges as pairs of vertices, become [face, source] in the
+    numbers of the surfaces that they are instances of, each once."""
+    elements = np.asarray(result.elements)
+    if not elements.size:
+        return result
+    of_edges = elements.ndim == 2
+    places = np.repeat(np.arange(len(reading.parts)), [len(part.matrices) for part in reading.parts])
+    surfaces = [part.surface for part in reading.parts]
+    sizes = [len(one.points) if of_edges else int(one.all_triangles()[1].max(initial=-1)) + 1 for one in surfaces]
+    ends = np.cumsum(np.array(sizes)[places])
+    starts = ends - np.array(sizes)[places]
+    at = np.searchsorted(ends, elements[:, 0] if of_edges else elements, side="right")
+    local = elements - (starts[at, None] if of_edges else starts[at])
+    each = np.unique(np.column_stack([places[at], local]), axis=0)
+    names = np.array([part.source or reading.name for part in reading.parts], object)[each[:, 0]]
+    numbers = each[:, 1:] if of_edges else each[:, 1]
+    return replace(result, elements=list(map(list, zip(numbers.tolist(), names.tolist()))))
 
 
 def places_meet(reading: Reading) -> bool:

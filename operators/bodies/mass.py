@@ -21,26 +21,26 @@ from ...core.moments.moments import Moments, are_similarities, map_sum, sum_mome
 from ...core.polyhedron.third_order import solid_and_area
 from ...core.solid.measure_solid import SolidMeasure
 from ...core.solid.parts import Components
-from ...core.verdict.messages import listed
+from ...core.verdict.finding import Finding, ReadError, finding
 from ..read import Reading
+from ..read.reading import said_of
 from ..settings.density import DensityField, material_density
 from . import polynomial_mass as weigh_polynomial
 from .body import Body
-from .instances import in_metres, mapped_areas
+from .instances import findings_by_part, in_metres, mapped_areas, with_sources
 
-MOST_NAMED = 8
+MAX_NAMED = 8  # materials
 LARGEST = 1e100  # kg m^n whose squares are still numbers
-CAVITY = "A cavity takes away the material that it is cut from, whatever its own faces have."
 
 
 @dataclass
 class Weighed:
-    """mass: moments in kg, SI units and world axes. source: where the density came from, as a text. warnings: what was
-    decided. materials: full names of those that were met, with a density or without."""
+    """mass: moments in kg, SI units and world axes. source: where the density came from. findings: what was decided.
+    materials: full names of those that were met, with a density or without."""
 
     mass: Moments
-    source: str
-    warnings: list[str] = field(default_factory=list)
+    source: Finding
+    findings: list[Finding] = field(default_factory=list)
     materials: tuple[str, ...] = ()
 
 
@@ -58,29 +58,25 @@ def weigh(
     """The mass of a body that `mesh_body` measured.
 
     unit: metres per Blender unit; thickness: of a shell, m; others: kg/m³ of faces whose material has no density.
-    ValueError, with what to do, where the density is missing or negative somewhere.
+    MeasureError where the density is missing or negative somewhere.
     """
     if not body.solids or (density.kind != "polynomial" and any(part.painted is None for part in reading.parts)):
-        raise ValueError("Only what polygons bound can have a density that is not one value; set one value.")
+        raise ReadError("density_needs_polygons")
     factor = thickness if shell else 1.0
     if density.kind == "polynomial":
-        parts, warnings = weigh_polynomial.weigh(reading, body, density, unit=unit, shell=shell, threads=threads)
-        source = "polynomial {:s}, in {:s} coordinates".format(density.text, "world" if density.in_world else "own")
+        parts, findings = weigh_polynomial.weigh(reading, body, density, unit=unit, shell=shell, threads=threads)
         mass = sum_moments(parts) * factor
         if not np.abs(mass.raw).max() < LARGEST:
-            raise ValueError("Its density makes its mass too large a number; give it a smaller one.")
-        return Weighed(mass, source, warnings)
+            raise ReadError("mass_overflow")
+        return Weighed(mass, density.polynomial_source(), findings)
     if density.kind == "attribute":
         if not shell:
-            raise ValueError(
-                "A vertex attribute is a density on the surface, not inside it; measure it as a shell, or "
-                "choose another source of density."
-            )
+            raise ReadError("density_attribute_of_solid")
         parts = [
             _sheets(reading, i, _vertex_density(reading, i, density.attribute), unit, threads, by_vertex=True)
             for i in range(len(reading.parts))
         ]
-        source = "vertex attribute “{:s}”".format(density.attribute)
+        source = finding("density_from_attribute", attribute=density.attribute)
         return Weighed(as_mass(sum_moments([one for part in parts for one in part]), factor), source)
     return _by_material(reading, body, unit, shell, factor, others, threads)
 
@@ -89,27 +85,29 @@ def _by_material(
     reading: Reading, body: Body, unit: float, shell: bool, factor: float, others: float, threads: int
 ) -> Weighed:
     if body.method == "union":
-        raise ValueError(
-            "United shells have no faces of their own to take materials from; count each shell, or set one density."
-        )
+        raise ReadError("materials_of_union")
     painted = _Painted(reading, others)
     parts: list[Moments] = []
-    told: list[str] = []
+    by_part: list[tuple[str, list[Finding]]] = []
     mixed = False
     if shell:
         for i, values in enumerate(painted.values):
             parts.extend(_sheets(reading, i, values, unit, threads))
     else:
-        for (solid, matrices), (values, names) in zip(body.solids, painted.for_solids(body)):
-            weighed, own, by_area = _solids(solid, matrices, values, names)
+        for i, ((solid, matrices), (values, names)) in enumerate(zip(body.solids, painted.for_solids(body))):
+            weighed, findings, by_area = _solids(solid, matrices, values, names)
             parts += weighed
-            told += [one for one in own if one not in told]
+            by_part.append((reading.parts[i].source, findings))
             mixed = mixed or by_area
-    warnings = [*painted.missing(), *told]
+    if is_joined(reading, body):
+        findings = [with_sources(reading, result) for _, found in by_part for result in found]
+    else:
+        findings = findings_by_part(by_part, reading.name)
+    findings = [*painted.missing(), *findings]
     health = body.health
     if not shell and health.nested_components + health.overlapping_components and painted.several:
-        warnings.append("Where parts lie in or through one another their densities add up; cut a cavity for an insert.")
-    return Weighed(as_mass(sum_moments(parts), factor), painted.source(mixed), warnings, painted.names)
+        findings.append(finding("overlapping_densities"))
+    return Weighed(as_mass(sum_moments(parts), factor), painted.source(mixed), findings, painted.names)
 
 
 class _Painted:
@@ -133,11 +131,7 @@ class _Painted:
             met |= dict.fromkeys(slots[i] for i in np.unique(faces).tolist() if i >= 0 and slots[i] is not None)
         self.met = sorted(met, key=lambda material: material.name_full)
         if self.lacking and not others > 0.0:
-            raise ValueError(
-                "{:s} no material with a density, and its own density is zero; give it one.".format(
-                    "It has" if self.lacking == self.faces else "Some of its faces have"
-                )
-            )
+            raise ReadError("material_without_density", count=self.lacking, total=self.faces)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -147,45 +141,46 @@ class _Painted:
     def several(self) -> bool:
         return len({value for values in self.values for value in np.unique(values).tolist()}) > 1
 
-    def missing(self) -> Iterator[str]:
-        """A sentence about faces that take the object's density."""
+    def missing(self) -> Iterator[Finding]:
+        """A finding about faces that take the object's density."""
         if not self.lacking:
             return
         names = [material.name for material in self.met if material_density(material) is None]
-        yield "{:s} no material with a density and {:s} the object's {:.7g} kg/m³{:s}.".format(
-            "It has"
-            if self.lacking == self.faces
-            else "{:d} of its {:d} faces have".format(self.lacking, self.faces)
-            if self.lacking > 1
-            else "One of its {:d} faces has".format(self.faces),
-            "takes" if self.lacking in (1, self.faces) else "take",
-            self.others,
-            " ({:s})".format(_listing(["“{:s}” has none".format(name) for name in names])) if names else "",
-        )
+        values = {"count": self.lacking, "total": self.faces, "density": self.others}
+        if names:
+            yield finding("object_density_used_for_materials", **values, materials=names)
+        else:
+            yield finding("object_density_used", **values)
 
-    def source(self, weighted: bool) -> str:
-        known = [(one.name, material_density(one)) for one in self.met]
-        text = _listing(["{:s} {:.7g} kg/m³".format(name, value) for name, value in known if value is not None])
-        parts = ["materials"] if not text else ["materials: " + text]
+    def source(self, by_area: bool) -> Finding:
+        """Where the densities come from. by_area: whether components of several materials took their mean."""
+        known = [(material.name, material_density(material)) for material in self.met]
+        known = [(name, value) for name, value in known if value is not None]
+        parts = [finding("density_of_material", material=name, density=value) for name, value in known[:MAX_NAMED]]
+        if len(known) > MAX_NAMED:
+            parts.append(finding("and_more", count=len(known) - MAX_NAMED))
         if self.lacking:
-            parts.append("others {:.7g} kg/m³".format(self.others))
-        if weighted:
-            parts.append("mixed parts by area")
-        return "; ".join(parts)
+            parts.append(finding("density_of_others", density=self.others))
+        if by_area:
+            parts.append(finding("density_mixed_by_area"))
+        return finding("density_from_materials", materials=[part.as_record() for part in parts])
 
-    def for_solids(self, body: Body) -> Iterator[tuple[NDArray, list[str] | None]]:
+    def for_solids(self, body: Body) -> Iterator[tuple[NDArray, NDArray]]:
         """The densities and the material's names of the faces of each measured surface; of one that joins all places,
-        those of each place in turn, without names."""
+        those of each place in turn."""
+        names = [
+            np.array([*(material.name if material else "" for material in slots), ""], object)[faces]
+            for faces, slots in self.slots
+        ]
         if not is_joined(self.reading, body):
-            for values, (faces, slots) in zip(self.values, self.slots):
-                names = np.array([*(one.name if one else "none" for one in slots), "none"], object)
-                yield values, names[faces].tolist()
+            yield from zip(self.values, names)
             return
-        rows = []
-        for part, values in zip(self.reading.parts, self.values):
-            used = values[: part.surface.all_triangles()[1].max() + 1]
-            rows += [used] * len(part.matrices)
-        yield np.concatenate(rows), None
+        rows, row_names = [], []
+        for part, values, own in zip(self.reading.parts, self.values, names):
+            used = part.surface.all_triangles()[1].max() + 1
+            rows += [values[:used]] * len(part.matrices)
+            row_names += [own[:used]] * len(part.matrices)
+        yield np.concatenate(rows), np.concatenate(row_names)
 
 
 def is_joined(reading: Reading, body: Body) -> bool:
@@ -194,19 +189,21 @@ def is_joined(reading: Reading, body: Body) -> bool:
 
 
 def _solids(
-    solid: SolidMeasure, matrices: NDArray, values: NDArray, names: list[str] | None
-) -> tuple[list[Moments], list[str], bool]:
-    """∫ρ dV of a surface's places, sentences about its parts, and whether any takes a mean by area. values, names: of
-    its mesh faces."""
+    solid: SolidMeasure, matrices: NDArray, values: NDArray, names: NDArray
+) -> tuple[list[Moments], list[Finding], bool]:
+    """∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area. values, names:
+    of its mesh faces."""
     components = solid.components()
-    moments, told = [], []
+    moments, findings = [], []
     mixed = bool(part_densities(components, values).mixed.any())
     for places in _alike(matrices) if mixed else [matrices]:  # a mean by area is that of the areas as they are seen
         found = part_densities(components, values, places[0, :3, :3])
         density = found.density[components.part]
         moments.append(map_sum(weighted_solid(components.points, components.triangles, density, solid.volume), places))
-        told += _mixed(components, found, names)
-    return moments, [*told, *([CAVITY] if found.painted.any() else [])], mixed
+        findings += _mixed(components, found, names)
+    if found.painted.any():
+        findings.append(finding("cavity_material_ignored"))
+    return moments, findings, mixed
 
 
 def _alike(matrices: NDArray) -> Iterator[NDArray]:
@@ -219,35 +216,18 @@ def _alike(matrices: NDArray) -> Iterator[NDArray]:
         yield rest[own]
 
 
-def _mixed(parts: Components, found: PartDensities, names: list[str] | None) -> list[str]:
-    """A sentence about parts whose faces have several materials."""
+def _mixed(parts: Components, found: PartDensities, names: NDArray) -> list[Finding]:
+    """A finding about components whose faces have several materials, about the first face of each."""
     which = np.flatnonzero(found.mixed)
     if not len(which):
         return []
+    first = np.sort(found.first[which])
     if len(which) > 1:
-        faces = ": those with faces {:s}".format(listed(np.sort(found.first[which]))) if names else ""
-        return [
-            "{:d} of its {:d} parts have several materials and take their means by area{:s}.".format(
-                len(which), parts.number, faces
-            )
-        ]
-    one = int(which[0])
-    own = np.unique(parts.face[(parts.part == one) & (parts.face >= 0)])
-    told = " ({:s})".format(_listing(sorted({names[i] for i in own.tolist()}))) if names else ""
-    where = (
-        "It has"
-        if parts.number == 1
-        else "One of its parts has"
-        if not names
-        else ("The part with face {:d} has".format(int(found.first[one])))
-    )
-    return [
-        "{:s} several materials{:s} and takes their mean by area, {:.7g} kg/m³.".format(where, told, found.density[one])
-    ]
-
-
-def _listing(texts: list[str]) -> str:
-    return ", ".join(texts[:MOST_NAMED] + ["…"] * (len(texts) > MOST_NAMED))
+        return [finding("mixed_material_components", first, count=len(which), total=parts.number)]
+    component = int(which[0])
+    faces = np.unique(parts.face[(parts.part == component) & (parts.face >= 0)])
+    materials, density = sorted(set(names[faces].tolist())), float(found.density[component])
+    return [finding("mixed_material_component", first, materials=materials, density=density)]
 
 
 def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
@@ -255,13 +235,13 @@ def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
     part = reading.parts[i]
     used = np.unique(part.surface.all_triangles()[0])
     values = part.painted.vertices
-    for wrong, told in ((~np.isfinite(values[used]), "not finite"), (values[used] < 0.0, "negative")):
+    for wrong, code in (
+        (~np.isfinite(values[used]), "attribute_non_finite"),
+        (values[used] < 0.0, "attribute_negative"),
+    ):
         if wrong.any():
-            raise ValueError(
-                "Its attribute “{:s}” is {:s} at {:d} of its vertices: {:s}; give them a density.".format(
-                    name, told, int(wrong.sum()), listed(used[wrong])
-                )
-            )
+            found = finding(code, used[wrong], attribute=name, count=int(wrong.sum()))
+            raise ReadError(said_of(found, part.source, reading.name))
     return values
 
 

@@ -15,7 +15,8 @@ import bpy
 
 from ...core.measurement import Measurement
 from ...core.numerics.float32 import decimal
-from ..read import Reading, Unreadable, read_lines, read_object, shows_flat_region
+from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ..read import Reading, read_lines, read_object, shows_flat_region
 from ..read.quiet import paused
 from ..read.volume import VolumeReading, volume_reading
 from ..settings.density import density_field
@@ -50,7 +51,7 @@ def measure_object(
 ) -> Measurement:
     """The mass properties of one object as it is evaluated, in SI units and world axes.
 
-    Raises `Unreadable`, with the reason and the remedy, where there is nothing to measure.
+    Raises MeasureError where there is nothing to measure.
     """
     return measure_body(obj, depsgraph, options).measurement
 
@@ -68,7 +69,7 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
     shell = options.kind == "shell"
     try:
         density = None if given or options.kind == "wire" else density_field(obj.body_moments)
-        lines, unknown = _lines(obj, depsgraph, unit, options) if density is None else (None, "")
+        lines, unknown = _lines(obj, depsgraph, unit, options) if density is None else (None, None)
         if lines is not None:
             reading, body = lines
             return _measured(obj, reading, body, options, unit)
@@ -78,11 +79,8 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
             materials=density is not None and density.kind == "materials",
             attribute=density.attribute if density is not None and shell else None,
         )
-        if unknown:
-            reading.warnings.append(
-                "The faces that Blender fills its curves with were measured, overlapping or not, "
-                "as the region that they bound is not known. {:s}".format(unknown)
-            )
+        if unknown is not None:
+            reading.findings.append(finding("curve_fill_measured", cause=unknown.as_record()))
         if reading.has_patches and density is None:
             body = nurbs_body(
                 reading,
@@ -95,15 +93,9 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
             )
             return _measured(obj, reading, body, options, unit)
         if reading.has_patches:
-            reading.warnings.append(
-                "A density that is not one value needs polygons: the display mesh of its surface "
-                "was measured, as fine as the viewport's resolution."
-            )
+            reading.findings.append(finding("display_mesh_for_density"))
         elif density is not None and shell and obj.type == "CURVE" and shows_flat_region(obj):
-            reading.warnings.append(
-                "A density that is not one value needs polygons: the faces that Blender fills the "
-                "curve with were measured."
-            )
+            reading.findings.append(finding("curve_fill_for_density"))
         body = mesh_body(reading, unit, shell=shell, union=options.overlap == "union", threads=options.threads)
         weighed = None
         if density is not None:
@@ -121,13 +113,14 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
                     others=options.density,
                     threads=options.threads,
                 )
-                body = replace(body, mass=weighed.mass, warnings=(*body.warnings, *weighed.warnings))
+                body = replace(body, mass=weighed.mass, findings=(*body.findings, *weighed.findings))
         walls = find_walls(reading, body, options.wall) if shell and options.wall != "thin" else None
         if walls is not None:
             body = walls.body(options.thickness)
         return replace(_measured(obj, reading, body, options, unit, weighed), walls=walls)
-    except ValueError as error:
-        raise Unreadable(obj.name, str(error)) from error
+    except MeasureError as error:
+        error.about(obj.name)
+        raise
 
 
 def _measured(
@@ -146,24 +139,24 @@ def _measured(
 
 def _lines(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float, options: MeasureOptions
-) -> tuple[tuple[Reading, Body] | None, str]:
+) -> tuple[tuple[Reading, Body] | None, Finding | None]:
     """A curve object as a wire, or as the flat region that it bounds; None for what is measured by its surface, with
     the reason where that is only what Blender fills."""
     if options.kind == "wire":
         reading = read_lines(obj, depsgraph)
-        return (reading, wire_body(reading.curves, reading.matrix, unit)), ""
+        return (reading, wire_body(reading.curves, reading.matrix, unit)), None
     if options.kind != "shell" or obj.type != "CURVE" or not shows_flat_region(obj) or options.wall != "thin":
-        return None, ""
+        return None, None
     reading = read_lines(obj, depsgraph)
     filled = obj.data.dimensions == "2D" and obj.data.fill_mode != "NONE"
     if not filled:
-        reading.warnings.append("The curve is not filled; the flat region that it bounds was measured.")
+        reading.findings.append(finding("curve_not_filled"))
     try:
-        return (reading, region_body(reading.curves, reading.matrix, unit)), ""
-    except ValueError as error:
+        return (reading, region_body(reading.curves, reading.matrix, unit)), None
+    except MeasureError as error:
         if not filled:
             raise
-        return None, str(error)
+        return None, error.finding
 
 
 def _measure_grid(
@@ -172,11 +165,11 @@ def _measure_grid(
     """As `measure_body`, of a grid of voxels."""
     kind = options.kind or ("solid" if obj.type == "VOLUME" else obj.body_moments.kind.lower())
     if kind != "solid":
-        raise ValueError("A grid of voxels is no sheet; measure it as a solid.")
+        raise ReadError("grid_as_shell")
     key = grid_key(obj, options.density) if obj.type == "VOLUME" else density_key(obj, ())
     options = resolved(replace(options, kind="solid"), obj, unit)
     body = grid_body(volume, grid, unit, options.threads)
-    weighed = None if body.mass is None else Weighed(body.mass, "grid “{:s}”".format(volume.grid))
+    weighed = None if body.mass is None else Weighed(body.mass, finding("density_from_grid", grid=volume.grid))
     return _measured(obj, volume, body, options, unit, weighed, key)
 
 
@@ -185,17 +178,18 @@ def _filled(
 ) -> tuple[Body, Weighed]:
     """The solid with the density of the Volume object that its settings name."""
     if shell:
-        raise ValueError(
-            "A grid is a density inside a solid, not on a sheet; measure it as a solid, or choose another "
-            "source of density."
-        )
+        raise ReadError("density_volume_of_shell")
     source = obj.body_moments.density_volume
     grid = GridOptions.of(source.body_moments)
     try:
         with paused(), volume_reading(source, depsgraph, grid.grid) as volume:
             if volume is None:
-                raise Unreadable(source.name, "It shows no grid of voxels.")
-            body = inside_body(body, volume, grid, unit)
-            return body, Weighed(body.mass, "grid “{:s}” of “{:s}”".format(volume.grid, source.name))
-    except Unreadable as error:
-        raise ValueError("Its density is to come from “{:s}”: {:s}".format(source.name, error.reason)) from error
+                raise ReadError("object_without_grid")
+            body = inside_body(body, volume, grid, unit, obj.name)
+            return body, Weighed(body.mass, finding("density_from_grid_of", grid=volume.grid, object=source.name))
+    except MeasureError as error:
+        if error.subject == obj.name:  # about both together
+            raise
+        raise ReadError(
+            "density_volume_unreadable", subject=obj.name, object=source.name, cause=error.finding.as_record()
+        ) from error

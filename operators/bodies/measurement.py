@@ -14,6 +14,7 @@ from ...core.inertia.canonical_frame import ORDER
 from ...core.inertia.mass_properties import MassProperties
 from ...core.measurement import Measurement
 from ...core.moments.moments import Moments
+from ...core.verdict.finding import ReadError, finding
 from ..read import Reading
 from ..read.fingerprint import effective_hash, fingerprint, matrix_hash
 from ..read.volume import VolumeReading
@@ -28,12 +29,6 @@ AT_ONCE = 20_000  # faces up to which moments of higher order, for a frame that 
 KNOWN = 3  # the order to which every measurement has its moments
 
 
-UNASKED = (
-    "Its principal axes are those nearest to the object's that moments to third order allow; with so many faces "
-    "higher ones were not looked at. Snapping and --pose do, and may choose others."
-)
-
-
 def to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> Measurement:
     """With moments to the order that was asked for. What a measurement holds anyway is not measured again."""
     shell, order = options.kind == "shell", options.order
@@ -41,19 +36,13 @@ def to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> M
         return measurement
     if body.to_order is None:
         if order > KNOWN or (options.surface and not shell):
-            raise ValueError(
-                "Of a wall of real thickness only the moments of its volume to order {:d} are known; ask "
-                "for no more, or set Wall to Thin.".format(KNOWN)
-            )
+            raise ReadError("wall_order", order=KNOWN)
         return measurement
     with np.errstate(over="ignore", invalid="ignore"):
         volume, area = body.to_order(order, shell or options.surface)
-    for one in (volume, area):
-        if one is not None and not np.isfinite([one.raw, one.error, one.input]).all():
-            raise ValueError(
-                "It is too large for moments of order {:d} to be numbers. Scale it down, or ask for a "
-                "lower order.".format(order)
-            )
+    for moments in (volume, area):
+        if moments is not None and not np.isfinite([moments.raw, moments.error, moments.input]).all():
+            raise ReadError("moments_overflow", order=order)
     return replace(measurement, volume_moments=None if shell else volume, area_moments=area or measurement.area_moments)
 
 
@@ -70,12 +59,8 @@ def _require_volume(body: Body, options: MeasureOptions) -> Moments:
     volume = body.area * options.thickness if shell and body.wall is None else body.wall or body.volume
     if not volume.total > 0.0:
         if body.solids and not body.area.total > 0.0:
-            raise ValueError("None of its faces has an area; move their vertices apart, or choose another object.")
-        raise ValueError(
-            "It has no thickness; set one."
-            if shell and body.area.total > 0.0
-            else "Its faces enclose no volume; measure it as a shell, a flat one as a section, or close it."
-        )
+            raise ReadError("no_face_area")
+        raise ReadError("no_thickness" if shell and body.area.total > 0.0 else "no_volume")
     return volume
 
 
@@ -89,7 +74,7 @@ def as_measurement(
     key: str | None = None,
 ) -> Measurement:
     """The results of measuring a body. obj: None for what is in a file only. options: resolved. key: in place of
-    `density_key`. ValueError where it has no mass."""
+    `density_key`. MeasureError where it has no mass."""
     shell = options.kind == "shell"
     wire = options.kind == "wire"
     thin, solid = shell and body.wall is None, body.wall or body.volume
@@ -102,7 +87,7 @@ def as_measurement(
     else:
         moments, factor = (body.area, density * options.thickness) if thin else (body.length or solid, density)
     if not density > 0.0:
-        raise ValueError("Its {:s} is zero; give it one.".format("density" if options.mass is None else "mass"))
+        raise ReadError("zero_density" if options.mass is None else "zero_mass")
     rotation, location = np.asarray(reading.rotation, np.float64), np.asarray(reading.location, np.float64) * unit
     higher = _higher(body, shell)
     asked = options.pose or body.faces <= AT_ONCE
@@ -113,7 +98,8 @@ def as_measurement(
         refine=None if shell or body.mass is not None else body.refined,
         higher=higher if asked else None,
     )
-    notes = () if asked or higher is None or properties.principal.unique else (UNASKED,)
+    frame = () if asked or higher is None or properties.principal.unique else (finding("axes_from_third_order"),)
+    given = finding("density_from_value" if options.mass is None else "density_from_mass")
 
     def bounds(of: str, delta: dict[str, float]) -> dict[str, float]:
         return {
@@ -149,7 +135,7 @@ def as_measurement(
         area_moments=body.area,
         mass_moments=(moments, factor),
         health=body.health,
-        warnings=(*reading.warnings, *body.warnings, *notes),
+        findings=(*reading.findings, *body.findings, *frame),
         rotation=rotation,
         location=location,
         length=body.length.total if wire else None,
@@ -162,6 +148,6 @@ def as_measurement(
         fingerprint=fingerprint(
             b"".join(one.raw.tobytes() for one in digested), "" if obj is None else matrix_hash(obj), settings
         ),
-        density_from=weighed.source if weighed else "one value" if options.mass is None else "given mass",
+        density_from=weighed.source if weighed else given,
         materials=weighed.materials if weighed else (),
     )

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from functools import cache, partial
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,21 +16,22 @@ from ...core.moments.moments import Moments, map_sum, sum_moments
 from ...core.polyhedron.any_order import moments_to_order
 from ...core.polyhedron.third_order import solid_and_area
 from ...core.solid.measure_solid import SolidMeasure, measure_solid
+from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import Faults, Health
-from ..read import Reading
+from ..read import Part, Reading
 from ..read.union import union_surface
 from .body import Body
 from .instances import (
-    MOST_NAMED,
-    NOT_COMPARED,
     RANKED,
+    findings_by_part,
     flattened_reason,
     in_metres,
     mapped_areas,
+    not_compared,
     places_meet,
     some_flattened,
     together,
-    told_of_parts,
+    with_sources,
 )
 
 COMPARED = 200_000  # triangles up to which instances are compared with each other as shells of one mesh
@@ -39,24 +40,25 @@ COMPARED = 200_000  # triangles up to which instances are compared with each oth
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> Body:
     """What an object's surfaces bound, or with `shell` the sheets that they are.
 
-    unit: metres per Blender unit. union: shells that overlap are united first. ValueError, with what to do, where
-    there is nothing to measure.
+    unit: metres per Blender unit. union: shells that overlap are united first. MeasureError where there is nothing to
+    measure.
     """
     if reading.singular and not shell:
-        raise ValueError(flattened_reason(reading))
+        raise ReadError(flattened_reason(reading))
     body = _united(reading, unit, threads) if union and not shell else _summed(reading, unit, shell, threads)
     if reading.flattened and not shell:
-        body = replace(body, warnings=(some_flattened(reading.flattened), *body.warnings))
+        body = replace(body, findings=(some_flattened(reading.flattened), *body.findings))
     return body
 
 
 def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
     """Each part measured once in its own coordinates, and mapped to wherever it stands."""
-    volumes, areas, healths, methods, warnings, told, parts = [], [], [], [], [], [], []
+    volumes, areas, healths, methods, findings, by_part, parts = [], [], [], [], [], [], []
+    drawn = _drawn(reading)
     if not shell and reading.places > 1 and places_meet(reading):
         if sum(_triangles(part.surface) * len(part.matrices) for part in reading.parts) <= COMPARED:
             return _as_one(reading, unit, threads)
-        warnings.append(NOT_COMPARED.format(reading.places))
+        findings.append(not_compared(reading))
     for part in reading.parts:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
         matrices = in_metres(part.matrices, unit)
@@ -75,37 +77,23 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
         flat = not shell and not solid.volume.raw.any()
         methods.append(None if flat else solid.method)
         if shell:  # it is measured as it is
-            copies = solid.health.duplicate_faces
-            told.append(
-                (
-                    part.source,
-                    []
-                    if not copies
-                    else [
-                        "One face is a copy of another and counts with it."
-                        if copies == 1
-                        else "{:d} faces are copies of others and count with them.".format(copies)
-                    ],
-                )
-            )
+            copies = solid.health.faults.duplicate_faces
+            found = [finding("duplicate_faces_of_shell", copies, count=len(copies))] if len(copies) else []
         else:
-            told.append((part.source, () if flat else solid.warnings))
+            found = [] if flat else _of_drawn(solid.findings, [part], drawn)
+        by_part.append((part.source, found))
         parts.append((solid, matrices))
-    warnings += told_of_parts(told, reading.name)
+    findings += findings_by_part(by_part, reading.name)
     solid_methods = [method for method in methods if method]
     if solid_methods and len(solid_methods) < len(methods):
-        count = methods.count(None)
-        warnings.append(
-            "{:d} of its {:d} surfaces {:s} flat, as a ground is that instances stand on; areas count, and "
-            "volumes do not.".format(count, len(methods), "is" if count == 1 else "are")
-        )
+        findings.append(finding("flat_instance_sources", count=methods.count(None), total=len(methods)))
     method = min(solid_methods, key=RANKED.index, default="open")
     return _body(
         sum_moments(volumes),
         sum_moments(areas),
         together(healths),
         method,
-        warnings,
+        findings,
         parts,
         [part.surface for part in reading.parts],
         threads,
@@ -117,12 +105,12 @@ def _body(
     area: Moments,
     health: Health,
     method: str,
-    warnings: Iterable[str],
+    findings: Iterable[Finding],
     solids: list[tuple[SolidMeasure, NDArray]],
     surfaces: list[Surface],
     threads: int,
 ) -> Body:
-    """surfaces: what each of the solids was before it was mended."""
+    """surfaces: what each of the solids was before it was repaired."""
 
     def refined() -> Moments:
         return sum_moments([map_sum(solid.refined(threads), matrices) for solid, matrices in solids])
@@ -142,7 +130,7 @@ def _body(
         area,
         health,
         method,
-        tuple(warnings),
+        tuple(findings),
         refined=refined,
         to_order=to_order,
         solids=tuple(solids),
@@ -154,8 +142,8 @@ def _body(
 def _to_order(
     solids: list[tuple[SolidMeasure, NDArray]], surfaces: list[Surface], order: int, area: bool, threads: int
 ) -> tuple[Moments, Moments | None]:
-    """The moments to an order of what was measured, each part once and mapped to its places: the volume of the mended
-    surface, in one pass with the area where mending has neither added nor left out a face."""
+    """The moments to an order of what was measured, each part once and mapped to its places: the volume of the repaired
+    surface, in one pass with the area where the repair has neither added nor left out a face."""
     volumes, areas = [], []
     for (solid, matrices), surface in zip(solids, surfaces):
         same = (
@@ -180,7 +168,7 @@ def _triangles(surface: Surface) -> int:
 def _as_one(reading: Reading, unit: float, threads: int) -> Body:
     """All parts where they stand as one surface, so that they are compared as the shells of one mesh are."""
     surface = reading.joined()
-    solid = measure_solid(surface, threads=threads, names=partial(_named_faces, reading))
+    solid = measure_solid(surface, threads=threads)
     scale = np.diag([unit, unit, unit, 1.0])
     health = replace(solid.health, volume_spread=solid.health.volume_spread * unit**3, faults=Faults())
     return _body(
@@ -188,23 +176,28 @@ def _as_one(reading: Reading, unit: float, threads: int) -> Body:
         solid.area.mapped(scale),
         health,
         solid.method,
-        solid.warnings,
+        [with_sources(reading, result) for result in _of_drawn(solid.findings, reading.parts, _drawn(reading))],
         [(solid, scale[None])],
         [surface],
         threads,
     )
 
 
-def _named_faces(reading: Reading, faces: NDArray[np.integer]) -> str:
-    """What faces of `reading.joined()` are called: their numbers in the surfaces that they are instances of."""
-    places = np.repeat(np.arange(len(reading.parts)), [len(part.matrices) for part in reading.parts])
-    counts = np.array([int(part.surface.all_triangles()[1].max(initial=-1)) + 1 for part in reading.parts])[places]
-    ends = np.cumsum(counts)
-    at = np.searchsorted(ends, faces, side="right")
-    named = np.unique(np.stack([places[at], faces - (ends - counts)[at]]), axis=1).T[: MOST_NAMED + 1].tolist()
-    sources = [part.source and "“{:s}”".format(part.source) for part in reading.parts]
-    names = ["{:d} of {:s}".format(face, sources[i] or "surface {:d}".format(i + 1)) for i, face in named[:MOST_NAMED]]
-    return ", ".join(names + ["…"] * (len(named) > MOST_NAMED))
+def _drawn(reading: Reading) -> set[str]:
+    """The sources of which Blender draws polygons in place of something round."""
+    codes = ("surface_drawn_as_polygons", "curves_drawn_as_polygons")
+    results = [result for result in reading.findings if result.code in codes]
+    return {name for result in results for name in result.values.get("sources", ["", reading.name])}
+
+
+def _of_drawn(findings: Iterable[Finding], parts: Iterable[Part], drawn: set[str]) -> list[Finding]:
+    """How polygons are cut that stand for something round matters less than that they do."""
+    if not all(part.source in drawn for part in parts):
+        return list(findings)
+    of_display_mesh = "non_planar_faces_of_display_mesh"
+    return [
+        replace(result, code=of_display_mesh) if result.code == "non_planar_faces" else result for result in findings
+    ]
 
 
 def _united(reading: Reading, unit: float, threads: int) -> Body:
@@ -212,32 +205,27 @@ def _united(reading: Reading, unit: float, threads: int) -> Body:
     before = _summed(reading, unit, False, threads)
     if not before.volume.total > 0.0:
         return before
-    mended = [
+    repaired = [
         solid.mended.mapped(matrix[:3, :3], matrix[:3, 3]) for solid, matrices in before.solids for matrix in matrices
     ]
-    surface = union_surface(joined(mended))
+    surface = union_surface(joined(repaired))
     solid = measure_solid(surface, threads=threads) if _triangles(surface) else None
     if solid is None or solid.method == "open":
-        raise ValueError("Blender's boolean could not unite its shells; close and clean the mesh, or count each.")
-    notes = ["Its shells were united by Blender's exact boolean, which rounds to 7 digits."]
+        raise ReadError("union_failed")
+    findings = [finding("union_by_boolean")]
     if before.method == "capped":
-        notes.append(
-            "Its holes were capped before; the caps are {:.3g} % of its area.".format(
-                100.0 * before.health.cap_area_share
-            )
-        )
+        slight = all(result.code != "holes_capped" for result in before.findings)
+        code = "holes_capped_before_union_slightly" if slight else "holes_capped_before_union"
+        findings.append(finding(code, share=before.health.cap_area_share))
     elif before.method != "exact":
-        notes.append(
-            "Its faces were turned outward before."
-            if before.method == "reoriented"
-            else "Some of its parts are open, so that their union need not be the body that is meant."
-        )
+        reoriented = before.method == "reoriented"
+        findings.append(finding("faces_reversed_before_union" if reoriented else "open_components_united"))
     return _body(
         solid.volume,
         solid.area,
         before.health,
         "union",
-        (*notes, *solid.warnings),
+        (*findings, *_of_drawn(solid.findings, reading.parts, _drawn(reading))),
         [(solid, np.eye(4)[None])],
         [surface],
         threads,

@@ -22,17 +22,19 @@ from ...core.nurbs.creases import sharpest_crease
 from ...core.nurbs.patch import Patch
 from ...core.nurbs.patch_moments import area_moments, volume_moments
 from ...core.nurbs.solid import PatchMeasure, measure_patches, measure_sheet
+from ...core.verdict.finding import MeasureError, ReadError, finding
 from ..read import Part, Reading
 from .body import Body
 from .instances import (
-    NOT_COMPARED,
     RANKED,
+    each_once,
+    findings_by_part,
     flattened_reason,
     in_metres,
+    not_compared,
     places_meet,
     some_flattened,
     together,
-    told_of_parts,
 )
 from .mesh import mesh_body
 
@@ -54,38 +56,32 @@ def nurbs_body(
 
     unit: metres per Blender unit. wall: of a shell, as in `MeasureOptions`; None for solids. thickness: m. union:
     shells that overlap are united, for which polygons are needed. compare: also measure what the display mesh would
-    have given. ValueError, with what to do, where there is nothing to measure.
+    have given. MeasureError where there is nothing to measure.
     """
     if wall is not None:
         return _shell(reading, unit, wall, thickness, threads)
     if reading.singular:
-        raise ValueError(flattened_reason(reading))
+        raise ReadError(flattened_reason(reading))
     own, meshes = _parts(reading)
     measures = [measure_patches(part.splines.patches, area_order=3, stored=part.splines.stored) for part in own]
     if union and (reading.places > 1 or measures[0].health.components > 1):
         body = mesh_body(reading, unit, shell=False, union=True, threads=threads)
-        return replace(
-            body,
-            warnings=(
-                "Uniting needs polygons: its display mesh was measured, as fine as the viewport's resolution.",
-                *body.warnings,
-            ),
-        )
+        return replace(body, findings=(finding("union_of_display_mesh"), *body.findings))
     rest = mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
     others = [rest] if rest else []
-    warnings = told_of_parts([(part.source, one.warnings) for part, one in zip(own, measures)], reading.name)
-    warnings += [warning for one in others for warning in one.warnings]
+    findings = findings_by_part([(part.source, one.findings) for part, one in zip(own, measures)], reading.name)
+    findings += [result for one in others for result in one.findings]
     if reading.flattened:
-        warnings.append(some_flattened(reading.flattened))
+        findings.append(some_flattened(reading.flattened))
     if reading.places > 1 and places_meet(reading):
-        warnings.append(NOT_COMPARED.format(reading.places))
+        findings.append(not_compared(reading))
     places = [in_metres(part.matrices, unit) for part in own]
     volume = sum_moments([*map(map_sum, (one.volume for one in measures), places), *(one.volume for one in others)])
     areas = [sum_moments(list(_areas(part, one.area, matrices))) for part, one, matrices in zip(own, measures, places)]
     area = sum_moments(areas + [one.area for one in others])
     display = None
     if compare:
-        with suppress(ValueError):  # a display mesh that cannot be measured compares with nothing
+        with suppress(MeasureError):  # a display mesh that cannot be measured compares with nothing
             display = mesh_body(reading, unit, shell=False, union=False, threads=threads).volume.total
 
     def to_order(order: int, with_area: bool) -> tuple[Moments, Moments | None]:
@@ -116,8 +112,8 @@ def nurbs_body(
         volume,
         area,
         health,
-        _told(reading, method),
-        tuple(dict.fromkeys(warnings)),
+        _with_nurbs(reading, method),
+        tuple(each_once(findings)),
         refined=lambda: volume,
         display_volume=display,
         to_order=to_order,
@@ -134,7 +130,7 @@ def _parts(reading: Reading) -> tuple[list[Part], Reading]:
     )
 
 
-def _told(reading: Reading, method: str) -> str:
+def _with_nurbs(reading: Reading, method: str) -> str:
     """With `NURBS` before it where all that was measured are patches."""
     return "NURBS " + method if all(part.splines for part in reading.parts) else method
 
@@ -142,7 +138,7 @@ def _told(reading: Reading, method: str) -> str:
 def _to_order(measure: PatchMeasure, order: int) -> Moments:
     """The volume's moments to another order; those of an open body, or of none, to the one that is known."""
     if measure.method == "open":
-        raise ValueError("It is open: only moments to order 3 are known; ask for no more.")
+        raise ReadError("open_patches_order")
     return volume_moments(measure.patches, order, measure.volume.about)[0]
 
 
@@ -159,10 +155,8 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
     """Thin sheets, or walls with the surfaces at their inner or outer side or in their middle."""
     own, meshes = _parts(reading)
     if meshes.parts and wall != "thin":
-        raise ValueError(
-            "Walls of real thickness are made of NURBS surfaces or of meshes, not of both together; set Wall to Thin."
-        )
-    sheets, areas, healths, warnings = [], [], [], []
+        raise ReadError("wall_of_mixed_surfaces")
+    sheets, areas, healths, by_part = [], [], [], []
     for part in own:
         matrices = in_metres(part.matrices, unit)
         measure = measure_patches(part.splines.patches, area_order=3, stored=part.splines.stored)
@@ -174,10 +168,7 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
         outward = [patch.turned() if sign < 0.0 else patch for patch, sign in zip(part.splines.patches, measure.signs)]
         sharpest = sharpest_crease(part.splines.patches, measure.closure)
         if sharpest > CREASE:
-            warnings.append(
-                "It has creases of up to {:.0f}°, which its wall does not mitre: it overlaps itself or "
-                "gapes there. Convert it to a mesh for mitred corners.".format(np.degrees(sharpest))
-            )
+            by_part.append((part.source, [finding("wall_creases", angle=float(np.degrees(sharpest)))]))
         inner, outer = (thickness * height for height in HEIGHTS[wall])
         for patches, places in _distinct(outward, matrices):
             grown = unit * float(np.linalg.norm(part.matrices[:, :3, :3], 2, axis=(1, 2)).max())
@@ -185,12 +176,13 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
             sheets.append(map_sum(sheet, places))
             areas.append(map_sum(area, places))
             if not fine:
-                warnings.append("The estimate of its wall's error is above what was asked for.")
+                by_part.append((part.source, [finding("wall_error_estimate_large")]))
+    findings = [] if not by_part else findings_by_part(by_part, reading.name)
     if meshes.parts:
         body = mesh_body(meshes, unit, shell=True, union=False, threads=threads)
         areas.append(body.area)
         healths.append((body.health, 1, body.area.total))
-        warnings += body.warnings
+        findings += body.findings
     area = sum_moments(areas)
     nothing = replace(
         area, raw=np.zeros_like(area.raw), error=np.zeros_like(area.raw), input=np.zeros_like(area.raw), of="volume"
@@ -209,8 +201,8 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
         nothing,
         area,
         together(healths),
-        _told(reading, "shell"),
-        tuple(dict.fromkeys(warnings)),
+        _with_nurbs(reading, "shell"),
+        tuple(each_once(findings)),
         wall=sum_moments(sheets) if sheets else None,
         to_order=to_order if wall == "thin" else None,
         estimated=True,

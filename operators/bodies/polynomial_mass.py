@@ -15,13 +15,13 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.density.polynomial import Polynomial
 from ...core.density.polynomial_mass import graded_sum, own_fields
 from ...core.density.positivity import negative_place
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Moments
 from ...core.numerics.rotations import own_axes
 from ...core.polyhedron.any_order import moments_to_order
+from ...core.verdict.finding import Finding, ReadError, finding
 from ..read import Reading
 from ..settings.density import DensityField
 from .body import Body
@@ -43,34 +43,31 @@ class _Piece:
 
 def weigh(
     reading: Reading, body: Body, density: DensityField, *, unit: float, shell: bool, threads: int
-) -> tuple[list[Moments], list[str]]:
-    """The mass moments of all parts (of a shell for a thickness of one metre), and what is to be said.
+) -> tuple[list[Moments], list[Finding]]:
+    """The mass moments of all parts (of a shell for a thickness of one metre), and the findings.
 
-    ValueError, with the place and the value, where the density is negative.
+    ReadError where the density is negative.
     """
-    polynomial, warnings = density.polynomial, []
+    polynomial, findings = density.polynomial, []
     pieces = list(_sheets(reading, density.in_world, unit) if shell else _solids(reading, body, density.in_world, unit))
     if not density.in_world and any(own_axes(part.matrices)[1].any() for part in reading.parts):
-        warnings.append("It is sheared, so that its density runs along the right-angled axes nearest to its own.")
-    warnings += _negative(polynomial, pieces, shell, density.in_world)
+        findings.append(finding("sheared_density_axes"))
+    findings += _negative(density, pieces, shell)
     parts = []
     for piece in pieces:
         moments = moments_to_order(
             piece.surface, 3 + polynomial.degree, area=shell, threads=threads, about=piece.about
         )[int(shell)]
         parts.append(graded_sum(moments, polynomial, piece.matrices, piece.fields))
-    return parts, warnings
+    return parts, findings
 
 
 def _solids(reading: Reading, body: Body, in_world: bool, unit: float) -> Iterator[_Piece]:
-    """What encloses the body, as it was mended."""
+    """What encloses the body, as it was repaired."""
     together = len(body.solids) == 1 and len(body.solids[0][1]) == 1 and reading.places > 1
     if body.method == "union" or (together and in_world):
         if reading.places > 1 and not in_world:
-            raise ValueError(
-                "United instances have no coordinates of their own; give its density in world "
-                "coordinates, or count each shell."
-            )
+            raise ReadError("density_of_united_instances")
         solid, matrices = body.solids[0]
         place = in_metres(reading.parts[0].matrices, unit)
         yield _Piece(solid.mended, matrices, matrices if in_world else _to_own(place) @ matrices, solid.volume.about)
@@ -127,8 +124,9 @@ def _sheets(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
             yield _Piece(surface, places, places if in_world else own)
 
 
-def _negative(density: Polynomial, pieces: list[_Piece], shell: bool, in_world: bool) -> list[str]:
-    """A warning where the density may be negative in the body; ValueError where it is."""
+def _negative(density: DensityField, pieces: list[_Piece], shell: bool) -> list[Finding]:
+    """A finding where the density may be negative in the body; ReadError where it is."""
+    polynomial = density.polynomial
     corners = np.array(list(product((0.0, 1.0), repeat=3)))
     boxes = []
     for piece in pieces:
@@ -136,7 +134,7 @@ def _negative(density: Polynomial, pieces: list[_Piece], shell: bool, in_world: 
         box = low + corners * (high - low)
         boxes.append(np.einsum("kij,nj->kni", piece.fields[:, :3, :3], box) + piece.fields[:, None, :3, 3])
     boxes = np.concatenate(boxes)
-    if density.lower_bound(boxes.min(axis=(0, 1)), boxes.max(axis=(0, 1))) >= 0.0:
+    if polynomial.lower_bound(boxes.min(axis=(0, 1)), boxes.max(axis=(0, 1))) >= 0.0:
         return []
     doubtful = left = 0
     for piece in pieces:
@@ -145,19 +143,10 @@ def _negative(density: Polynomial, pieces: list[_Piece], shell: bool, in_world: 
         fields = piece.fields[np.unique(np.float32(piece.fields), axis=0, return_index=True)[1]]
         left += max(len(fields) - LOOKED_AT, 0)
         for field in fields[:LOOKED_AT]:
-            found, doubt = negative_place(density, points @ field[:3, :3].T + field[:3, 3], triangles, not shell)
-            if found is not None:
-                _refuse(*found, in_world)
+            worst, doubt = negative_place(polynomial, points @ field[:3, :3].T + field[:3, 3], triangles, not shell)
+            if worst is not None:
+                value, place = worst
+                point = [float(x) for x in place]
+                raise ReadError("density_negative", density=float(value), point=point, frame=density.frame)
             doubtful += doubt
-    if doubtful + left:
-        return ["Its density may become negative in it; none of the points that were tried shows it."]
-    return []
-
-
-def _refuse(value: float, place: NDArray, in_world: bool) -> None:
-    raise ValueError(
-        "Its density becomes negative: {:.4g} kg/m³ at ({:.4g}, {:.4g}, {:.4g}) m in {:s} coordinates. "
-        "Change the polynomial, or what its coordinates are.".format(
-            value, *(float(x) + 0.0 for x in place), "world" if in_world else "its own"
-        )
-    )
+    return [finding("density_possibly_negative")] if doubtful + left else []

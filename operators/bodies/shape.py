@@ -30,14 +30,11 @@ from ...core.shape.registration import Match, match
 from ...core.shape.signature import Signature, signature
 from ...core.shape.symmetry import symmetry
 from ...core.shape.zernike import BY_MOMENTS, ENOUGH, zernike_quadrature
-from ..read import Unreadable
+from ...core.verdict.finding import ReadError
 from ..settings.options import MeasureOptions
 from .body import Body
 from .measure_object import THREADS, measure_body
 
-OF_SHAPES = "Pose and signature tell shapes, and a grid of densities has none."
-DISPLAY_MESH = "Its signature is that of its display mesh, as fine as the viewport's resolution."
-POLYGONS = "Its signature is known of polygons only; convert it to a mesh first."
 EXACT, NEAR = 1e-5, 1e-2  # of the size: between them single precision mistakes the distances of thin triangles
 SAMPLES = 1500  # points of a surface that are held against another one
 TOGETHER = 64  # points whose distances are found at once
@@ -134,11 +131,11 @@ def displayed(measurement: Measurement) -> bool:
     return measurement.method.startswith("NURBS")
 
 
-class NoShape(Unreadable):
+class NoShapeError(ReadError):
     """An object that was measured, but whose shape is not its own."""
 
-    def __init__(self, measurement: Measurement, reason: str):
-        super().__init__(measurement.name, reason)
+    def __init__(self, code: str, measurement: Measurement):
+        super().__init__(code, subject=measurement.name)
         self.measurement = measurement
 
 
@@ -146,33 +143,23 @@ def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> S
     """As `shape_of`, of bodies with polygons only, in threads."""
     shape = shape_of(obj, depsgraph, MeasureOptions(threads=THREADS))
     if not shape.has_surface:
-        raise NoShape(shape.measurement, POLYGONS)
+        raise NoShapeError("signature_needs_polygons", shape.measurement)
     return shape
 
 
 def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None) -> Shape:
-    """Measure an object for its shape. Raises `Unreadable`, and `NoShape` where it has none."""
+    """Measure an object for its shape. Raises MeasureError, and of these NoShapeError where it has none."""
     measured = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.solids:
-        raise NoShape(measurement, OF_SHAPES)
+        raise NoShapeError("shape_of_grid", measurement)
     if body.to_order is None or body.length is not None:
-        raise NoShape(
-            measurement,
-            "Pose and signature are not known of wires, nor of walls of real thickness; set "
-            "Wall to Thin, or make it a mesh.",
-        )
+        raise NoShapeError("shape_of_wire_or_wall", measurement)
     if measurement.method.endswith("open"):
-        raise NoShape(
-            measurement,
-            "It is open, so that its pose and signature would depend on a reference point; "
-            "close it, or measure it as a shell.",
-        )
+        raise NoShapeError("shape_of_open_surface", measurement)
     shape = Shape(measurement, body, options.threads if options else 1)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT * shape.size:
-        raise NoShape(
-            measurement, "It stands so far from the world's origin that rounding blurs its shape; move it nearer."
-        )
+        raise NoShapeError("shape_far_from_origin", measurement)
     return shape
 
 

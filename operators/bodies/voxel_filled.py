@@ -13,6 +13,9 @@ from ...core.density.voxel_fill import LARGEST as MOST_VOXELS
 from ...core.density.voxel_fill import inside_moments
 from ...core.moments.moments import Moments
 from ...core.solid.measure_solid import SolidMeasure
+from ...core.verdict.finding import ReadError, finding
+from ...core.verdict.tolerances import NEGLIGIBLE
+from ..read.reading import said_of
 from ..read.volume import VolumeReading
 from ..settings.grid import GridOptions
 from .body import Body
@@ -21,27 +24,27 @@ from .mass import LARGEST
 OUTSIDE = 1e-9  # of the volume: below this, rounding
 
 
-def inside_body(body: Body, reading: VolumeReading, options: GridOptions, unit: float) -> Body:
+def inside_body(body: Body, reading: VolumeReading, options: GridOptions, unit: float, name: str) -> Body:
     """The body with the mass that the grid gives its inside. unit: metres per Blender unit.
 
-    ValueError, with what to do, where there is none.
+    name: of the object, which MeasureErrors are about that are not about the grid alone.
     """
+    whose = {"grid": reading.grid, "object": reading.name}
     if body.method.endswith("open"):
-        raise ValueError("It is open, so that nothing tells what of the density is inside; close it.")
+        raise ReadError("open_surface_of_grid", subject=name)
     if reading.level_set:
-        raise ValueError(
-            "The grid “{:s}” of “{:s}” is a level set, which holds distances and no densities; choose "
-            "another one.".format(reading.grid, reading.name)
-        )
+        raise ReadError("density_grid_is_level_set", subject=name, **whose)
     first = np.eye(4)
     first[:3, 3] = reading.low - 0.5  # from corners of voxels, not from their centers
     matrix = np.diag([unit, unit, unit, 1.0]) @ reading.matrix @ reading.to_object @ first
     if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
-        raise ValueError("The grid “{:s}” of “{:s}” is empty or flattened.".format(reading.grid, reading.name))
+        raise ReadError("density_grid_empty", subject=name, **whose)
     inverse = np.linalg.inv(matrix)
     triangles = np.concatenate([_corners(solid, inverse @ place) for solid, places in body.solids for place in places])
     low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(np.int64)
     high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
+    if np.prod((high - low).astype(float)) > MOST_VOXELS:
+        raise ReadError("density_grid_too_fine", subject=name, **whose, samples=(high - low).tolist())
     moments, volume = inside_moments(triangles - low, _filled(reading, options, low, high))
     volume *= abs(np.linalg.det(matrix[:3, :3]))
     first = np.eye(4)
@@ -49,28 +52,24 @@ def inside_body(body: Body, reading: VolumeReading, options: GridOptions, unit: 
     mass = replace(replace(moments, of="volume").mapped(matrix @ first), of="mass")
     mass = replace(mass, input=_input(body, mass))
     if not np.abs(mass.raw).max() < LARGEST:
-        raise ValueError("Its densities make its mass too large a number; take them as smaller ones.")
+        raise ReadError("mass_overflow")
     if not mass.total > mass.error[0]:
-        raise ValueError(
-            "The grid “{:s}” of “{:s}” has no density inside of it; see where the two stand.".format(
-                reading.grid, reading.name
-            )
-        )
-    notes = [
-        "Its density is the grid “{:s}” of “{:s}”, constant in each voxel. {:s} The bounds of what it weighs are "
-        "estimates.".format(reading.grid, reading.name, replace(options, spline_order=1).told()),
+        raise ReadError("density_grid_elsewhere", subject=name, **whose)
+    meaning = replace(options, spline_order=1).meaning()
+    findings = [
+        finding("grid_density_of", **whose, cause=meaning.as_record()),
         *options.left_empty(reading.background),
     ]
-    outside = 1.0 - volume / body.volume.total
+    outside = float(1.0 - volume / body.volume.total)
     if outside > OUTSIDE:
-        notes.append("{:.3g} % of its volume is outside of the grid and counts as empty.".format(100.0 * outside))
+        findings.append(finding("outside_grid_slightly" if outside < NEGLIGIBLE else "outside_grid", share=outside))
     return replace(
         body,
         mass=mass,
         refined=None,
         method="grid " + body.method,
         estimated=True,
-        warnings=(*body.warnings, *notes, *reading.warnings),
+        findings=(*body.findings, *findings, *(said_of(result, reading.name, name) for result in reading.findings)),
     )
 
 
@@ -82,11 +81,6 @@ def _corners(solid: SolidMeasure, matrix: NDArray) -> NDArray[np.float64]:
 
 def _filled(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
     """The densities of the voxels from `low` to `high`."""
-    if np.prod((high - low).astype(float)) > MOST_VOXELS:
-        raise ValueError(
-            "The grid “{:s}” of “{:s}” has {:d} x {:d} x {:d} voxels around it, which is too many; use a "
-            "coarser one.".format(reading.grid, reading.name, *(high - low).tolist())
-        )
     weigh = options.weigh(reading.background)
     densities = np.zeros(high - low)
     for start, block in reading.blocks():

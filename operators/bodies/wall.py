@@ -16,20 +16,17 @@ from numpy.typing import NDArray
 
 from ...core.mesh.boxes import boxes_meet
 from ...core.mesh.surface import Surface
-from ...core.moments.moments import Moments, map_sum, sum_moments
+from ...core.moments.moments import Moments, map_sum, monomials, sum_moments
 from ...core.offset.walls import Sweep, share, sweep
 from ...core.polyhedron.third_order import solid_and_area
 from ...core.solid.measure_solid import SolidMeasure
+from ...core.verdict.finding import Finding, ReadError, finding, unique
+from ...core.verdict.tolerances import NEGLIGIBLE
 from ..read import Reading
 from .body import Body
 from .instances import even_surfaces
 
-WORTH_TELLING = 0.01  # of the thickness
-WORDS = {
-    "inward": "inward from the faces",
-    "outward": "outward from the faces",
-    "centered": "half inward and half outward from the faces",
-}
+REPORTED = 0.01  # of the thickness: less unevenness is not reported
 SAME_AREA = 1e-9
 SAME_SCALE = 1e-6  # what float32 matrices leave of one scale
 
@@ -46,9 +43,18 @@ class Piece:
         """The thickness in m from which the wall folds over."""
         return self.sweep.largest(side) * self.scale
 
+    def folds(self, side: str, thickness: float) -> bool:
+        """Whether the wall folds over, rounded as `moments` rounds."""
+        return not thickness / self.scale < self.sweep.largest(side)
+
     def moments(self, side: str, thickness: float) -> Moments:
         """Of the wall, in SI units."""
         return map_sum(self.sweep.moments(*share(side, thickness / self.scale)), self.matrices)
+
+    def per_thickness(self) -> Moments:
+        """Of the wall by its thickness, where that goes to zero."""
+        first = Moments(self.sweep.coefficients[:, 0], self.sweep.about, "volume")
+        return map_sum(first, self.matrices) * (1.0 / self.scale)
 
     def meets_itself(self, side: str, thickness: float) -> bool:
         """Whether the wall runs into itself."""
@@ -65,13 +71,13 @@ class Piece:
 class Walls:
     """The walls of one object, SI units, world axes.
 
-    thin: the body as a thin shell. side: "inward", "outward" or "centered". notes: what was decided about the sides.
+    thin: the body as a thin shell. side: "inward", "outward" or "centered". findings: what was decided about the sides.
     """
 
     thin: Body
     side: str
     pieces: tuple[Piece, ...]
-    notes: tuple[str, ...]
+    findings: tuple[Finding, ...]
 
     @property
     def largest(self) -> float:
@@ -80,14 +86,14 @@ class Walls:
 
     def body(self, thickness: float, looked: bool = True) -> Body:
         """The body with walls that thick, m. looked: whether walls that meet are looked for, which takes time.
-        ValueError, with the largest thickness that works, where a wall folds over."""
+        ReadError where a wall folds over."""
         if not thickness > 0.0:
-            raise ValueError("It has no thickness; set one.")
-        if not thickness < self.largest:
-            raise ValueError(self._folded(thickness))
+            raise ReadError("no_thickness")
+        if any(piece.folds(self.side, thickness) for piece in self.pieces):
+            raise ReadError(self._folded(thickness))
         wall = sum_moments([piece.moments(self.side, thickness) for piece in self.pieces])
         return replace(
-            self.thin, wall=wall, to_order=None, warnings=(*self.thin.warnings, *self._told(thickness, looked))
+            self.thin, wall=wall, to_order=None, findings=(*self.thin.findings, *self._decisions(thickness, looked))
         )
 
     def without_surfaces(self) -> Walls:
@@ -98,55 +104,45 @@ class Walls:
             pieces=tuple(replace(piece, sweep=piece.sweep.without_surface()) for piece in self.pieces),
         )
 
-    def _folded(self, thickness: float) -> str:
+    def _folded(self, thickness: float) -> Finding:
         piece = min(self.pieces, key=lambda piece: piece.largest(self.side))
-        near = ""
+        largest = self.largest
+        near = {}
         if len(piece.sweep.points):
-            place = piece.matrices[0, :3, :3] @ piece.sweep.fold(self.side) + piece.matrices[0, :3, 3]
-            near = " near ({:.6g}, {:.6g}, {:.6g}) m".format(*place)
-        if not self.largest > 0.0:
-            return (
-                "Faces fold back on their neighbours{:s}, so that a wall has no place there. Merge or mend them, "
-                "choose another side, or set Wall to Thin.".format(near)
-            )
-        return (
-            "A wall of {:.6g} m, {:s}, folds over on itself{:s}; the largest that works is {:.4g} m. Choose a "
-            "thinner one, another side, or set Wall to Thin.".format(thickness, self.side, near, _below(self.largest))
-        )
+            point = piece.matrices[0, :3, :3] @ piece.sweep.fold(self.side) + piece.matrices[0, :3, 3]
+            near = {"point": point.tolist()}
+        if not largest > 0.0:
+            return finding("wall_faces_fold_back" if near else "wall_faces_fold_back_somewhere", **near)
+        sizes = {"thickness": thickness, "side": self.side, "largest": _below(largest)}
+        return finding("wall_folds" if near else "wall_folds_somewhere", **sizes, **near)
 
-    def _told(self, thickness: float, looked: bool) -> list[str]:
-        notes = [
-            "Its wall was measured as real material, {:.6g} m {:s}, with mitred corners.".format(
-                thickness, WORDS[self.side]
-            )
-        ]
-        notes.extend(self.notes)
-        least = min(piece.sweep.least for piece in self.pieces)
-        most = max(piece.sweep.most for piece in self.pieces)
-        if least < 1.0 - WORTH_TELLING or most > 1.0 + WORTH_TELLING:
-            notes.append(
-                "Where more than three planes meet, or two in a blade, no corner keeps all of them at the "
-                "thickness: the wall is {:.3g} to {:.3g} times as thick there.".format(least, most)
-            )
+    def _decisions(self, thickness: float, looked: bool) -> list[Finding]:
+        findings = [finding("wall_measured", thickness=thickness, side=self.side), *self.findings]
+        minimum = float(min(piece.sweep.least for piece in self.pieces))
+        maximum = float(max(piece.sweep.most for piece in self.pieces))
+        if minimum < 1.0 - REPORTED or maximum > 1.0 + REPORTED:
+            slight = self._unevenness() < NEGLIGIBLE
+            code = "wall_thickness_varies_slightly" if slight else "wall_thickness_varies"
+            findings.append(finding(code, minimum=minimum, maximum=maximum))
         ignored = sum(piece.sweep.ignored for piece in self.pieces)
         if ignored:
-            notes.append(
-                "{:d} of its faces have too little area to face anywhere, and moved along with their "
-                "neighbours.".format(ignored)
-            )
+            findings.append(finding("wall_faces_without_area", count=ignored))
         if not looked:
-            notes.append("Whether walls run into each other at this thickness was not looked for; Measure does.")
+            findings.append(finding("wall_overlap_unchecked"))
         elif any(piece.meets_itself(self.side, thickness) for piece in self.pieces):
-            notes.append(
-                "Its walls run into each other, and what they share counts twice. Choose a thinner one, or "
-                "another side."
-            )
+            findings.append(finding("walls_overlap"))
         elif self._places_meet(thickness):
-            notes.append(
-                "The walls of its instances may run into each other, and what they share counts twice: that "
-                "was not looked for between instances. Make them real and join them to know."
-            )
-        return notes
+            findings.append(finding("instance_walls_unchecked"))
+        return findings
+
+    def _unevenness(self) -> float:
+        """How far the moments to second order of a very thin wall are from those of its surface, by its size."""
+        surface = self.thin.area
+        center, degree = surface.center, monomials(2).sum(axis=1)
+        wall = sum_moments([piece.per_thickness() for piece in self.pieces]).shifted(center).truncated(2).raw
+        sheet = surface.shifted(center).truncated(2).raw
+        reach = np.sqrt(sheet[(degree == 2) & (monomials(2).max(axis=1) == 2)].sum() / sheet[0])
+        return float((np.abs(wall - sheet) / (sheet[0] * reach**degree)).max())
 
     def _places_meet(self, thickness: float) -> bool:
         centers, extents = zip(*(piece.boxes(self.side, thickness) for piece in self.pieces))
@@ -154,13 +150,12 @@ class Walls:
 
 
 def find_walls(reading: Reading, body: Body, side: str) -> Walls:
-    """The walls of an object that was measured as a thin shell. ValueError, with what to do, where a surface has no
-    sides."""
+    """The walls of an object that was measured as a thin shell. MeasureError where a surface has no sides."""
     if body.mass is not None:
-        raise ValueError("Walls of real thickness have one density; set Wall to Thin, or give it one density.")
-    pieces, notes = [], []
+        raise ReadError("wall_needs_one_density")
+    pieces, findings = [], []
     for part, (solid, matrices) in zip(reading.parts, body.solids):
-        surface = _oriented(part.surface, solid, notes)
+        surface = _oriented(part.surface, solid, findings)
         for image, places, _ in even_surfaces(surface, matrices):
             swept = sweep(image)
             scale = np.cbrt(np.abs(np.linalg.det(places[:, :3, :3])))
@@ -168,18 +163,18 @@ def find_walls(reading: Reading, body: Body, side: str) -> Walls:
             for i in range(int(which.max()) + 1):
                 own = which.ravel() == i
                 pieces.append(Piece(swept, float(scale[own].mean()), places[own]))
-    return Walls(body, side, tuple(pieces), tuple(dict.fromkeys(notes)))
+    return Walls(body, side, tuple(pieces), unique(findings))
 
 
-def _oriented(surface: Surface, solid: SolidMeasure, notes: list[str]) -> Surface:
+def _oriented(surface: Surface, solid: SolidMeasure, findings: list[Finding]) -> Surface:
     """The surface with its faces outward where it is closed, else as it is."""
     if solid.method in {"exact", "reoriented"}:
         area = solid_and_area(solid.mended)[1].total
-        if abs(area - solid.area.total) <= SAME_AREA * solid.area.total:  # else mending has left something out
+        if abs(area - solid.area.total) <= SAME_AREA * solid.area.total:  # else the repair has left something out
             if solid.method == "reoriented":
-                notes.append("Its faces were turned outward before.")
+                findings.append(finding("wall_faces_reversed"))
             return solid.mended
-    notes.append("It is not closed, so that inward is what lies behind its faces as they are turned now.")
+    findings.append(finding("wall_unoriented"))
     return surface
 
 

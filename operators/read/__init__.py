@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender in: evaluated objects as arrays, with their places and every decision taken."""
+"""Blender in: evaluated objects as arrays, with their places and a finding for each decision."""
 
 from .objects import read_lines, read_object, read_patches
-from .reading import Painted, Part, Reading, SplineReading, Unreadable
+from .reading import Painted, Part, Reading, SplineReading
 from .visibility import measurable, measurable_objects, shows_flat_region
 
 __all__ = [
@@ -11,7 +11,6 @@ __all__ = [
     "Part",
     "Reading",
     "SplineReading",
-    "Unreadable",
     "measurable",
     "measurable_objects",
     "read_lines",

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from ...core.numerics.bspline import Space
 from ...core.nurbs.blender_knots import blender_space
 from ...core.nurbs.curve import Curve
+from ...core.verdict.finding import Finding, ReadError, finding
 from .deformation import deformed, is_deformed, spline_modifiers
-from .reading import Unreadable
 from .splines import weighted_points
 from .visibility import evaluated_geometry
 
@@ -25,41 +25,32 @@ STRAIGHT = 1e-6  # of a spline's length: what float32 leaves of a straight line
 TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # of a geometry set's curves, by their number
 CUSTOM = 4  # the mode of knots that are none of those that the flags make
 STEPS, SAME_LENGTH, AGREE = 8, 1e-4, 1e-7  # a point; of the length; of the largest coordinate, at each step
-OTHER_KNOTS = (
-    "Its file gave it knots of its own, which Blender keeps to itself; switch Endpoint off and on in its "
-    "Active Spline settings, which makes knots that are known."
-)
 
 
-def read_curves(obj, depsgraph) -> tuple[list[Curve], list[str]]:
+def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
     """The curves of a curve object in its own coordinates, as it is evaluated, and what was decided.
 
-    Raises Unreadable where there is none, or Blender has not evaluated it.
+    Raises ReadError where there is none, or Blender has not evaluated it.
     """
     obj = obj.original
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its curves
     shown = geometry.curves
     evaluated = obj.evaluated_get(depsgraph)
-    notes = []
+    findings = []
     if shown is not None:
         curves = list(_shown_curves(shown, obj.name))
     else:
         curves = list(_spline_curves(evaluated, depsgraph))
         if spline_modifiers(obj)[1]:
-            notes.append(
-                "Its modifiers change the mesh that comes of the curve; the curve was measured as it is before."
-            )
+            findings.append(finding("curve_before_modifiers"))
         if (obj.data.bevel_factor_start, obj.data.bevel_factor_end) != (0.0, 1.0):
-            notes.append("The whole curve was measured, also where its bevel's Start and End leave it bare.")
-    found = [curve for curve in curves if curve is not None]
-    if len(found) < len(curves):
-        notes.append(
-            "{:d} of its {:d} splines are no curve and are left out: they have too few points for their "
-            "order, or for Bézier ends.".format(len(curves) - len(found), len(curves))
-        )
-    if not found:
-        raise Unreadable(obj.name, "It has no spline that is a curve; add points to one.")
-    return found, notes
+            findings.append(finding("bevel_range_ignored"))
+    usable = [curve for curve in curves if curve is not None]
+    if len(usable) < len(curves):
+        findings.append(finding("splines_left_out", count=len(curves) - len(usable), total=len(curves)))
+    if not usable:
+        raise ReadError("no_curve", subject=obj.name)
+    return usable, findings
 
 
 def is_round(obj) -> bool:
@@ -113,13 +104,13 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
     for spline, row in zip(splines, rows):
         kind = (spline.type, spline.use_cyclic_u, spline.order_u, spline.use_bezier_u, spline.use_endpoint_u)
         weights = weighted_points(spline)[:, 3].astype(np.float64) if spline.type == "NURBS" else None
-        if spline.type == "NURBS" and not _is_told(spline, _curve(*kind, row, weights)):
-            raise Unreadable(name, OTHER_KNOTS)
+        if spline.type == "NURBS" and not _has_known_knots(spline, _curve(*kind, row, weights)):
+            raise ReadError("unknown_knots", subject=name)
         yield _curve(*kind, places[start : start + len(row)], weights)
         start += len(row)
 
 
-def _is_told(spline, curve: Curve | None) -> bool:
+def _has_known_knots(spline, curve: Curve | None) -> bool:
     """Whether the knots are those that a spline's settings make: else Blender finds another length."""
     if curve is None:
         return True
@@ -145,7 +136,7 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
         own = slice(curve.first_point_index, curve.first_point_index + curve.points_length)
         kind, points = TYPES[types[number]], places[own]
         if kind == "NURBS" and knots[number] == CUSTOM:
-            raise Unreadable(name, OTHER_KNOTS)
+            raise ReadError("unknown_knots", subject=name)
         if kind == "CATMULL_ROM":
             arms = _catmull_rom(points, bool(cyclic[number]))
             kind, points = "BEZIER", np.stack([points - arms, points, points + arms], axis=1).reshape(-1, 3)
@@ -186,7 +177,7 @@ def _values(curves, name: str, item: str, width: int, default: float, count: int
 
 def _require_finite(places: NDArray, name: str) -> None:
     if not np.isfinite(places).all():
-        raise Unreadable(name, "Some of its control points are not finite; delete them, or mend what moves them.")
+        raise ReadError("non_finite_control_points", subject=name)
 
 
 def _curve(

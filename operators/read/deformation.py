@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.verdict.finding import ReadError
 from .reading import float64_matrix
 
 # These move control points whatever their switch says (curve_get_tessellate_point in displist.cc); others only with
@@ -74,7 +75,7 @@ def is_deformed(evaluated) -> bool:
 
 def deformed(evaluated, points: NDArray, depsgraph) -> NDArray[np.float64]:
     """(n, 3) the control points, of all splines in turn, of an evaluated object once shape keys and hooks have moved
-    them; what other modifiers do is left out."""
+    them; what other modifiers do is left out. ReadError where a hook cannot be followed."""
     points = np.asarray(points, np.float64)
     keys = evaluated.data.shape_keys
     if keys is not None and evaluated.original.mode != "EDIT" and len(keys.key_blocks):
@@ -120,7 +121,11 @@ def _hooked(evaluated, modifier, points: NDArray, depsgraph) -> NDArray[np.float
     matrix = float64_matrix(target.matrix_world)
     if modifier.subtarget and target.pose and modifier.subtarget in target.pose.bones:
         matrix = matrix @ float64_matrix(target.pose.bones[modifier.subtarget].matrix)
-    matrix = np.linalg.inv(float64_matrix(evaluated.matrix_world)) @ matrix @ float64_matrix(modifier.matrix_inverse)
+    try:
+        to_object = np.linalg.inv(float64_matrix(evaluated.matrix_world))
+    except np.linalg.LinAlgError:
+        raise ReadError("scale_zero_axis", subject=evaluated.original.name) from None
+    matrix = to_object @ matrix @ float64_matrix(modifier.matrix_inverse)
     before = points[rows]
     share = np.full(len(rows), float(modifier.strength))
     if modifier.falloff_type in FALLOFFS and modifier.falloff_radius != 0.0:

@@ -8,8 +8,8 @@ import hashlib
 
 import numpy as np
 
+from ...core.verdict.finding import ReadError
 from .mesh import mesh_surface
-from .reading import Unreadable
 from .visibility import evaluated_geometry
 
 MOST = 50_000  # faces: reading and digesting them takes 2 ms
@@ -29,7 +29,7 @@ def shape_digest(obj, depsgraph) -> bytes | None:
         return None
     try:
         geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
-    except Unreadable:
+    except ReadError:
         return None
     if geometry.mesh is None or len(geometry.mesh.polygons) > MOST:
         return None

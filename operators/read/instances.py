@@ -23,8 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
+from ...core.verdict.finding import MeasureError, ReadError
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
-from .reading import Painted, Part, SplineReading, Unreadable, float64_matrix
+from .reading import Painted, Part, SplineReading, float64_matrix
 from .splines import spline_reading
 from .visibility import GEOMETRY_TYPES, blends_keys, edit_modifiers, evaluated_geometry
 
@@ -40,7 +41,7 @@ class Gathered:
     """The surfaces found so far with all their places, and what had to be left out.
 
     faceless: (vertices, edges) of the meshes without a face.
-    left_out: how many of each kind of thing that has no surface.
+    left_out: how many of each kind of thing that has no surface, by the code that names the kind.
     sources: the original objects that were read, without the first.
     vanished: how many instances are scaled to nothing.
     splines: of each evaluated surface object that was read, its patches, None where its mesh has to do.
@@ -85,7 +86,7 @@ class Gathered:
     def parts(self) -> list[Part]:
         """One part for each surface, its matrices finite.
 
-        Raises Unreadable where an instance's are not. Instances scaled to nothing are left out and
+        Raises ReadError where an instance's are not. Instances scaled to nothing are left out and
         counted.
         """
         parts = []
@@ -96,10 +97,11 @@ class Gathered:
             matrices = np.concatenate(places)
             finite = np.isfinite(matrices).all(axis=(1, 2))
             if not finite.all():
-                raise Unreadable(
-                    self.root.name,
-                    "The transforms of {:d} of {:d} instances are not finite; find what gives them "
-                    "NaN or infinity.".format(int((~finite).sum()), len(matrices)),
+                raise ReadError(
+                    "non_finite_instances",
+                    subject=self.root.name,
+                    count=int((~finite).sum()),
+                    total=len(matrices),
                 )
             there = matrices[:, :3, :3].any(axis=(1, 2))
             if len(matrices) > 1 and not there.all():
@@ -118,7 +120,7 @@ class Gathered:
             raise ByBlender
         if self._path:
             if original.type == "META":
-                self.left_out["metaballs, which Blender cannot instance"] += len(places)
+                self.left_out["kind_metaballs"] += len(places)
                 return
             self.sources[original] = None
         self._path.append(original)
@@ -198,11 +200,7 @@ class Gathered:
         """The root and its instances as `depsgraph.object_instances` has them."""
         original = self.root.original
         if not original.visible_get(view_layer=self.depsgraph.view_layer):
-            raise Unreadable(
-                original.name,
-                "It is hidden, and Blender makes no instances on vertices, faces or particles of a "
-                "hidden object; show it.",
-            )
+            raise ReadError("instances_of_hidden_object", subject=original.name)
         if original.type in GEOMETRY_TYPES:
             geometry = self._geometry(self.root)
             if shows_itself(original, True):
@@ -246,8 +244,9 @@ class Gathered:
         if self.attribute is not None and len(mesh.polygons):
             try:
                 vertices = vertex_values(mesh, self.attribute)
-            except ValueError as error:
-                raise Unreadable(self.root.name, str(error)) from error
+            except MeasureError as error:
+                error.about(self.root.name)
+                raise
         if not self.materials:
             return Painted(vertices=vertices)
         slots = _slots(mesh, owner)
@@ -267,16 +266,16 @@ class Gathered:
     def _add(self, key: Hashable, read: Callable[[], tuple[Surface, Painted]], places: NDArray, owner) -> None:
         if key not in self._surfaces:
             self._surfaces[key], self._painted[key] = read()
-            self._names[key] = "" if owner is None else owner.original.name
+            self._names[key] = (self._path[-1] if owner is None else owner.original).name
         self._places.setdefault(key, []).append(places)
 
     def _count_surfaceless(self, geometry, count: int) -> None:
         if geometry.curves is not None and len(geometry.curves.curves):
-            self.left_out["curves without thickness"] += count * len(geometry.curves.curves)
+            self.left_out["kind_curves"] += count * len(geometry.curves.curves)
         if geometry.pointcloud is not None and len(geometry.pointcloud.points):
-            self.left_out["points"] += count * len(geometry.pointcloud.points)
+            self.left_out["kind_points"] += count * len(geometry.pointcloud.points)
         if geometry.volume is not None:
-            self.left_out["volumes"] += count
+            self.left_out["kind_volumes"] += count
 
 
 def _of_object(owner) -> tuple:

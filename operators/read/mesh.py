@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import NO_QUADS, NO_TRIANGLES, Surface
+from ...core.verdict.finding import ReadError
 
 # One triangle read by its index costs as much as about five in a `foreach_get` of all of them.
 SINGLE_COST = 5
@@ -99,12 +100,12 @@ def face_slots(mesh) -> NDArray[np.int32]:
 
 
 def vertex_values(mesh, name: str) -> NDArray[np.float64]:
-    """(n,) the values of a float attribute on vertices. ValueError where there is none, with what to do."""
+    """(n,) the values of a float attribute on vertices. ReadError where there is none."""
     attribute = mesh.attributes.get(name)
     if attribute is None:
-        raise ValueError("It has no attribute “{:s}”; store one on its vertices, or set another name.".format(name))
+        raise ReadError("attribute_missing", attribute=name)
     if attribute.domain != "POINT" or attribute.data_type != "FLOAT":
-        raise ValueError("Its attribute “{:s}” is not one float for each vertex; convert it to that.".format(name))
+        raise ReadError("attribute_type", attribute=name)
     return _attribute(mesh, name, "value", (len(mesh.vertices),), np.float32).astype(np.float64)
 
 

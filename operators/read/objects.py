@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An object as a Reading: what the viewport shows of it, and in words every decision taken.
+"""An object as a Reading: what the viewport shows of it, and a finding for each decision.
 
 Reading changes nothing: no mode, no selection, no mesh. An object that Blender has not evaluated is
 refused with the reason, never read without its modifiers (visibility.py). The object frame is
@@ -13,13 +13,14 @@ import numpy as np
 
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import rotation_matrix
+from ...core.verdict.finding import ReadError, finding
 from .curves import read_curves
 from .decisions import decisions, why_empty
 from .deformation import is_deformed
 from .instances import Gathered
-from .reading import Part, Reading, Unreadable, float64_matrix
+from .reading import Part, Reading, float64_matrix, said_of
 from .splines import spline_reading, weightless
-from .visibility import NOT_EVALUATED, evaluated_geometry, hidden_reason, require_kind
+from .visibility import evaluated_geometry, require_kind, why_not_evaluated
 
 
 def read_object(
@@ -30,8 +31,8 @@ def read_object(
     materials: with the materials of its faces. attribute: with the values of a float attribute on its
     vertices. edges: with what proves surfaces closed.
 
-    Raises Unreadable with the reason and the remedy: of a kind without surface, not evaluated,
-    nothing with a face, coordinates or transforms that are not finite.
+    Raises ReadError: of a kind without surface, not evaluated, nothing with a face, coordinates or
+    transforms that are not finite.
     """
     obj = obj.original
     require_kind(obj)
@@ -40,29 +41,29 @@ def read_object(
     gathered.gather()
     parts = gathered.parts()
     if not parts:
-        raise Unreadable(obj.name, why_empty(obj, gathered, depsgraph))
+        raise ReadError(why_empty(obj, gathered, depsgraph), subject=obj.name)
     for part in parts:
-        _require_finite(obj, part.surface)
-    reading.parts, reading.warnings = parts, list(decisions(obj, gathered, depsgraph))
+        _require_finite(obj, part)
+    reading.parts, reading.findings = parts, list(decisions(obj, gathered, depsgraph))
     return reading
 
 
 def read_lines(obj, depsgraph) -> Reading:
     """As `read_object` for a curve object, but its curves instead of the surface that it may show.
 
-    Raises Unreadable for objects of other kinds too.
+    Raises ReadError for objects of other kinds too.
     """
     obj = obj.original
     if obj.type != "CURVE":
-        raise Unreadable(obj.name, "Only a curve can be a wire; measure it as a solid or a shell.")
+        raise ReadError("only_curves_are_wires", subject=obj.name)
     reading = placed(obj, depsgraph)
-    reading.curves, reading.warnings = read_curves(obj, depsgraph)
+    reading.curves, reading.findings = read_curves(obj, depsgraph)
     return reading
 
 
 def read_patches(obj, depsgraph) -> Reading | None:
     """As `read_object` for a surface object, but its patches alone: no display mesh, unless control points have to be
-    compared with it, and no word about the render. None where it shows more, or has to be measured by its mesh.
+    compared with it, and no finding about the render. None where it shows more, or has to be measured by its mesh.
     """
     obj = obj.original
     reading = placed(obj, depsgraph)
@@ -81,17 +82,14 @@ def read_patches(obj, depsgraph) -> Reading | None:
 def placed(obj, depsgraph) -> Reading:
     """An evaluated object's name and place, with nothing read of it yet.
 
-    Raises Unreadable where Blender has not evaluated it, or its transform is not finite.
+    Raises ReadError where Blender has not evaluated it, or its transform is not finite.
     """
     evaluated = obj.evaluated_get(depsgraph)
     if not evaluated.is_evaluated:
-        raise Unreadable(obj.name, hidden_reason(obj, depsgraph) or NOT_EVALUATED)
+        raise ReadError(why_not_evaluated(obj, depsgraph), subject=obj.name)
     matrix = float64_matrix(evaluated.matrix_world)
     if not np.isfinite(matrix).all():
-        raise Unreadable(
-            obj.name,
-            "Its transform is not finite; reset its location, rotation and scale, or its parent's.",
-        )
+        raise ReadError("non_finite_transform", subject=obj.name)
     location, rotation, _scale = evaluated.matrix_world.decompose()
     return Reading(
         name=obj.name,
@@ -102,20 +100,13 @@ def placed(obj, depsgraph) -> Reading:
     )
 
 
-def _require_finite(obj, surface: Surface) -> None:
+def _require_finite(obj, part: Part) -> None:
+    surface = part.surface
     if np.isfinite(surface.box).all():
         return
+    if obj.type == "SURFACE" and weightless(obj.data.splines):
+        raise ReadError("non_positive_weights", subject=obj.name)
     points = surface.points
-    count = int((~np.isfinite(points).all(axis=1)).sum())
-    weights = weightless(obj.data.splines) if obj.type == "SURFACE" else 0
-    if weights:
-        raise Unreadable(
-            obj.name,
-            "Weights of its control points ({:d}) are not positive, so that it reaches infinity; raise them above "
-            "zero.".format(weights),
-        )
-    raise Unreadable(
-        obj.name,
-        "{:d} of its {:d} vertices have coordinates that are not finite; delete them, or mend the "
-        "modifier, driver or import that made them.".format(count, len(points)),
-    )
+    misplaced = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    found = finding("non_finite_vertices", misplaced, count=len(misplaced), total=len(points))
+    raise ReadError(said_of(found, part.source, obj.name), subject=obj.name)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What reading an object gives: surfaces, their places in the world, every decision taken."""
+"""What reading an object gives: surfaces, their places in the world, a finding for each decision."""
 
 from __future__ import annotations
 
@@ -12,23 +12,11 @@ from numpy.typing import NDArray
 from ...core.mesh.surface import Surface, joined
 from ...core.nurbs.curve import Curve
 from ...core.nurbs.patch import Patch
+from ...core.verdict.finding import Finding
 
 # Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
 # float32 entries alone may have made it: such a matrix cannot be told from one that flattens.
 FLAT = 4.0 * float(np.finfo(np.float32).eps)
-
-
-class Unreadable(Exception):
-    """The object cannot be read correctly.
-
-    name: the object's. reason: one sentence or two, without the name, that say why and what to do
-    about it.
-    """
-
-    def __init__(self, name: str, reason: str):
-        super().__init__("{:s}: {:s}".format(name, reason))
-        self.name = name
-        self.reason = reason
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,11 +35,11 @@ class Painted:
 @dataclass(frozen=True, eq=False)
 class SplineReading:
     """patches: of the splines that show a surface, each facing as Blender's faces do. stored: by how much float32
-    may have moved their points. notes: sentences."""
+    may have moved their points. findings: what was decided."""
 
     patches: tuple[Patch, ...]
     stored: float
-    notes: tuple[str, ...]
+    findings: tuple[Finding, ...]
 
 
 @dataclass
@@ -61,7 +49,7 @@ class Part:
     matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column
     vectors.
     painted: what its faces and vertices carry, where that was asked for.
-    source: the name of the object whose surface it is, the one that was read or another; empty for what nodes made.
+    source: the name of the object whose surface it is, or whose nodes made it; empty for the one that was read.
     splines: where `surface` is but the display mesh of B-spline patches, those.
     """
 
@@ -83,7 +71,7 @@ class Reading:
     curves: of a curve object that is read as lines, in its own coordinates; else none.
     flattened: how many of the places have a matrix that flattens the surface, so that it encloses nothing.
     singular: all of them have. places: how many surfaces stand where, instances counted each.
-    warnings: sentences without the object's name, one for each decision that was taken.
+    findings: one for each decision that was taken.
     """
 
     name: str
@@ -93,7 +81,7 @@ class Reading:
     location: NDArray[np.float64]
     parts: list[Part] = field(default_factory=list)
     curves: list[Curve] = field(default_factory=list)
-    warnings: list[str] = field(default_factory=list)
+    findings: list[Finding] = field(default_factory=list)
 
     @property
     def has_patches(self) -> bool:
@@ -122,6 +110,12 @@ class Reading:
         return joined(
             [part.surface.mapped(matrix[:3, :3], matrix[:3, 3]) for part in self.parts for matrix in part.matrices]
         )
+
+
+def said_of(result: Finding, source: str, whole: str) -> Finding:
+    """A finding about a surface of the object `whole`: with the name of the surface's own object where that is another
+    one."""
+    return result if source in ("", whole) else result.of_sources([source])
 
 
 def flattens(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
+from ...core.verdict.finding import ReadError
 from .reading import float64_matrix
 
 BLOCK = 1 << 21  # voxels that are sampled at a time
@@ -37,22 +38,18 @@ class SampledGrid:
 
     def __init__(self, obj, depsgraph, grid, bound_box) -> None:
         if grid.data_type not in KINDS or (bpy.app.version < (5, 0) and grid.data_type != "FLOAT"):
-            raise ValueError(
-                "Its grid “{:s}” holds values of a kind that can only be read with the openvdb module, "
-                "which this Blender lacks; convert it to floats.".format(grid.name)
-            )
+            raise ReadError("grid_needs_openvdb", grid=grid.name)
         self._obj, self._depsgraph, self._name = obj, depsgraph, grid.name
         self._kind, self._dtype = KINDS[grid.data_type]
         self.to_object = float64_matrix(grid.matrix_object)
+        if not abs(np.linalg.det(self.to_object[:3, :3])) > 0.0:
+            raise ReadError("grid_transform_singular")
         corners = np.array([[*corner] for corner in bound_box], np.float64)
         index = (corners - self.to_object[:3, 3]) @ np.linalg.inv(self.to_object[:3, :3]).T
         low, high = np.floor(index.min(axis=0)).astype(np.int64) - 1, np.ceil(index.max(axis=0)).astype(np.int64) + 1
         self.low, self.shape = low, high - low + 1
         if np.prod(self.shape.astype(float)) > MOST:
-            raise ValueError(
-                "Its grid “{:s}” has {:d} x {:d} x {:d} voxels, which is too many without the openvdb "
-                "module, which this Blender lacks.".format(grid.name, *self.shape.tolist())
-            )
+            raise ReadError("grid_too_large_without_openvdb", grid=grid.name, samples=self.shape.tolist())
         with self._sampler() as sample:
             self.background = float(sample(low - 2, (1, 1, 1))[0, 0, 0])
 
@@ -65,10 +62,7 @@ class SampledGrid:
                 yield (start, 0, 0), sample(self.low + (start, 0, 0), shape)
 
     def polygons(self) -> Surface:
-        raise ValueError(
-            "A level set cannot be told from a density without the openvdb module, which this Blender "
-            "lacks; use the node Grid to Mesh, and measure that."
-        )
+        raise ReadError("level_set_needs_openvdb")
 
     @contextmanager
     def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
@@ -105,7 +99,7 @@ class SampledGrid:
                 values = np.zeros(count, self._dtype)
                 evaluated = probe.evaluated_get(layer.depsgraph).data
                 if "value" not in evaluated.attributes:
-                    raise ValueError("Its grid “{:s}” cannot be sampled.".format(self._name))
+                    raise ReadError("grid_not_sampled", grid=self._name)
                 evaluated.attributes["value"].data.foreach_get("value", values)
                 return values.reshape(shape)
 

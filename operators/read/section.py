@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import own_axes
+from ...core.verdict.finding import Finding, ReadError, finding
 from .mesh import from_edit_mesh, mesh_surface
 from .objects import placed, read_object
-from .reading import Reading, Unreadable
+from .reading import Reading
 
 SECTION_TYPES = {"MESH", "CURVE", "FONT"}
 ZERO = 1e-17  # a scale that `decompose()` takes for zero
@@ -49,13 +50,13 @@ class SectionReading:
     loops: list[NDArray[np.integer]] | None = None
     facing: NDArray[np.float64] | None = None
     drawn: float | None = None
-    warnings: list[str] = field(default_factory=list)
+    findings: list[Finding] = field(default_factory=list)
 
 
 def read_section(obj, depsgraph) -> SectionReading:
     """Read one object: in Edit Mode of a mesh its selected faces as they are now, else what the viewport shows of it.
 
-    Raises Unreadable with the reason and the remedy.
+    Raises ReadError.
     """
     obj = obj.original
     if obj.type == "MESH" and obj.data.is_editmode:
@@ -63,9 +64,9 @@ def read_section(obj, depsgraph) -> SectionReading:
     if obj.type in {"CURVE", "FONT"} and not any(modifier.show_viewport for modifier in obj.modifiers):
         return _outlines(obj, depsgraph)
     reading = read_object(obj, depsgraph, edges=False)
-    warnings = list(reading.warnings)
+    findings = list(reading.findings)
     if obj.type in {"CURVE", "FONT"}:
-        warnings.append("What its modifiers make of Blender's fill was measured.")
+        findings.append(finding("section_modified_fill"))
     surface = reading.joined()
     return SectionReading(
         obj.name,
@@ -76,7 +77,7 @@ def read_section(obj, depsgraph) -> SectionReading:
         float(np.linalg.norm(surface.coordinate_error)),
         _axes(reading),
         reading.location,
-        warnings=warnings,
+        findings=findings,
     )
 
 
@@ -93,20 +94,14 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
 
     chosen, surface = from_edit_mesh(obj.data, selected)
     if not chosen.any():
-        raise Unreadable(obj.name, "None of its faces is selected; select the faces of the section.")
+        raise ReadError("section_no_selected_face", subject=obj.name)
     place = placed(obj, depsgraph)
     surface = surface.mapped(place.matrix[:3, :3], place.matrix[:3, 3])
     inside = chosen[surface.triangle_faces]
     triangles = surface.triangles[inside]
     _require_finite(obj, surface.points[triangles])
-    warnings = []
-    acting = [modifier for modifier in obj.modifiers if modifier.show_viewport]
-    if acting:
-        warnings.append(
-            "The faces being edited were measured, without its modifiers: {:s}.".format(
-                ", ".join("“{:s}”".format(modifier.name) for modifier in acting)
-            )
-        )
+    acting = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
+    findings = [finding("section_without_modifiers", modifiers=acting)] if acting else []
     count = int(np.count_nonzero(chosen))
     return SectionReading(
         obj.name,
@@ -117,7 +112,7 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
         float(np.linalg.norm(surface.coordinate_error)),
         _axes(place),
         place.location,
-        warnings=warnings,
+        findings=findings,
     )
 
 
@@ -127,22 +122,18 @@ def _outlines(obj, depsgraph) -> SectionReading:
         obj.update_from_editmode()
     local, loops, open_splines = _wire(obj)
     if not loops:
-        raise Unreadable(
-            obj.name,
-            "It has no closed outline; write a text."
-            if obj.type == "FONT"
-            else "It has no closed outline; close its splines (Toggle Cyclic).",
-        )
+        code = "section_no_outline_text" if obj.type == "FONT" else "section_no_outline_curve"
+        raise ReadError(code, subject=obj.name)
     place = placed(obj, depsgraph)
     linear = place.matrix[:3, :3]
     facing = np.cross(linear[:, 0], linear[:, 1]) * np.sign(np.linalg.det(linear) or 1.0)
     filled = _filled(obj, depsgraph)
-    warnings = list(_said(obj, sum(map(len, loops)), open_splines))
+    findings = list(_outline_findings(obj, sum(map(len, loops)), open_splines))
     drawn = None
     if obj.type == "FONT" and obj.data.follow_curve is not None:
         # Only the evaluated text follows its curve, and only its fill is there to be read.
         if filled is None:
-            raise Unreadable(obj.name, "It follows a curve and is not filled; fill it, or convert it to a mesh.")
+            raise ReadError("section_text_on_curve", subject=obj.name)
         surface, loops = filled.mapped(linear, place.matrix[:3, 3]), None
         triangles, faces = surface.triangles, surface.triangle_faces
     else:
@@ -167,38 +158,31 @@ def _outlines(obj, depsgraph) -> SectionReading:
         loops,
         facing,
         drawn,
-        warnings,
+        findings,
     )
 
 
-def _said(obj, corners: int, open_splines: int) -> Iterator[str]:
+def _outline_findings(obj, corners: int, open_splines: int) -> Iterator[Finding]:
     if open_splines:
-        yield "{:d} of its splines are open, so that they enclose nothing, and were left out.".format(open_splines)
+        yield finding("section_splines_open", count=open_splines)
     if obj.data.fill_mode == "NONE":
-        yield "It is not filled; its outlines were measured as if it were."
+        yield finding("section_not_filled")
     resolution = _resolution(obj)
     if resolution:
-        yield (
-            "Its curves were measured as the polygons that Blender draws, {:d} corners at a resolution of {:s}; "
-            "twice the resolution brings them four times as near."
-        ).format(corners, resolution)
+        yield finding("section_drawn_as_polygons", corners=corners, resolution=resolution)
     rendered = obj.data.render_resolution_u
     if resolution and rendered not in (0, obj.data.resolution_u):
-        yield "Its resolution is {:d} in the render; that of the viewport was used.".format(rendered)
+        yield finding("section_render_resolution", render=rendered)
 
 
 def _require_flat_outlines(obj) -> None:
     curve = obj.data
     if obj.type == "CURVE" and curve.dimensions != "2D":
-        raise Unreadable(
-            obj.name, "It is a 3D curve, which encloses no region of a plane; make it 2D in its Shape panel."
-        )
+        raise ReadError("section_3d_curve", subject=obj.name)
     if curve.extrude or curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object):
-        raise Unreadable(
-            obj.name, "Its extrusion or bevel makes it a body; set Extrude and Bevel Depth to 0 to measure its outline."
-        )
+        raise ReadError("section_extruded", subject=obj.name)
     if curve.offset:
-        raise Unreadable(obj.name, "Its Offset moves the outline that is filled; set it to 0, or convert it to a mesh.")
+        raise ReadError("section_offset", subject=obj.name)
 
 
 def _wire(obj) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
@@ -239,17 +223,15 @@ def _filled(obj, depsgraph) -> Surface | None:
 
 
 def _resolution(obj) -> str:
-    """The resolutions of what is curved, in words; "" where all is straight."""
+    """The resolution of what is curved, or the range of them; "" where all is straight."""
     if obj.type == "FONT":
         return str(obj.data.resolution_u)
     used = sorted({spline.resolution_u for spline in obj.data.splines if spline.type != "POLY"})
     if not used:
         return ""
-    return str(used[0]) if len(used) == 1 else "{:d} to {:d}".format(used[0], used[-1])
+    return str(used[0]) if len(used) == 1 else "{:d}–{:d}".format(used[0], used[-1])
 
 
 def _require_finite(obj, points: NDArray) -> None:
     if not np.isfinite(points).all():
-        raise Unreadable(
-            obj.name, "Some of its points have coordinates that are not finite; delete them, or mend what made them."
-        )
+        raise ReadError("section_non_finite", subject=obj.name)

@@ -19,6 +19,7 @@ from ...core.moments.moments import HALF_ULP
 from ...core.numerics.bspline import Space
 from ...core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from ...core.nurbs.patch import Patch
+from ...core.verdict.finding import ReadError, finding
 from .deformation import deformed, is_deformed, spline_modifiers
 from .reading import SplineReading
 
@@ -42,7 +43,10 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     coordinates = np.concatenate(rows)
     places = coordinates[:, :3].astype(np.float64)
     if is_deformed(evaluated):
-        places = deformed(evaluated, places, depsgraph)
+        try:
+            places = deformed(evaluated, places, depsgraph)
+        except ReadError:
+            return None
     if weightless(splines) or not np.isfinite(coordinates).all() or not np.isfinite(places).all():
         return None
     starts = np.cumsum([0] + [len(row) for row in rows])
@@ -71,12 +75,9 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     largest = float(np.abs(places).max())
     size = float(np.ptp(places, axis=0).max())
     stored = HALF_ULP * (1.8 * largest + (2.0 * size if any(patch.weights is not None for patch in patches) else 0.0))
-    notes = []
+    findings = []
     if left_out:
-        notes.append(
-            "{:d} of its {:d} splines show no surface and are left out: they have too few points for their "
-            "order, or for Bézier ends.".format(left_out, len(splines))
-        )
+        findings.append(finding("splines_left_out", count=left_out, total=len(splines)))
     if mesh is not None:
         shown = np.empty(3 * len(mesh.vertices), np.float32)
         mesh.attributes["position"].data.foreach_get("vector", shown)
@@ -85,11 +86,8 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
             return None
         if proved is not patches:
             patches, stored = proved, stored + RECOVERED * size
-            notes.append(
-                "Its control points were recovered from the display mesh, to about 6 digits, as Blender does "
-                "not tell where its modifiers or keys move them."
-            )
-    return SplineReading(tuple(patches), stored, tuple(notes))
+            findings.append(finding("control_points_recovered"))
+    return SplineReading(tuple(patches), stored, tuple(findings))
 
 
 def weightless(splines) -> int:

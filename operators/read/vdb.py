@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
+from ...core.verdict.finding import ReadError
 
 NODE = 128  # voxels along a side of the blocks that are read
 ROOT = 4096  # along a side of the largest nodes
@@ -42,7 +43,7 @@ class VdbGrid:
     """A grid of a .vdb file.
 
     low, shape: (3,) the box of its active voxels, in voxels. background: what all others hold. level_set: whether the
-    file calls it one. to_object: (4, 4) from voxels. ValueError where it cannot be measured.
+    file calls it one. to_object: (4, 4) from voxels. ReadError where it cannot be measured.
     """
 
     def __init__(self, path: str, name: str) -> None:
@@ -50,20 +51,13 @@ class VdbGrid:
         try:
             self._grid = module.read(path, name)
         except (RuntimeError, KeyError, TypeError, OSError) as error:
-            raise ValueError("Its grid “{:s}” cannot be read: {:s}.".format(name, str(error).rstrip("."))) from error
+            raise ReadError("grid_unreadable", grid=name, error=str(error).rstrip(".")) from error
         self._dtype = DTYPES.get(self._grid.valueTypeName)
         if self._dtype is None:
-            raise ValueError(
-                "Its grid “{:s}” holds values of the kind {:s}, which is no density; choose another grid.".format(
-                    name, self._grid.valueTypeName
-                )
-            )
+            raise ReadError("grid_value_type", grid=name, type=self._grid.valueTypeName)
         transform = self._grid.transform
         if not transform.isLinear:
-            raise ValueError(
-                "Its grid “{:s}” is seen through a camera (a frustum), not placed by a linear "
-                "transform; resample it.".format(name)
-            )
+            raise ReadError("grid_frustum", grid=name)
         self.background = float(self._grid.background)
         self.level_set = self._grid.gridClass == "level set"
         corner = np.array(transform.indexToWorld((0, 0, 0)), np.float64)
@@ -78,14 +72,9 @@ class VdbGrid:
             low, high = np.zeros(3, np.int64), np.full(3, -1)
         self.low, self.shape = low, high - low + 1
         if np.prod(high // ROOT - low // ROOT + 1.0) > MOST_ROOTS:
-            raise ValueError(
-                "The voxels of its grid “{:s}” are spread over {:d} x {:d} x {:d}; remove those that "
-                "stand far from the others.".format(name, *self.shape.tolist())
-            )
+            raise ReadError("grid_too_sparse", grid=name, samples=self.shape.tolist())
         if np.abs([low, high]).max() > FARTHEST:
-            raise ValueError(
-                "The voxels of its grid “{:s}” stand too far from its origin; begin to count them near it.".format(name)
-            )
+            raise ReadError("grid_far_from_origin", grid=name)
 
     def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
         """The voxels that are there, as blocks, each with where it begins in the box."""

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from .reading import Unreadable
+from ...core.verdict.finding import Finding, ReadError, finding
 
 GEOMETRY_TYPES = {
     "MESH",
@@ -27,8 +27,6 @@ GEOMETRY_TYPES = {
     "GREASEPENCIL",
 }
 SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
-
-NOT_EVALUATED = "Blender has not evaluated it; update the view layer."
 
 
 def measurable(obj) -> bool:
@@ -97,83 +95,74 @@ def metaball_families(view_layer) -> list[list]:
 
 
 def require_kind(obj) -> None:
-    """Raise Unreadable for an object of a kind that shows no surface."""
+    """Raise ReadError for an object of a kind that shows no surface."""
     if obj.type in GEOMETRY_TYPES or obj.instance_type == "COLLECTION":
         return
     if obj.type == "EMPTY":
-        raise Unreadable(obj.name, "It is an empty that instances nothing; give it a collection to instance.")
+        raise ReadError("empty_without_instances", subject=obj.name)
     kind = obj.bl_rna.properties["type"].enum_items[obj.type].name
-    raise Unreadable(
-        obj.name,
-        "It is of the kind “{:s}”, which has no geometry; select an object with a surface.".format(kind),
-    )
+    raise ReadError("object_without_geometry", subject=obj.name, type=kind)
 
 
 def evaluated_geometry(obj, depsgraph, reader):
     """The object's `GeometrySet`, which owns the meshes that it hands out.
 
-    Raises Unreadable in the name of `reader`, the object for which `obj` is read, where Blender has
-    not evaluated `obj` in full.
+    Raises ReadError about `reader`, the object for which `obj` is read, where Blender has not
+    evaluated `obj` in full.
     """
     reason = _sculpted(obj)
-    if not reason:
+    if reason is None:
         try:
             return obj.evaluated_get(depsgraph).evaluated_geometry()
         except (TypeError, RuntimeError):
-            reason = hidden_reason(obj, depsgraph) or NOT_EVALUATED
+            reason = why_not_evaluated(obj, depsgraph)
     if obj != reader:
-        reason = "It instances “{:s}”, which cannot be read: {:s}".format(obj.name, reason)
-    raise Unreadable(reader.name, reason)
+        reason = finding("instanced_object_unreadable", object=obj.name, cause=reason.as_record())
+    raise ReadError(reason, subject=reader.name)
 
 
-def _sculpted(obj) -> str | None:
-    """Why what the viewport shows of an object in Sculpt Mode is not its evaluated mesh, with the remedy; None where
-    it is."""
+def why_not_evaluated(obj, depsgraph) -> Finding:
+    """Why Blender has not evaluated the object."""
+    return hidden_reason(obj, depsgraph) or finding("not_evaluated")
+
+
+def _sculpted(obj) -> Finding | None:
+    """Why what the viewport shows of an object in Sculpt Mode is not its evaluated mesh; None where it is."""
     if obj.mode != "SCULPT":
         return None
     if obj.use_dynamic_topology_sculpting:
-        return "Dynamic topology keeps its sculpted mesh to itself; leave Sculpt Mode first."
+        return finding("dynamic_topology")
     for modifier in obj.modifiers:
         if modifier.type == "MULTIRES" and modifier.show_viewport and modifier.sculpt_levels:
-            return "“{:s}” keeps its sculpted levels to itself; leave Sculpt Mode first.".format(modifier.name)
+            return finding("sculpted_multires", modifier=modifier.name)
     return None
 
 
-def hidden_reason(obj, depsgraph) -> str | None:
-    """Why the view layer does not show the object, with the remedy; None if it does or has yet to
-    be updated."""
+def hidden_reason(obj, depsgraph) -> Finding | None:
+    """Why the view layer does not show the object; None if it does or has yet to be updated."""
     if obj.visible_get(view_layer=depsgraph.view_layer):
         return None
     homes = set(obj.users_collection)
     branches = [path for path in _branches(depsgraph.view_layer.layer_collection) if path[-1].collection in homes]
     if not branches:
-        return "It is not in the scene “{:s}”; link it to one of the scene's collections.".format(depsgraph.scene.name)
+        return finding("not_in_scene", scene=depsgraph.scene.name)
     if obj.hide_viewport:
-        return "It is disabled in viewports; turn on its monitor icon in the Outliner."
-    found, barred = [], set()
-    for blocks, reason in (
-        (
-            lambda layer: layer.exclude,
-            "Its collection “{:s}” is excluded from the view layer; tick it in the Outliner.",
-        ),
-        (
-            lambda layer: layer.collection.hide_viewport,
-            "Its collection “{:s}” is disabled in viewports; turn on its monitor icon.",
-        ),
-        (
-            lambda layer: layer.hide_viewport,
-            "Its collection “{:s}” is hidden; turn on its eye icon in the Outliner.",
-        ),
+        return finding("disabled_in_viewports")
+    reasons, barred = [], set()
+    for blocks, code in (
+        (lambda layer: layer.exclude, "collection_excluded"),
+        (lambda layer: layer.collection.hide_viewport, "collection_disabled"),
+        (lambda layer: layer.hide_viewport, "collection_hidden"),
     ):
         blocking = [next(filter(blocks, path), None) for path in branches]
         if all(blocking):
-            return reason.format(blocking[0].collection.name)
-        found += [reason.format(layer.collection.name) for layer in blocking if layer is not None]
+            return finding(code, collection=blocking[0].collection.name)
+        reasons += [finding(code, collection=layer.collection.name) for layer in blocking if layer is not None]
         barred |= {k for k, layer in enumerate(blocking) if layer is not None}
     if len(barred) == len(branches):
-        return found[-1]  # one for each of its collections: the mildest
+        return reasons[-1]  # one for each of its collections: the mildest
     if obj.hide_get(view_layer=depsgraph.view_layer):
-        return "It is hidden; turn on its eye icon in the Outliner."
+        return finding("hidden_in_viewport")
     return None
 
 

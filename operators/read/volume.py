@@ -20,12 +20,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
+from ...core.numerics.float32 import decimal
 from ...core.numerics.rotations import rotation_matrix
+from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from .decisions import modifier_decisions
-from .reading import Unreadable, float64_matrix
+from .reading import float64_matrix
 from .sample_grid import SampledGrid
 from .vdb import VdbGrid, openvdb
-from .visibility import NOT_EVALUATED, hidden_reason
+from .visibility import hidden_reason, why_not_evaluated
 
 SCALARS = {"BOOLEAN", "MASK", "FLOAT", "DOUBLE", "INT", "INT64"}
 PREFERRED = "density"
@@ -35,7 +37,7 @@ PREFERRED = "density"
 class VolumeReading:
     """One grid, and where it stands.
 
-    name, type, matrix, rotation, location, warnings: as in `Reading`.
+    name, type, matrix, rotation, location, findings: as in `Reading`.
     grid: its name. level_set: whether it is marked as one. to_object: (4, 4) float64 from voxels to the object.
     shape: (3,) of the box that holds its voxels; low: (3,) where that begins. background: what is in no voxel.
     blocks: yields what is there, (offset in the box, array). polygons: gives the surface of a level set.
@@ -54,7 +56,7 @@ class VolumeReading:
     background: float
     blocks: Callable[[], Iterable[tuple[tuple[int, int, int], NDArray]]]
     polygons: Callable[[], Surface]
-    warnings: list[str] = field(default_factory=list)
+    findings: list[Finding] = field(default_factory=list)
 
 
 @contextmanager
@@ -62,7 +64,7 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
     """One grid of the object, by default "density" or else the first that can be one, as long as the context lasts;
     None where the object shows polygons, or no volume.
 
-    Raises Unreadable with the reason and the remedy.
+    Raises ReadError, and attaches the object's name to what is raised inside the context.
     """
     obj = obj.original
     volume = _volume(obj, depsgraph)
@@ -72,17 +74,17 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
     evaluated = obj.evaluated_get(depsgraph)
     matrix = float64_matrix(evaluated.matrix_world)
     if not np.isfinite(matrix).all():
-        raise Unreadable(obj.name, "Its transform is not finite; reset its location, rotation and scale.")
-    warnings: list[str] = []
-    chosen = _chosen(obj, volume, grid, warnings)
+        raise ReadError("non_finite_transform", subject=obj.name)
+    findings: list[Finding] = []
+    chosen = _chosen(obj, volume, grid, findings)
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
-        warnings.append("Measured although it is not shown. {:s}".format(hidden))
-    warnings.extend(modifier_decisions(obj, depsgraph.scene))
+        findings.append(finding("hidden_object_measured", cause=hidden.as_record()))
+    findings.extend(modifier_decisions(obj, depsgraph.scene))
     if volume.geometry.instances_pointcloud() is not None:
-        warnings.append("Left out: what it instances beside its volume.")
+        findings.append(finding("instances_beside_volume"))
     try:
-        with _opened(obj, volume, chosen, depsgraph, warnings) as source:
+        with _opened(obj, volume, chosen, depsgraph, findings) as source:
             location, rotation, _ = evaluated.matrix_world.decompose()
             yield VolumeReading(
                 obj.name,
@@ -98,10 +100,11 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
                 source.background,
                 source.blocks,
                 source.polygons,
-                warnings,
+                findings,
             )
-    except ValueError as error:
-        raise Unreadable(obj.name, str(error)) from error
+    except MeasureError as error:
+        error.about(obj.name)
+        raise
 
 
 def _volume(obj, depsgraph):
@@ -114,7 +117,7 @@ def _volume(obj, depsgraph):
     try:
         geometry = evaluated.evaluated_geometry()
     except (TypeError, RuntimeError):
-        raise Unreadable(obj.name, hidden_reason(obj, depsgraph) or NOT_EVALUATED) from None
+        raise ReadError(why_not_evaluated(obj, depsgraph), subject=obj.name) from None
     if geometry.mesh is not None and len(geometry.mesh.polygons):
         return None
     # An object's own volume lives as long as the object, that of a geometry set as long as the set.
@@ -124,16 +127,13 @@ def _volume(obj, depsgraph):
     # A saved file turns an empty path into that of a folder.
     folder = os.path.isdir(bpy.path.abspath(volume.filepath, library=obj.data.library))
     if not volume.grids.load() and not folder:
-        raise Unreadable(
-            obj.name,
-            "Its file cannot be read: {:s}; give it another one.".format(
-                volume.grids.error_message.rstrip(".") or "it is missing or damaged"
-            ),
-        )
+        error = volume.grids.error_message.rstrip(".")
+        reason = finding("volume_file_unreadable", error=error) if error else finding("volume_file_missing")
+        raise ReadError(reason, subject=obj.name)
     if not len(volume.grids):
         if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:
             return None
-        raise Unreadable(obj.name, "It has no grids; give it a file, or a modifier that makes them.")
+        raise ReadError("volume_without_grids", subject=obj.name)
     return _Kept(geometry, volume)
 
 
@@ -145,45 +145,33 @@ class _Kept:
     data: object
 
 
-def _chosen(obj, volume: _Kept, name: str, warnings: list[str]):
+def _chosen(obj, volume: _Kept, name: str, findings: list[Finding]):
     """The grid of that name, or the one that is meant most likely."""
     grids = {grid.name: grid for grid in volume.data.grids}
     if len(grids) < len(volume.data.grids):
-        warnings.append("Several of its grids have the same name, of which only the first counts.")
-    listing = ", ".join("“{:s}”".format(one) for one in grids)
+        findings.append(finding("grid_names_repeated"))
     if name:
         if name not in grids:
-            raise Unreadable(obj.name, "It has no grid “{:s}”; it has: {:s}.".format(name, listing))
+            raise ReadError("grid_missing", subject=obj.name, grid=name, grids=list(grids))
         if grids[name].data_type not in SCALARS:
-            raise Unreadable(
-                obj.name,
-                "Its grid “{:s}” does not hold plain numbers and is no density; choose another one.".format(name),
-            )
+            raise ReadError("grid_type", subject=obj.name, grid=name)
         return grids[name]
     scalars = {one: grid for one, grid in grids.items() if grid.data_type in SCALARS}
     if not scalars:
-        raise Unreadable(obj.name, "None of its grids holds plain numbers; it has: {:s}.".format(listing))
+        raise ReadError("no_scalar_grid", subject=obj.name, grids=list(grids))
     chosen = scalars.get(PREFERRED) or next(iter(scalars.values()))
     if len(grids) > 1:
-        warnings.append(
-            "Of its grids “{:s}” is measured; left out: {:s}.".format(
-                chosen.name, ", ".join("“{:s}”".format(one) for one in grids if one != chosen.name)
-            )
-        )
+        left_out = [other for other in grids if other != chosen.name]
+        findings.append(finding("grids_left_out", grid=chosen.name, grids=left_out))
     return chosen
 
 
 @contextmanager
-def _opened(obj, volume: _Kept, grid, depsgraph, warnings: list[str]) -> Iterator[VdbGrid | SampledGrid]:
+def _opened(obj, volume: _Kept, grid, depsgraph, findings: list[Finding]) -> Iterator[VdbGrid | SampledGrid]:
     path = "" if openvdb() is None else _unchanged_file(obj, volume)
     render = depsgraph.scene.render
     if not path and render.use_simplify and render.simplify_volumes < 1.0:
-        warnings.append(
-            "The scene's Simplify makes its voxels coarser in the viewport, at {:.3g} % of their "
-            "resolution, and so they were measured; turn it off for all of them.".format(
-                100.0 * render.simplify_volumes
-            )
-        )
+        findings.append(finding("grid_simplified", share=decimal(render.simplify_volumes)))
     if openvdb() is None:
         yield SampledGrid(obj, depsgraph, grid, obj.evaluated_get(depsgraph).bound_box)
         return
@@ -193,7 +181,7 @@ def _opened(obj, volume: _Kept, grid, depsgraph, warnings: list[str]) -> Iterato
     with tempfile.TemporaryDirectory(prefix="body_moments_", dir=bpy.app.tempdir or None) as folder:
         path = os.path.join(folder, "volume.vdb")
         if not volume.data.grids.save(filepath=path):
-            raise ValueError("Blender cannot write its voxels to the temporary folder; make room there.")
+            raise ReadError("temporary_folder_full")
         yield VdbGrid(path, grid.name)
 
 

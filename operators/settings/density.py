@@ -10,12 +10,13 @@ import bpy
 
 from ...core.density.polynomial import Polynomial, parse
 from ...core.numerics.float32 import decimal
+from ...core.verdict.finding import Finding, ReadError, finding
 
 
 @dataclass(frozen=True, eq=False)
 class DensityField:
     """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of metres, along the
-    world's axes or each surface's own; text: as it was typed, or taken. attribute: the name of that of the vertices."""
+    world's axes or each surface's own; text: as it was typed. attribute: the name of that of the vertices."""
 
     kind: str
     polynomial: Polynomial | None = None
@@ -23,25 +24,33 @@ class DensityField:
     text: str = ""
     attribute: str | None = None
 
+    @property
+    def frame(self) -> str:
+        """Whose coordinates those of the polynomial are: "world" or "object"."""
+        return "world" if self.in_world else "object"
+
+    def polynomial_source(self) -> Finding:
+        """Where a polynomial density comes from. Who meant a decimal comma sees here what it was taken for."""
+        code = "density_from_coefficients" if "," in self.text else "density_from_polynomial"
+        return finding(code, polynomial=self.text, frame=self.frame)
+
 
 def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
-    """What the object's settings name; None for one value or a given mass. ValueError, with what to do, where a
-    polynomial cannot be read or an attribute has no name."""
+    """What the object's settings name; None for one value or a given mass. MeasureError where a polynomial cannot be
+    read, or nothing is chosen."""
     if settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
         return None
     if settings.density_from == "MATERIALS":
         return DensityField("materials")
     if settings.density_from == "POLYNOMIAL":
         text = settings.density_polynomial.strip()
-        # Who meant a decimal comma sees here what it was taken for.
-        told = "with the coefficients {:s} of 1, x, y, z, …".format(text) if "," in text else text
-        return DensityField("polynomial", parse(text), settings.density_frame == "WORLD", told)
+        return DensityField("polynomial", parse(text), settings.density_frame == "WORLD", text)
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:
-            raise ValueError("The Volume object that its density comes from is not chosen; choose one.")
+            raise ReadError("density_volume_missing")
         return DensityField("volume")
     if not settings.density_attribute:
-        raise ValueError("The vertex attribute that holds its density has no name; set one.")
+        raise ReadError("density_attribute_missing")
     return DensityField("attribute", attribute=settings.density_attribute)
 
 

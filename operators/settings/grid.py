@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...core.density.transfer_function import parse_table
 from ...core.numerics.float32 import decimal
+from ...core.verdict.finding import Finding, ReadError, finding
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,7 @@ class GridOptions:
 
     grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. value_density: kg/m³ where a value
     is 1; table: a transfer table instead, "" for none. spline_order: 1 voxels, 2 trilinear, 4 cubic.
-    remedy: what to do about negative densities.
+    negative: the code of the refusal of negative densities, by where they come from.
     """
 
     grid: str = ""
@@ -28,9 +29,7 @@ class GridOptions:
     value_density: float = 1.0
     table: str = ""
     spline_order: int = 1
-    remedy: str = (
-        "Give a transfer table for what its values stand for; a level set can be measured as the solid that it bounds."
-    )
+    negative: str = "values_negative"
 
     @classmethod
     def of(cls, settings, density: float | None = None) -> GridOptions:
@@ -51,41 +50,32 @@ class GridOptions:
         return (*values, self.spline_order)
 
     def weigh(self, background: float | None) -> Callable[[NDArray], NDArray]:
-        """What makes densities in kg/m³ of values. The background, if any, is empty, whatever its value."""
+        """What makes densities in kg/m³ of values, and raises ReadError where it cannot. The background, if any, is
+        empty, whatever its value."""
         pairs = parse_table(self.table) if self.table else None
 
         def weighed(values: NDArray) -> NDArray[np.float64]:
             if pairs is not None and not np.isfinite(values).all():
-                raise ValueError(
-                    "It has values that are not finite, for which no transfer table has a density; remove them."
-                )
+                raise ReadError("values_non_finite_for_table")
             densities = values * self.value_density if pairs is None else np.interp(values, *pairs)
             if background is not None:
                 densities[values == background] = 0.0
             if densities.min() < 0.0:
-                raise ValueError(
-                    "It has negative densities, down to {:.6g} kg/m³. {:s}".format(densities.min(), self.remedy)
-                )
+                raise ReadError(self.negative, density=float(densities.min()))
             return densities
 
         return weighed
 
-    def left_empty(self, background: float | None) -> tuple[str, ...]:
-        """A sentence where the background would have a density if it did not count as empty."""
+    def left_empty(self, background: float | None) -> tuple[Finding, ...]:
+        """A finding where the background would have a density if it did not count as empty."""
         if background is None or not np.isfinite(background):
             return ()
         density = np.interp(background, *parse_table(self.table)) if self.table else background * self.value_density
-        return ("Voxels that hold the background, {:.6g}, count as empty.".format(background),) if density else ()
+        return (finding("background_empty", value=float(background)),) if density else ()
 
-    def told(self) -> str:
-        """What a value stands for, as a sentence."""
-        text = (
-            "Its values became densities by the transfer table."
-            if self.table
-            else "A value of 1 is taken as {:.6g} kg/m³.".format(self.value_density)
-        )
-        if self.spline_order > 1:
-            text += " Its values are the coefficients of a spline of order {:d}, which smooths them.".format(
-                self.spline_order
-            )
-        return text
+    def meaning(self) -> Finding:
+        """What a value stands for."""
+        spline = {"order": self.spline_order} if self.spline_order > 1 else {}
+        if self.table:
+            return finding("values_by_table_spline" if spline else "values_by_table", **spline)
+        return finding("values_scaled_spline" if spline else "values_scaled", density=self.value_density, **spline)

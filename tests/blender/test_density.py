@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Densities that are not one number: materials, polynomials and vertex attributes, from settings to what is told."""
+"""Densities that are not one number: materials, polynomials and vertex attributes, from settings to what is said."""
 
 import json
 import math
@@ -8,14 +8,16 @@ import math
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.density.polynomial import parse
 from body_moments.core.inertia.mass_properties import combined
+from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.read import Unreadable
 from body_moments.operators.session import staleness
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties, record, report
 
 from tests.blender import batch_files
+from tests.blender.findings import refused, said
 from tests.blender.test_measure import add, box, measure
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -64,8 +66,8 @@ def dumbbell(**transform):
 def test_a_dumbbell_of_two_materials():
     found = measure(dumbbell())
     body, mass = found.mass_properties, STEEL + CORK
-    assert found.method == "exact" and not found.warnings
-    assert found.density_from == "materials: Cork 240 kg/m³, Steel 7820 kg/m³"
+    assert found.method == "exact" and not found.findings
+    assert str(found.density_from) == "materials: Cork 240 kg/m³, Steel 7820 kg/m³"
     assert body.mass == pytest.approx(mass, rel=1e-14) and found.density == pytest.approx(mass / 2, rel=1e-14)
     assert body.center == pytest.approx([(STEEL * 0.5 + CORK * 4.5) / mass, 0.5, 0.5], rel=1e-14)
     arm = STEEL * CORK / mass * 16.0
@@ -131,12 +133,29 @@ def test_a_part_that_mixes_materials_is_named_and_takes_the_mean_by_area():
     found = measure(obj)
     mean = (5 * CORK + STEEL) / 6
     assert found.mass_properties.mass == pytest.approx(mean, rel=1e-14)
-    assert [one for one in found.warnings if "Cork, Steel" in one and "mean by area" in one]
-    assert found.density_from.endswith("mixed parts by area")
+    mixed = finding("mixed_material_component", materials=["Cork", "Steel"], density=pytest.approx(mean))
+    assert list(found.findings) == [mixed] and found.findings[0].elements.tolist() == [0]
+    assert found.density_from.values["materials"][-1]["code"] == "density_mixed_by_area"
     two = add(box((0, 0, 0), (1, 1, 1)), box((3, 0, 0), (4, 1, 1)))
     by_material(two, bpy.data.materials["Cork"], bpy.data.materials["Steel"], faces=[0] * 6 + [1] * 5 + [0])
-    told = [one for one in measure(two).warnings if "mean by area" in one]
-    assert len(told) == 1 and told[0].startswith("The part with face 6 has several materials (Cork, Steel)")
+    (found,) = measure(two).findings
+    assert found.elements.tolist() == [6] and found.values["materials"] == ["Cork", "Steel"]
+
+
+def test_mixed_materials_of_instances_that_are_compared_are_named_with_their_objects():
+    cork, steel = material("Cork", CORK), material("Steel", STEEL)
+    group = bpy.data.collections.new("Group")
+    for name, x, faces in (("Pure", 0.0, [0] * 6), ("Mixed", 0.9, [1, 0, 0, 0, 0, 0])):
+        group.objects.link(
+            by_material(add(box((0, 0, 0), (1, 1, 1)), name=name, location=(x, 0, 0)), cork, steel, faces=faces)
+        )
+    empty = bpy.data.objects.new("Instancer", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", group
+    empty.body_moments.density_from = "MATERIALS"
+    bpy.context.scene.collection.objects.link(empty)
+    bpy.context.view_layer.update()
+    found = next(one for one in measure(empty).findings if one.code == "mixed_material_component")
+    assert found.values["materials"] == ["Cork", "Steel"] and found.elements == [[0, "Mixed"]]
 
 
 def test_the_mean_by_area_is_that_of_the_areas_as_they_are_seen():
@@ -164,16 +183,18 @@ def test_faces_without_a_density_take_the_objects_and_it_is_said():
     by_material(obj, material("Steel", STEEL), material("Paint"), faces=[0] * 6 + [1] * 6, others=500.0)
     found = measure(obj)
     assert found.mass_properties.mass == pytest.approx(STEEL + 500.0, rel=1e-14)
-    assert found.warnings == (
-        "6 of its 12 faces have no material with a density and take the object's 500 kg/m³ (“Paint” has none).",
-    )
-    assert found.density_from == "materials: Steel 7820 kg/m³; others 500 kg/m³"
+    lacking = {"count": 6, "total": 12, "density": 500.0, "materials": ["Paint"]}
+    assert said(found) == {"object_density_used_for_materials": lacking}
+    assert [part["code"] for part in found.density_from.values["materials"]] == [
+        "density_of_material",
+        "density_of_others",
+    ]
     obj.body_moments.density = 0.0
-    with pytest.raises(Unreadable, match="its own density is zero"):
+    with refused("material_without_density", count=6, total=12):
         measure(obj)
     bare = add(box())
     bare.body_moments.density_from = "MATERIALS"
-    assert measure(bare).warnings == ("It has no material with a density and takes the object's 1000 kg/m³.",)
+    assert said(measure(bare)) == {"object_density_used": {"count": 6, "total": 6, "density": 1000.0}}
 
 
 def test_an_empty_slot_takes_the_objects_density_and_a_slot_too_far_the_last_ones():
@@ -196,7 +217,7 @@ def test_a_cavity_takes_away_the_material_around_it_and_an_insert_adds_up():
     )
     found = measure(obj)
     assert found.mass_properties.mass == pytest.approx(STEEL * 56, rel=1e-14)
-    assert any(one.startswith("A cavity takes away") for one in found.warnings)
+    assert "cavity_material_ignored" in said(found)
     insert = by_material(
         add(box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3))),
         bpy.data.materials["Steel"],
@@ -205,13 +226,13 @@ def test_a_cavity_takes_away_the_material_around_it_and_an_insert_adds_up():
     )
     found = measure(insert)
     assert found.mass_properties.mass == pytest.approx(STEEL * 64 + CORK * 8, rel=1e-14)
-    assert any("densities add up" in one for one in found.warnings)
+    assert "overlapping_densities" in said(found)
 
 
 def test_united_shells_have_no_materials():
     obj = dumbbell()
     obj.body_moments.overlap = "UNION"
-    with pytest.raises(Unreadable, match="United shells have no faces of their own"):
+    with refused("materials_of_union"):
         measure(obj)
 
 
@@ -275,10 +296,10 @@ def test_a_material_that_a_modifier_sets_is_read_and_makes_the_numbers_out_of_da
     assert measure(obj).mass_properties.mass == pytest.approx(STEEL, rel=1e-14)
     obj.select_set(True)
     bpy.ops.object.body_moments_measure()
-    assert staleness.reason(obj, bpy.context.scene) == ""
+    assert staleness.reason(obj, bpy.context.scene) is None
     steel.body_moments.density = 8000.0
     bpy.context.view_layer.update()
-    assert staleness.reason(obj, bpy.context.scene) == "Settings Changed"
+    assert staleness.reason(obj, bpy.context.scene) == "stale_settings"
 
 
 def test_geometry_nodes_instances_bring_their_materials():
@@ -345,7 +366,8 @@ def test_a_cylinder_with_a_linear_density():
     assert body.inertia[2, 2] == pytest.approx(body.mass * gyration, rel=1e-6)
     across = (1000.0 * 8.0 / 3.0 + 20.0 * 4.0) / 2040.0 - z**2
     assert body.inertia[0, 0] == pytest.approx(body.mass * (gyration / 2.0 + across), rel=1e-6)
-    assert found.density_from == "polynomial 1000 + 20*z, in own coordinates" and not found.warnings
+    assert found.density_from == finding("density_from_polynomial", polynomial="1000 + 20*z", frame="object")
+    assert str(found.density_from) == "polynomial 1000 + 20*z, in object coordinates" and not found.findings
 
 
 def test_coefficients_are_the_same_density():
@@ -353,9 +375,9 @@ def test_coefficients_are_the_same_density():
     one = measure(by_polynomial(obj, "1000 + 20*z")).mass_properties
     other = measure(by_polynomial(obj, "1000, 0, 0, 20")).mass_properties
     assert one.mass == other.mass and np.array_equal(one.inertia, other.inertia)
-    # A decimal comma makes two coefficients, too: it is told as what it was read.
-    told = measure(by_polynomial(obj, "1000,5")).density_from
-    assert told == "polynomial with the coefficients 1000,5 of 1, x, y, z, …, in own coordinates"
+    # A decimal comma makes two coefficients, too: it is reported as what it was read.
+    source = measure(by_polynomial(obj, "1000,5")).density_from
+    assert source == finding("density_from_coefficients", polynomial="1000,5", frame="object")
 
 
 def boxes_mass(low, high, density):
@@ -409,7 +431,7 @@ def test_a_sheared_object_says_which_axes_are_meant():
     bpy.context.view_layer.update()
     found = measure(child)
     assert found.mass_properties.mass == pytest.approx(found.volume * 1005.0, rel=1e-6)
-    assert any("sheared" in one for one in found.warnings)
+    assert "sheared_density_axes" in said(found)
 
 
 def test_coordinates_are_in_metres_at_every_unit_scale():
@@ -457,17 +479,20 @@ def test_a_shell_with_a_polynomial_density():
 def test_a_negative_density_is_refused_with_its_place(text):
     """The last one is negative only deep inside."""
     obj = by_polynomial(add(box((-1, -1, 0), (1, 1, 2))), text)
-    with pytest.raises(Unreadable, match="becomes negative: -.* kg/m³ at .* in its own coordinates"):
+    with pytest.raises(MeasureError) as caught:
         measure(obj)
+    values = caught.value.finding.values
+    assert caught.value.finding.code == "density_negative" and values["density"] < 0.0 and values["frame"] == "object"
+    assert parse(text)(np.array([values["point"]]))[0] == pytest.approx(values["density"])
 
 
 def test_a_density_that_only_may_be_negative_is_said_and_one_that_touches_zero_is_not():
     ring = add(box((-1, -1, 0), (1, 1, 1)))
     found = measure(by_polynomial(ring, "(x**2 + y**2)*z"))
-    assert not found.warnings
+    assert not found.findings
     found = measure(by_polynomial(ring, "(x - 0.9993)**2 + (y - 0.9131)**2 + (z - 0.0717)**2 - 0.0001"))
-    assert any("may become negative" in one for one in found.warnings)
-    assert not measure(by_polynomial(ring, "500*z")).warnings
+    assert said(found) == {"density_possibly_negative": {}}
+    assert not measure(by_polynomial(ring, "500*z")).findings
 
 
 @pytest.mark.parametrize(("segments", "size"), [(128, 1.0), (16, 0.001)])
@@ -477,17 +502,17 @@ def test_a_density_that_falls_to_zero_at_the_surface_is_not_called_negative_for_
     text = "1000*(1 - (x**2 + y**2 + z**2)/{:g}**2)"
     found = measure(by_polynomial(ball, text.format(size)))
     assert found.mass_properties.mass == pytest.approx(8 / 15 * math.pi * 1000 * size**3, rel=0.01)
-    assert any("may become negative" in one for one in found.warnings)
-    with pytest.raises(Unreadable, match="becomes negative"):
+    assert said(found) == {"density_possibly_negative": {}}
+    with refused("density_negative"):
         measure(by_polynomial(ball, text.format(0.99999 * size)))
 
 
 def test_a_polynomial_that_cannot_be_read_is_refused_with_the_offending_part():
-    with pytest.raises(Unreadable, match="“sin\\(z\\)” cannot be part of a polynomial"):
+    with refused("polynomial_not_allowed", part="sin(z)"):
         measure(by_polynomial(add(box()), "1000 + sin(z)"))
-    with pytest.raises(Unreadable, match="too large a number"):
+    with refused("mass_overflow"):
         measure(by_polynomial(add(box()), "1e199*x**17 + 1"))
-    with pytest.raises(Unreadable, match="density is zero"):
+    with refused("zero_density"):
         measure(by_polynomial(add(box()), "0"))
 
 
@@ -518,40 +543,42 @@ def test_a_sheet_with_a_density_that_rises_along_x(scale):
     body, area = found.mass_properties, abs(scale[0]) * scale[1]
     assert body.mass == pytest.approx(0.01 * area * 10.0, rel=1e-13)
     assert abs(body.center[0]) == pytest.approx(abs(scale[0]) * (8 / 2 + 4 / 3) / 10.0, rel=1e-13)
-    assert found.density_from == "vertex attribute “density”" and not found.warnings
+    assert found.density_from == finding("density_from_attribute", attribute="density") and not found.findings
     assert found.error_bound["input"]["center_of_mass"] > 0.0
 
 
 @pytest.mark.parametrize(
-    "value, told",
+    "value, code",
     [
-        (-1.0, "is negative at 2 of its vertices: 0, 3"),
-        (float("nan"), "is not finite at 2 of its vertices: 0, 3"),
-        (float("inf"), "is not finite"),
+        (-1.0, "attribute_negative"),
+        (float("nan"), "attribute_non_finite"),
+        (float("inf"), "attribute_non_finite"),
     ],
 )
-def test_values_that_are_no_density_are_refused(value, told):
+def test_values_that_are_no_density_are_refused(value, code):
     obj, points = sheet()
     values = np.ones(len(points))
     values[[0, 3]] = value
-    with pytest.raises(Unreadable, match=told):
+    with pytest.raises(MeasureError) as caught:
         measure(by_attribute(obj, values))
+    assert caught.value.finding == finding(code, attribute="density", count=2)
+    assert caught.value.finding.elements.tolist() == [0, 3]
 
 
 def test_an_attribute_that_is_not_there_or_of_another_kind_is_refused():
     obj, points = sheet()
     by_attribute(obj, np.ones(len(points)))
     obj.body_moments.density_attribute = "mass"
-    with pytest.raises(Unreadable, match="no attribute “mass”"):
+    with refused("attribute_missing", attribute="mass"):
         measure(obj)
     by_attribute(obj, np.ones(16), name="per_face", domain="FACE")
-    with pytest.raises(Unreadable, match="not one float for each vertex"):
+    with refused("attribute_type", attribute="per_face"):
         measure(obj)
     obj.body_moments.density_attribute = ""
-    with pytest.raises(Unreadable, match="has no name"):
+    with refused("density_attribute_missing"):
         measure(obj)
     obj.body_moments.density_attribute, obj.body_moments.kind = "density", "SOLID"
-    with pytest.raises(Unreadable, match="measure it as a shell"):
+    with refused("density_attribute_of_solid"):
         measure(obj)
 
 
@@ -590,24 +617,24 @@ def test_out_of_date_names_settings_materials_and_slots():
         return staleness.reason(obj, scene)
 
     bpy.ops.object.body_moments_measure()
-    assert reason() == "" and obj["body_materials"] == "Cork\nSteel"
+    assert reason() is None and obj["body_materials"] == "Cork\nSteel"
     bpy.data.materials["Cork"].body_moments.density = 250.0
-    assert reason() == "Settings Changed"
+    assert reason() == "stale_settings"
     bpy.data.materials["Cork"].body_moments.density = CORK
-    assert reason() == ""
+    assert reason() is None
     material("Unrelated", 5.0)
-    assert reason() == ""
+    assert reason() is None
     obj.material_slots[1].material = bpy.data.materials["Unrelated"]
-    assert reason() == "Settings Changed"
+    assert reason() == "stale_settings"
     by_polynomial(obj, "1000 + z")
-    assert reason() == "Settings Changed"
+    assert reason() == "stale_settings"
     bpy.ops.object.body_moments_measure()
-    assert reason() == "" and "body_materials" not in obj
+    assert reason() is None and "body_materials" not in obj
     obj.body_moments.density_polynomial = "1000 + 2*z"
-    assert reason() == "Settings Changed"
+    assert reason() == "stale_settings"
     obj.body_moments.density_polynomial = "1000 + z"
     obj.body_moments.density_frame = "WORLD"
-    assert reason() == "Settings Changed"
+    assert reason() == "stale_settings"
 
 
 def test_the_record_the_report_and_the_properties_say_where_the_density_came_from():

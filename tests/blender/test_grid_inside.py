@@ -5,12 +5,13 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.verdict.finding import finding
 from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.read import Unreadable
 from body_moments.operators.session import staleness
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties
 
+from tests.blender.findings import refused, said
 from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -54,7 +55,8 @@ def test_a_box_around_whole_voxels_weighs_them(tmp_path, mirror):
     assert found.mass_properties.center == pytest.approx(center, rel=1e-12)
     assert found.volume == pytest.approx(8.0)
     assert found.density == pytest.approx(part.mean(), rel=1e-12)
-    assert not any("outside of the grid" in warning for warning in found.warnings)
+    assert said(found).keys() == {"grid_density_of"}
+    assert found.density_from == finding("density_from_grid_of", grid="density", object=volume.name)
 
 
 def test_a_uniform_grid_is_a_plain_density_wherever_both_stand(tmp_path):
@@ -80,22 +82,22 @@ def test_a_uniform_grid_is_a_plain_density_wherever_both_stand(tmp_path):
     assert 0.0 < found.error_bound["inertia"] < 1e-6
 
 
-def test_what_is_outside_of_the_grid_is_empty_and_told(tmp_path):
+def test_what_is_outside_of_the_grid_is_empty_and_said(tmp_path):
     volume = cloud(tmp_path, np.ones((4, 4, 4), np.float32))
     box = cube(location=(-0.5, 1.5, 1.5))
     box.body_moments.density_from = "VOLUME"
     box.body_moments.density_volume = volume
     found = measure(box)
     assert found.mass_properties.mass == pytest.approx(4.0, rel=1e-12)
-    assert any("50 % of its volume is outside of the grid" in warning for warning in found.warnings)
+    assert said(found)["outside_grid"] == {"share": pytest.approx(0.5)}
     assert measure(box, mass=3.0).mass_properties.mass == pytest.approx(3.0)
     assert measure(box, density=2.0).mass_properties.mass == pytest.approx(16.0)
     assert measure(box, density=2.0).method == "exact"
     box.location = (50, 0, 0)
-    with pytest.raises(Unreadable, match="no density inside"):
+    with refused("density_grid_elsewhere", box.name, object=volume.name, grid="density"):
         measure(box)
     volume.scale = (0, 1, 1)
-    with pytest.raises(Unreadable, match="flattened"):
+    with refused("density_grid_empty", box.name):
         measure(box)
 
 
@@ -103,7 +105,8 @@ def test_a_source_that_cannot_be_read_says_whose(tmp_path):
     box = cube()
     box.body_moments.density_from = "VOLUME"
     box.body_moments.density_volume = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
-    with pytest.raises(Unreadable, match="Cube: Its density is to come from “Empty”: It has no grids"):
+    cause = finding("volume_without_grids").as_record()
+    with refused("density_volume_unreadable", "Cube", object="Empty", cause=cause):
         measure(box)
 
 
@@ -114,14 +117,14 @@ def test_stored_numbers_know_when_the_grid_moves(tmp_path):
     box.body_moments.density_volume = volume
     properties.store(box, measure(box))
     staleness.settle(bpy.context, [box])
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
     volume.body_moments.value_density = 5.0
-    assert staleness.reason(box, bpy.context.scene) == "Settings Changed"
+    assert staleness.reason(box, bpy.context.scene) == "stale_settings"
     volume.body_moments.value_density = 1.0
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
     volume.location.x = 1.0
     bpy.context.view_layer.update()
-    assert staleness.reason(box, bpy.context.scene) == "Settings Changed"
+    assert staleness.reason(box, bpy.context.scene) == "stale_settings"
 
 
 def test_stored_numbers_know_when_the_voxels_change(tmp_path):
@@ -133,19 +136,19 @@ def test_stored_numbers_know_when_the_voxels_change(tmp_path):
     for obj in (box, plain):
         properties.store(obj, measure(obj))
     staleness.settle(bpy.context, [box, plain])
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
     fog.body_moments.value_density = 5.0  # a setting is no change of voxels
     bpy.context.view_layer.update()
     fog.body_moments.value_density = 1.0
     bpy.context.view_layer.update()
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
     fog.modifiers[0].density = 3.0
     bpy.context.view_layer.update()
-    assert staleness.reason(box, bpy.context.scene) == "Geometry Changed"
-    assert staleness.reason(plain, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) == "stale_geometry"
+    assert staleness.reason(plain, bpy.context.scene) is None
     properties.store(box, measure(box))
     staleness.settle(bpy.context, [box])
-    assert staleness.reason(box, bpy.context.scene) == ""
+    assert staleness.reason(box, bpy.context.scene) is None
 
 
 def chosen(tmp_path):
@@ -163,11 +166,11 @@ def test_the_button_stores_a_clouds_numbers_and_they_stay_fresh(tmp_path):
     found = measure(obj)
     assert obj["body_mass"] == found.mass_properties.mass
     assert obj["body_method"] == "grid exact"
-    assert staleness.reason(obj, bpy.context.scene) == ""
+    assert staleness.reason(obj, bpy.context.scene) is None
     obj.body_moments.density = 5.0  # not what a grid weighs by
-    assert staleness.reason(obj, bpy.context.scene) == ""
+    assert staleness.reason(obj, bpy.context.scene) is None
     obj.body_moments.value_density = 5.0
-    assert staleness.reason(obj, bpy.context.scene) == "Settings Changed"
+    assert staleness.reason(obj, bpy.context.scene) == "stale_settings"
 
 
 def test_snapping_of_a_cloud(tmp_path):

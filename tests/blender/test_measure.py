@@ -7,9 +7,11 @@ from fractions import Fraction
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.verdict.finding import EditRefusedError
 from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.read import Unreadable
 from body_moments.operators.settings.options import MeasureOptions
+
+from tests.blender.findings import refused, said
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -67,7 +69,7 @@ def test_a_box_is_exact_through_every_transform(name):
     second = linear @ np.diag([1 / 12, 4 / 12, 9 / 12]) @ linear.T * volume * 1000.0
     found = measure(obj)
     body = found.mass_properties
-    assert found.method == "exact" and not found.warnings
+    assert found.method == "exact" and not found.findings
     assert found.volume == pytest.approx(volume, rel=1e-13)
     assert abs(found.volume - volume) <= found.error_bound["volume"] + 1e-15 * volume
     center = linear @ (0.5, 1.0, 1.5) + matrix[:3, 3]
@@ -120,7 +122,7 @@ def test_a_given_mass_makes_the_density_follow():
 
 def test_a_shell_has_the_mass_of_its_sheet():
     found = measure(add(box((0, 0, 0), (1, 1, 1))), kind="shell", thickness=0.01, density=1000.0)
-    assert found.method == "shell" and not found.warnings
+    assert found.method == "shell" and not found.findings
     assert found.mass_properties.mass == pytest.approx(60.0, rel=1e-13)
     # a hollow cube of side s has I = 5/18 m s²
     assert np.allclose(np.diag(found.mass_properties.inertia), 60.0 * 5 / 18, rtol=1e-12)
@@ -135,7 +137,7 @@ def test_an_unevenly_scaled_shell_is_measured_as_it_lies():
 
 def test_a_flat_sheet_is_a_shell_and_no_solid():
     sheet = add({"points": [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], "faces": [(0, 1, 2, 3)]})
-    with pytest.raises(Unreadable, match="shell"):
+    with refused("no_volume", "Box"):
         measure(sheet)
     found = measure(sheet, kind="shell", thickness=0.001, density=1000.0).mass_properties
     assert np.allclose(np.diag(found.inertia), np.array([1, 1, 2]) / 12, rtol=1e-12)
@@ -144,7 +146,8 @@ def test_a_flat_sheet_is_a_shell_and_no_solid():
 def test_overlapping_shells_are_summed_with_a_warning_or_united():
     obj = add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)))
     signed, united = measure(obj), measure(obj, overlap="union")
-    assert signed.volume == pytest.approx(2.0) and signed.health.overlapping_components and signed.warnings
+    assert signed.volume == pytest.approx(2.0) and signed.health.overlapping_components
+    assert said(signed) == {"components_overlap": {"count": 2}} and "union_by_boolean" in said(united)
     assert united.method == "union" and united.volume == pytest.approx(1.5, rel=1e-6)
     assert np.allclose(np.diag(united.mass_properties.inertia), np.array([0.25, 0.40625, 0.40625]) * 1000, rtol=1e-5)
     assert united.health.overlapping_components  # the input's
@@ -153,7 +156,9 @@ def test_overlapping_shells_are_summed_with_a_warning_or_united():
 def test_a_nested_shell_counts_twice_or_not_at_all_and_a_cavity_subtracts():
     outer, inner = box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3))
     nested = add(outer, inner)
-    assert measure(nested).volume == pytest.approx(72.0) and measure(nested).warnings
+    assert measure(nested).volume == pytest.approx(72.0) and said(measure(nested)) == {
+        "components_nested": {"count": 1}
+    }
     assert measure(nested, overlap="union").volume == pytest.approx(64.0, rel=1e-6)
     hollow = measure(add(outer, box((1, 1, 1), (3, 3, 3), turned=True)))
     assert hollow.volume == pytest.approx(56.0) and hollow.method == "exact"
@@ -195,11 +200,11 @@ def test_measuring_changes_nothing():
 
 def test_zero_scale_is_refused_with_the_remedy_and_zero_density_too():
     flat = add(box(), scale=(1, 1, 0))
-    with pytest.raises(Unreadable, match="zero scale"):
+    with refused("zero_scale"):
         measure(flat)
     weightless = add(box())
     weightless.body_moments.density = 0.0
-    with pytest.raises(Unreadable, match="density is zero"):
+    with refused("zero_density"):
         measure(weightless)
 
 
@@ -236,10 +241,10 @@ def collection_of(*objects):
 def test_members_of_a_collection_are_compared_as_shells_of_one_mesh_are():
     unit = box((0, 0, 0), (1, 1, 1))
     apart = measure(collection_of(add(unit), add(unit, location=(3, 0, 0))))
-    assert apart.volume == pytest.approx(2.0) and not apart.warnings
+    assert apart.volume == pytest.approx(2.0) and not apart.findings
     overlapping = measure(collection_of(add(unit), add(unit, location=(0.5, 0, 0))))
     assert overlapping.volume == pytest.approx(2.0) and overlapping.health.overlapping_components
-    assert overlapping.warnings
+    assert said(overlapping) == {"components_overlap": {"count": 2}}
     outer, inner = add(box((0, 0, 0), (4, 4, 4))), add(box((1, 1, 1), (3, 3, 3), turned=True))
     assert measure(collection_of(outer, inner)).volume == pytest.approx(56.0)
 
@@ -247,7 +252,7 @@ def test_members_of_a_collection_are_compared_as_shells_of_one_mesh_are():
 def test_touching_instances_are_not_called_overlapping():
     unit = box((0, 0, 0), (1, 1, 1))
     found = measure(collection_of(*(add(unit, location=(i, 0, 0)) for i in range(5))))
-    assert found.volume == pytest.approx(5.0) and not found.warnings
+    assert found.volume == pytest.approx(5.0) and not found.findings
 
 
 def test_the_ground_that_instances_stand_on_adds_no_volume_and_takes_none():
@@ -256,7 +261,7 @@ def test_the_ground_that_instances_stand_on_adds_no_volume_and_takes_none():
     found = measure(collection_of(add(ground), *boxes))
     assert found.method == "exact" and found.volume == pytest.approx(2.0)
     assert found.area == pytest.approx(18.0**2 + 12.0)
-    assert any("flat" in warning for warning in found.warnings) and not found.health.closed
+    assert said(found)["flat_instance_sources"] == {"count": 1, "total": 3} and not found.health.closed
 
 
 def without(shell, *faces):
@@ -267,33 +272,34 @@ def with_flipped(shell, *faces):
     return {**shell, "faces": [face[::-1] if i in faces else face for i, face in enumerate(shell["faces"])]}
 
 
-def test_sentences_about_members_of_a_collection_name_them_and_their_own_faces():
+def test_findings_about_members_of_a_collection_name_them_and_their_own_faces():
     unit = box((0, 0, 0), (1, 1, 1))
     good, bad = add(unit, name="Good"), add(with_flipped(without(unit, 5), 2), name="Bad", location=(3, 0, 0))
     found = measure(collection_of(good, bad))
     assert found.method == "capped" and found.volume == pytest.approx(2.0)
-    assert found.warnings == (
-        "“Bad”: Face 2 is flipped and was measured as if turned. Recalculate Outside mends it.",
-        "“Bad”: One flat hole was capped (20 % of the area). Fill it for a closed body.",
-    )
+    share = pytest.approx(0.2)
+    assert said(found) == {
+        "flipped_faces": {"count": 1, "sources": ["Bad"]},
+        "holes_capped": {"count": 1, "flat": 1, "curved": 0, "share": share, "sources": ["Bad"]},
+    }
+    assert str(found.findings[0]).startswith("“Bad”: Flipped face measured as reversed: 2.")
     good, bad = add(unit, name="Fine"), add(with_flipped(unit, 2, 4), name="Worse", location=(0.5, 0, 0))
     found = measure(collection_of(good, bad))  # as shells of one mesh, as they overlap
-    assert found.warnings[0] == (
-        "2 faces are flipped and were measured as if turned: 2 of “Worse”, 4 of “Worse”. "
-        "Recalculate Outside mends them."
-    )
+    flipped = next(one for one in found.findings if one.code == "flipped_faces")
+    assert flipped.elements == [[2, "Worse"], [4, "Worse"]] and flipped.values == {"count": 2}
+    assert "2 of “Worse”, 4 of “Worse”" in str(flipped)
     parent = add(with_flipped(box((0, 0, 5), (1, 1, 6)), 0), name="Parent")
     child = add(box((0, 0, 0), (0.1, 0.1, 0.1)), name="Child", parent=parent)
     parent.instance_type = "VERTS"
     bpy.context.view_layer.update()
-    assert measure(parent).warnings[0].startswith("Face 0 of “Parent” is flipped")
+    assert measure(parent).findings[0].elements == [[0, "Parent"]]
     parent.instance_type = "NONE"
     bpy.context.view_layer.update()
-    assert measure(parent).warnings[0].startswith("Face 0 is flipped") and not measure(child).warnings
+    assert measure(parent).findings[0].elements.tolist() == [0] and not measure(child).findings
     inverted = add(box((0, 0, 0), (1, 1, 1), turned=True), name="Inverted")
-    assert measure(collection_of(inverted)).warnings == (
-        "“Inverted”: It is inside out, and measured as if turned. Recalculate Outside mends that.",
-    )
+    assert said(measure(collection_of(inverted))) == {
+        "inverted_components": {"count": 1, "total": 1, "sources": ["Inverted"]}
+    }
 
 
 def test_what_several_members_have_in_common_is_said_once_with_their_names():
@@ -301,8 +307,9 @@ def test_what_several_members_have_in_common_is_said_once_with_their_names():
     found = measure(
         collection_of(*(add(open_box, name="Open {:02d}".format(i), location=(3 * i, 0, 0)) for i in range(12)))
     )
-    names = ", ".join("“Open {:02d}”".format(i) for i in range(8))
-    assert found.warnings == (names + ", …: One flat hole was capped (20 % of the area). Fill it for a closed body.",)
+    names = ["Open {:02d}".format(i) for i in range(12)]
+    assert said(found)["holes_capped"]["sources"] == names and len(found.findings) == 1
+    assert str(found.findings[0]).startswith(", ".join(map("“{:s}”".format, names[:8])) + ", 4 more: Holes capped")
 
 
 @pytest.mark.parametrize("overlap", [False, True])
@@ -314,22 +321,22 @@ def test_the_caps_share_is_that_of_the_area_of_all_members(overlap):
 
 def test_instances_flattened_by_their_own_scale_are_refused_by_that():
     member = add(box(), scale=(0, 1, 1))
-    with pytest.raises(Unreadable, match="A zero scale flattens all that it instances; give the instances another"):
+    with refused("all_instances_zero_scale"):
         measure(collection_of(member))
-    with pytest.raises(Unreadable, match="set its scale, or its parents', to something else"):
+    with refused("zero_scale"):
         measure(add(box(), scale=(0, 1, 1)))
 
 
 def test_faces_without_area_are_not_sent_from_solid_to_shell():
     line = {"points": [(0, 0, 0), (1, 0, 0), (2, 0, 0)], "faces": [(0, 1, 2)]}
     for kind in ("solid", "shell"):
-        with pytest.raises(Unreadable, match="None of its faces has an area"):
+        with refused("no_face_area"):
             measure(add(line), kind=kind)
 
 
 def test_what_encloses_nothing_is_refused_by_that_when_it_is_to_be_united():
     sheet = {"points": [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], "faces": [(0, 1, 2, 3)]}
-    with pytest.raises(Unreadable, match="enclose no volume"):
+    with refused("no_volume"):
         measure(add(sheet), overlap="union")
 
 
@@ -339,7 +346,7 @@ def test_a_body_that_intersects_itself_into_negative_inertia_is_refused():
     n = len(outline)
     faces = [(i, (i + 1) % n, (i + 1) % n + n, i + n) for i in range(n)]
     faces += [face for i in range(n) for face in (((i + 1) % n, i, 2 * n), (i + n, (i + 1) % n + n, 2 * n + 1))]
-    with pytest.raises(Unreadable, match="intersects itself"):
+    with refused("negative_inertia"):
         measure(add({"points": points, "faces": faces}))
 
 
@@ -383,26 +390,26 @@ def test_out_of_date_names_what_has_changed():
         bpy.context.view_layer.update()
         return staleness.reason(obj, scene)
 
-    assert reason() == ""
+    assert reason() is None
     obj.body_moments.density = 500.0
-    assert reason() == "Settings Changed"
+    assert reason() == "stale_settings"
     obj.body_moments.density = 1000.0
-    assert reason() == ""
+    assert reason() is None
     obj.location.x = 1.0
-    assert reason() == "Transform Changed"
+    assert reason() == "stale_transform"
     obj.location.x = 0.0
-    assert reason() == ""
+    assert reason() is None
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
-    assert reason() == "Geometry Changed"
+    assert reason() == "stale_geometry"
 
 
-def test_an_inside_out_or_open_body_is_mended_before_it_is_united():
+def test_an_inside_out_or_open_body_is_repaired_before_it_is_united():
     assert measure(add(box(turned=True)), overlap="union").volume == pytest.approx(6.0, rel=1e-6)
     open_box = box((0, 0, 0), (1, 1, 1))
     open_box["faces"] = open_box["faces"][:-1]
     found = measure(add(open_box), overlap="union")
-    assert found.volume == pytest.approx(1.0, rel=1e-6) and any("capped" in warning for warning in found.warnings)
+    assert found.volume == pytest.approx(1.0, rel=1e-6) and "holes_capped_before_union" in said(found)
 
 
 def test_a_tiny_union_is_as_right_as_a_large_one():
@@ -422,8 +429,9 @@ def test_a_library_override_is_refused_because_it_would_lose_its_results(tmp_pat
     bpy.context.view_layer.update()
     from body_moments.operators.write import properties
 
-    with pytest.raises(RuntimeError, match="make it local"):
+    with pytest.raises(EditRefusedError) as caught:
         properties.store(override, measure(override))
+    assert caught.value.finding.code == "override_results"
     assert not properties.is_stored(override)
 
 
@@ -441,3 +449,27 @@ def test_every_letter_is_closed(bevel):
         mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
         front = sum(face.area for face in mesh.polygons if face.center.z > 0.0999)
         assert found.volume == pytest.approx(0.2 * front, rel=1e-6)
+
+
+def test_what_nodes_made_is_named_by_the_object_that_has_them():
+    from tests.blender.read_bodies import join, node, nodes
+
+    host = add(with_flipped(box((0, 0, 0), (1, 1, 1)), 2), name="Host", location=(9, 0, 0))
+
+    def build(tree, source):
+        flipped = node(tree, "GeometryNodeFlipFaces", {}, Mesh=node(tree, "GeometryNodeMeshCube").outputs[0]).outputs[0]
+        moved = node(tree, "GeometryNodeTransform", {"Translation": (5, 0, 0)}, Geometry=flipped).outputs[0]
+        instance = node(tree, "GeometryNodeGeometryToInstance", {}, Geometry=moved).outputs[0]
+        return join(tree, source, instance)
+
+    nodes(host, build)
+    found = said(measure(collection_of(host, add(box(), name="Good", location=(-9, 0, 0)))))
+    assert found["flipped_faces"]["sources"] == found["inverted_components"]["sources"] == ["Host"]
+
+
+def test_equal_findings_about_different_faces_stay_apart():
+    unit = box((0, 0, 0), (1, 1, 1))
+    bad, worse = (add(with_flipped(unit, i), name="Bad", location=(3 * i, 0, 0)) for i in (2, 4))
+    found = measure(collection_of(bad, worse))
+    assert [one.elements.tolist() for one in found.findings] == [[2], [4]]
+    assert [one.values["sources"] for one in found.findings] == [["Bad"], ["Bad.001"]]

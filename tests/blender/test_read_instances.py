@@ -9,8 +9,9 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from body_moments.operators.read import Unreadable, measurable_objects, read_object
+from body_moments.operators.read import measurable_objects, read_object
 
+from tests.blender.findings import refused, said
 from tests.blender.read_bodies import (
     collection,
     cube,
@@ -184,7 +185,7 @@ def test_instances_on_vertices_and_faces_are_the_parents_record(kind):
     reading = check(parent, count)
     assert reading.parts[0].surface.quads.shape == (96, 4)
     assert measurable_objects(bpy.context.view_layer) == [parent]
-    assert any("“Parent”" in warning for warning in read_object(child, depsgraph()).warnings)
+    assert said(read_object(child, depsgraph()))["instanced_by_parent"] == {"parent": "Parent"}
 
 
 def test_a_curve_instanced_on_vertices_has_its_bevel():
@@ -209,7 +210,7 @@ def test_a_hidden_instancer_on_vertices_is_refused_not_halved():
     parent.instance_type = "VERTS"
     cube("Child").parent = parent
     parent.hide_set(True)
-    with pytest.raises(Unreadable, match="show it"):
+    with refused("instances_of_hidden_object", "Parent"):
         read_object(parent, depsgraph())
 
 
@@ -301,7 +302,7 @@ def test_places_that_are_not_finite_are_counted_and_refused():
         return made.outputs[0]
 
     nodes(host, build)
-    with pytest.raises(Unreadable, match="2 of 4 instances"):
+    with refused("non_finite_instances", "Host", count=2, total=4):
         read_object(host, depsgraph())
 
 
@@ -317,8 +318,12 @@ def test_instances_scaled_to_nothing_are_left_out_and_said():
     nodes(host, build)
     reading = read_object(host, depsgraph())
     assert [len(part.matrices) for part in reading.parts] == [3]
-    assert "Left out: 1 instance scaled to zero." in reading.warnings
+    assert said(reading) == {"instances_vanished": {"count": 1}}
     assert not reading.singular
+
+
+def left_out(obj):
+    return said(read_object(obj, depsgraph()))["surfaceless_left_out"]["kinds"]
 
 
 def test_points_and_strands_beside_a_body_are_said():
@@ -330,8 +335,8 @@ def test_points_and_strands_beside_a_body_are_said():
         return join(tree, source, points, line)
 
     nodes(host, build)
-    (said,) = read_object(host, depsgraph()).warnings
-    assert "7 points" in said and "1 curves" in said
+    kinds = {kind["code"]: kind["values"]["count"] for kind in left_out(host)}
+    assert kinds == {"kind_points": 7, "kind_curves": 1}
 
 
 def test_an_instanced_object_that_is_not_evaluated_is_never_read_unmodified():

@@ -11,6 +11,7 @@ import bmesh
 from body_moments.operators.read import read_object
 from body_moments.operators.read.mesh import mesh_surface
 
+from tests.blender.findings import said
 from tests.blender.read_bodies import (
     CUBE,
     CUBE_FACES,
@@ -163,7 +164,7 @@ def test_edit_mode_reads_edits_that_nothing_has_told_blender_of():
     surface = reading.parts[0].surface
     assert surface.points[0].tolist() == [-7.0, -1.0, -1.0]
     assert (len(surface.triangles), len(surface.quads)) == (2, 5)
-    assert any("being edited" in warning for warning in reading.warnings)
+    assert said(reading) == {"edit_mode_mesh": {}}
     assert set(bpy.data.meshes) == blocks
     assert obj.mode == "EDIT"
     assert bm.is_valid
@@ -180,8 +181,9 @@ def test_edit_mode_reads_the_modifiers_that_act_there():
     (part,) = reading.parts
     assert len(part.surface.quads) == 18
     assert part.surface.points.min() == -7.0
-    said = " ".join(reading.warnings)
-    assert "“Array”" in said and "Left out, as they are off in Edit Mode: “Idle”" in said
+    findings = said(reading)
+    assert findings["edit_mode_modifiers"] == {"modifiers": ["Array"]}
+    assert findings["edit_mode_modifiers_off"] == {"modifiers": ["Idle"]}
 
 
 def test_another_user_of_a_mesh_in_edit_mode_reads_the_same_edits():

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What an object gives when it is read, what is said about it, and what is refused with a
-reason."""
+"""What an object gives when it is read, the findings about it, and what is refused."""
 
 import math
 
@@ -10,9 +9,12 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from body_moments.operators.read import Unreadable, measurable, measurable_objects, read_object
+from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.operators.read import measurable, measurable_objects, read_object
 from mathutils import Matrix
 
+from tests.blender import findings
+from tests.blender.findings import said
 from tests.blender.read_bodies import (
     activate,
     collection,
@@ -35,11 +37,10 @@ def read(obj):
     return read_object(obj, depsgraph())
 
 
-def refused(obj):
-    with pytest.raises(Unreadable) as caught:
+def refused(obj, code, **values):
+    with findings.refused(code, obj.name, **values):
         read(obj)
-    assert caught.value.name == obj.name
-    return caught.value.reason
+    return True
 
 
 def metaball(name, x=0.0, collection=None):
@@ -102,26 +103,26 @@ def test_shape_keys_are_in_the_reading():
 
 def test_a_nurbs_surface_is_read_as_its_patches_beside_its_display_mesh():
     reading = read(nurbs())
-    assert not reading.warnings
+    assert not reading.findings
     assert len(reading.parts[0].splines.patches) == 1
 
 
 @pytest.mark.parametrize("make", [cube, shaped], ids=lambda make: make.__name__)
-def test_what_is_read_as_it_is_needs_no_words(make):
-    assert read(make()).warnings == []
+def test_what_is_read_as_it_is_needs_no_finding(make):
+    assert read(make()).findings == []
 
 
 @pytest.mark.parametrize("make", [bevelled, text, ball], ids=lambda make: make.__name__)
 def test_polygons_that_stand_for_what_is_round_are_said(make):
     obj = make()
-    assert len([warning for warning in read(obj).warnings if "polygons that Blender draws" in warning]) == 1
+    code = "surface_drawn_as_polygons" if obj.type == "META" else "curves_drawn_as_polygons"
+    assert said(read(obj))[code] == {}
     if obj.type != "META":
         members = collection("Members")
         members.objects.link(obj)
         instancer = link("Instancer")
         instancer.instance_type, instancer.instance_collection = "COLLECTION", members
-        (warning,) = read(instancer).warnings
-        assert warning.startswith("The curves of “{:s}” were measured as the polygons".format(obj.name))
+        assert said(read(instancer)) == {code: {"sources": [obj.name]}}
 
 
 def spline_object(kind, points, depth=0.0):
@@ -142,16 +143,16 @@ def spline_object(kind, points, depth=0.0):
 CORNER = [(0.0, 0.1, 0.0), (3.0, 0.7, 0.3), (3.3, 4.0, 0.1), (-1.0, 2.0, 0.7)]
 
 
-def said(obj):
-    return any("polygons that Blender draws" in warning for warning in read(obj).warnings)
+def drawn(obj):
+    return "curves_drawn_as_polygons" in said(read(obj))
 
 
 def test_straight_splines_are_their_polygons_unless_their_bevel_is_round():
     for depth in (0.0, 0.1):
         obj = spline_object("POLY", CORNER, depth)
-        assert not said(obj)
+        assert not drawn(obj)
         obj.data.bevel_resolution = 2
-        assert said(obj) == (depth > 0.0)
+        assert drawn(obj) == (depth > 0.0)
 
 
 @pytest.mark.parametrize("cyclic", [False, True])
@@ -160,14 +161,14 @@ def test_bezier_splines_are_their_polygons_where_their_handles_are_straight(cycl
     (spline,) = obj.data.splines
     spline.use_cyclic_u = cyclic
     depsgraph()
-    assert not said(obj)
+    assert not drawn(obj)
     for item, name in ((spline.bezier_points[0], "handle_left"), (spline.bezier_points[-1], "handle_right")):
         setattr(item, name + "_type", "FREE")
         setattr(item, name, item.co + item.co.orthogonal())
-    assert said(obj) == cyclic
+    assert drawn(obj) == cyclic
     spline.bezier_points[1].handle_right_type = "FREE"
     spline.bezier_points[1].handle_right.z += 0.1
-    assert said(obj)
+    assert drawn(obj)
 
 
 def test_nurbs_splines_are_their_polygons_where_they_are_of_order_2_or_straight():
@@ -175,8 +176,8 @@ def test_nurbs_splines_are_their_polygons_where_they_are_of_order_2_or_straight(
     (spline,) = obj.data.splines
     for order in (2, 3, 4):
         spline.order_u = order
-        assert said(obj) == (order > 2)
-    assert not said(spline_object("NURBS", [(t, 2.0 * t, -t) for t in (0.0, 1.0, 1.5, 4.0)]))
+        assert drawn(obj) == (order > 2)
+    assert not drawn(spline_object("NURBS", [(t, 2.0 * t, -t) for t in (0.0, 1.0, 1.5, 4.0)]))
 
 
 @pytest.mark.parametrize("mode, name", [("OBJECT", "bevel_object"), ("ROUND", "taper_object")])
@@ -186,7 +187,7 @@ def test_a_round_profile_or_taper_of_a_straight_spline_is_said(mode, name):
     obj.data.bevel_mode, other.data.extrude = mode, 0.0
     for shape in (other, bpy.context.object):
         setattr(obj.data, name, shape)
-        assert said(obj) == (shape != other)
+        assert drawn(obj) == (shape != other)
 
 
 def test_a_curve_that_only_carries_instances_has_no_polygons_to_speak_of():
@@ -201,14 +202,14 @@ def test_a_curve_that_only_carries_instances_has_no_polygons_to_speak_of():
         return made.outputs[0]
 
     nodes(obj, build)
-    assert read(obj).places == 10 and not said(obj)
+    assert read(obj).places == 10 and not drawn(obj)
 
 
 def test_the_metaball_with_the_lowest_number_holds_its_familys_polygons():
     last, mother, other = metaball("Ball.010", 1.0), metaball("Ball.002"), metaball("Bowl", 9.0)
-    assert "“Ball.002” holds the polygons" in refused(last)
-    assert any("metaball family: “Ball.010”" in warning for warning in read(mother).warnings)
-    assert not any("family" in warning for warning in read(other).warnings)
+    assert refused(last, "metaball_of_family", object="Ball.002")
+    assert said(read(mother))["metaball_family"] == {"objects": ["Ball.010"]}
+    assert "metaball_family" not in said(read(other))
     assert measurable_objects(bpy.context.view_layer) == [mother, other]
 
 
@@ -224,36 +225,35 @@ def test_kinds_without_geometry_are_refused_by_name(kind):
     }
     adders[kind]()
     obj = bpy.context.object
-    assert "has no geometry" in refused(obj)
+    assert refused(obj, "object_without_geometry")
     assert not measurable(obj)
 
 
 def test_an_empty_without_instances_is_refused():
     obj = link("Empty")
-    assert "instances nothing" in refused(obj)
+    assert refused(obj, "empty_without_instances")
     assert not measurable(obj)
     obj.instance_type, obj.instance_collection = "COLLECTION", collection("Hollow")
-    assert "shows no surface" in refused(obj)
+    assert refused(obj, "collection_without_surface")
 
 
 def test_what_has_no_faces_is_refused_with_what_it_has():
     wire = link("Wire", mesh("Wire", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1), (1, 2)]))
-    assert "only vertices (3) and edges (2)" in refused(wire)
-    assert "has no geometry" in refused(link("Nothing", mesh("Nothing", [], [])))
+    assert refused(wire, "only_loose_geometry", vertices=3, edges=2)
+    assert refused(link("Nothing", mesh("Nothing", [], [])), "no_geometry")
     bpy.ops.curve.primitive_bezier_circle_add()
-    assert "bevel" in refused(bpy.context.object)
-    assert "kind to Wire" in refused(bpy.context.object)
+    assert refused(bpy.context.object, "lines_only_curve")
     assert not measurable(bpy.context.object)
     letters = text()
     letters.data.extrude, letters.data.fill_mode = 0.0, "NONE"
-    assert refused(letters) == "It shows lines without a surface; give it a bevel or an extrusion, or fill it."
+    assert refused(letters, "lines_only_text")
     letters.data.body = " "
-    assert refused(letters) == "Its text is empty; type one."
+    assert refused(letters, "empty_text")
     cloud = link("Cloud", bpy.data.pointclouds.new("Cloud"))
     strands = link("Strands", bpy.data.hair_curves.new("Strands"))
     volume = link("Volume", bpy.data.volumes.new("Volume"))
     for obj in (cloud, strands, volume):
-        assert "no surface" in refused(obj)
+        assert refused(obj, "only_without_surface" if obj == volume else "no_surface")
         assert measurable(obj) == (obj == volume)  # as a grid of densities
 
 
@@ -280,9 +280,13 @@ def test_an_object_hidden_by_its_eye_is_read_with_its_modifiers_and_said():
     reading = read(obj)
     assert len(reading.parts[0].surface.quads) == 12
     assert reading.matrix[0, 3] == 5.0
-    assert any("not shown" in warning and "eye icon" in warning for warning in reading.warnings)
+    assert said(reading)["hidden_object_measured"]["cause"]["code"] == "hidden_in_viewport"
     obj.modifiers["Array"].count = 3
     assert len(read(obj).parts[0].surface.quads) == 18
+
+
+def hidden(name):
+    return finding("collection_hidden", collection=name).as_record()
 
 
 def test_an_object_in_a_collection_hidden_by_its_eye_is_read_and_said():
@@ -291,20 +295,20 @@ def test_an_object_in_a_collection_hidden_by_its_eye_is_read_and_said():
     layer_of(home).hide_viewport = True
     reading = read(obj)
     assert len(reading.parts[0].surface.quads) == 12
-    assert any("collection “Home” is hidden" in warning for warning in reading.warnings)
+    assert said(reading)["hidden_object_measured"]["cause"] == hidden("Home")
 
 
 def test_an_object_disabled_in_viewports_is_refused():
     obj = doubled("Monitor")
     obj.hide_viewport = True
-    assert "monitor icon" in refused(obj)
+    assert refused(obj, "disabled_in_viewports")
 
 
 def test_an_object_in_an_excluded_collection_is_refused():
     home = collection("Home")
     obj = doubled("Body", home)
     layer_of(home).exclude = True
-    assert "collection “Home” is excluded" in refused(obj)
+    assert refused(obj, "collection_excluded", collection="Home")
 
 
 def test_an_object_in_a_collection_disabled_in_viewports_is_refused():
@@ -312,7 +316,7 @@ def test_an_object_in_a_collection_disabled_in_viewports_is_refused():
     home.children.link(inner)
     obj = doubled("Body", inner)
     home.hide_viewport = True
-    assert "collection “Home” is disabled" in refused(obj)
+    assert refused(obj, "collection_disabled", collection="Home")
 
 
 def test_an_object_whose_collections_are_hidden_for_different_reasons_is_said_to_be():
@@ -320,24 +324,24 @@ def test_an_object_whose_collections_are_hidden_for_different_reasons_is_said_to
     obj = doubled("Body", home)
     other.objects.link(obj)
     layer_of(home).exclude = layer_of(other).hide_viewport = True
-    assert any("collection “Other” is hidden" in warning for warning in read(obj).warnings)
+    assert said(read(obj))["hidden_object_measured"]["cause"] == hidden("Other")
     layer_of(other).hide_viewport, other.hide_viewport = False, True
-    assert "collection “Other” is disabled" in refused(obj)
+    assert refused(obj, "collection_disabled", collection="Other")
     layer_of(home).exclude = False
-    assert not any("not shown" in warning for warning in read(obj).warnings)
+    assert "hidden_object_measured" not in said(read(obj))
 
 
 def test_an_object_of_another_scene_or_of_none_is_refused():
     obj = doubled("Body")
     bpy.context.scene.collection.objects.unlink(obj)
-    assert "not in the scene “Scene”" in refused(obj)
+    assert refused(obj, "not_in_scene", scene="Scene")
     bpy.data.scenes.new("Other").collection.objects.link(obj)
-    assert "not in the scene “Scene”" in refused(obj)
+    assert refused(obj, "not_in_scene", scene="Scene")
 
 
 def test_an_object_that_blender_has_not_met_yet_is_refused():
     stale = depsgraph()
-    with pytest.raises(Unreadable, match="update the view layer"):
+    with findings.refused("not_evaluated", "New"):
         read_object(doubled("New"), stale)
 
 
@@ -346,7 +350,7 @@ def test_an_instancer_disabled_in_viewports_is_refused():
     obj.instance_type, obj.instance_collection = "COLLECTION", collection("Members")
     cube("Member", obj.instance_collection)
     obj.hide_viewport = True
-    assert "monitor icon" in refused(obj)
+    assert refused(obj, "disabled_in_viewports")
 
 
 def test_of_a_constraints_disabled_target_the_transform_alone_is_evaluated_and_so_refused():
@@ -355,7 +359,7 @@ def test_of_a_constraints_disabled_target_the_transform_alone_is_evaluated_and_s
     cube("Follower").constraints.new("COPY_LOCATION").target = target
     depsgraph()
     assert target.evaluated_get(depsgraph()).is_evaluated
-    assert "monitor icon" in refused(target)
+    assert refused(target, "disabled_in_viewports")
 
 
 def test_a_disabled_operand_of_something_shown_is_read_rightly_and_said():
@@ -366,7 +370,7 @@ def test_a_disabled_operand_of_something_shown_is_read_rightly_and_said():
     reading = read(operand)
     assert len(reading.parts[0].surface.quads) == 12
     assert reading.matrix[0, 3] == 0.5
-    assert any("monitor icon" in warning for warning in reading.warnings)
+    assert said(reading)["hidden_object_measured"]["cause"]["code"] == "disabled_in_viewports"
 
 
 def test_a_saved_hidden_object_is_read_with_its_modifiers(tmp_path):
@@ -388,22 +392,26 @@ def test_different_levels_for_the_render_are_said():
     modifier.levels, modifier.render_levels = 1, 3
     reading = read(obj)
     assert len(reading.parts[0].surface.quads) == 24
-    assert reading.warnings == [
-        "Read as the viewport shows it; the render differs: “Smooth” has 1 in the viewport, 3 in the render."
-    ]
+    differing = finding("render_levels_differ", modifier="Smooth", viewport=1, render=3)
+    assert said(reading) == {"render_differs": {"differences": [differing.as_record()]}}
+    assert "“Smooth” has 1 in the viewport and 3 in the render." in str(reading.findings[0])
     bpy.context.scene.render.use_simplify = True
     bpy.context.scene.render.simplify_subdivision = bpy.context.scene.render.simplify_subdivision_render = 1
-    assert read(obj).warnings == []
+    assert read(obj).findings == []
+
+
+def differences(obj):
+    return said(read(obj))["render_differs"]["differences"]
 
 
 def test_modifiers_of_the_viewport_or_of_the_render_alone_are_said():
     obj = doubled("Body")
     obj.modifiers["Array"].show_viewport = False
-    assert any("“Array” is rendered only" in warning for warning in read(obj).warnings)
+    assert differences(obj) == [finding("render_modifier_only", modifier="Array").as_record()]
     obj.modifiers["Array"].show_render = False
-    assert read(obj).warnings == []
+    assert read(obj).findings == []
     obj.modifiers["Array"].show_viewport = True
-    assert any("“Array” is not rendered" in warning for warning in read(obj).warnings)
+    assert differences(obj) == [finding("render_modifier_off", modifier="Array").as_record()]
 
 
 def test_the_levels_of_an_instanced_object_are_said():
@@ -413,7 +421,7 @@ def test_the_levels_of_an_instanced_object_are_said():
     modifier.levels, modifier.render_levels = 1, 2
     obj = link("Instancer")
     obj.instance_type, obj.instance_collection = "COLLECTION", members
-    assert any("instanced “Source”" in warning for warning in read(obj).warnings)
+    assert said(read(obj))["render_differs"]["sources"] == ["Source"]
 
 
 def test_members_of_an_instanced_collection_that_only_the_viewport_or_the_render_shows_are_said():
@@ -422,7 +430,7 @@ def test_members_of_an_instanced_collection_that_only_the_viewport_or_the_render
     cube("Kept", members)
     obj = link("Instancer")
     obj.instance_type, obj.instance_collection = "COLLECTION", members
-    assert read(obj).warnings == []
+    assert read(obj).findings == []
     off, cutter, unused = cube("Off", members), cube("Cutter", members), cube("Unused", members)
     cube("Spare", inner)
     lamp = link("Lamp", bpy.data.lights.new("Lamp", "SUN"), members)
@@ -431,17 +439,15 @@ def test_members_of_an_instanced_collection_that_only_the_viewport_or_the_render
     unused.hide_render = cutter.hide_render = inner.hide_viewport = True
     reading = read(obj)
     assert reading.places == 2
-    assert reading.warnings == [
-        "Left out, since shown by the render only: “Off”, “Spare”.",
-        "Measured, although not shown by the render: “Cutter”.",
-    ]
+    cutter = {"viewport_only_members": {"objects": ["Cutter"]}}
+    assert said(reading) == {"render_only_members": {"objects": ["Off", "Spare"]}, **cutter}
     inner.hide_render = True
-    assert read(obj).warnings[0] == "Left out, since shown by the render only: “Off”."
+    assert said(read(obj)) == {"render_only_members": {"objects": ["Off"]}, **cutter}
     outer = link("Outer")
     outer.instance_type, outer.instance_collection = "COLLECTION", collection("Outer")
     link("Again", None, outer.instance_collection).instance_type = "COLLECTION"
     bpy.data.objects["Again"].instance_collection = members
-    assert read(outer).warnings == read(obj).warnings
+    assert read(outer).findings == read(obj).findings
 
 
 def test_errors_of_nodes_are_said():
@@ -454,7 +460,7 @@ def test_errors_of_nodes_are_said():
         return join(tree, source, gone.outputs[0])
 
     nodes(obj, build)
-    assert any("“Nodes” reports an error: no good" in warning for warning in read(obj).warnings)
+    assert said(read(obj))["modifier_error"] == {"modifier": "Nodes", "error": "no good"}
 
 
 # Transforms.
@@ -517,7 +523,7 @@ def test_a_shear_that_flattens_is_singular():
 def test_a_transform_that_is_not_finite_is_refused():
     obj = cube()
     obj.location.x = math.nan
-    assert "transform is not finite" in refused(obj)
+    assert refused(obj, "non_finite_transform")
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
@@ -527,7 +533,10 @@ def test_coordinates_that_are_not_finite_are_counted_and_refused(value):
     points[2, 1] = points[5, 0] = value
     obj.data.attributes["position"].data.foreach_set("vector", points.ravel())
     obj.data.update()
-    assert "2 of its 8 vertices" in refused(obj)
+    with pytest.raises(MeasureError) as caught:
+        read(obj)
+    assert caught.value.finding == finding("non_finite_vertices", count=2, total=8)
+    assert caught.value.finding.elements.tolist() == [2, 5]
 
 
 # Data of others, modes, and nothing changed.
@@ -577,7 +586,7 @@ def test_reading_keeps_mode_selection_and_active_object(mode):
     assert obj.mode == mode
     assert bpy.context.view_layer.objects.active == obj
     assert bpy.context.selected_objects == [obj]
-    assert ("Sculpt Mode" in " ".join(reading.warnings)) == (mode == "SCULPT")
+    assert ("sculpt_mode_modifiers" in said(reading)) == (mode == "SCULPT")
 
 
 def test_dynamic_topology_is_refused_as_its_mesh_cannot_be_seen():
@@ -587,7 +596,7 @@ def test_dynamic_topology_is_refused_as_its_mesh_cannot_be_seen():
     bpy.ops.sculpt.dynamic_topology_toggle()
     if not obj.use_dynamic_topology_sculpting:
         pytest.skip("Dynamic topology cannot be turned on without a window")
-    assert "leave Sculpt Mode" in refused(obj)
+    assert refused(obj, "dynamic_topology")
 
 
 @pytest.mark.parametrize("instanced", [False, True])
@@ -603,7 +612,10 @@ def test_multires_levels_that_sculpting_shows_are_refused_as_they_cannot_be_seen
         asked.instance_type, asked.instance_collection = "COLLECTION", bpy.data.collections.new("Made")
         asked.instance_collection.objects.link(obj)
     bpy.ops.object.mode_set(mode="SCULPT")
-    assert "“Levels” keeps its sculpted levels to itself; leave Sculpt Mode first." in refused(asked)
+    unreadable = finding("sculpted_multires", modifier="Levels")
+    if instanced:
+        unreadable = finding("instanced_object_unreadable", object="Sculpted", cause=unreadable.as_record())
+    assert refused(asked, unreadable.code, **unreadable.values)
     modifier.sculpt_levels = 0
     assert np.array_equal(read(asked).parts[0].surface.box, [[-1.0] * 3, [1.0] * 3])
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -611,15 +623,15 @@ def test_multires_levels_that_sculpting_shows_are_refused_as_they_cannot_be_seen
 
 
 @pytest.mark.parametrize(
-    "blended, edited, half, said",
+    "blended, edited, half, expected",
     [
-        (False, 0, 1.0, "The shape key “Basis” is edited, and was read alone."),
-        (False, 1, 2.0, "The shape key “Big” is edited, and was read alone."),
-        (True, 0, 1.5, "Read in Edit Mode, with its shape keys."),
-        (True, 1, 1.5, "Read in Edit Mode, with its shape keys."),
+        (False, 0, 1.0, finding("edit_mode_single_shape_key", shape_key="Basis")),
+        (False, 1, 2.0, finding("edit_mode_single_shape_key", shape_key="Big")),
+        (True, 0, 1.5, finding("edit_mode_shape_keys")),
+        (True, 1, 1.5, finding("edit_mode_shape_keys")),
     ],
 )
-def test_edit_mode_reads_the_shape_keys_that_it_shows(blended, edited, half, said):
+def test_edit_mode_reads_the_shape_keys_that_it_shows(blended, edited, half, expected):
     obj = cube()
     obj.shape_key_add(name="Basis")
     key = obj.shape_key_add(name="Big")
@@ -631,7 +643,7 @@ def test_edit_mode_reads_the_shape_keys_that_it_shows(blended, edited, half, sai
     bpy.ops.object.mode_set(mode="EDIT")
     reading = read(obj)
     assert reading.parts[0].surface.box[1].tolist() == [half] * 3
-    assert said in reading.warnings
+    assert expected in reading.findings
 
 
 def test_a_curve_in_edit_mode_is_read():

@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shells of real thickness: the setting, what is told, and the thickness as a slider."""
+"""Shells of real thickness: the setting, what is found, and the thickness as a slider."""
+
+import json
 
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.bodies.measure_object import Unreadable, measure_object
+from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.session import staleness
 from body_moments.operators.session import walls as wall_slider
 from body_moments.operators.settings.options import MeasureOptions
@@ -14,6 +17,7 @@ from mathutils import Euler, Matrix
 
 from tests.blender.batch_files import document
 from tests.blender.bodies import add, measured, mesh_body, only
+from tests.blender.findings import refused, said
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -40,7 +44,7 @@ def test_a_cube_is_the_cube_less_the_cube_inside():
     assert np.abs(found.mass_properties.inertia - inertia * np.eye(3)).max() < 1e-10
     assert np.abs(found.mass_properties.center - 0.5).max() < 1e-14
     assert found.area == 6.0
-    assert any("real material, 0.125 m inward" in warning for warning in found.warnings)
+    assert said(found) == {"wall_measured": {"thickness": 0.125, "side": "inward"}}
     assert 0.0 < found.error_bound["volume"] < 1e-12
 
 
@@ -87,7 +91,7 @@ def test_a_given_mass_is_spread_over_the_material():
 def test_thin_stays_area_times_thickness():
     found = measured(box(wall="THIN"))
     assert found.volume == pytest.approx(0.75, rel=1e-15)
-    assert not any("real material" in warning for warning in found.warnings)
+    assert not found.findings
 
 
 def test_an_open_sheet_is_a_plate():
@@ -103,21 +107,22 @@ def test_an_open_sheet_is_a_plate():
 
 def test_what_folds_over_is_refused_with_the_largest_that_works():
     obj = box((1, 2, 0.5), thickness=0.3)
-    with pytest.raises(Unreadable, match="folds over") as refusal:
+    with pytest.raises(MeasureError) as refusal:
         measured(obj)
-    words = str(refusal.value).split("the largest that works is ")[1].split(" m")[0]
-    assert 0.249 < float(words) < 0.25
-    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(thickness=float(words)))
+    values = refusal.value.finding.values
+    assert refusal.value.finding.code == "wall_folds" and 0.249 < values["largest"] < 0.25
+    assert values["thickness"] == pytest.approx(0.3) and len(values["point"]) == 3
+    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(thickness=values["largest"]))
     assert 0.99 < found.volume < 1.0
 
 
-def test_a_flipped_face_is_turned_before_and_told():
+def test_a_flipped_face_is_turned_before_and_said():
     obj = box()
     obj.data.polygons[0].flip()
     obj.data.update()
     found = measured(obj)
     assert abs(found.volume - (1 - 0.75**3)) < 1e-14
-    assert any("turned outward" in warning for warning in found.warnings)
+    assert "wall_faces_reversed" in said(found)
 
 
 def test_an_open_surface_whose_faces_disagree_is_refused():
@@ -127,7 +132,7 @@ def test_an_open_surface_whose_faces_disagree_is_refused():
     )
     obj = add(mesh)
     obj.body_moments.kind, obj.body_moments.wall = "SHELL", "INWARD"
-    with pytest.raises(Unreadable, match="Recalculate Outside"):
+    with refused("wall_inconsistent_faces", count=1):
         measured(obj)
 
 
@@ -136,16 +141,16 @@ def test_a_slit_folds_over_before_its_walls_meet():
     obj = add(mesh_body("U", points, 1.0))
     settings = obj.body_moments
     settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.25
-    assert not any("run into" in warning for warning in measured(obj).warnings)
+    assert "walls_overlap" not in said(measured(obj))
     settings.wall, settings.thickness = "INWARD", 0.25
-    assert not any("run into" in warning for warning in measured(obj).warnings)
+    assert "walls_overlap" not in said(measured(obj))
     points = ((0, 0, 0), (4, 0, 0), (4, 1, 0), (1, 1, 0), (1, 1.2, 0), (4, 1.2, 0), (4, 3, 0), (0, 3, 0))
     slit = add(mesh_body("Slit", points, 1.0), "Slit")
     settings = slit.body_moments
     settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.09
-    assert not any("run into" in warning for warning in measured(slit).warnings)
+    assert "walls_overlap" not in said(measured(slit))
     settings.thickness = 0.15
-    with pytest.raises(Unreadable, match=r"folds over on itself near \("):  # the slit's own end folds first
+    with refused("wall_folds", side="outward"):  # the slit's own end folds first
         measured(slit)
 
 
@@ -161,9 +166,9 @@ def test_two_parts_whose_walls_meet_say_so():
     obj = add(one)
     settings = obj.body_moments
     settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.1
-    assert not any("run into" in warning for warning in measured(obj).warnings)
+    assert "walls_overlap" not in said(measured(obj))
     settings.thickness = 0.2
-    assert any("run into" in warning for warning in measured(obj).warnings)
+    assert "walls_overlap" in said(measured(obj))
 
 
 def test_walls_of_instances_that_may_meet_say_that_nobody_looked():
@@ -178,11 +183,11 @@ def test_walls_of_instances_that_may_meet_say_that_nobody_looked():
     bpy.context.scene.collection.objects.link(shown)
     settings = shown.body_moments
     settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.1
-    for place, told in ((1.25, False), (1.2, False), (1.15, True)):
+    for place, expected in ((1.25, False), (1.2, False), (1.15, True)):
         other.location.x = place
-        assert any("between instances" in warning for warning in measured(shown).warnings) == told
+        assert ("instance_walls_unchecked" in said(measured(shown))) == expected
     settings.wall = "INWARD"
-    assert not any("between instances" in warning for warning in measured(shown).warnings)
+    assert "instance_walls_unchecked" not in said(measured(shown))
 
 
 def test_instances_have_walls_of_one_thickness():
@@ -231,8 +236,7 @@ def test_an_open_cup_says_that_its_faces_tell_what_is_inward():
     work.free()
     found = measured(obj)
     assert abs(found.volume - (1 - 0.75**2 * 0.875)) < 1e-14  # the rim stays in the plane of the top
-    assert any("not closed" in warning for warning in found.warnings)
-    assert not any("not closed" in warning for warning in measured(box()).warnings)
+    assert "wall_unoriented" in said(found) and "wall_unoriented" not in said(measured(box()))
 
 
 def test_the_command_line_uses_the_objects_wall_and_its_own_thickness():
@@ -241,7 +245,7 @@ def test_the_command_line_uses_the_objects_wall_and_its_own_thickness():
     assert found["volume"] == pytest.approx(1 - 0.5**3, rel=1e-13)
     assert found["method"] == "shell" and found["thickness"] == 0.25
     assert found["moments"]["volume"]["0,0,0"] == pytest.approx(1 - 0.5**3, rel=1e-13)
-    assert any("real material" in warning for warning in found["warnings"])
+    assert "wall_measured" in [entry["code"] for entry in found["findings"]]
     surface = document("--surface-moments", "--order", "2")["objects"][0]
     assert surface["moments"]["surface"]["0,0,0"] == pytest.approx(6.0, rel=1e-13)
 
@@ -264,9 +268,9 @@ def test_a_new_thickness_is_stored_at_once_and_is_what_measuring_gives():
     for thickness in (0.0625, 0.2, 0.3125):
         obj.body_moments.thickness = thickness
         kept = properties.numbers(obj)
-        assert staleness.reason(obj, bpy.context.scene) == ""
+        assert staleness.reason(obj, bpy.context.scene) is None
         bpy.context.view_layer.update()
-        assert staleness.reason(obj, bpy.context.scene) == ""
+        assert staleness.reason(obj, bpy.context.scene) is None
         press(obj)
         for one, other in zip(kept, properties.numbers(obj)):
             assert np.abs(np.array(one) - other).max() <= 1e-13 * max(1.0, np.abs(other).max())
@@ -277,13 +281,13 @@ def test_another_side_is_stored_at_once_too():
     press(obj)
     obj.body_moments.wall = "OUTWARD"
     assert abs(stored(obj).volume - (1.25**3 - 1)) < 1e-13
-    assert staleness.reason(obj, bpy.context.scene) == ""
+    assert staleness.reason(obj, bpy.context.scene) is None
     obj.body_moments.wall = "THIN"
-    assert staleness.reason(obj, bpy.context.scene) == "Settings Changed"
+    assert staleness.reason(obj, bpy.context.scene) == "stale_settings"
 
 
 @pytest.mark.parametrize("change", ["edited", "turned"])
-def test_what_was_changed_since_is_not_told_as_if_it_were_measured(change):
+def test_what_was_changed_since_is_not_stored_as_if_it_were_measured(change):
     obj = box()
     press(obj)
     if change == "edited":
@@ -305,7 +309,7 @@ def test_a_thickness_that_folds_leaves_the_numbers_and_says_how_thick_it_may_be(
     assert wall_slider.largest(obj) == pytest.approx(0.5) and not wall_slider.folds(obj)
     obj.body_moments.thickness = 0.75
     assert properties.numbers(obj) == before and wall_slider.folds(obj)
-    assert staleness.reason(obj, bpy.context.scene) == "Settings Changed"
+    assert staleness.reason(obj, bpy.context.scene) == "stale_settings"
     obj.body_moments.thickness = 0.25
     assert abs(stored(obj).volume - (1 - 0.5**3)) < 1e-13
 
@@ -313,9 +317,11 @@ def test_a_thickness_that_folds_leaves_the_numbers_and_says_how_thick_it_may_be(
 def test_the_slider_says_that_it_did_not_look_for_walls_that_meet():
     obj = box()
     press(obj)
-    assert "Measure does" not in obj["body_warnings"]
+    assert not obj["body_warnings"]
     obj.body_moments.thickness = 0.2
-    assert "Measure does" in obj["body_warnings"] and "0.2 m inward" in obj["body_warnings"]
+    found = {entry["code"]: entry["values"] for entry in json.loads(obj["body_findings"])}
+    assert found == {"wall_measured": {"thickness": 0.2, "side": "inward"}, "wall_overlap_unchecked": {}}
+    assert obj["body_warnings"] == str(finding("wall_overlap_unchecked"))
 
 
 def test_after_loading_a_file_the_slider_waits_for_measure(tmp_path):
@@ -325,9 +331,9 @@ def test_after_loading_a_file_the_slider_waits_for_measure(tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     obj = bpy.data.objects["Box"]
-    assert obj.body_moments.wall == "INWARD" and staleness.reason(obj, bpy.context.scene) == ""
+    assert obj.body_moments.wall == "INWARD" and staleness.reason(obj, bpy.context.scene) is None
     obj.body_moments.thickness = 0.2
-    assert staleness.reason(obj, bpy.context.scene) == "Settings Changed"
+    assert staleness.reason(obj, bpy.context.scene) == "stale_settings"
     press(obj)
     assert abs(stored(obj).volume - (1 - 0.6**3)) < 1e-6
 
@@ -341,7 +347,7 @@ def test_an_edit_after_the_slider_is_noticed():
     obj.data.update()
     obj.update_tag(refresh={"DATA"})
     bpy.context.view_layer.update()
-    assert staleness.reason(obj, bpy.context.scene) == "Geometry Changed"
+    assert staleness.reason(obj, bpy.context.scene) == "stale_geometry"
 
 
 @pytest.mark.parametrize("size", [(1.0, 2.0, 0.5), (0.3, 0.3, 4.0)])
@@ -365,7 +371,7 @@ def test_a_head_with_sharp_folds_has_a_thin_wall():
     settings.kind, settings.wall, settings.thickness = "SHELL", "INWARD", 0.01
     found = measured(obj)
     assert 0.5 < found.volume / (0.01 * found.area) < 1.0
-    assert any("more than three planes" in warning for warning in found.warnings)
+    assert said(found)["wall_thickness_varies"]["minimum"] < 0.99
     settings.thickness = 0.1
-    with pytest.raises(Unreadable, match="largest that works"):
+    with refused("wall_folds"):
         measured(obj)

@@ -8,13 +8,11 @@ from collections.abc import Collection, Iterable, Iterator
 
 from bpy.types import LayerCollection, Object, ViewLayer
 
-from ..write.text import listed
-
-LISTED = 8  # names in a sentence before it only counts
+from ...core.verdict.finding import Finding, finding
 
 
-def doubts(objects: Collection[Object], view_layer: ViewLayer) -> list[str]:
-    """A sentence for each reason why some of the objects may be no parts of the body that they are summed to."""
+def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Finding]:
+    """A finding for each reason why some of the objects may be no parts of the body that they are summed to."""
     if len(objects) < 2:
         return []
     objects = sorted(objects, key=lambda obj: obj.name)
@@ -22,10 +20,10 @@ def doubts(objects: Collection[Object], view_layer: ViewLayer) -> list[str]:
     for user in objects:
         for operand in _operands(user):
             operands.setdefault(operand, user)
-    cutters = [obj for obj in objects if obj in operands]
+    cutters = [[obj.name, operands[obj].name] for obj in objects if obj in operands]
     rendered = set(_rendered(view_layer.layer_collection))
     unseen = [
-        obj
+        obj.name
         for obj in objects
         if obj not in operands
         and (
@@ -35,36 +33,19 @@ def doubts(objects: Collection[Object], view_layer: ViewLayer) -> list[str]:
             or not obj.visible_get(view_layer=view_layer)
         )
     ]
-    found = []
+    findings = []
     if cutters:
-        names = listed(("“{:s}” of “{:s}”".format(obj.name, operands[obj].name) for obj in cutters), LISTED)
-        found.append(
-            "Operands of Boolean modifiers count as bodies of their own: {:s}; leave out what is no part.".format(
-                ", ".join(names)
-            )
-        )
+        findings.append(finding("total_boolean_operands", operands=cutters))
     if unseen:
-        names = listed(("“{:s}”".format(obj.name) for obj in unseen), LISTED)
-        found.append(
-            "What is hidden, not rendered, or displayed as wire or bounds counts: {:s}; leave out what is no "
-            "part.".format(", ".join(names))
-        )
-    return found
+        findings.append(finding("total_hidden_objects", objects=unseen))
+    return findings
 
 
-def unfounded(methods: Iterable[tuple[str, str]]) -> list[str]:
-    """The same of bodies, as names and methods, whose own numbers stand on nothing."""
-    names, count = [], 0
-    for name, method in methods:
-        count += 1
-        if method.endswith("open"):
-            names.append("“{:s}”".format(name))
-    if not names or count < 2:
-        return []
-    return [
-        "The total depends on a reference point, as the numbers of open bodies do: {:s}; close them, or leave them "
-        "out.".format(", ".join(listed(sorted(names), LISTED)))
-    ]
+def open_body_caveats(methods: Iterable[tuple[str, str]]) -> list[Finding]:
+    """The same of bodies, given as names and methods, whose own numbers depend on a reference point."""
+    methods = list(methods)
+    names = sorted(name for name, method in methods if method.endswith("open"))
+    return [finding("total_of_open_objects", objects=names)] if names and len(methods) > 1 else []
 
 
 def _operands(obj: Object) -> Iterator[Object]:
