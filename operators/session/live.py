@@ -22,10 +22,11 @@ from bpy.types import Depsgraph, Object, Scene
 from ...core.measurement import Measurement
 from ...core.numerics.float32 import decimal
 from ...core.nurbs.tracked_solid import FollowedBody
+from ...core.verdict.finding import Finding, MeasureError
 from ..bodies.body import Body
 from ..bodies.measure_object import measure_object
 from ..bodies.measurement import as_measurement
-from ..read import Unreadable, read_patches
+from ..read import read_patches
 from ..read.fingerprint import settings_hash
 from ..settings.density import density_field
 from ..settings.options import MeasureOptions, resolved
@@ -35,11 +36,11 @@ LONGEST_WAIT = 2.0  # s between two measurements of a body that takes long
 
 @dataclass(frozen=True, eq=False)
 class Live:
-    """What an object's numbers are now. measurement: None where there are none, for the reason given. seconds: what
-    it took. settings: the digest of those that it was measured with."""
+    """What an object's numbers are now. measurement: None where there are none; refusal: then why. seconds: what it
+    took. settings: the digest of those that it was measured with."""
 
     measurement: Measurement | None
-    reason: str
+    refusal: Finding | None
     seconds: float
     settings: str
 
@@ -70,15 +71,13 @@ def is_outdated(obj: Object, scene: Scene) -> bool:
 def follow(obj: Object, depsgraph: Depsgraph) -> Live:
     """Measure an object as it is now, and keep the outcome to be shown."""
     start = time.perf_counter()
-    measurement, reason = None, ""
+    measurement, refusal = None, None
     try:
         measurement = _measured(obj, depsgraph)
-    except Unreadable as error:
-        reason = error.reason
-    except ValueError as error:
-        reason = str(error)
+    except MeasureError as error:
+        refusal = error.finding
     found = _shown[obj.session_uid] = Live(
-        measurement, reason, time.perf_counter() - start, settings_hash(obj, depsgraph.scene)
+        measurement, refusal, time.perf_counter() - start, settings_hash(obj, depsgraph.scene)
     )
     return found
 
@@ -120,7 +119,7 @@ def _measured(obj: Object, depsgraph: Depsgraph) -> Measurement:
         measure.area,
         measure.health,
         "NURBS " + measure.method,
-        (*part.splines.notes, *measure.warnings),
+        (*part.splines.findings, *measure.findings),
         refined=lambda: measure.volume,
         estimated=True,
     )

@@ -10,14 +10,15 @@ from bpy.props import BoolProperty
 from bpy.types import Context, Depsgraph, Object, Operator
 from mathutils import Matrix
 
+from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...scene.changes import Change, carry_out, dependents, rounds, side_by_side
-from ...scene.transforms import Channels, Refused, basis, world
+from ...scene.transforms import Channels, basis, world
+from ...write import reports
 from .. import selection
 from . import base as snapping
 
 OF = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
 KEPT = ("parent", "parent_type", "parent_bone", "empty_display_size")
-FOLLOWS = "it follows its empty {:s}, as its child or by a constraint, and would move along; clear that first"
 
 
 class OBJECT_OT_body_moments_add_empty(Operator):
@@ -45,39 +46,31 @@ class OBJECT_OT_body_moments_add_empty(Operator):
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected(context)
         existing = {empty[OF]: empty for empty in context.scene.objects if empty.type == "EMPTY" and OF in empty}
-        notes: list[str] = []
-
-        failures: list[tuple[str, str]] = []
+        findings: list[Finding] = []
+        failures: list[Finding] = []
         placed: list[Object] = []
 
         def add(obj: Object) -> Change:
             yield
             try:
                 if self.parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
-                    raise Refused("its scale is zero along an axis; set the scale first, or turn off Parent to Object")
+                    raise EditRefusedError("scale_zero_axis_of_parent_target")
                 body = snapping.body_of(context, obj)
                 step(len(placed) + len(failures))
                 yield  # all are measured before the scene changes
                 empty = existing.get(obj) or _new_empty(context, obj)
                 if (yield from _placed(empty, body, obj if self.parent else None)):
-                    notes.extend(["{:s}: {:s}".format(obj.name, body.note)] if body.note else [])
+                    findings.extend([body.finding.of_sources([obj.name])] if body.finding is not None else [])
                     placed.append(obj)
-            except snapping.REFUSALS as error:
-                failures.append((obj.name_full, str(getattr(error, "reason", error))))
+            except MeasureError as error:
+                failures.append(reports.failure(obj.name_full, error))
 
         followers = dependents(existing.values())  # what moves with an empty is measured after that
         with selection.progress(len(objects)) as step:
             for several in rounds((obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects):
                 carry_out(context, side_by_side(map(add, several)))
-        return selection.summarise(
-            self,
-            len(placed),
-            len(objects),
-            "Placed an empty at the principal frame of {count}",
-            failures,
-            notes,
-            idle="the empties are there already",
-        )
+        done, idle = finding("empties_placed", count=len(placed)), finding("empties_in_place")
+        return selection.summarize(self, len(placed), len(objects), done, failures, findings, idle)
 
 
 def _new_empty(context: Context, obj: Object) -> Object:
@@ -98,9 +91,10 @@ def _new_empty(context: Context, obj: Object) -> Object:
 
 
 def _placed(empty: Object, body: snapping.Body, parent: Object | None) -> Generator[None, Depsgraph, bool]:
-    """Move the empty to the body's frame; returns whether it was elsewhere. Refused where it cannot be there."""
+    """Move the empty to the body's frame; returns whether it was elsewhere. EditRefusedError where it cannot be
+    there."""
     if _follows(body.obj, empty):
-        raise Refused(FOLLOWS.format(empty.name))
+        raise EditRefusedError("empty_followed", empty=empty.name)
     if _is_there(empty, body) and empty.parent == parent:
         return False
     saved = Channels(empty)
@@ -126,9 +120,7 @@ def _placed(empty: Object, body: snapping.Body, parent: Object | None) -> Genera
         for name, value in before.items():
             setattr(empty, name, value)
         saved.restore()
-        raise Refused(
-            (FOLLOWS if follows else "a constraint holds its empty {:s}; remove that first").format(empty.name)
-        )
+        raise EditRefusedError("empty_followed" if follows else "empty_constrained", empty=empty.name)
     return True
 
 
