@@ -22,7 +22,7 @@ from ...core.numerics.float32 import decimal
 from ...core.verdict.finding import Finding, MeasureError
 from ..bodies.measure_object import Measured
 from ..read.fingerprint import settings_hash
-from ..read.total_caveats import doubts, unfounded
+from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
 from . import live, staleness, walls
 
@@ -102,7 +102,7 @@ def _sum(context: Context) -> Total:
         counted.append(obj)
         if staleness.reason(obj, scene):
             outdated.append(obj.name)
-    depending = unfounded((obj.name, properties.method(obj)) for obj in counted)
+    caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
     body = None
     if found:
         with suppress(MeasureError):  # together they have no mass
@@ -114,7 +114,7 @@ def _sum(context: Context) -> Total:
         body,
         tuple(missing),
         tuple(outdated),
-        (*depending, *doubts(counted, context.view_layer)),
+        (*caveats, *total_caveats(counted, context.view_layer)),
     )
 
 

@@ -9,7 +9,7 @@ from bpy.props import StringProperty
 from bpy.types import Context, Operator, OperatorProperties
 
 from ....core.verdict.finding import Finding, finding
-from ...read.total_caveats import doubts, unfounded
+from ...read.total_caveats import open_body_caveats, total_caveats
 from ...session import staleness
 from ...write import properties, reports
 from ...write.report import report_text
@@ -69,11 +69,9 @@ class OBJECT_OT_body_moments_copy_report(Operator):
         objects = selection.selected(context)
         outdated = {obj.name for obj in objects if staleness.reason(obj, context.scene)}
         counted = [obj for obj in objects if properties.is_stored(obj)]
-        of_total = [
-            *unfounded((obj.name, properties.method(obj)) for obj in counted),
-            *doubts(counted, context.view_layer),
-        ]
-        text = report_text(context, objects, outdated, of_total)
+        caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
+        caveats += total_caveats(counted, context.view_layer)
+        text = report_text(context, objects, outdated, caveats)
         to_clipboard(self, context, text, finding("report_copied", count=len(objects)))
         return {"FINISHED"}
 

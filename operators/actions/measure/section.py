@@ -12,6 +12,7 @@ from ....core.numerics.float32 import decimal
 from ....core.plane.polygon import flaws, nested
 from ....core.plane.section import Section, fit_plane, measure_section, region
 from ....core.verdict.finding import Finding, MeasureError, ReadError, Severity, finding
+from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
 from ...read.section import SECTION_TYPES, SectionReading, read_section
 from ...session import staleness
@@ -22,7 +23,6 @@ from .. import selection
 from .copy import to_clipboard
 
 FILLED = 1e-4  # Blender's fill and the outlines differ by more than this share: the fill is wrong
-SLIGHT = 1e-4  # of the size: points nearer to the plane change no number by more
 
 
 def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[Finding, ...]]:
@@ -64,7 +64,9 @@ def _measured(reading: SectionReading, unit: float) -> tuple[Section, list[Findi
         findings.append(finding("section_overlap_unchecked"))
     if plane.off > 4.0 * error:
         share = float(plane.off / np.sqrt(section.area))
-        findings.append(finding("section_projected_slightly" if share < SLIGHT else "section_projected", share=share))
+        findings.append(
+            finding("section_projected_slightly" if share < NEGLIGIBLE else "section_projected", share=share)
+        )
     if reading.drawn is not None and abs(reading.drawn * unit**2 - section.area) > FILLED * section.area:
         findings.append(finding("section_fill_wrong", share=float(reading.drawn * unit**2 / section.area)))
     return section, findings
@@ -146,7 +148,7 @@ class OBJECT_OT_body_moments_copy_section(Operator):
         obj = context.object
         found = record.stored(obj)
         code = outdated(obj, context.scene, found)
-        text = record.text(obj.name, found, "" if code is None else str(Finding(code)))
+        text = record.text(obj.name, found, None if code is None else Finding(code))
         to_clipboard(self, context, text, finding("section_copied", object=obj.name))
         return {"FINISHED"}
 

@@ -84,7 +84,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         try:
             findings = self._import(context)
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            reports.report(self, reports.refusal(error.about(Path(self.filepath).name)))
             return {"CANCELLED"}
         reports.report(self, *findings)
         return {"FINISHED"}
@@ -120,7 +120,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
                 return read_raw(path, self.raw_shape, self.raw_type, self.raw_big_endian)
             return read_scan(path)
         except OSError as error:
-            raise FileError("file_unreadable", subject=path.name, error=error.strerror or str(error)) from error
+            raise FileError("file_unreadable", error=error.strerror or str(error)) from error
 
 
 def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> float:
@@ -129,7 +129,7 @@ def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> flo
     least, exact = np.inf, True
     for _, slab in _slabs(scan):
         if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):
-            raise FileError("scan_non_finite", subject=target.name)
+            raise FileError("scan_non_finite")
         least = min(least, float(slab.min()))
         exact = exact and np.array_equal(slab.astype(np.float32), slab)
     background = 0.0 if least >= 0.0 else float(np.floor(least) - 1.0)
