@@ -499,22 +499,19 @@ def test_the_most_severe_findings_are_reported_first_and_the_others_counted():
     assert reports.first(found[:3]) == found[:3]
 
 
-def test_reports_are_translated_before_they_are_filled(registered):
+def test_reports_are_translated_before_they_are_filled(monkeypatch):
+    from types import SimpleNamespace
+
     from body_moments.core.verdict.finding import finding
     from body_moments.operators.write import reports
 
-    view = bpy.context.preferences.view
-    before = view.language, view.use_translate_reports
-    words = {("*", "Measured {object}"): "{object} gemessen", ("*", "{object}: {cause}"): "{object} - {cause}"}
-    bpy.app.translations.register(__name__, {"de_DE": words})
-    try:
-        view.language, view.use_translate_reports = "de_DE", True
-        assert reports.text(finding("measured_one", object="Measured {object}")) == "Measured {object} gemessen"
-        cause = finding("measured_one", object="A").as_record()
-        assert reports.text(finding("failure", object="B", cause=cause)) == "B - A gemessen"
-    finally:
-        view.language, view.use_translate_reports = before
-        bpy.app.translations.unregister(__name__)
+    words = {"Measured {object}": "{object} gemessen", "{object}: {cause}": "{object} - {cause}"}
+    translations = SimpleNamespace(pgettext_rpt=lambda text: words.get(text, text))
+    app = SimpleNamespace(translations=translations)
+    monkeypatch.setattr(reports, "bpy", SimpleNamespace(app=app, context=bpy.context))
+    assert reports.text(finding("measured_one", object="Measured {object}")) == "Measured {object} gemessen"
+    cause = finding("measured_one", object="A").as_record()
+    assert reports.text(finding("failure", object="B", cause=cause)) == "B - A gemessen"
 
 
 def test_faults_of_many_objects_are_looked_for_in_one_evaluation_of_the_scene():

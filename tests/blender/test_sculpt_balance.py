@@ -258,7 +258,7 @@ class TestRefused:
         numbers = properties.numbers(obj)
         edit(obj, lambda co: co.z > 0.8)
         bpy.context.scene.cursor.location = (50.0, 0.0, 0.0)
-        unchanged(obj, points(obj), "balance_short", reported)
+        unchanged(obj, points(obj), "balance_short_by_limit", reported)
         bpy.ops.object.mode_set(mode="OBJECT")
         assert properties.numbers(obj) == numbers
 
