@@ -13,11 +13,13 @@ from bpy.types import Context, Object, Operator
 
 from ....core.measurement import Measurement
 from ....core.verdict.finding import EditRefusedError, finding
+from ....core.verdict.health import Faults
 from ...bodies.measure_object import measure_object
 from ...session import staleness
 from ...write import properties, reports
 from .. import selection
 
+DEFECTS = {field.name: "defect_" + field.name for field in fields(Faults)}
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
 MOVING = {
     "ARMATURE",
@@ -121,7 +123,7 @@ def _faults(measurement: Measurement) -> dict[str, np.ndarray]:
 
 
 def _counts(found: dict[str, np.ndarray]) -> list[dict]:
-    return [finding("defect_" + kind, count=len(indices)).as_record() for kind, indices in found.items()]
+    return [finding(DEFECTS[kind], count=len(indices)).as_record() for kind, indices in found.items()]
 
 
 def _show(context: Context, faults: dict[Object, dict[str, np.ndarray]]) -> None:

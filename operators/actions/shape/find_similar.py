@@ -29,6 +29,7 @@ from ..modal import Stepwise
 
 ORDER = 12  # of the descriptors: more than separate parts, a fourth of the time that 20 takes
 LISTED = 20
+SHAPES = {similarity: "shapes_" + similarity for similarity in Similarity}
 MIRRORED = BoolProperty(name="Mirror Images Too", default=False, description="Mirror images are as near as copies")
 SCALED = BoolProperty(name="Other Sizes Too", default=False, description="Copies of another size are as near as others")
 
@@ -88,7 +89,7 @@ class _Find:
     def report_found(self, rows: list[tuple[Entry, Likeness]], failures: list[Finding]) -> set[str]:
         counts = Counter(verdict(likeness) for _, likeness in rows)
         alike = [
-            finding("shapes_" + similarity, count=counts[similarity]).as_record()
+            finding(SHAPES[similarity], count=counts[similarity]).as_record()
             for similarity in Similarity
             if counts[similarity] and similarity != Similarity.DIFFERENT
         ]

@@ -181,7 +181,8 @@ def described(found: Symmetry) -> list[Finding]:
     if len(found.round_about) == 3:
         return [finding("symmetry_sphere")]
     if len(found.round_about) == 1:
-        return [finding("symmetry_revolution_reversible" if found.group == "D∞h" else "symmetry_revolution")]
+        reversible = found.group == "D∞h"
+        return [finding("symmetry_revolution_reversible" if reversible else "symmetry_revolution")]
     clauses = []
     if found.axes:
         clauses.append(finding("symmetry_axes", count=len(found.axes), order=found.axes[0][1]))
