@@ -12,7 +12,7 @@ from contextlib import contextmanager
 import bpy
 from bpy.types import Context, Object, Operator
 
-from ...core.verdict.finding import Finding, MeasureError, finding
+from ...core.verdict.finding import Finding, finding
 from ..read import measurable
 from ..scene.transforms import lineage
 from ..write import reports
@@ -88,19 +88,20 @@ def one_by_one(
     objects: Iterable[Object], action: Callable[[Object], Iterator[float] | None], failures: list[Finding]
 ) -> Iterator[float]:
     """Run `action` on one object after the other: it does the work, or returns an iterator that does it in steps and
-    yields its share that is done. Yields how many objects are done. Why an object was refused is added to `failures`.
+    yields its share that is done. Yields how many objects are done. Why an object was refused, or that the work on it
+    failed, is added to `failures`: none of them ends the others.
     """
     for done, obj in enumerate(objects, 1):
         try:
             for share in action(obj) or ():
                 yield done - 1 + share
-        except MeasureError as error:
+        except Exception as error:
             failures.append(reports.failure(obj.name_full, error))  # objects of two libraries may have one name
         yield done
 
 
 def each(objects: Sequence[Object], action: Callable[[Object], bool]) -> tuple[int, list[Finding]]:
-    """Run `action` on each object; how many it changed, and why others were refused."""
+    """Run `action` on each object; how many it changed, and why others were refused or failed."""
     changed: list[Object] = []
     failures: list[Finding] = []
 

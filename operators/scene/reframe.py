@@ -26,7 +26,8 @@ from bpy.types import ID, Context, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ...core.verdict import internal_error
+from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ..settings.density import fixed_to
 from .changes import Change, carry_out, dependents, rounds, side_by_side
 from .dependents import SAME_SHAPE, Surroundings, mapped, referring, same_shape, shape
@@ -93,22 +94,22 @@ def check(obj: Object) -> None:
 
 def reframe(
     context: Context, plans: list[Plan], progress: Callable[[float], None] = lambda done: None
-) -> tuple[list[Plan], list[tuple[Object, MeasureError]]]:
+) -> tuple[list[Plan], list[tuple[Object, Finding]]]:
     """Carry out the plans; those that were, and for each other object why it was left as it was."""
     objects = {plan.obj for plan in plans}
     users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
-    refused: dict[Object, MeasureError] = {}
+    refused: dict[Object, Finding] = {}
     done = 0
 
     def attempt(group: list[Plan], again: list[list[Plan]] | None = None) -> Change:
         nonlocal done
         try:
             yield from _reframed(group, users)
-        except MeasureError as error:
+        except Exception as error:
             if again is not None:
                 again.append(group)
                 return
-            refused.update(dict.fromkeys((plan.obj for plan in group), error))
+            refused.update(dict.fromkeys((plan.obj for plan in group), internal_error.finding_of(error)))
         done += len(group)
         progress(done)
 

@@ -22,6 +22,7 @@ from bpy.types import Depsgraph, Object, Scene
 from ...core.measurement import Measurement
 from ...core.numerics.float32 import decimal
 from ...core.nurbs.tracked_solid import FollowedBody
+from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError
 from ..bodies.body import Body
 from ..bodies.measure_object import measure_object
@@ -76,6 +77,9 @@ def follow(obj: Object, depsgraph: Depsgraph) -> Live:
         measurement = _measured(obj, depsgraph)
     except MeasureError as error:
         refusal = error.finding
+    except Exception as error:
+        refusal = internal_error.finding_of(error)
+        _followed.pop(obj.session_uid, None)  # what is half followed is no start for the next edit
     found = _shown[obj.session_uid] = Live(
         measurement, refusal, time.perf_counter() - start, settings_hash(obj, depsgraph.scene)
     )

@@ -1097,7 +1097,7 @@ MESSAGES: dict[str, Message] = {
     "array_options_unused": _warning("Options for arrays and scans were not used: {options}."),
     "results_need_blend": _error("Results can only be stored in a .blend file; --write did nothing."),
     "scene_never_saved": _error("The scene was never saved; --write has no file. Save it first."),
-    "internal_error": _error("Internal error: {type}: {error}. Please report it."),
+    "internal_error": _error("Internal error: {type}: {error} ({where}). Please report it."),
     # similar
     "library_line": _error(
         "{file}: line {line} is not a body_moments document. Write the library with --format jsonl."

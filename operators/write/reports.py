@@ -11,6 +11,7 @@ from functools import partial
 import bpy
 from bpy.types import Operator
 
+from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError, Severity, finding
 from .messages import sentence, severity
 from .units import Units
@@ -52,9 +53,10 @@ def first(findings: Sequence[Finding]) -> list[Finding]:
     return [*ranked[:MAX_REPORTED], *([finding("and_more", count=more)] if more > 0 else [])]
 
 
-def failure(name: str, error: MeasureError) -> Finding:
-    """Why one of several objects was left as it is."""
-    return finding("failure", object=name, cause=error.finding.as_record())
+def failure(name: str, reason: Finding | Exception) -> Finding:
+    """Why one of several objects was left as it is: it was refused, or this program failed."""
+    cause = reason if isinstance(reason, Finding) else internal_error.finding_of(reason)
+    return finding("failure", object=name, cause=cause.as_record())
 
 
 def refusal(error: MeasureError) -> Finding:

@@ -8,7 +8,8 @@ from collections.abc import Iterator
 
 import bpy
 
-from ....core.verdict.finding import Finding, MeasureError, Severity, finding
+from ....core.verdict import internal_error
+from ....core.verdict.finding import Finding, Severity, finding
 from ...bodies.measure_object import Measured, measure_body
 from ...session import results
 from ...session.staleness import settle
@@ -48,7 +49,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
 
     def _begin(self, context: bpy.types.Context) -> None:
         self._found: list[tuple[bpy.types.Object, Measured]] = []
-        self._refused: list[tuple[bpy.types.Object, MeasureError]] = []
+        self._refused: list[tuple[bpy.types.Object, Finding]] = []
         self._failures: list[Finding] = []
         self._steps = self._measure(_chosen(context), context.evaluated_depsgraph_get())
 
@@ -56,21 +57,21 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
         for done, obj in enumerate(objects, 1):
             try:
                 self._found.append((obj, measure_body(obj, depsgraph)))
-            except MeasureError as error:
-                self._refused.append((obj, error))
+            except Exception as error:
+                self._refused.append((obj, internal_error.finding_of(error)))
             yield done
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Nothing is stored before everything is measured, so that a cancelled run leaves nothing behind."""
-        for obj, error in self._refused:
-            self._failures.append(reports.failure(obj.name_full, error))
-            results.refuse(obj, error.finding)
+        for obj, refusal in self._refused:
+            self._failures.append(finding("failure", object=obj.name_full, cause=refusal.as_record()))
+            results.refuse(obj, refusal)
         stored = []
         for obj, measured in self._found:
             results.refuse(obj, None)
             try:
                 results.store(obj, measured, context.scene)
-            except MeasureError as error:
+            except Exception as error:
                 self._failures.append(reports.failure(obj.name_full, error))
                 continue
             stored.append(obj)

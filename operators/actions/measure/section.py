@@ -103,7 +103,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
             try:
                 properties.require_storable(obj)
                 found.append((obj, *section_of(obj, depsgraph)))
-            except MeasureError as error:
+            except Exception as error:
                 failures.append(reports.failure(obj.name_full, error))
         unit = decimal(context.scene.unit_settings.scale_length)
         for obj, section, what, findings in found:

@@ -91,7 +91,7 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
             try:
                 if _move(context, plan):
                     moved.append(plan.obj)
-            except MeasureError as error:
+            except Exception as error:
                 self._failures.append(reports.failure(plan.obj.name_full, error))
                 continue
             distances.append(_distance(plan.obj.name, found, self._size))

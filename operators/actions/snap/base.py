@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 
 from ....core.inertia.principal_frame import EQUAL_AXES, strict_frame
 from ....core.numerics.float32 import decimal
-from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ....core.verdict import internal_error
+from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.measure_object import measure_body
 from ...read.quiet import paused
 from ...scene import reframe
@@ -127,7 +128,8 @@ def refresh(context: Context, objects: list[Object]) -> None:
     for obj in stored:
         try:
             results.store(obj, measure_body(obj, depsgraph, MeasureOptions(pose=True)), context.scene)
-        except MeasureError:  # what is stored stays, and the panel shows that it is out of date
+        except Exception as error:  # what is stored stays, and the panel shows that it is out of date
+            internal_error.finding_of(error)
             continue
         fresh.append(obj)
     staleness.settle(context, fresh)
@@ -158,7 +160,7 @@ def reframe_selected(
     _, failures = selection.each(objects, plan)
     with paused(), selection.progress(len(plans)) as step:
         changed, refused = reframe.reframe(context, plans, step)
-        failures += [reports.failure(obj.name_full, error) for obj, error in refused]
+        failures += [finding("failure", object=obj.name_full, cause=refusal.as_record()) for obj, refusal in refused]
         if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
             plans.clear()
             selection.each([one.obj for one in changed], plan)

@@ -10,7 +10,7 @@ from bpy.props import BoolProperty
 from bpy.types import Context, Depsgraph, Object, Operator
 from mathutils import Matrix
 
-from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...scene.changes import Change, carry_out, dependents, rounds, side_by_side
 from ...scene.transforms import Channels, basis, world
 from ...write import reports
@@ -58,11 +58,10 @@ class OBJECT_OT_body_moments_add_empty(Operator):
                 body = snapping.body_of(context, obj)
                 step(len(placed) + len(failures))
                 yield  # all are measured before the scene changes
-                empty = existing.get(obj) or _new_empty(context, obj)
-                if (yield from _placed(empty, body, obj if self.parent else None)):
+                if (yield from _placed(existing.get(obj), context, body, obj if self.parent else None)):
                     findings.extend([body.finding.of_sources([obj.name])] if body.finding is not None else [])
                     placed.append(obj)
-            except MeasureError as error:
+            except Exception as error:
                 failures.append(reports.failure(obj.name_full, error))
 
         followers = dependents(existing.values())  # what moves with an empty is measured after that
@@ -90,7 +89,22 @@ def _new_empty(context: Context, obj: Object) -> Object:
     return empty
 
 
-def _placed(empty: Object, body: snapping.Body, parent: Object | None) -> Generator[None, Depsgraph, bool]:
+def _placed(
+    existing: Object | None, context: Context, body: snapping.Body, parent: Object | None
+) -> Generator[None, Depsgraph, bool]:
+    """Move the empty, or a new one, to the body's frame; returns whether it was elsewhere. EditRefusedError where it
+    cannot be there: then all is as it was."""
+    if existing is not None:
+        return (yield from _moved(existing, body, parent))
+    empty = _new_empty(context, body.obj)
+    try:
+        return (yield from _moved(empty, body, parent))
+    except BaseException:
+        bpy.data.objects.remove(empty)
+        raise
+
+
+def _moved(empty: Object, body: snapping.Body, parent: Object | None) -> Generator[None, Depsgraph, bool]:
     """Move the empty to the body's frame; returns whether it was elsewhere. EditRefusedError where it cannot be
     there."""
     if _follows(body.obj, empty):
@@ -103,24 +117,27 @@ def _placed(empty: Object, body: snapping.Body, parent: Object | None) -> Genera
     was = world(body.obj)
     frame = np.eye(4)
     frame[:3, :3], frame[:3, 3] = body.axes, body.center
-    empty.parent = parent
-    if parent is not None:
-        empty.parent_type = "OBJECT"
-        empty.matrix_parent_inverse = Matrix(np.linalg.inv(world(parent)))
-    empty.empty_display_size = body.size
-    empty.matrix_world = Matrix(frame)
-    yield
-    if parent is not None and not _is_there(empty, body):  # a curve also lays its children along its path
-        outer = np.linalg.solve(basis(empty).T, world(empty).T).T
-        inverse = np.array(empty.matrix_parent_inverse, np.float64) @ np.linalg.inv(outer)
-        empty.matrix_parent_inverse, empty.matrix_basis = Matrix(inverse), Matrix(frame)
+    try:
+        empty.parent = parent
+        if parent is not None:
+            empty.parent_type = "OBJECT"
+            empty.matrix_parent_inverse = Matrix(np.linalg.inv(world(parent)))
+        empty.empty_display_size = body.size
+        empty.matrix_world = Matrix(frame)
         yield
-    held, follows = not _is_there(empty, body), (world(body.obj) != was).any()
-    if held or follows:
+        if parent is not None and not _is_there(empty, body):  # a curve also lays its children along its path
+            outer = np.linalg.solve(basis(empty).T, world(empty).T).T
+            inverse = np.array(empty.matrix_parent_inverse, np.float64) @ np.linalg.inv(outer)
+            empty.matrix_parent_inverse, empty.matrix_basis = Matrix(inverse), Matrix(frame)
+            yield
+        held, follows = not _is_there(empty, body), (world(body.obj) != was).any()
+        if held or follows:
+            raise EditRefusedError("empty_followed" if follows else "empty_constrained", empty=empty.name)
+    except BaseException:
         for name, value in before.items():
             setattr(empty, name, value)
         saved.restore()
-        raise EditRefusedError("empty_followed" if follows else "empty_constrained", empty=empty.name)
+        raise
     return True
 
 
