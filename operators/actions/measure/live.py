@@ -35,7 +35,7 @@ class OBJECT_OT_body_moments_live(Operator):
             return {"FINISHED"}
         found = live.start(obj, context.evaluated_depsgraph_get())
         if found.refusal is not None:
-            reports.report(self, finding("failure", object=obj.name, cause=found.refusal.as_record()))
+            reports.report(self, reports.failure(obj.name, found.refusal))
         return {"FINISHED"}
 
 

@@ -160,7 +160,7 @@ def reframe_selected(
     _, failures = selection.each(objects, plan)
     with paused(), selection.progress(len(plans)) as step:
         changed, refused = reframe.reframe(context, plans, step)
-        failures += [finding("failure", object=obj.name_full, cause=refusal.as_record()) for obj, refusal in refused]
+        failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
         if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
             plans.clear()
             selection.each([one.obj for one in changed], plan)
