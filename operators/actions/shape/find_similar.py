@@ -29,7 +29,6 @@ from ..modal import Stepwise
 
 ORDER = 12  # of the descriptors: more than separate parts, a fourth of the time that 20 takes
 LISTED = 20
-SHAPES = {similarity: "shapes_" + similarity for similarity in Similarity}
 MIRRORED = BoolProperty(name="Mirror Images Too", default=False, description="Mirror images are as near as copies")
 SCALED = BoolProperty(name="Other Sizes Too", default=False, description="Copies of another size are as near as others")
 
@@ -50,6 +49,9 @@ class BodyMomentsSearch(PropertyGroup):
     wanted: StringProperty(name="Wanted")
     looked_at: StringProperty(name="Looked At")
     found: CollectionProperty(type=BodyMomentsSimilar)
+
+
+SHAPES = {similarity: "shapes_" + similarity for similarity in Similarity}  # codes of how many there are
 
 
 class _Find:
