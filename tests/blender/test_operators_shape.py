@@ -385,9 +385,9 @@ def test_the_panel_shows_what_was_found(panel):
     run("find_symmetry")
     record = drawn()
     text = labels(record)
-    assert "Symmetry C5v" in text and "5-Fold" in text and text.count("Mirror") == 5
-    assert "Similar to Wanted" in text and any(line.startswith("Mirror Image") for line in text)
-    assert "Verdict, Distance" in text and any(line.startswith("Scaled Copy ×2, 0.") for line in text)
+    assert "Symmetry C5v" in text and "5-Fold Axis" in text and text.count("Mirror Plane") == 5
+    assert "Similar to Wanted" in text and any(line.startswith("mirror image, ") for line in text)
+    assert "Similarity, Distance" in text and any(line.startswith("scaled copy ×2, 0.") for line in text)
     names = {entry[2].name for entry in record if entry[0] == "operator" and hasattr(entry[2], "name")}
     assert names == {"Copy", "Image", "Big", "Other"}
 
