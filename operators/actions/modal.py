@@ -1,13 +1,16 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Long work in steps: between two of them the window lives and tells how far it is, and Esc ends it."""
+"""Long work in steps: between two of them the window lives and shows how far it is, and Esc ends it."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from time import perf_counter
 
 from bpy.types import Context, Event
 
+from ...core.verdict.finding import Finding
+from ..write import reports
 from . import selection
 
 SLICE = 0.1  # seconds of work between two looks at the window's events
@@ -17,8 +20,11 @@ class Stepwise:
     """Of an operator, whose `_steps` is a generator that does the work and yields how much is done, and whose `_finish`
     alone changes anything.
 
-    DOING: the status text, with a place for the share that is done. CANCELLED: the report after Esc.
+    PROGRESS: for the status bar; it gets the value `share`, that is done. CANCELED: the report after Esc.
     """
+
+    PROGRESS: Finding
+    CANCELED: Finding
 
     def all_at_once(self, context: Context, count: float) -> set[str]:
         """Every step, in one call of the operator. count: what the last step yields."""
@@ -34,13 +40,13 @@ class Stepwise:
         self._timer = manager.event_timer_add(0.0, window=context.window)
         manager.modal_handler_add(self)
         manager.progress_begin(0, count)
-        self._tell(context, 0)
+        self._show_progress(context, 0)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Context, event: Event) -> set[str]:
         if event.type == "ESC":
             self._end(context)
-            self.report({"INFO"}, self.CANCELLED)
+            reports.report(self, self.CANCELED)
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
@@ -48,7 +54,7 @@ class Stepwise:
             until = perf_counter() + SLICE
             for done in self._steps:
                 if perf_counter() >= until:
-                    self._tell(context, done)
+                    self._show_progress(context, done)
                     return {"RUNNING_MODAL"}
         except BaseException:
             self._end(context)
@@ -56,9 +62,10 @@ class Stepwise:
         self._end(context)
         return self._finish(context)
 
-    def _tell(self, context: Context, done: float) -> None:
+    def _show_progress(self, context: Context, done: float) -> None:
         context.window_manager.progress_update(done)
-        context.workspace.status_text_set(self.DOING.format(done / self._count if self._count else 1.0))
+        share = done / self._count if self._count else 1.0
+        context.workspace.status_text_set(reports.text(replace(self.PROGRESS, values={"share": share})))
 
     def _end(self, context: Context) -> None:
         self._steps.close()

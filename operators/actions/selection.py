@@ -12,10 +12,10 @@ from contextlib import contextmanager
 import bpy
 from bpy.types import Context, Object, Operator
 
-from ...core.verdict import internal_error
+from ...core.verdict.finding import Finding, finding
 from ..read import measurable
 from ..scene.transforms import lineage
-from ..write.text import LISTED, counted, in_a_row, listed, one_line
+from ..write import reports
 
 
 def selected(context: Context) -> list[Object]:
@@ -29,11 +29,9 @@ def selected(context: Context) -> list[Object]:
 def poll_selected(cls: type[Operator], context: Context, any_mode: bool = False) -> bool:
     """Whether something is selected, in Object Mode unless any mode will do; says why not."""
     if not any_mode and context.mode != "OBJECT":
-        cls.poll_message_set("Switch to Object Mode first")
-        return False
+        return reports.unavailable(cls, finding("poll_object_mode"))
     if not context.view_layer.objects.selected:
-        cls.poll_message_set("Select the objects first")
-        return False
+        return reports.unavailable(cls, finding("poll_select_objects"))
     return True
 
 
@@ -45,7 +43,7 @@ def redraw(context: Context) -> None:
 
 @contextmanager
 def progress(count: float) -> Iterator[Callable[[float], None]]:
-    """What to tell how much of `count` is done; shown at the cursor where there are many."""
+    """What to call with how much of `count` is done; shown at the cursor where there are many."""
     manager = bpy.context.window_manager
     shown = count > 1
 
@@ -62,70 +60,56 @@ def progress(count: float) -> Iterator[Callable[[float], None]]:
             manager.progress_end()
 
 
-def summarise(
+def summarize(
     operator: Operator,
-    done: int,
+    changed: int,
     total: int,
-    text: str,
-    failures: Iterable[tuple[str, str]] = (),
-    notes: Iterable[str] = (),
-    idle: str = "",
+    done: Finding,
+    failures: Sequence[Finding] = (),
+    findings: Sequence[Finding] = (),
+    idle: Finding | None = None,
 ) -> set[str]:
     """One report for the run, and what `execute` returns.
 
-    text: what happened to `done` objects, with {count} for "3 objects". failures: (name, reason)
-        each. notes: sentences. idle: where nothing had to be done, why.
+    done: what happened to `changed` of `total` objects. failures: of each that was left as it is, why. findings: what
+    else was noticed. idle: where nothing had to be done, why.
     """
-    failures, notes = list(failures), list(notes)
-    if not done and not failures and idle:
-        text = "Nothing to do: " + idle if total else "Nothing selected can be measured"
-    sentences = []
-    if done or not failures:
-        sentences.append(text.replace("{count}", counted(done), 1))  # names in it may have braces too
+    if not changed and not failures and idle is not None:
+        done = finding("nothing_to_do", cause=idle.as_record()) if total else finding("nothing_measurable")
+    sentences = [done] if changed or not failures else []
     if failures:
-        told = in_a_row(listed("{:s}: {:s}".format(*failure) for failure in failures))
-        sentences.append("{:d} of {:s} left unchanged. {:s}".format(len(failures), counted(total), told))
-    sentences += notes[:LISTED]
-    operator.report({"WARNING"} if failures or notes else {"INFO"}, one_line(sentences))
-    return {"FINISHED"} if done else {"CANCELLED"}
+        causes = [failure.as_record() for failure in reports.first(failures)]
+        sentences.append(finding("left_unchanged", count=len(failures), total=total, causes=causes))
+    reports.report(operator, *sentences, *reports.first(findings))
+    return {"FINISHED"} if changed else {"CANCELLED"}
 
 
 def one_by_one(
-    objects: Iterable[Object],
-    action: Callable[[Object], Iterator[float] | None],
-    refusals: tuple[type[Exception], ...],
-    failures: list[tuple[str, str]],
+    objects: Iterable[Object], action: Callable[[Object], Iterator[float] | None], failures: list[Finding]
 ) -> Iterator[float]:
     """Run `action` on one object after the other: it does the work, or returns an iterator that does it in steps and
-    yields its share that is done. Yields how many objects are done. (name, reason) of those that it refused are added
-    to `failures`, and of those where it failed otherwise: none of them ends the others.
+    yields its share that is done. Yields how many objects are done. Why an object was refused, or that the work on it
+    failed, is added to `failures`: none of them ends the others.
     """
     for done, obj in enumerate(objects, 1):
         try:
             for share in action(obj) or ():
                 yield done - 1 + share
         except Exception as error:
-            # Objects of two libraries may have one name.
-            failures.append((obj.name_full, internal_error.reason(error, refusals)))
+            failures.append(reports.failure(obj.name_full, error))  # objects of two libraries may have one name
         yield done
 
 
-def each(
-    objects: Sequence[Object],
-    action: Callable[[Object], bool],
-    refusals: tuple[type[Exception], ...],
-) -> tuple[int, list[tuple[str, str]]]:
-    """Run `action` on each object; how many it changed, and (name, reason) of those that it
-    refused, or where it failed.
-    """
+def each(objects: Sequence[Object], action: Callable[[Object], bool]) -> tuple[int, list[Finding]]:
+    """Run `action` on each object; how many it changed, and why others were refused or failed."""
     changed: list[Object] = []
-    failures: list[tuple[str, str]] = []
+    failures: list[Finding] = []
 
     def run(obj: Object) -> None:
         if action(obj):
             changed.append(obj)
 
     with progress(len(objects)) as step:
-        for done in one_by_one(objects, run, refusals, failures):
+        for done in one_by_one(objects, run, failures):
             step(done)
     return len(changed), failures

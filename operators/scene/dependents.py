@@ -14,9 +14,10 @@ from bpy.types import ID, Constraint, Depsgraph, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ..read import Unreadable, measurable, read_object
+from ...core.verdict.finding import EditRefusedError, Finding, ReadError, finding
+from ..read import measurable, read_object
 from .changes import BETWEEN, users_of
-from .transforms import FLOAT32, Matrix4, Refused, world
+from .transforms import FLOAT32, Matrix4, world
 
 # Of the size: what rounding in a chain of modifiers may move, and far less than anyone can see.
 SAME_SHAPE = 1e-5
@@ -49,7 +50,7 @@ def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
     place where it stands and some points of all others. None where there is nothing to see."""
     try:
         reading = read_object(obj, depsgraph, edges=False)
-    except Unreadable:
+    except ReadError:
         return None
     shapes = []
     for part in reading.parts:
@@ -111,16 +112,14 @@ class Surroundings:
         users: dict[Object, set[Object]],
         depsgraph: Depsgraph,
     ) -> None:
-        self.notes: list[str] = []
+        self.findings: list[Finding] = []
         self.changed = {obj: world(obj) for obj in objects}
         others = sorted(
             {user for obj in objects for user in users.get(obj, ())} - set(objects), key=lambda other: other.name_full
         )
         linked = [other for other in others if other.library is not None and other.parent in self.changed]
         if linked:
-            raise Refused(
-                "its child {:s} is linked from another file and cannot be held in place".format(linked[0].name)
-            )
+            raise EditRefusedError("child_linked", object=linked[0].name)
         self.children = {
             other: np.array(other.matrix_parent_inverse, np.float64) for other in others if other.parent in self.changed
         }
@@ -144,25 +143,19 @@ class Surroundings:
             constraint.inverse_matrix = Matrix(held[constraint.target] @ inverse)
 
     def check(self, depsgraph: Depsgraph, size: float) -> None:
-        """Refused where a child or another object's shape moved; followers by constraint are
-        only noted.
-        """
+        """EditRefusedError where a child or another object's shape moved; followers by constraint are only noted."""
         for other, place in self.places.items():
             moved = self._moved(place, world(other), size)
             if moved and other in self.children:
-                raise Refused("its child {:s} cannot be held in place; clear that parent first".format(other.name))
+                raise EditRefusedError("child_not_held", object=other.name)
             if moved:
-                self.notes.append("is followed by {:s}, which moved along, by a constraint".format(other.name))
+                self.findings.append(finding("follower_moved", object=other.name))
         for other, before in self.shapes.items():
             if self._moved(self.places[other], world(other), size):
                 continue
             if not same_shape(before, shape(other, depsgraph), size):
-                remedy = (
-                    "{:s} would change its shape, for a modifier of it refers to this object; apply that modifier first"
-                    if other.modifiers
-                    else "{:s} would change its shape, which is made with this object; convert it to a mesh first"
-                )
-                raise Refused(remedy.format(other.name))
+                code = "dependent_shape_changes" if other.modifiers else "dependent_curve_changes"
+                raise EditRefusedError(code, object=other.name)
 
     def _moved(self, before: NDArray, now: NDArray, size: float) -> bool:
         changed = [np.abs(was[:3, 3]).max() for was in self.changed.values()]

@@ -27,11 +27,11 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ...core.verdict import internal_error
-from ..read import Unreadable
+from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ..settings.density import fixed_to
 from .changes import Change, carry_out, dependents, rounds, side_by_side
 from .dependents import SAME_SHAPE, Surroundings, mapped, referring, same_shape, shape
-from .transforms import FLOAT32, Channels, Matrix4, Refused, basis, lineage, set_location, set_rotation_and_scale, world
+from .transforms import FLOAT32, Channels, Matrix4, basis, lineage, set_location, set_rotation_and_scale, world
 
 # What these do does not depend on where an object's origin is, nor on its axes.
 INDIFFERENT = {
@@ -64,52 +64,41 @@ class Plan:
     target: Matrix4
     size: float
     move_only: bool
-    notes: list[str] = field(default_factory=list)
+    findings: list[Finding] = field(default_factory=list)
 
 
 def check(obj: Object) -> None:
-    """Refused where the object's data cannot be re-expressed at all."""
+    """EditRefusedError where the object's data cannot be re-expressed at all."""
     if obj.library is not None or (obj.data is not None and obj.data.library is not None):
-        raise Refused("it is linked from another file; make it and its data local first")
+        raise EditRefusedError("linked_object_data")
     if obj.data is None:
-        raise Refused("it shows a collection and has no geometry of its own; make the instances real first")
+        raise EditRefusedError("collection_instance")
     if obj.type == "VOLUME":
-        raise Refused(
-            "its voxels cannot be moved within the object; add an empty at its principal frame, or align the "
-            "object itself"
-        )
+        raise EditRefusedError("volume_not_reframed")
     if obj.type not in {"MESH", "CURVE", "SURFACE", "META", "FONT"}:
-        raise Refused("its geometry has no transform of its own; convert it to a mesh first")
+        raise EditRefusedError("data_without_transform")
     if obj.instance_type in {"VERTS", "FACES"} and obj.children:
-        raise Refused("it shows its children on its vertices or faces; make the instances real first")
+        raise EditRefusedError("instances_on_own_geometry")
     unseen = [
         modifier.name
         for modifier in obj.modifiers
         if modifier.show_render and not modifier.show_viewport and modifier.type not in INDIFFERENT
     ]
     if unseen:
-        raise Refused(
-            "what its modifier {:s} renders is not shown, and may depend on the origin; show it in viewports "
-            "or remove it first".format(unseen[0])
-        )
+        raise EditRefusedError("render_only_modifier", modifier=unseen[0])
     if fixed_to(obj) == "own":
-        raise Refused(
-            "its density is a polynomial of its own coordinates, and these would change; give it in world "
-            "coordinates first"
-        )
+        raise EditRefusedError("density_in_object_coordinates")
     if abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
-        raise Refused("its scale is zero along an axis; set the scale first")
+        raise EditRefusedError("scale_zero_axis")
 
 
 def reframe(
     context: Context, plans: list[Plan], progress: Callable[[float], None] = lambda done: None
-) -> tuple[list[Plan], list[tuple[Object, str]]]:
-    """Carry out the plans; those that were, and for each other object the reason why it was left
-    as it was.
-    """
+) -> tuple[list[Plan], list[tuple[Object, Finding]]]:
+    """Carry out the plans; those that were, and for each other object why it was left as it was."""
     objects = {plan.obj for plan in plans}
     users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
-    refused: dict[Object, str] = {}
+    refused: dict[Object, Finding] = {}
     done = 0
 
     def attempt(group: list[Plan], again: list[list[Plan]] | None = None) -> Change:
@@ -120,8 +109,7 @@ def reframe(
             if again is not None:
                 again.append(group)
                 return
-            reason = internal_error.reason(error, (Refused, Unreadable, ValueError, RuntimeError))
-            refused.update(dict.fromkeys((plan.obj for plan in group), reason))
+            refused.update(dict.fromkeys((plan.obj for plan in group), internal_error.finding_of(error)))
         done += len(group)
         progress(done)
 
@@ -133,7 +121,7 @@ def reframe(
         carry_out(context, side_by_side(attempt(group, again if len(beside) > 1 else None) for group in beside))
         for group in again:
             for plan in group:
-                plan.notes.clear()
+                plan.findings.clear()
             carry_out(context, attempt(group))
     return [plan for plan in plans if plan.obj not in refused], list(refused.items())
 
@@ -188,9 +176,9 @@ def _reframed(group: list[Plan], users: dict[Object, set[Object]]) -> Change:
         depsgraph = yield
         for plan in group:
             if not same_shape(before[plan.obj], shape(plan.obj, depsgraph), plan.size):
-                raise Refused(_blame(plan.obj))
+                raise EditRefusedError(_blame(plan.obj))
         around.check(depsgraph, min(plan.size for plan in group))
-        group[0].notes += around.notes
+        group[0].findings += around.findings
         kept = True
     finally:
         if not kept:
@@ -207,27 +195,21 @@ def _reframed(group: list[Plan], users: dict[Object, set[Object]]) -> Change:
             bpy.data.batch_remove([trial])
         elif kept:
             for plan in group:
-                plan.notes.append("got a copy of its data, for other objects use it too")
+                plan.findings.append(finding("data_copied"))
 
 
 def check_movable(obj: Object) -> None:
-    """Refused where the object cannot be moved as a whole and stay the body that it is."""
+    """EditRefusedError where the object cannot be moved as a whole and stay the body that it is."""
     if obj.library is not None:
-        raise Refused("it is linked from another file; make it local first")
+        raise EditRefusedError("linked_object")
     if fixed_to(obj) == "world":
-        raise Refused(
-            "its density is a polynomial of world coordinates, and does not move with it; give it in its own "
-            "coordinates first"
-        )
+        raise EditRefusedError("density_in_world_coordinates")
     bound = [modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE" and modifier.show_viewport]
     if obj.parent_type == "ARMATURE":
         bound.append(obj.parent)
     for armature in bound:  # in its rest pose it deforms nothing yet
         if armature is not None and obj not in lineage(armature):
-            raise Refused(
-                "it is bound to the armature {:s}, which would not go with it; turn the armature instead, or "
-                "apply that modifier first".format(armature.name)
-            )
+            raise EditRefusedError("bound_to_armature", armature=armature.name)
 
 
 def move(context: Context, plan: Plan) -> None:
@@ -237,10 +219,11 @@ def move(context: Context, plan: Plan) -> None:
     try:
         carry_out(context, reached(plan))
         if not same_shape(mapped(before, was, world(obj)), shape(obj, context.evaluated_depsgraph_get()), plan.size):
-            names = ", ".join(modifier.name for modifier in obj.modifiers if modifier.show_viewport)
-            raise Refused(
-                "its shape would change, because it depends on where it is through {:s}; apply that first, "
-                "or make what it refers to its child".format(names or "what deforms or shows it")
+            names = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
+            raise (
+                EditRefusedError("shape_depends_on_location", modifiers=names)
+                if names
+                else EditRefusedError("shape_depends_on_location_unknown")
             )
     except BaseException:
         saved.restore()
@@ -249,14 +232,13 @@ def move(context: Context, plan: Plan) -> None:
 
 
 def reached(plan: Plan) -> Change:
-    """Set the channels so that the evaluated matrix becomes the target; Refused where something
-    else holds it.
-    """
+    """Set the channels so that the evaluated matrix becomes the target; EditRefusedError where something else holds
+    it."""
     yield
     obj = plan.obj
     outer = _outer(obj)
     if not abs(np.linalg.det(outer[:3, :3])) > 0.0:
-        raise Refused("its parent has a scale of zero; set that scale first")
+        raise EditRefusedError("parent_scale_zero")
     slack = location_tolerance(obj, plan.size) / np.cbrt(abs(np.linalg.det(outer[:3, :3])))
     wanted = plan.target
     for _ in range(3):  # what the parents' float32 matrices round is corrected once it is known
@@ -272,10 +254,10 @@ def reached(plan: Plan) -> Change:
         wanted[:3, 3] += off
     now = world(obj)
     if np.abs(now[:3, 3] - plan.target[:3, 3]).max() > location_tolerance(obj, plan.size):
-        raise Refused("a constraint or its parent holds its location; remove or apply that first")
+        raise EditRefusedError("location_constrained")
     scale = np.abs(plan.target[:3, :3]).max()
     if np.abs(now[:3, :3] - plan.target[:3, :3]).max() > 2e-6 * scale:
-        raise Refused("a constraint or its parent holds its rotation or scale; remove or apply that first")
+        raise EditRefusedError("rotation_constrained")
 
 
 def _outer(obj: Object) -> Matrix4:
@@ -286,7 +268,7 @@ def _outer(obj: Object) -> Matrix4:
         return world(obj.parent) @ np.array(obj.matrix_parent_inverse, np.float64)
     own = basis(obj)
     if abs(np.linalg.det(own[:3, :3])) == 0.0:
-        raise Refused("its scale is zero along an axis; set the scale first")
+        raise EditRefusedError("scale_zero_axis")
     return np.linalg.solve(own.T, world(obj).T).T
 
 
@@ -312,9 +294,8 @@ def location_tolerance(obj: Object, size: float) -> float:
 
 
 def transform_data(data: ID, change: Matrix4) -> None:
-    """p → change · p for every control point of the data and its shape keys. Refused where the
-    data cannot.
-    """
+    """p → change · p for every control point of the data and its shape keys. EditRefusedError where the data
+    cannot."""
     if isinstance(data, bpy.types.Mesh):
         _transform_mesh(data, change)
     elif isinstance(data, bpy.types.TextCurve):
@@ -351,17 +332,13 @@ def _mapped(collection, name: str, change: Matrix4) -> NDArray[np.float32]:
 def _move_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
     offset = change[:3, 3]
     if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(np.abs(offset).max(), text.size):
-        raise Refused("text can only be moved within its own plane; convert it to a mesh first")
+        raise EditRefusedError("text_off_plane")
     text.offset_x += offset[0]
     text.offset_y += offset[1]
 
 
-def _blame(obj: Object) -> str:
+def _blame(obj: Object) -> Finding:
     names = [modifier.name for modifier in obj.modifiers if modifier.show_viewport and modifier.type not in INDIFFERENT]
     if names:
-        return (
-            "its shape would change, because it depends on the origin or axes through {:s}; "
-            "apply or remove "
-            "that first, or give it an object of its own to refer to".format(", ".join(names))
-        )
-    return "its shape would change; apply its scale or convert it to a mesh first"
+        return finding("shape_depends_on_origin", modifiers=names)
+    return finding("shape_depends_on_origin_unknown")

@@ -21,6 +21,7 @@ from bpy.types import Object
 from numpy.typing import NDArray
 
 from ...core.numerics.rotations import quaternion, rotation_matrix
+from ...core.verdict.finding import EditRefusedError
 
 FLOAT32 = float(np.finfo(np.float32).eps)
 
@@ -28,21 +29,17 @@ Matrix3 = NDArray[np.float64]
 Matrix4 = NDArray[np.float64]
 
 
-class Refused(Exception):
-    """Why an object was left as it is: a sentence with a remedy, without the object's name."""
-
-
 def require_editable(obj: Object) -> None:
-    """Refused for a linked object."""
+    """EditRefusedError for a linked object."""
     if not obj.is_editable:
-        raise Refused("it is linked from another file; make it local first")
+        raise EditRefusedError("linked_object")
 
 
-def require_own(obj: Object, what: str) -> None:
-    """Refused for an object on which the file cannot keep `what`."""
+def require_own(obj: Object, code: str) -> None:
+    """EditRefusedError for a linked object, and with this code for a library override."""
     require_editable(obj)
     if obj.override_library is not None:  # of which a file keeps only what Blender lets be overridden
-        raise Refused("it is a library override, which would lose {:s} with the file; make it local first".format(what))
+        raise EditRefusedError(code)
 
 
 def world(obj: Object) -> Matrix4:
@@ -126,22 +123,18 @@ def set_location(obj: Object, location: NDArray, slack: float) -> None:
 
 
 def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
-    """Make the 3×3 part of the basis `linear`, a rotation times a scale; Refused where it is
-    sheared.
-    """
+    """Make the 3×3 part of the basis `linear`, a rotation times a scale; EditRefusedError where it is sheared."""
     length = np.linalg.norm(linear, axis=0)
     delta_scale = np.array(obj.delta_scale, np.float64)
     if length.min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
-        raise Refused("its parent or delta scale flattens it; clear that scale first")
+        raise EditRefusedError("parent_or_delta_scale_zero")
     sign = np.sign(np.array(obj.scale, np.float64) * delta_scale)
     sign[sign == 0.0] = 1.0
     if np.prod(sign) * np.linalg.det(linear) < 0.0:
         sign[0] = -sign[0]
     turned = linear / (length * sign)
     if np.abs(turned.T @ turned - np.eye(3)).max() > 2e-6:
-        raise Refused(
-            "its parent shears it, and no rotation undoes that; clear the parent or apply the parent's scale first"
-        )
+        raise EditRefusedError("parent_shears")
     u, _, vt = np.linalg.svd(turned)
     _assign(obj, "scale", length * sign / delta_scale, obj.lock_scale)
     rotation = _delta_rotation(obj).T @ (u @ vt)
@@ -166,9 +159,9 @@ def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], sl
     before = np.array(getattr(obj, channel), np.float64)
     moved = np.abs(value - before) > max(slack, 1e-6 * np.abs(before).max())
     if np.any(moved & np.array(locks, bool)):
-        raise Refused("its {:s} is locked; unlock it first".format(channel.split("_")[0]))
+        raise EditRefusedError("channel_locked", channel=channel.split("_")[0])
     if np.any(moved) and channel in driven_channels(obj):
-        raise Refused("its {:s} is animated or driven; remove that first".format(channel.split("_")[0]))
+        raise EditRefusedError("channel_animated", channel=channel.split("_")[0])
     setattr(obj, channel, value)
 
 

@@ -23,10 +23,11 @@ from ...core.measurement import Measurement
 from ...core.numerics.float32 import decimal
 from ...core.nurbs.tracked_solid import FollowedBody
 from ...core.verdict import internal_error
+from ...core.verdict.finding import Finding, MeasureError
 from ..bodies.body import Body
 from ..bodies.measure_object import measure_object
 from ..bodies.measurement import as_measurement
-from ..read import Unreadable, read_patches
+from ..read import read_patches
 from ..read.fingerprint import settings_hash
 from ..settings.density import density_field
 from ..settings.options import MeasureOptions, resolved
@@ -36,11 +37,11 @@ LONGEST_WAIT = 2.0  # s between two measurements of a body that takes long
 
 @dataclass(frozen=True, eq=False)
 class Live:
-    """What an object's numbers are now. measurement: None where there are none, for the reason given. seconds: what
-    it took. settings: the digest of those that it was measured with."""
+    """What an object's numbers are now. measurement: None where there are none; refusal: then why. seconds: what it
+    took. settings: the digest of those that it was measured with."""
 
     measurement: Measurement | None
-    reason: str
+    refusal: Finding | None
     seconds: float
     settings: str
 
@@ -71,16 +72,16 @@ def is_outdated(obj: Object, scene: Scene) -> bool:
 def follow(obj: Object, depsgraph: Depsgraph) -> Live:
     """Measure an object as it is now, and keep the outcome to be shown."""
     start = time.perf_counter()
-    measurement, reason = None, ""
+    measurement, refusal = None, None
     try:
         measurement = _measured(obj, depsgraph)
-    except (Unreadable, ValueError) as error:
-        reason = str(getattr(error, "reason", error))
+    except MeasureError as error:
+        refusal = error.finding
     except Exception as error:
-        reason = internal_error.reason(error)
+        refusal = internal_error.finding_of(error)
         _followed.pop(obj.session_uid, None)  # what is half followed is no start for the next edit
     found = _shown[obj.session_uid] = Live(
-        measurement, reason, time.perf_counter() - start, settings_hash(obj, depsgraph.scene)
+        measurement, refusal, time.perf_counter() - start, settings_hash(obj, depsgraph.scene)
     )
     return found
 
@@ -122,7 +123,7 @@ def _measured(obj: Object, depsgraph: Depsgraph) -> Measurement:
         measure.area,
         measure.health,
         "NURBS " + measure.method,
-        (*part.splines.notes, *measure.warnings),
+        (*part.splines.findings, *measure.findings),
         refined=lambda: measure.volume,
         estimated=True,
     )

@@ -19,6 +19,7 @@ from bpy.types import Object, Scene
 from numpy.typing import NDArray
 
 from ...core.moments.moments import Moments, monomial_count, monomials
+from ...core.verdict.finding import Finding, MeasureError, ReadError
 from ..read.fingerprint import matrix_hash, settings_hash
 from ..write.units import number
 from . import staleness
@@ -77,31 +78,31 @@ def found(obj: Object) -> Computed | None:
     return _kept.get(obj.session_uid)
 
 
-def outdated(obj: Object, scene: Scene) -> str:
-    """Why what was computed does not hold any more; "" where it does, or there is nothing."""
+def outdated(obj: Object, scene: Scene) -> str | None:
+    """The code of why what was computed does not hold any more; None where it does, or there is nothing."""
     computed = found(obj)
     if computed is None:
-        return ""
+        return None
     matrix, settings, geometry = computed.key
     if settings != settings_hash(obj, scene):
-        return "Settings Changed"
+        return "stale_settings"
     if geometry != staleness.geometry_changes(obj):
-        return "Geometry Changed"
-    return "Transform Changed" if matrix != matrix_hash(obj) else ""
+        return "stale_geometry"
+    return "stale_transform" if matrix != matrix_hash(obj) else None
 
 
-def shown(obj: Object, scene: Scene) -> tuple[tuple[Degree, ...], str]:
-    """The moments to order SHOWN as the scene's settings want them, and why there are none."""
+def shown(obj: Object, scene: Scene) -> tuple[tuple[Degree, ...], Finding | None]:
+    """The moments to order SHOWN as the scene's settings want them, and where there are none, why."""
     settings = scene.body_moments
     return _shown(found(obj), settings.moments_of, settings.moments_about, settings.frame)
 
 
 @lru_cache(maxsize=32)
-def _shown(computed: Computed, of: str, about: str, frame: str) -> tuple[tuple[Degree, ...], str]:
+def _shown(computed: Computed, of: str, about: str, frame: str) -> tuple[tuple[Degree, ...], Finding | None]:
     try:
         moments = placed(computed, of, about, frame, min(computed.order, SHOWN))
-    except ValueError as error:
-        return (), str(error)
+    except MeasureError as error:
+        return (), error.finding
     degrees = []
     for degree in range(moments.order + 1):
         part = slice(monomial_count(degree - 1), monomial_count(degree))
@@ -110,19 +111,16 @@ def _shown(computed: Computed, of: str, about: str, frame: str) -> tuple[tuple[D
         texts = [number(0.0 if abs(value) <= least else float(value)) for value, least in zip(values, noise)]
         rows = zip(map(label, monomials(degree)[part].tolist()), texts, (repr(float(value)) for value in values))
         degrees.append(Degree(degree, unit(of, about, degree), tuple(rows)))
-    return tuple(degrees), ""
+    return tuple(degrees), None
 
 
 def placed(computed: Computed, of: str, about: str, frame: str, order: int) -> Moments:
     """The moments along the axes of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or
-    "NORMALIZED", as `Moments.normalized` by size. ValueError where that cannot be, or leaves the range of numbers."""
+    "NORMALIZED", as `Moments.normalized` by size. MeasureError where that cannot be, or leaves the range of numbers."""
     with np.errstate(over="ignore", invalid="ignore"):
         moments = _placed(computed, of, about, frame, order)
     if not np.isfinite([moments.raw, moments.error, moments.input]).all():
-        raise ValueError(
-            "So far from there, moments of order {:d} are beyond the range of numbers; show them about "
-            "the center.".format(order)
-        )
+        raise ReadError("moments_overflow_at_origin", order=order)
     return moments
 
 

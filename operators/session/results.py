@@ -19,17 +19,18 @@ from mathutils import Matrix
 
 from ...core.inertia.mass_properties import MassProperties, combined
 from ...core.numerics.float32 import decimal
+from ...core.verdict.finding import Finding, MeasureError
 from ..bodies.measure_object import Measured
 from ..read.fingerprint import settings_hash
+from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
 from . import live, staleness, walls
-from .total_caveats import doubts, unfounded
 
 
 @dataclass(frozen=True, eq=False)
 class Total:
     """Selected objects as one body, SI, world axes. count: objects with results; body: None where they have no mass;
-    missing, outdated: names of others; doubts: sentences on what may be no part of it."""
+    missing, outdated: names of others; findings: on what may be no part of it."""
 
     count: int
     volume: float
@@ -37,31 +38,33 @@ class Total:
     body: MassProperties | None
     missing: tuple[str, ...]
     outdated: tuple[str, ...]
-    doubts: tuple[str, ...]
+    findings: tuple[Finding, ...]
 
 
-_refusals: dict[int, tuple[str, str]] = {}  # session uid → reason, and the digest of the settings of then
+_refusals: dict[int, tuple[Finding, str]] = {}  # session uid → why, and the digest of the settings of then
 _total: tuple[tuple, Total] | None = None  # what the last total was computed for, and that total
 
 
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
-    """Write what was measured on the object, and remember what its sliders need. RuntimeError, with the remedy, where
-    the object cannot hold results."""
+    """Write what was measured on the object, and remember what its sliders need. EditRefusedError where the object
+    cannot hold results."""
     properties.store(obj, measured.measurement)
     walls.keep(obj, measured, _unit(scene))
 
 
-def refuse(obj: Object, reason: str | None) -> None:
+def refuse(obj: Object, reason: Finding | None) -> None:
     """Keep, until Blender ends, why the object could not be measured; None forgets it."""
     _refusals.pop(obj.session_uid, None)
     if reason is not None:
         _refusals[obj.session_uid] = reason, settings_hash(obj, bpy.context.scene)
 
 
-def refusal(obj: Object) -> str:
+def refusal(obj: Object) -> Finding | None:
     """Why the object could not be measured when that was last tried with these settings, or nothing."""
-    reason, settings = _refusals.get(obj.session_uid, ("", ""))
-    return reason if reason and settings == settings_hash(obj, bpy.context.scene) else ""
+    if obj.session_uid not in _refusals:
+        return None
+    reason, settings = _refusals[obj.session_uid]
+    return reason if settings == settings_hash(obj, bpy.context.scene) else None
 
 
 def of_object(obj: Object, scene: Scene) -> properties.Stored | None:
@@ -99,10 +102,10 @@ def _sum(context: Context) -> Total:
         counted.append(obj)
         if staleness.reason(obj, scene):
             outdated.append(obj.name)
-    told = unfounded((obj.name, properties.method_and_warnings(obj)[0]) for obj in counted)
+    caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
     body = None
     if found:
-        with suppress(ValueError):  # together they have no mass
+        with suppress(MeasureError):  # together they have no mass
             body = combined([(one.body.as_moments(), 1.0) for one in found])
     return Total(
         len(found),
@@ -111,7 +114,7 @@ def _sum(context: Context) -> Total:
         body,
         tuple(missing),
         tuple(outdated),
-        (*told, *doubts(counted, context.view_layer)),
+        (*caveats, *total_caveats(counted, context.view_layer)),
     )
 
 

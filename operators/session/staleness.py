@@ -124,40 +124,38 @@ def is_edited(obj: Object) -> bool:
     )
 
 
-def reason(obj: Object, scene: Scene) -> str:
-    """Why the stored numbers are out of date, "" where they are not or there are none."""
+def reason(obj: Object, scene: Scene) -> str | None:
+    """The code of why the stored numbers are out of date, None where they are not or there are none."""
     stored = str(obj.get("body_fingerprint", ""))
     parts = stored.split(":")
     if len(parts) != 4 or parts[0] != VERSION:
-        return "Fingerprint Damaged" if "body_mass" in obj else ""
+        return "stale_fingerprint" if "body_mass" in obj else None
     if parts[3] != settings_hash(obj, scene):
-        return "Settings Changed"
+        return "stale_settings"
     if parts[1] == EDITED or stored in _edited.get(obj.session_uid, ()):
-        return "Geometry Changed"
-    if parts[2] != matrix_hash(obj):
-        return "Transform Changed"
-    return ""
+        return "stale_geometry"
+    return "stale_transform" if parts[2] != matrix_hash(obj) else None
 
 
-def section_reason(obj: Object) -> str:
-    """Why the stored section is out of date, "" where it is not or there is none."""
+def section_reason(obj: Object) -> str | None:
+    """The code of why the stored section is out of date, None where it is not or there is none."""
     parts = section.fingerprint(obj).split(":")
     if len(parts) != 4:
-        return ""
+        return None
     if parts[1] == EDITED or section.fingerprint(obj) in _edited.get(obj.session_uid, ()):
-        return "Geometry Changed"
-    return "Transform Changed" if parts[2] != matrix_hash(obj) else ""
+        return "stale_geometry"
+    return "stale_transform" if parts[2] != matrix_hash(obj) else None
 
 
-def symmetry_reason(obj: Object) -> str:
-    """Why the symmetry that was found is out of date, "" where it is not or there is none."""
+def symmetry_reason(obj: Object) -> str | None:
+    """The code of why the symmetry that was found is out of date, None where it is not or there is none."""
     stored = _symmetry_mark(obj)
     parts = stored.split(":")
     if len(parts) != 4:
-        return ""
+        return None
     if parts[1] == EDITED or stored in _edited.get(obj.session_uid, ()):
-        return "Geometry Changed"
-    return "Scale Changed" if parts[2] != scale_hash(obj) else ""
+        return "stale_geometry"
+    return "stale_scale" if parts[2] != scale_hash(obj) else None
 
 
 def _symmetry_mark(obj: Object) -> str:

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from bpy.types import Context, Object, PropertyGroup
 
 from ...core.numerics.float32 import decimal
+from ...core.verdict.finding import MeasureError
 from ..bodies.measure_object import Measured
 from ..bodies.measurement import as_measurement
 from ..bodies.wall import Walls
@@ -89,7 +90,7 @@ def changed(settings: PropertyGroup, context: Context) -> None:
     try:
         body = _on_side(kept, obj).body(options.thickness, looked=False)
         measurement = as_measurement(obj, kept.reading, body, options, kept.unit)
-    except ValueError:  # the panel says how thick it may be
+    except MeasureError:  # the panel shows how thick it may be
         return
     properties.store(obj, measurement)
     staleness.mark_retold(obj)

@@ -1121,7 +1121,7 @@ MESSAGES: dict[str, Message] = {
     "array_options_unused": _warning("Options for arrays and scans were not used: {options}."),
     "results_need_blend": _error("Results can only be stored in a .blend file; --write did nothing."),
     "scene_never_saved": _error("The scene was never saved; --write has no file. Save it first."),
-    "internal_error": _error("Internal error: {type}: {error}. Please report it."),
+    "internal_error": _error("Internal error: {type}: {error} ({where}). Please report it."),
     # similar
     "library_line": _error(
         "{file}: line {line} is not a body_moments document. Write the library with --format jsonl."
@@ -1173,6 +1173,7 @@ MESSAGES: dict[str, Message] = {
     "nothing_to_do": _note("Nothing to do: {cause}"),
     "left_unchanged": _warning("{count} of {total} left unchanged: {causes}"),
     "failure": _warning("{object}: {cause}"),
+    "refused": _error("{object}: {cause}"),
     "and_more": _note("and {count} more"),
     "measured_one": _note("Measured {object}"),
     "measured_one_with_warnings": _warning("Measured {object}, with warnings"),
@@ -1242,9 +1243,20 @@ MESSAGES: dict[str, Message] = {
     ),
     "shapes_compared": _note("Compared {count} shape", "Compared {count} shapes"),
     "shape_counts": _note("{counts}"),
+    # clauses of `counts`
+    "shapes_copy": _note("{count} copy", "{count} copies"),
+    "shapes_scaled_copy": _note("{count} scaled copy", "{count} scaled copies"),
+    "shapes_mirror": _note("{count} mirror image", "{count} mirror images"),
+    "shapes_scaled_mirror": _note("{count} scaled mirror image", "{count} scaled mirror images"),
+    "shapes_copy_or_mirror": _note("{count} copy or mirror image", "{count} copies or mirror images"),
+    "shapes_scaled_copy_or_mirror": _note(
+        "{count} scaled copy or mirror image", "{count} scaled copies or mirror images"
+    ),
+    "shapes_similar": _note("{count} similar"),
     "none_similar": _note("none is similar"),
     "nearest_shape": _note("nearest is {object}, at {distance:.2e}"),
     "object_not_in_view_layer": _error("No object {object} in the view layer"),
+    "records_left_out": _warning("Left out: {causes}"),
     "library_file_unreadable": _error("{file} cannot be read: {error}"),
     "symmetry_found": _note("{object}: {group}, {description}"),
     "symmetry_found_of_display_mesh": _note("{object}: {group}, {description}, of the display mesh"),
@@ -1331,6 +1343,10 @@ HEALTH = {
     "degenerate_faces": ("zero-area face", "zero-area faces"),
     "non_planar_faces": ("non-planar face", "non-planar faces"),
     "flipped_faces": ("flipped face", "flipped faces"),
+}
+# Clauses of `defects`.
+MESSAGES |= {
+    "defect_" + name: _note("{count} " + singular, "{count} " + plural) for name, (singular, plural) in HEALTH.items()
 }
 # What a shape is to the one that it was compared with (an enum in core/shape).
 SIMILARITY = {

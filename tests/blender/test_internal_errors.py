@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An error that nobody foresaw ends the work on one object of many, is told as what it is, and leaves nothing half
+"""An error that nobody foresaw ends the work on one object of many, is reported as what it is, and leaves nothing half
 done."""
 
 import os
@@ -86,7 +86,7 @@ def state(obj):
 
 @pytest.mark.parametrize("error", ERRORS, ids=lambda error: type(error).__name__)
 @pytest.mark.parametrize("name", OPERATORS)
-def test_the_error_of_one_object_ends_no_other(name, error, monkeypatch, capfd):
+def test_the_error_of_one_object_ends_no_other(name, error, monkeypatch, reported, capfd):
     bodies = three(flat=name == "section")
     before = [state(body) for body in bodies]
     if name == "section":
@@ -94,10 +94,13 @@ def test_the_error_of_one_object_ends_no_other(name, error, monkeypatch, capfd):
     else:
         plant(monkeypatch, error, "b")
     assert OPERATORS[name]() == {"FINISHED"}
-    told = capfd.readouterr()
-    said = "b: Internal error: {:s}: planted; please report it".format(type(error).__name__)
-    assert said in told.out and "a: Int" not in told.out and "c: Int" not in told.out
-    assert "Traceback" in told.err and "in failing" in told.err
+    out, err = capfd.readouterr()
+    assert {finding.values["object"] for finding in reported if finding.code == "failure"} == {"b"}
+    cause = reported.values("internal_error")
+    assert (cause["type"], cause["error"]) == (type(error).__name__, "planted")
+    assert "b: Internal error: {type}: planted ({where}). Please report it.".format(**cause) in out
+    assert cause["where"].startswith("tests/blender/test_internal_errors.py:")
+    assert "Traceback" in err and "in failing" in err
     after = [state(body) for body in bodies]
     assert after[1] == before[1]
     if name not in {"cursor", "similar", "empty"}:
@@ -106,17 +109,18 @@ def test_the_error_of_one_object_ends_no_other(name, error, monkeypatch, capfd):
         assert {one[empty.OF].name for one in bpy.data.objects if empty.OF in one} == {"a", "c"}
 
 
-def test_measure_tells_the_error_in_the_panel_too_and_stores_the_others(monkeypatch):
+def test_measure_keeps_the_error_for_the_panel_and_stores_the_others(monkeypatch):
     bodies = three()
     with monkeypatch.context() as planted:
         plant(planted, TypeError("several\nlines. "), "a", "b")
         operator, window = pressed(OBJECT_OT_body_moments_measure)
         assert finished(operator, window) == {"FINISHED"}
-    sentence = "Internal error: TypeError: several lines; please report it."
-    assert [results.refusal(body) for body in bodies] == [sentence, sentence, ""]
+    first, second, third = [results.refusal(body) for body in bodies]
+    assert third is None and first == second and first.code == "internal_error"
+    assert first.values["error"] == "several lines"
     assert [properties.is_stored(body) for body in bodies] == [False, False, True]
     ((kind, text),) = operator.reports
-    assert kind == "WARNING" and text.startswith("Measured 1 of 3 objects; a: Internal error: TypeError")
+    assert kind == "WARNING" and text.startswith("Measured 1 of 3 objects. a: Internal error: TypeError")
     assert finished(*pressed(OBJECT_OT_body_moments_measure)) == {"FINISHED"}
     assert not any(results.refusal(body) for body in bodies)
 
@@ -173,7 +177,7 @@ def test_live_goes_on_with_the_others(monkeypatch):
     with monkeypatch.context() as planted:
         plant(planted, TypeError("planted"), "a", module=live, function="read_patches")
         live._tick()
-    assert live.shown(spheres[0]).reason == "Internal error: TypeError: planted; please report it."
+    assert live.shown(spheres[0]).refusal.code == "internal_error"
     assert live.shown(spheres[1]).measurement.volume == pytest.approx(2.0 * before, rel=1e-6)
     assert set(live._followed) == {spheres[1].session_uid}
     live._due.add(spheres[0].session_uid)
@@ -232,7 +236,8 @@ def test_the_command_line_goes_on_tells_it_and_exits_with_70(tmp_path, monkeypat
     line = files.run(path)
     (found,) = line.documents
     assert [one["name"] for one in found["objects"]] == ["a", "c"]
-    assert found["errors"] == [{"name": "b", "reason": "Internal error: RecursionError: planted; please report it."}]
+    (error,) = found["errors"]
+    assert error["name"] == "b" and error["reason"].startswith("Internal error: RecursionError: planted (tests/")
     assert "Traceback" in capfd.readouterr().err
     with open(os.devnull, "w") as nowhere:
         assert batch.main(["measure", path, "--output", str(result)], channel=nowhere.fileno()) == 70

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects that other files hold: nothing is written on them that would be lost, and each is told apart."""
+"""Objects that other files hold: nothing is written on them that would be lost, and each is named."""
 
 import pytest
 
 pytest.importorskip("bpy")
 import bpy
+from body_moments.core.verdict.finding import finding
 
 from tests.blender.bodies import add, mesh_body, only
 
@@ -59,19 +60,18 @@ ALL = [
 
 
 @pytest.mark.parametrize(("operator", "options"), ALL)
-def test_linked_objects_are_left_unchanged_and_told_apart(linked, operator, options, capfd):
+def test_linked_objects_are_left_unchanged_and_told_apart(linked, operator, options, reported):
     assert run(operator, **options) == {"FINISHED"}
-    out = capfd.readouterr().out
-    for name in ("Körper [a.blend]: ", "Körper [b.blend]: "):
-        assert name in out
-    assert out.lower().count("it is linked from another file") == 2
+    failures = [finding.values for finding in reported if finding.code == "failure"]
+    assert [values["object"] for values in failures] == ["Körper [a.blend]", "Körper [b.blend]"]
+    assert {values["cause"]["code"] for values in failures} < {"linked_object", "linked_object_data", "linked_results"}
 
 
-def test_settings_are_not_copied_to_linked_objects_without_a_word(linked, capfd):
+def test_settings_are_not_copied_to_linked_objects_without_a_word(linked, reported):
     local, *_ = linked
     local.body_moments.density = 5.0
     assert run("copy_settings") == {"CANCELLED"}
-    assert "2 of 2 objects left unchanged" in capfd.readouterr().out
+    assert [reported.values("left_unchanged")[name] for name in ("count", "total")] == [2, 2]
 
 
 def test_similar_objects_of_one_name_are_selected_each(linked):
@@ -86,13 +86,13 @@ def test_similar_objects_of_one_name_are_selected_each(linked):
 
 
 @pytest.mark.parametrize(("operator", "options"), ALL[:4] + [("copy_settings", {})])
-def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, operator, options, capfd):
+def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, operator, options, reported):
     if operator == "copy_settings":
         local = next(obj for obj in bpy.context.selected_objects if obj != overridden)
         local.body_moments.density = 5.0
         bpy.context.view_layer.objects.active = local
     run(operator, **options)
-    assert "it is a library override, which would lose its" in capfd.readouterr().out.replace("It", "it")
+    assert any("override" in code for code in reported.codes)
     assert not overridden.is_property_set("body_moments_symmetry") and "body_mass" not in overridden
     assert overridden.rigid_body is None and overridden.body_moments.density == 1000.0
     assert not overridden.body_moments.material
@@ -101,7 +101,7 @@ def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, opera
 def test_the_panel_says_that_settings_of_an_override_are_not_kept(overridden):
     from tests.blender.test_panel import drawn, labels
 
-    assert "A library override: the file keeps none of these settings" in " ".join(labels(drawn()))
+    assert str(finding("panel_override")) in " ".join(labels(drawn()))
 
 
 def test_the_density_of_a_linked_material_cannot_be_set_by_its_local_namesake(tmp_path):

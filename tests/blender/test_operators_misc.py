@@ -70,7 +70,7 @@ def test_the_empty_of_a_curve_is_at_its_center_though_curves_lay_children_along_
 
 
 @pytest.mark.parametrize("how", ["parent", "constraint"])
-def test_an_empty_that_its_object_follows_is_left_where_it_is(how, capfd):
+def test_an_empty_that_its_object_follows_is_left_where_it_is(how, reported):
     obj = add(mesh_body())
     bpy.ops.object.body_moments_add_empty(parent=False)
     empty = next(one for one in bpy.data.objects if one.type == "EMPTY")
@@ -86,10 +86,10 @@ def test_an_empty_that_its_object_follows_is_left_where_it_is(how, capfd):
         bpy.context.view_layer.update()
         assert (place(obj) == before[0]).all() and (place(empty) == before[1]).all()
         assert empty.parent is None
-    assert "its empty Body Principal Frame" in capfd.readouterr().out
+    assert reported.codes.count("empty_followed") == 2
 
 
-def test_an_empty_that_a_constraint_holds_is_not_called_placed(capfd):
+def test_an_empty_that_a_constraint_holds_is_not_called_placed(reported):
     obj = add(mesh_body())
     bpy.ops.object.body_moments_add_empty(parent=False)
     empty = next(one for one in bpy.data.objects if one.type == "EMPTY")
@@ -100,7 +100,7 @@ def test_an_empty_that_a_constraint_holds_is_not_called_placed(capfd):
     before = empty.matrix_basis.copy()
     assert bpy.ops.object.body_moments_add_empty(parent=False) == {"CANCELLED"}
     assert empty.matrix_basis == before
-    assert "a constraint holds its empty" in capfd.readouterr().out
+    assert reported.values("empty_constrained") == {"empty": empty.name}
 
 
 def test_no_empty_is_a_child_of_what_has_no_thickness():
@@ -188,11 +188,11 @@ def test_no_faults_in_edit_mode_leaves_mode_and_selection_as_they_were():
     assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
     assert bpy.context.mode == "EDIT_MESH" and "body_volume" in obj
     assert [vertex.index for vertex in bmesh.from_edit_mesh(obj.data).verts if vertex.select] == [2]
-    assert staleness.reason(obj, bpy.context.scene) == ""
+    assert staleness.reason(obj, bpy.context.scene) is None
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_boundary_edges_and_flipped_faces_are_selected(capfd):
+def test_boundary_edges_and_flipped_faces_are_selected(reported):
     mesh = mesh_body()
     obj = add(mesh)
     import bmesh
@@ -214,7 +214,8 @@ def test_boundary_edges_and_flipped_faces_are_selected(capfd):
     assert set(np.flatnonzero(uses == 1)) <= boundary
     assert mesh.polygons[3].select
     assert sum(face.select for face in mesh.polygons) == 1
-    assert "1 flipped face," in capfd.readouterr().out
+    assert reported.values("object_defects")["object"] == obj.name
+    assert {"defect_flipped_faces", "defect_boundary_edges"} <= set(reported.codes)
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
@@ -416,18 +417,19 @@ def test_without_a_unit_system_lengths_are_the_scenes_and_masses_are_kilograms()
 
 
 @pytest.mark.parametrize(
-    ("system", "scale", "told"),
+    ("system", "scale", "scaled"),
     [("METRIC", 0.01, True), ("IMPERIAL", 0.3048, True), ("METRIC", 1.0, False), ("NONE", 0.01, False)],
 )
-def test_what_blender_shows_of_a_rigid_bodys_mass_is_told_where_it_is_scaled(system, scale, told, capfd):
+def test_what_blender_shows_of_a_rigid_bodys_mass_is_reported_where_it_is_scaled(system, scale, scaled, reported):
     settings = bpy.context.scene.unit_settings
     settings.system, settings.scale_length = system, scale
     obj = add(mesh_body())
     obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.0
     assert bpy.ops.object.body_moments_set_rigid_body_mass(add=True) == {"FINISHED"}
     assert obj.rigid_body.mass == 3.0
-    report = capfd.readouterr().out
-    assert ("unit scale cubed" in report) == told and ("times {:.6g}".format(scale**3) in report) == told
+    assert ("rigid_body_display_scaled" in reported.codes) == scaled
+    if scaled:
+        assert reported.values("rigid_body_display_scaled")["factor"] == pytest.approx(scale**3, rel=1e-6)
 
 
 def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():
@@ -449,28 +451,67 @@ def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():
 
 
 @pytest.mark.parametrize("operator", ["measure", "measure_section", "find_similar", "origin_to_center"])
-def test_a_report_of_many_failures_names_the_first_and_counts_the_others(operator, capfd):
+def test_a_report_of_many_failures_names_the_first_and_counts_the_others(operator, reported):
     bodies = [add(mesh_body(), "Good")]
     bodies += [add(bpy.data.meshes.new("Nothing"), "Bad {:d}".format(i)) for i in range(6)]
     only(*bodies)
     getattr(bpy.ops.object, "body_moments_" + operator)()
-    told = capfd.readouterr().out
     failed = 7 if operator == "measure_section" else 6
-    assert told.count("It has no geometry") + told.count("It is not flat") == 3
-    assert "and {:d} more".format(failed - 3) in told and ".;" not in told
+    assert reported.codes.count("failure") == 3
+    assert reported.values("and_more") == {"count": failed - 3}
 
 
-def test_where_no_object_can_have_a_symmetry_it_is_told(capfd):
+def test_where_no_object_can_have_a_symmetry_it_is_reported(reported):
     add(None, "Empty")
     assert bpy.ops.object.body_moments_find_symmetry() == {"CANCELLED"}
-    assert "Nothing selected can be measured" in capfd.readouterr().out
+    assert reported.codes == ["nothing_measurable"]
 
 
-def test_sentences_of_a_report_have_one_period_each():
-    from body_moments.operators.write.text import one_line
+def test_a_report_is_as_severe_as_its_worst_finding_and_reads_as_sentences():
+    from types import SimpleNamespace
 
-    assert one_line(["Measured 1 object"]) == "Measured 1 object"
-    assert one_line(["Laid 1 object", "It is open.", "It is mended."]) == "Laid 1 object. It is open. It is mended."
+    from body_moments.core.verdict.finding import finding
+    from body_moments.operators.write import reports
+
+    calls = []
+    operator = SimpleNamespace(report=lambda *call: calls.append(call))
+    bpy.context.scene.unit_settings.length_unit = "MILLIMETERS"
+    wall = finding("wall_measured", thickness=0.25, side="inward")
+    reports.report(operator, finding("measured_several", count=2, total=3), finding("with_warnings", count=1), wall)
+    reports.report(operator, wall, finding("measured_one", object="A"))
+    reports.report(
+        operator, finding("no_faces"), finding("measured_one", object="{B}"), finding("with_warnings", count=1)
+    )
+    with_wall = "The wall was measured with real thickness: 250 mm, inward, mitered corners."
+    assert calls == [
+        ({"WARNING"}, "Measured 2 of 3 objects; 1 with warnings. " + with_wall),
+        ({"INFO"}, with_wall + " Measured A"),
+        ({"ERROR"}, "No faces. Add faces, or select another object. Measured {B}; 1 with warnings"),
+    ]
+
+
+def test_the_most_severe_findings_are_reported_first_and_the_others_counted():
+    from body_moments.core.verdict.finding import finding
+    from body_moments.operators.write import reports
+
+    found = [finding("measured_one", object=name) for name in "ABC"] + [finding("flat_surface"), finding("no_faces")]
+    assert reports.first(found) == [found[4], found[3], found[0], finding("and_more", count=2)]
+    assert reports.first(found[:3]) == found[:3]
+
+
+def test_reports_are_translated_before_they_are_filled(monkeypatch):
+    from types import SimpleNamespace
+
+    from body_moments.core.verdict.finding import finding
+    from body_moments.operators.write import reports
+
+    words = {"Measured {object}": "{object} gemessen", "{object}: {cause}": "{object} - {cause}"}
+    translations = SimpleNamespace(pgettext_rpt=lambda text: words.get(text, text))
+    app = SimpleNamespace(translations=translations)
+    monkeypatch.setattr(reports, "bpy", SimpleNamespace(app=app, context=bpy.context))
+    assert reports.text(finding("measured_one", object="Measured {object}")) == "Measured {object} gemessen"
+    cause = finding("measured_one", object="A").as_record()
+    assert reports.text(finding("failure", object="B", cause=cause)) == "B - A gemessen"
 
 
 def test_faults_of_many_objects_are_looked_for_in_one_evaluation_of_the_scene():

@@ -270,7 +270,7 @@ def test_axes_of_a_body_whose_triangles_are_others_without_its_scale_are_princip
 
 @pytest.mark.parametrize("name", [ALIGN, "body_moments_match_pose"])
 @pytest.mark.parametrize("kind", ["LATTICE", "ARRAY", "MIRROR"])
-def test_what_changes_its_shape_where_it_goes_is_refused_with_what_makes_it_and_nothing_changes(name, kind, capfd):
+def test_what_changes_its_shape_where_it_goes_is_refused_with_what_makes_it_and_nothing_changes(name, kind, reported):
     target = add(mesh_body(), "Target")
     cage = add(bpy.data.lattices.new("Cage"), "Cage", rotation=(0.5, 0.4, 0.3), scale=(9, 9, 9))
     cage.data.points[1].co_deform.x += 0.3
@@ -288,7 +288,7 @@ def test_what_changes_its_shape_where_it_goes_is_refused_with_what_makes_it_and_
     before, points = state(obj), seen(obj)
     assert run(name) == {"CANCELLED"}
     assert state(obj) == before and (seen(obj) == points).all()
-    assert "where it is through Bent" in capfd.readouterr().out
+    assert reported.values("shape_depends_on_location") == {"modifiers": ["Bent"]}
 
 
 def test_what_is_bent_by_its_own_child_is_aligned_with_it():
@@ -599,11 +599,13 @@ def test_a_round_body_turned_within_its_object_stays():
 
 
 @pytest.mark.parametrize("cuts", [1, 5])
-def test_faces_change_neither_the_frame_that_is_snapped_to_nor_what_is_told_of_it(cuts, monkeypatch):
+def test_faces_change_neither_the_frame_that_is_snapped_to_nor_what_is_reported_of_it(cuts, monkeypatch):
     """Measure looks at moments beyond third order up to a number of faces only, and says so beyond."""
+    from body_moments.core.verdict.finding import finding
     from body_moments.operators.bodies import measurement as measure
     from body_moments.operators.write import properties
 
+    unasked = finding("axes_from_third_order")
     monkeypatch.setattr(measure, "AT_ONCE", 100)
     bpy.ops.mesh.primitive_cube_add(location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
     obj = bpy.context.object
@@ -615,14 +617,15 @@ def test_faces_change_neither_the_frame_that_is_snapped_to_nor_what_is_told_of_i
     # The object's axes are kept where the body's own were not looked for.
     nearest = np.abs(body.mass_properties.principal.axes.T @ place(obj)[:3, :3]).max(axis=0)
     assert (nearest.min() < 0.95) == (cuts == 1)
-    assert (measure.UNASKED in body.warnings) == (cuts == 5)
+    assert (unasked in body.findings) == (cuts == 5)
     properties.store(obj, body)
+    assert (unasked in properties.findings(obj)) == (cuts == 5)
     assert run(AXES) == {"FINISHED"}
     sides = np.abs(np.array([vertex.co for vertex in obj.data.vertices])).max(axis=1)
     assert np.abs(sides - 1.0).max() < 1e-5  # the same axes however many faces there are
     # What is stored afterwards is what was snapped to, and a second time changes nothing.
     assert np.abs(np.array(obj["body_principal_axes"]) - [1.0, 0.0, 0.0, 0.0]).max() < 1e-5
-    assert measure.UNASKED not in obj["body_warnings"]
+    assert unasked not in properties.findings(obj)
     assert run(AXES) == {"CANCELLED"}
 
 
@@ -640,7 +643,7 @@ def test_the_strict_rule_poses_what_it_can_and_refuses_the_rest(name):
 
 
 @pytest.mark.parametrize("how", ["modifier", "parent"])
-def test_a_body_bound_to_an_armature_is_not_turned_away_from_its_bones(how, capfd):
+def test_a_body_bound_to_an_armature_is_not_turned_away_from_its_bones(how, reported):
     bpy.ops.object.armature_add()
     armature = bpy.context.object
     obj = add(mesh_body(), rotation=(0.3, 0.4, 0.5))
@@ -653,7 +656,7 @@ def test_a_body_bound_to_an_armature_is_not_turned_away_from_its_bones(how, capf
     before = state(obj)
     assert run(ALIGN) == {"CANCELLED"}
     assert state(obj) == before
-    assert "bound to the armature Armature" in capfd.readouterr().out
+    assert reported.values("bound_to_armature") == {"armature": armature.name}
     for name in REFRAMING:  # these leave it where it is
         assert run(name) == {"FINISHED"}
     obj.modifiers.clear()

@@ -144,7 +144,7 @@ def scattering(obj):
 
 
 @pytest.mark.parametrize("made_with", [beveled_by, keyed_by, scattering])
-def test_what_is_made_with_an_object_by_way_of_its_data_keeps_its_shape_too(made_with, capfd):
+def test_what_is_made_with_an_object_by_way_of_its_data_keeps_its_shape_too(made_with, reported):
     if made_with is beveled_by:
         curve = bpy.data.curves.new("Profile", "CURVE")
         curve.dimensions = "2D"
@@ -162,11 +162,12 @@ def test_what_is_made_with_an_object_by_way_of_its_data_keeps_its_shape_too(made
     assert other in side_by_side.dependents([obj])[obj]
     only(obj)
     assert run("origin_to_center") == {"CANCELLED"}
-    assert other.name + " would change its shape" in capfd.readouterr().out
+    code = "dependent_shape_changes" if other.modifiers else "dependent_curve_changes"
+    assert reported.values(code) == {"object": other.name}
     assert np.abs(seen(other) - before).max() < 1e-6 and np.abs(place(obj) - was).max() == 0.0
 
 
-def test_one_that_is_refused_leaves_the_others_beside_it_to_be_done(capfd):
+def test_one_that_is_refused_leaves_the_others_beside_it_to_be_done(reported):
     objects = bodies(4)
     objects[1].modifiers.new("Bend", "SIMPLE_DEFORM").angle = 1.0
     objects[2].lock_location[0] = True
@@ -175,8 +176,10 @@ def test_one_that_is_refused_leaves_the_others_beside_it_to_be_done(capfd):
     data = [obj.data for obj in objects]
     only(*objects)
     assert run("origin_to_center") == {"FINISHED"}
-    out = capfd.readouterr().out
-    assert "2 of 4 objects left unchanged" in out and "Body 1: its shape would change" in out and "Body 2: " in out
+    assert [reported.values("left_unchanged")[name] for name in ("count", "total")] == [2, 4]
+    failures = {finding.values["object"]: finding.values["cause"] for finding in reported if finding.code == "failure"}
+    assert failures["Body 1"] == {"code": "shape_depends_on_origin", "values": {"modifiers": ["Bend"]}}
+    assert failures["Body 2"] == {"code": "channel_locked", "values": {"channel": "location"}}
     moved = [np.abs(place(obj) - matrix).max() > 0.1 for obj, matrix in zip(objects, matrices)]
     assert moved == [True, False, False, True]
     assert [obj.data for obj in objects] == data and len(bpy.data.meshes) == 4

@@ -4,7 +4,8 @@
 
 from bpy.types import Context, Object, Operator
 
-from ...scene.transforms import Refused, require_editable
+from ....core.verdict.finding import finding
+from ...scene.transforms import require_editable
 from ...session import staleness
 from ...write import properties, section
 from .. import selection
@@ -36,10 +37,10 @@ class OBJECT_OT_body_moments_clear(Operator):
             obj.property_unset(SYMMETRY)
             return properties.clear(obj) | section.clear(obj) | symmetric
 
-        count, failures = selection.each(objects, remove, (Refused,))
+        count, failures = selection.each(objects, remove)
         staleness.settle(context, objects)
-        text = "Removed the results from {count}" if objects else "No results to remove from the selected objects"
-        return selection.summarise(self, count, len(objects), text, failures)
+        done = finding("results_removed", count=count) if objects else finding("no_results_to_remove")
+        return selection.summarize(self, count, len(objects), done, failures)
 
 
 CLASSES = (OBJECT_OT_body_moments_clear,)

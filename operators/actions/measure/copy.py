@@ -8,20 +8,21 @@ import bpy
 from bpy.props import StringProperty
 from bpy.types import Context, Operator, OperatorProperties
 
+from ....core.verdict.finding import Finding, finding
+from ...read.total_caveats import open_body_caveats, total_caveats
 from ...session import staleness
-from ...session.total_caveats import doubts, unfounded
-from ...write import properties
+from ...write import properties, reports
 from ...write.report import report_text
 from .. import selection
 
 
-def to_clipboard(operator: Operator, context: Context, text: str, told: str) -> None:
+def to_clipboard(operator: Operator, context: Context, text: str, done: Finding) -> None:
     """In background there is no clipboard, and long reports are cut short: the text goes to the standard output."""
     if bpy.app.background:
         sys.stdout.write(text.removesuffix("\n") + "\n")
     else:
         context.window_manager.clipboard = text
-        operator.report({"INFO"}, told)
+        reports.report(operator, done)
 
 
 class OBJECT_OT_body_moments_copy_value(Operator):
@@ -40,9 +41,9 @@ class OBJECT_OT_body_moments_copy_value(Operator):
 
     def execute(self, context: Context) -> set[str]:
         if not self.value:
-            self.report({"WARNING"}, "There is no value to copy")
+            reports.report(self, finding("no_value_to_copy"))
             return {"CANCELLED"}
-        to_clipboard(self, context, self.value, "Copied {:s}".format(self.value))
+        to_clipboard(self, context, self.value, finding("value_copied", value=self.value))
         return {"FINISHED"}
 
 
@@ -61,18 +62,17 @@ class OBJECT_OT_body_moments_copy_report(Operator):
         if not selection.poll_selected(cls, context, any_mode=True):
             return False
         if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
-            cls.poll_message_set("Measure the selected objects first")
-            return False
+            return reports.unavailable(cls, finding("poll_measure_selected"))
         return True
 
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected(context)
         outdated = {obj.name for obj in objects if staleness.reason(obj, context.scene)}
         counted = [obj for obj in objects if properties.is_stored(obj)]
-        told = unfounded((obj.name, properties.method_and_warnings(obj)[0]) for obj in counted)
-        text = report_text(context, objects, outdated, [*told, *doubts(counted, context.view_layer)])
-        told = "Copied the report of {:s}".format(selection.counted(len(objects)))
-        to_clipboard(self, context, text, told)
+        caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
+        caveats += total_caveats(counted, context.view_layer)
+        text = report_text(context, objects, outdated, caveats)
+        to_clipboard(self, context, text, finding("report_copied", count=len(objects)))
         return {"FINISHED"}
 
 

@@ -14,12 +14,12 @@ from bpy.types import Context, Event, Operator
 
 from ....core.fourier.wave_vectors import Grid
 from ....core.numerics.float32 import decimal
+from ....core.verdict.finding import FileError, MeasureError, finding
 from ...bodies.fourier import ObjectTransform, object_transform
 from ...bodies.measure_object import THREADS
-from ...read import Unreadable, measurable
+from ...read import measurable
 from ...settings.options import MeasureOptions
-from ...write import spectrum
-from ...write.alarms import alarms
+from ...write import reports, spectrum
 from ..modal import Stepwise
 
 SUFFIX = ".npz"
@@ -84,8 +84,7 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or not measurable(context.object):
-            cls.poll_message_set("Make an object with a surface active")
-            return False
+            return reports.unavailable(cls, finding("poll_active_surface"))
         return True
 
     def invoke(self, context: Context, event: Event) -> set[str]:
@@ -107,7 +106,7 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
         for name in ("of", "frame", "count", "largest"):
             column.prop(self, name)
         if not self.largest:
-            column.label(text="0 rad/m: by the object's size", icon="INFO")
+            column.label(text=str(finding("panel_fourier_default")), icon="INFO")
 
     def execute(self, context: Context) -> set[str]:
         settings = {name: getattr(self, name) for name in ("filepath", "of", "frame", "count", "largest")}
@@ -125,8 +124,8 @@ class OBJECT_OT_body_moments_fourier_run(Stepwise, _Settings, Operator):
     bl_idname = "object.body_moments_fourier_run"
     bl_label = "Fourier Transform"
     bl_options = {"UNDO", "INTERNAL"}
-    DOING = "Fourier transform: {:.0%}. Esc cancels"
-    CANCELLED = "The Fourier transform was cancelled; nothing was written"
+    PROGRESS = finding("progress_fourier")
+    CANCELED = finding("canceled_fourier")
 
     poll = OBJECT_OT_body_moments_fourier.poll
 
@@ -135,27 +134,29 @@ class OBJECT_OT_body_moments_fourier_run(Stepwise, _Settings, Operator):
         try:
             self._begin(context)
             return self.all_at_once(context, 1.0)
-        except (Unreadable, OSError) as error:
-            return self._failed(error)
+        except MeasureError as error:
+            return self._refuse(error)
 
     def invoke(self, context: Context, event: Event) -> set[str]:
         try:
             self._begin(context)
-        except (Unreadable, OSError) as error:
-            return self._failed(error)
+        except MeasureError as error:
+            return self._refuse(error)
         return self.begin_modal(context, 1.0)
 
     def modal(self, context: Context, event: Event) -> set[str]:
         try:
             return Stepwise.modal(self, context, event)
-        except (Unreadable, OSError) as error:
-            return self._failed(error)
+        except MeasureError as error:
+            return self._refuse(error)
 
     def _begin(self, context: Context) -> None:
         obj, depsgraph = context.object, context.evaluated_depsgraph_get()
         self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
-        if not self.filepath or not self._path.parent.is_dir():
-            raise OSError("There is no folder {:s} to write to".format(str(self._path.parent) if self.filepath else ""))
+        if not self.filepath:
+            raise FileError("fourier_path_missing")
+        if not self._path.parent.is_dir():
+            raise FileError("fourier_folder_missing", folder=str(self._path.parent))
         self._work: ObjectTransform = object_transform(
             obj,
             depsgraph,
@@ -172,28 +173,21 @@ class OBJECT_OT_body_moments_fourier_run(Stepwise, _Settings, Operator):
         return Grid(self.count, decimal(self.largest) or pi / size * (self.count // 2))
 
     def _finish(self, context: Context) -> set[str]:
-        found, notes = self._work.result()
-        spectrum.save(self._path, found, self.frame.lower())
+        found, findings = self._work.result()
+        try:
+            spectrum.save(self._path, found, self.frame.lower())
+        except OSError as error:
+            raise FileError("fourier_not_written", error=error.strerror or str(error)) from error
         image = spectrum.picture("Fourier Transform of {:s}".format(self._work.name), found.values, self.count)
         for area in context.screen.areas if context.screen else ():
             if area.type == "IMAGE_EDITOR":
                 area.spaces.active.image = image
-        self.report(
-            {"WARNING"} if alarms(self._work.warnings) else {"INFO"},
-            " ".join(
-                [
-                    "Wrote {:d} frequencies to {:s}; the image {:s} shows slices of them.".format(
-                        len(found.q), self._path.name, image.name
-                    ),
-                    *notes,
-                ]
-            ),
-        )
+        done = finding("fourier_written", count=len(found.q), file=self._path.name, image=image.name)
+        reports.report(self, done, *reports.first(findings))
         return {"FINISHED"}
 
-    def _failed(self, error: Exception) -> set[str]:
-        text = error.strerror or str(error) if isinstance(error, OSError) else str(error)
-        self.report({"ERROR"}, text)
+    def _refuse(self, error: MeasureError) -> set[str]:
+        reports.report(self, reports.refusal(error))
         return {"CANCELLED"}
 
 

@@ -6,7 +6,9 @@ from __future__ import annotations
 
 from bpy.types import Context, Operator
 
+from ....core.verdict.finding import finding
 from ...session import live
+from ...write import reports
 
 
 class OBJECT_OT_body_moments_live(Operator):
@@ -23,8 +25,7 @@ class OBJECT_OT_body_moments_live(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or context.object.type != "SURFACE":
-            cls.poll_message_set("Only the numbers of NURBS surfaces can follow an edit")
-            return False
+            return reports.unavailable(cls, finding("poll_nurbs_only"))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -33,8 +34,8 @@ class OBJECT_OT_body_moments_live(Operator):
             live.stop(obj)
             return {"FINISHED"}
         found = live.start(obj, context.evaluated_depsgraph_get())
-        if found.reason:
-            self.report({"WARNING"}, "{:s}: {:s}".format(obj.name, found.reason))
+        if found.refusal is not None:
+            reports.report(self, reports.failure(obj.name, found.refusal))
         return {"FINISHED"}
 
 

@@ -9,11 +9,12 @@ from collections.abc import Iterator
 import bpy
 
 from ....core.verdict import internal_error
+from ....core.verdict.finding import Finding, Severity, finding
 from ...bodies.measure_object import Measured, measure_body
-from ...read import Unreadable
 from ...session import results
 from ...session.staleness import settle
-from ...write.alarms import alarms
+from ...write import reports
+from ...write.messages import of_severity
 from .. import selection
 from ..modal import Stepwise
 
@@ -26,14 +27,13 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
     bl_options = {"REGISTER", "UNDO"}
-    DOING = "Measuring: {:.0%}. Esc cancels"
-    CANCELLED = "Measuring was cancelled; nothing was changed"
+    PROGRESS = finding("progress_measuring")
+    CANCELED = finding("canceled_measuring")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if not _chosen(context):
-            cls.poll_message_set("Select the objects to measure")
-            return False
+            return reports.unavailable(cls, finding("poll_select_objects"))
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -49,8 +49,8 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
 
     def _begin(self, context: bpy.types.Context) -> None:
         self._found: list[tuple[bpy.types.Object, Measured]] = []
-        self._refused: list[tuple[bpy.types.Object, str]] = []
-        self._failed: list[str] = []
+        self._refused: list[tuple[bpy.types.Object, Finding]] = []
+        self._failures: list[Finding] = []
         self._steps = self._measure(_chosen(context), context.evaluated_depsgraph_get())
 
     def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Iterator[int]:
@@ -58,39 +58,41 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
             try:
                 self._found.append((obj, measure_body(obj, depsgraph)))
             except Exception as error:
-                self._refused.append((obj, internal_error.reason(error, (Unreadable,))))
+                self._refused.append((obj, internal_error.finding_of(error)))
             yield done
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Nothing is stored before everything is measured, so that a cancelled run leaves nothing behind."""
-        for obj, reason in self._refused:
-            self._failed.append("{:s}: {:s}".format(obj.name_full, reason))
-            results.refuse(obj, reason)
+        for obj, refusal in self._refused:
+            self._failures.append(reports.failure(obj.name_full, refusal))
+            results.refuse(obj, refusal)
         stored = []
         for obj, measured in self._found:
             results.refuse(obj, None)
             try:
                 results.store(obj, measured, context.scene)
             except Exception as error:
-                self._failed.append("{:s}: {:s}".format(obj.name_full, internal_error.reason(error, (RuntimeError,))))
+                self._failures.append(reports.failure(obj.name_full, error))
                 continue
             stored.append(obj)
         settle(context, stored)
-        self._say(len(stored))
+        self._report(len(stored))
         selection.redraw(context)
         return {"FINISHED"} if stored else {"CANCELLED"}
 
-    def _say(self, stored: int) -> None:
-        warned = sum(bool(alarms(measured.measurement.warnings)) for _, measured in self._found)
-        tried = stored + len(self._failed)
-        parts = ["Measured {:d} of {:d} objects".format(stored, tried)] if tried > 1 else []
+    def _report(self, stored: int) -> None:
+        warned = sum(
+            bool(of_severity(measured.measurement.findings, Severity.WARNING, Severity.ERROR))
+            for _, measured in self._found
+        )
+        tried = stored + len(self._failures)
+        done = [finding("measured_several", count=stored, total=tried)] if tried > 1 else []
         if tried == stored == 1:
             name = self._found[0][0].name
-            parts.append(("Measured {:s}, with warnings" if warned else "Measured {:s}").format(name))
+            done.append(finding("measured_one_with_warnings" if warned else "measured_one", object=name))
         elif warned:
-            parts.append("{:d} with warnings".format(warned))
-        parts += selection.listed(self._failed)
-        self.report({"WARNING"} if self._failed or warned else {"INFO"}, selection.in_a_row(parts))
+            done.append(finding("with_warnings", count=warned))
+        reports.report(self, *done, *reports.first(self._failures))
 
 
 def _chosen(context: bpy.types.Context) -> list[bpy.types.Object]:

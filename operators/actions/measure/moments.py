@@ -8,26 +8,21 @@ from dataclasses import replace
 
 from bpy.types import Context, Object, Operator
 
+from ....core.verdict.finding import MeasureError, finding
 from ...bodies.measure_object import THREADS, measure_object
-from ...read import Unreadable, measurable
+from ...read import measurable
 from ...read.fingerprint import matrix_hash, settings_hash
 from ...session import staleness
 from ...session.moments import Computed, as_csv, found, keep
 from ...settings.options import MeasureOptions
-from ...write.alarms import alarms
-from ...write.text import one_line
+from ...write import reports
 from .copy import to_clipboard
-
-NO_WIRE = (
-    "{:s}: It is a wire, which has neither volume nor surface; measure it as a solid or a shell. The command line "
-    "tells the moments of its length."
-)
 
 
 def _active(cls: type[Operator], context: Context) -> Object | None:
     obj = context.object
     if obj is None or not measurable(obj):
-        cls.poll_message_set("Make an object active that can be measured")
+        reports.unavailable(cls, finding("poll_active_measurable"))
         return None
     return obj
 
@@ -53,18 +48,18 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         depsgraph = context.evaluated_depsgraph_get()
         try:
             one = measure_object(obj, depsgraph, options)
-        except Unreadable as error:
-            self.report({"WARNING"}, str(error))
+        except MeasureError as error:
+            reports.report(self, reports.failure(obj.name, error))
             return {"CANCELLED"}
         if one.length is not None:
-            self.report({"WARNING"}, NO_WIRE.format(obj.name))
+            reports.report(self, finding("wire_without_moments", object=obj.name))
             return {"CANCELLED"}
         area = one.area_moments.truncated(options.order)
         volume = (one.volume_moments or replace(area * one.thickness, of="volume")).truncated(options.order)
         key = (matrix_hash(obj), settings_hash(obj, scene), staleness.geometry_changes(obj))
         keep(obj, Computed(obj.name, volume, area, one.rotation, one.location, key))
-        told = "Computed {:d} moments of {:s}".format(len(volume.raw), obj.name)
-        self.report({"WARNING"} if alarms(one.warnings) else {"INFO"}, one_line([told, *one.warnings]))
+        done = finding("moments_computed", count=len(volume.raw), object=obj.name)
+        reports.report(self, done, *reports.first(one.findings))
         return {"FINISHED"}
 
 
@@ -79,17 +74,17 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
     def poll(cls, context: Context) -> bool:
         obj = _active(cls, context)
         if obj is not None and found(obj) is None:
-            cls.poll_message_set("Compute the moments first")
+            reports.unavailable(cls, finding("poll_compute_moments"))
         return obj is not None and found(obj) is not None
 
     def execute(self, context: Context) -> set[str]:
         settings, computed = context.scene.body_moments, found(context.object)
         try:
             text = as_csv(computed, settings.moments_of, settings.moments_about, settings.frame)
-        except ValueError as error:
-            self.report({"WARNING"}, str(error))
+        except MeasureError as error:
+            reports.report(self, reports.failure(computed.name, error))
             return {"CANCELLED"}
-        to_clipboard(self, context, text, "Copied {:d} moments".format(len(computed.volume.raw)))
+        to_clipboard(self, context, text, finding("moments_copied", count=len(computed.volume.raw)))
         return {"FINISHED"}
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure and Select Faults: what is wrong with a mesh, selected in Edit Mode."""
+"""Measure and Select Faults: the defects of a mesh, selected in Edit Mode."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ import numpy as np
 from bpy.types import Context, Object, Operator
 
 from ....core.measurement import Measurement
+from ....core.verdict.finding import EditRefusedError, finding
+from ....core.verdict.health import Faults
 from ...bodies.measure_object import measure_object
-from ...scene.transforms import Refused
 from ...session import staleness
-from ...write import properties
+from ...write import properties, reports
 from .. import selection
-from ..snap import base as snapping
 
+DEFECTS = {field.name: "defect_" + field.name for field in fields(Faults)}
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
 MOVING = {
     "ARMATURE",
@@ -64,11 +65,9 @@ class OBJECT_OT_body_moments_select_faults(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            cls.poll_message_set("Switch to Object Mode first")
-            return False
+            return reports.unavailable(cls, finding("poll_object_mode"))
         if not any(obj.type == "MESH" for obj in context.view_layer.objects.selected):
-            cls.poll_message_set("Select mesh objects first")
-            return False
+            return reports.unavailable(cls, finding("poll_select_meshes"))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -92,31 +91,28 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             return True
 
         # Not each stored as it is measured: Blender would evaluate the scene again for every one of them.
-        _, failures = selection.each(objects, measure, snapping.REFUSALS)
-        count, unstored = selection.each(list(found), store, snapping.REFUSALS)
+        _, failures = selection.each(objects, measure)
+        count, unstored = selection.each(list(found), store)
         failures += unstored
         if faults:
             _show(context, faults)
         elif editing:
             bpy.ops.object.mode_set(mode="EDIT")
         staleness.settle(context, list(found))
-        text = "{count} measured, no faults" if count else ""
-        told = ["{:s} has {:s}".format(obj.name, _words(found)) for obj, found in faults.items()]
-        if told:
-            text = "{:d} of {{count}} measured with faults".format(len(told))
-        return selection.summarise(self, count, len(objects), text, failures, told)
+        done = finding("no_defects", count=count)
+        if faults:
+            done = finding("with_defects", count=len(faults), total=count)
+        defects = [finding("object_defects", object=obj.name, defects=_counts(found)) for obj, found in faults.items()]
+        return selection.summarize(self, count, len(objects), done, failures, defects)
 
 
 def _check(obj: Object) -> None:
     """Raises where what is measured is not what could be edited."""
     if not obj.is_editable or not obj.data.is_editable:
-        raise Refused("it is linked from another file; make it and its data local first")
+        raise EditRefusedError("linked_object_data")
     changing = [modifier.name for modifier in obj.modifiers if modifier.show_viewport and modifier.type not in MOVING]
     if changing:
-        raise Refused(
-            "its modifiers make another mesh of it, whose faults are not in the mesh to be "
-            "edited; apply or hide {:s} first".format(", ".join(changing))
-        )
+        raise EditRefusedError("modified_mesh", modifiers=changing)
 
 
 def _faults(measurement: Measurement) -> dict[str, np.ndarray]:
@@ -126,11 +122,8 @@ def _faults(measurement: Measurement) -> dict[str, np.ndarray]:
     return {name: indices for name, indices in arrays.items() if len(indices)}
 
 
-def _words(found: dict[str, np.ndarray]) -> str:
-    counts = {name.replace("_", " "): len(indices) for name, indices in found.items()}
-    return ", ".join(
-        "{:d} {:s}".format(count, kind.removesuffix("s") if count == 1 else kind) for kind, count in counts.items()
-    )
+def _counts(found: dict[str, np.ndarray]) -> list[dict]:
+    return [finding(DEFECTS[kind], count=len(indices)).as_record() for kind, indices in found.items()]
 
 
 def _show(context: Context, faults: dict[Object, dict[str, np.ndarray]]) -> None:

@@ -23,8 +23,9 @@ from ....core.numerics.float32 import decimal
 from ....core.scans.formats import SUFFIXES, placed, read_scan, suffix
 from ....core.scans.numpy_files import TYPES, read_raw
 from ....core.scans.scan import Scan
+from ....core.verdict.finding import FileError, Finding, MeasureError, finding
 from ...read.vdb import openvdb
-from .. import selection
+from ...write import reports
 
 GRID = "density"
 SLAB = 1 << 22  # samples at a time
@@ -76,56 +77,59 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            cls.poll_message_set("Switch to Object Mode first")
-            return False
+            return reports.unavailable(cls, finding("poll_object_mode"))
         return True
 
     def execute(self, context: Context) -> set[str]:
-        module = openvdb()
-        if module is None:
-            self.report(
-                {"ERROR"}, "This Python has no openvdb module, without which no volume can be made; use Blender itself"
-            )
-            return {"CANCELLED"}
-        path = Path(bpy.path.abspath(self.filepath))
-        if not path.name or path.is_dir():
-            self.report({"ERROR"}, "Choose a file to import")
-            return {"CANCELLED"}
-        target = path.with_name(path.name[: -len(suffix(path)) or None] + ".vdb")
         try:
-            scan = self._scan(path)
-            matrix, notes = placed(scan, tuple(map(decimal, self.spacing)) if self.use_spacing else None, None, None)
-            if target.exists() and not self.overwrite:
-                raise ValueError("There is a file “{:s}” already; allow overwriting it.".format(target.name))
-            matrix[:3] /= decimal(context.scene.unit_settings.scale_length)
-            low = _write(module, target, scan, matrix)
-        except ValueError as error:
-            self.report({"ERROR"}, str(error))
+            findings = self._import(context)
+        except MeasureError as error:
+            reports.report(self, reports.refusal(error.about(Path(self.filepath).name)))
             return {"CANCELLED"}
-        except (OSError, RuntimeError) as error:
-            self.report({"ERROR"}, "The volume cannot be written: {:s}".format(str(error)))
-            return {"CANCELLED"}
-        obj = _object(context, target)
-        if low < 0.0:
-            obj.body_moments.values_from = "TABLE"
-            notes += ("Its negative values are taken as CT numbers, by the transfer table.",)
-        told = "Imported {:d} x {:d} x {:d} samples by way of “{:s}”".format(*scan.samples.shape, target.name)
-        self.report({"WARNING"} if notes else {"INFO"}, selection.one_line([told, *notes]))
+        reports.report(self, *findings)
         return {"FINISHED"}
 
+    def _import(self, context: Context) -> list[Finding]:
+        """Make the object. What was done and what was decided."""
+        module = openvdb()
+        if module is None:
+            raise FileError("openvdb_missing")
+        path = Path(bpy.path.abspath(self.filepath))
+        if not path.name or path.is_dir():
+            raise FileError("no_import_file")
+        target = path.with_name(path.name[: -len(suffix(path)) or None] + ".vdb")
+        scan = self._scan(path)
+        matrix, decided = placed(scan, tuple(map(decimal, self.spacing)) if self.use_spacing else None, None, None)
+        if target.exists() and not self.overwrite:
+            raise FileError("file_exists", file=target.name)
+        matrix[:3] /= decimal(context.scene.unit_settings.scale_length)
+        try:
+            low = _write(module, target, scan, matrix)
+        except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
+            raise FileError("volume_not_written", error=getattr(error, "strerror", None) or str(error)) from error
+        obj = _object(context, target)
+        findings = [finding("scan_imported", samples=list(scan.samples.shape), file=target.name), *decided]
+        if low < 0.0:
+            obj.body_moments.values_from = "TABLE"
+            findings.append(finding("scan_ct_numbers"))
+        return findings
+
     def _scan(self, path: Path) -> Scan:
-        if suffix(path) == ".raw" and all(self.raw_shape):
-            return read_raw(path, self.raw_shape, self.raw_type, self.raw_big_endian)
-        return read_scan(path)
+        try:
+            if suffix(path) == ".raw" and all(self.raw_shape):
+                return read_raw(path, self.raw_shape, self.raw_type, self.raw_big_endian)
+            return read_scan(path)
+        except OSError as error:
+            raise FileError("file_unreadable", error=error.strerror or str(error)) from error
 
 
 def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> float:
-    """Write the scan as a grid, whole or not at all, and tell its least value. The background is no sample's value, so
-    that none is lost, but zero where no sample is negative."""
+    """Write the scan as a grid, whole or not at all, and return its least value. The background is no sample's value,
+    so that none is lost, but zero where no sample is negative."""
     least, exact = np.inf, True
     for _, slab in _slabs(scan):
         if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):
-            raise ValueError("It has samples that are not finite.")
+            raise FileError("scan_non_finite")
         least = min(least, float(slab.min()))
         exact = exact and np.array_equal(slab.astype(np.float32), slab)
     background = 0.0 if least >= 0.0 else float(np.floor(least) - 1.0)

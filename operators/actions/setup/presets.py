@@ -10,8 +10,10 @@ from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
 from ....core.density.materials import BY_NAME, MATERIALS
-from ...scene.transforms import Refused, require_own
+from ....core.verdict.finding import finding
+from ...scene.transforms import require_own
 from ...settings.properties import COPIED, copy_settings
+from ...write import reports
 from .. import selection
 
 PRESETS = "body_moments"  # folder of the user's presets
@@ -55,8 +57,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if not _targets(context):
-            cls.poll_message_set("Select the objects first")
-            return False
+            return reports.unavailable(cls, finding("poll_select_objects"))
         return True
 
     def invoke(self, context: Context, _event) -> set[str]:
@@ -68,7 +69,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
         objects = _targets(context)
 
         def set_density(obj: Object) -> bool:
-            require_own(obj, "its settings")
+            require_own(obj, "library_override_settings")
             settings = obj.body_moments
             before = _density_of(settings)
             settings.mass_from = "DENSITY"
@@ -78,15 +79,10 @@ class OBJECT_OT_body_moments_set_material(Operator):
             settings.material = material.name
             return before != _density_of(settings)
 
-        changed, failures = selection.each(objects, set_density, (Refused,))
-        return selection.summarise(
-            self,
-            changed,
-            len(objects),
-            "Set {count} to " + material.name,
-            failures,
-            idle="it was {:s} already".format(material.name),
-        )
+        changed, failures = selection.each(objects, set_density)
+        done = finding("material_set", count=changed, material=material.name)
+        idle = finding("material_set_already", material=material.name)
+        return selection.summarize(self, changed, len(objects), done, failures, idle=idle)
 
 
 def _density_of(settings) -> tuple:
@@ -119,12 +115,12 @@ class MATERIAL_OT_body_moments_set_density(Operator):
     def execute(self, _context: Context) -> set[str]:
         target = bpy.data.materials.get((self.target, None))
         if target is None:
-            self.report({"ERROR"}, "There is no local material “{:s}”; make it local first".format(self.target))
+            reports.report(self, finding("material_not_local", material=self.target))
             return {"CANCELLED"}
         entry = BY_NAME[self.material]
         target.body_moments.density = entry.density
         target.body_moments.material = entry.name
-        self.report({"INFO"}, "Set “{:s}” to {:s}".format(target.name, entry.name))
+        reports.report(self, finding("blender_material_set", target=target.name, material=entry.name))
         return {"FINISHED"}
 
 
@@ -142,8 +138,7 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
     def poll(cls, context: Context) -> bool:
         active = context.view_layer.objects.active
         if active is None or not any(obj != active for obj in context.view_layer.objects.selected):
-            cls.poll_message_set("Select other objects besides the active one")
-            return False
+            return reports.unavailable(cls, finding("poll_select_others"))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -151,18 +146,12 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
         objects = [obj for obj in context.view_layer.objects.selected if obj != active]
 
         def copy(obj: Object) -> bool:
-            require_own(obj, "its settings")
+            require_own(obj, "library_override_settings")
             return copy_settings(active.body_moments, obj.body_moments)
 
-        count, failures = selection.each(objects, copy, (Refused,))
-        return selection.summarise(
-            self,
-            count,
-            len(objects),
-            "Copied the settings to {count}",
-            failures,
-            idle="the settings were the same already",
-        )
+        count, failures = selection.each(objects, copy)
+        done = finding("settings_copied", count=count)
+        return selection.summarize(self, count, len(objects), done, failures, idle=finding("settings_equal"))
 
 
 class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):

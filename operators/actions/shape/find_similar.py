@@ -8,6 +8,7 @@ is selected.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -16,16 +17,17 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerProperty, StringProperty
 from bpy.types import Context, Event, Object, Operator, PropertyGroup, Scene
 
-from ....core.shape.library import UNCLEAR, Entry, nearest, read_library, verdict
+from ....core.shape.library import UNCLEAR, Entry, Similarity, nearest, read_library, verdict
 from ....core.shape.registration import FITS, Match
 from ....core.shape.signature import Likeness, Signature, compared
+from ....core.verdict.finding import FileError, Finding, MeasureError, finding
 from ...bodies.shape import Skin, matched, surface_shape_of
 from ...read import measurable_objects
+from ...write import reports
 from .. import selection
 from ..modal import Stepwise
-from ..snap import base as snapping
 
-ORDER = 12  # of the descriptors: more than tell parts apart, a fourth of the time that 20 takes
+ORDER = 12  # of the descriptors: more than separate parts, a fourth of the time that 20 takes
 LISTED = 20
 MIRRORED = BoolProperty(name="Mirror Images Too", default=False, description="Mirror images are as near as copies")
 SCALED = BoolProperty(name="Other Sizes Too", default=False, description="Copies of another size are as near as others")
@@ -49,6 +51,9 @@ class BodyMomentsSearch(PropertyGroup):
     found: CollectionProperty(type=BodyMomentsSimilar)
 
 
+SHAPES = {similarity: "shapes_" + similarity for similarity in Similarity}  # codes of how many there are
+
+
 class _Find:
     """What both searches share."""
 
@@ -57,11 +62,9 @@ class _Find:
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            cls.poll_message_set("Switch to Object Mode first")
-            return False
+            return reports.unavailable(cls, finding("poll_object_mode"))
         if context.object is None:
-            cls.poll_message_set("Make the object active that others shall be like")
-            return False
+            return reports.unavailable(cls, finding("poll_active_wanted"))
         return True
 
     def look(self, context: Context) -> Iterator[float]:
@@ -72,8 +75,8 @@ class _Find:
             self.shape = surface_shape_of(context.object, context.evaluated_depsgraph_get())
             yield 0.0
             self.wanted = self.shape.signature(ORDER)
-        except snapping.REFUSALS as error:
-            self.report({"ERROR"}, "{:s}: {:s}".format(context.object.name, getattr(error, "reason", str(error))))
+        except MeasureError as error:
+            reports.report(self, reports.refusal(error.about(context.object.name)))
 
     def keep(self, context: Context, rows: list[tuple[Entry, Likeness]], looked_at: str) -> None:
         search = context.scene.body_moments_search
@@ -81,25 +84,24 @@ class _Find:
         search.found.clear()
         for entry, likeness in rows[:LISTED]:
             row = search.found.add()
-            row.name, row.file, row.verdict = entry.name, entry.file, verdict(likeness)
+            row.name, row.file, row.verdict = entry.name, entry.file, verdict(likeness).value
             row.distance = likeness.distance(self.scaled, self.mirrored)
             row.scale = likeness.scale
 
-    def tell(self, rows: list[tuple[Entry, Likeness]], failures: list[str]) -> set[str]:
-        counts: dict[str, int] = {}
-        for _, likeness in rows:
-            counts[verdict(likeness)] = counts.get(verdict(likeness), 0) + 1
-        same = [
-            "{:d} {:s}".format(counts[name], name)
-            for name in ("copy", "scaled copy", "mirror image", "scaled mirror", *UNCLEAR, "similar")
-            if name in counts
+    def report_found(self, rows: list[tuple[Entry, Likeness]], failures: list[Finding]) -> set[str]:
+        counts = Counter(verdict(likeness) for _, likeness in rows)
+        alike = [
+            finding(SHAPES[similarity], count=counts[similarity]).as_record()
+            for similarity in Similarity
+            if counts[similarity] and similarity != Similarity.DIFFERENT
         ]
-        parts = ["Compared with {:s}".format("1 shape" if len(rows) == 1 else "{:d} shapes".format(len(rows)))]
-        parts.append(", ".join(same) if same else "none is similar")
+        found = finding("shape_counts", counts=alike) if alike else finding("none_similar")
+        done = [finding("shapes_compared", count=len(rows)), found]
         if rows:
             entry, likeness = rows[0]
-            parts.append("nearest is {:s}, at {:.2e}".format(entry.name, likeness.distance(self.scaled, self.mirrored)))
-        self.report({"WARNING"} if failures else {"INFO"}, selection.in_a_row(parts + selection.listed(failures)))
+            distance = likeness.distance(self.scaled, self.mirrored)
+            done.append(finding("nearest_shape", object=entry.name, distance=distance))
+        reports.report(self, *done, *reports.first(failures))
         return {"FINISHED"}
 
 
@@ -112,8 +114,8 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
         "Compare the shapes of all visible objects with the active one's, however they lie and whatever their size and "
         "faces: copies, mirror images and what is merely similar"
     )
-    DOING = "Comparing: {:.0%}. Esc cancels"
-    CANCELLED = "The search was cancelled; nothing was changed"
+    PROGRESS = finding("progress_comparing")
+    CANCELED = finding("canceled_search")
 
     select: BoolProperty(
         name="Select Copies",
@@ -138,8 +140,8 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
             obj for obj in measurable_objects(context.view_layer) if obj != context.object and obj.visible_get()
         ]
         self._objects: dict[Entry, Object] = {}
-        self._hands: dict[Entry, bool | None] = {}  # of those whose signatures do not tell it
-        self._failures: list[tuple[str, str]] = []
+        self._hands: dict[Entry, bool | None] = {}  # of those whose signatures leave it open
+        self._failures: list[Finding] = []
         self._steps = self._compare(context)
 
     def _compare(self, context: Context) -> Iterator[float]:
@@ -165,7 +167,7 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
                 self._hands[entry] = _mirrored(matched(shape, wanted, own, skin, 1.0 / likeness.scale), wanted.size)
             self._objects[entry] = obj
 
-        yield from selection.one_by_one(self._others, compare, snapping.REFUSALS, self._failures)
+        yield from selection.one_by_one(self._others, compare, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing is kept or selected before everything is compared, so that a cancelled search leaves nothing."""
@@ -178,16 +180,16 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
         self.keep(context, rows, "")
         if self.select:
             chosen = {
-                "copy": True,
-                "mirror image": self.mirrored,
-                "scaled copy": self.scaled,
-                "scaled mirror": self.mirrored and self.scaled,
+                Similarity.COPY: True,
+                Similarity.MIRROR: self.mirrored,
+                Similarity.SCALED_COPY: self.scaled,
+                Similarity.SCALED_MIRROR: self.mirrored and self.scaled,
             }
             picked = [self._objects[entry] for entry, likeness in rows if chosen.get(verdict(likeness))]
             for obj in context.view_layer.objects:
                 obj.select_set(obj in picked or obj == context.object)
         selection.redraw(context)
-        return self.tell(rows, ["{:s}: {:s}".format(*failure) for failure in self._failures])
+        return self.report_found(rows, self._failures)
 
 
 class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
@@ -212,9 +214,9 @@ class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
     def execute(self, context: Context) -> set[str]:
         path = Path(bpy.path.abspath(self.filepath))
         try:
-            entries, faults = read_library(path)
-        except (OSError, ValueError) as error:
-            self.report({"ERROR"}, "{:s} cannot be read: {:s}".format(path.name, str(error)))
+            entries, missing = _read(path)
+        except FileError as error:
+            reports.report(self, error.finding)
             return {"CANCELLED"}
         for _ in self.look(context):
             pass
@@ -222,7 +224,8 @@ class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
             return {"CANCELLED"}
         rows = nearest(self.wanted, entries, self.scaled, self.mirrored)
         self.keep(context, rows, path.name)
-        return self.tell(rows, faults)
+        causes = [without.as_record() for without in reports.first(missing)]
+        return self.report_found(rows, [finding("records_left_out", causes=causes)] if missing else [])
 
 
 class OBJECT_OT_body_moments_select_found(Operator):
@@ -237,12 +240,19 @@ class OBJECT_OT_body_moments_select_found(Operator):
     def execute(self, context: Context) -> set[str]:
         obj = next((one for one in context.view_layer.objects if one.name_full == self.name), None)
         if obj is None:
-            self.report({"ERROR"}, "There is no object {:s} in this view layer any more".format(self.name))
+            reports.report(self, finding("object_not_in_view_layer", object=self.name))
             return {"CANCELLED"}
         for other in context.view_layer.objects:
             other.select_set(other == obj)
         context.view_layer.objects.active = obj
         return {"FINISHED"}
+
+
+def _read(path: Path) -> tuple[list[Entry], list[Finding]]:
+    try:
+        return read_library(path)
+    except OSError as error:
+        raise FileError("library_file_unreadable", file=path.name, error=error.strerror or str(error)) from error
 
 
 def _mirrored(found: Match, size: float) -> bool | None:

@@ -25,15 +25,15 @@ from bpy.types import Context, Event, Object, Operator, PropertyGroup
 from ....core.inertia.canonical_frame import NOISE
 from ....core.measurement import Measurement
 from ....core.shape.symmetry import Symmetry, confirmed, symmetry
+from ....core.verdict.finding import Finding, finding
 from ...bodies.shape import Shape, Skin, displayed, surface_shape_of
 from ...read.fingerprint import scale_hash
 from ...scene.transforms import require_own
 from ...session import staleness
+from ...write import reports
 from .. import selection
 from ..modal import Stepwise
-from ..snap import base as snapping
 
-OF_DISPLAY_MESH = ", of its display mesh, as fine as the viewport's resolution"
 KEPT = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
 
 
@@ -77,8 +77,8 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
         "moments to sixth order allow, confirmed on their surfaces"
     )
     bl_options = {"REGISTER", "UNDO"}
-    DOING = "Looking for symmetry: {:.0%}. Esc cancels"
-    CANCELLED = "The search was cancelled; nothing was changed"
+    PROGRESS = finding("progress_symmetry")
+    CANCELED = finding("canceled_search")
 
     tolerance: FloatProperty(
         name="Tolerance",
@@ -106,35 +106,39 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
     def _begin(self, context: Context) -> None:
         self._objects = selection.selected(context)
         self._found: list[tuple[Object, Measurement, Symmetry, Symmetry]] = []
-        self._failures: list[tuple[str, str]] = []
+        self._failures: list[Finding] = []
 
         def find(obj: Object) -> Iterator[float]:
-            require_own(obj, "its symmetry")
+            require_own(obj, "library_override_symmetry")
             shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
             skin = Skin(shape)
             yield from (0.4 + 0.5 * share for share in skin.grow())
             self._found.append((obj, shape.measurement, *_symmetries(shape, skin, self.tolerance)))
 
-        self._steps = selection.one_by_one(self._objects, find, snapping.REFUSALS, self._failures)
+        self._steps = selection.one_by_one(self._objects, find, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
-        """Nothing is kept before all are looked at, so that a cancelled search leaves nothing behind."""
+        """Nothing is kept before all are looked at, so that a canceled search leaves nothing behind."""
         for obj, measurement, found, allowed in self._found:
             _keep(obj, measurement, found, allowed, self.tolerance)
         # Blender reports what was written as a change of the object.
         staleness.settle_marks(context, [(obj, obj.body_moments_symmetry.fingerprint) for obj, *_ in self._found])
-        told = [
-            "{:s}: {:s}, {:s}{:s}".format(
-                obj.name, found.group, described(found), OF_DISPLAY_MESH if displayed(measurement) else ""
+        symmetries = [
+            finding(
+                "symmetry_found_of_display_mesh" if displayed(measurement) else "symmetry_found",
+                object=obj.name,
+                group=found.group,
+                description=[clause.as_record() for clause in described(found)],
             )
             for obj, measurement, found, _ in self._found
         ]
         selection.redraw(context)
-        if self._failures or not told:
-            text = "Looked at {count}" if self._objects else "Nothing selected can be measured"
-            return selection.summarise(self, len(told), len(self._objects), text, self._failures, told)
-        self.report({"INFO"}, "; ".join(selection.listed(told)))
+        if self._failures or not symmetries:
+            count = len(symmetries)
+            done = finding("symmetry_searched", count=count) if self._objects else finding("nothing_measurable")
+            return selection.summarize(self, count, len(self._objects), done, self._failures, symmetries)
+        reports.report(self, *reports.first(symmetries))
         return {"FINISHED"}
 
 
@@ -172,22 +176,21 @@ def _elements(found: Symmetry) -> list[tuple[str, int, np.ndarray]]:
     return [("AXIS", order, axis) for axis, order in found.axes] + [("PLANE", 0, normal) for normal in found.planes]
 
 
-def described(found: Symmetry) -> str:
-    """A symmetry in words."""
+def described(found: Symmetry) -> list[Finding]:
+    """What a symmetry consists of."""
     if len(found.round_about) == 3:
-        return "a ball"
+        return [finding("symmetry_sphere")]
     if len(found.round_about) == 1:
-        return "a body of revolution" + (" that can be turned over" if found.group == "D∞h" else "")
-    axes, planes = found.axes, len(found.planes)
-    parts = []
-    if axes:
-        parts.append("1 rotation axis" if len(axes) == 1 else "{:d} rotation axes".format(len(axes)))
-        parts[-1] += " up to {:d}-fold".format(axes[0][1]) if len(axes) > 1 else ", {:d}-fold".format(axes[0][1])
-    if planes:
-        parts.append("1 mirror plane" if planes == 1 else "{:d} mirror planes".format(planes))
-    if found.has_center and not parts:
-        parts.append("a center of inversion")
-    return ", ".join(parts) or "no symmetry"
+        reversible = found.group == "D∞h"
+        return [finding("symmetry_revolution_reversible" if reversible else "symmetry_revolution")]
+    clauses = []
+    if found.axes:
+        clauses.append(finding("symmetry_axes", count=len(found.axes), order=found.axes[0][1]))
+    if found.planes:
+        clauses.append(finding("symmetry_planes", count=len(found.planes)))
+    if found.has_center and not clauses:
+        clauses.append(finding("symmetry_inversion"))
+    return clauses or [finding("symmetry_none")]
 
 
 CLASSES = (BodyMomentsElement, BodyMomentsSymmetry, OBJECT_OT_body_moments_find_symmetry)

@@ -11,11 +11,11 @@ from bpy.types import Context, Event, Object, Operator
 
 from ....core.numerics.float32 import decimal
 from ....core.shape.registration import FITS, Match
-from ....core.verdict import internal_error
+from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...bodies.shape import Shape, Skin, matched, surface_shape_of
 from ...scene import reframe
-from ...scene.transforms import Refused, world
-from ...write.units import Units
+from ...scene.transforms import world
+from ...write import reports
 from .. import selection
 from ..modal import Stepwise
 from ..snap import base as snapping
@@ -32,16 +32,15 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
         "mirror image is left where it is"
     )
     bl_options = {"REGISTER", "UNDO"}
-    DOING = "Comparing: {:.0%}. Esc cancels"
-    CANCELLED = "Match Pose was cancelled; nothing was moved"
+    PROGRESS = finding("progress_comparing")
+    CANCELED = finding("canceled_match_pose")
 
     @classmethod
     def poll(cls, context: Context) -> bool:
         if not selection.poll_selected(cls, context):
             return False
         if context.object is None or not any(obj != context.object for obj in context.view_layer.objects.selected):
-            cls.poll_message_set("Select objects to move, and then the one that they shall lie on")
-            return False
+            return reports.unavailable(cls, finding("poll_match_selection"))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -58,15 +57,15 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
         self._others = [obj for obj in selection.selected(context) if obj != context.object]
         self._size = 0.0  # of the active object, once it is measured
         self._found: list[tuple[reframe.Plan, Match]] = []
-        self._failures: list[tuple[str, str]] = []
+        self._failures: list[Finding] = []
         self._steps = self._compare(context)
 
     def _compare(self, context: Context) -> Iterator[float]:
         active = context.object
         try:
             target = surface_shape_of(active, context.evaluated_depsgraph_get())
-        except snapping.REFUSALS as error:
-            self.report({"ERROR"}, "{:s}: {:s}".format(active.name, getattr(error, "reason", str(error))))
+        except MeasureError as error:
+            reports.report(self, reports.refusal(error.about(active.name)))
             return
         yield 0.0
         self._size, skin = target.size, Skin(target)
@@ -81,56 +80,42 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
             yield from (0.4 + 0.5 * share for share in own.grow())
             self._found.append(_planned(context, obj, shape, target, matched(shape, target, own, skin)))
 
-        yield from selection.one_by_one(self._others, find, snapping.REFUSALS, self._failures)
+        yield from selection.one_by_one(self._others, find, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
-        """Nothing moves before all places are found, so that a cancelled run leaves everything where it was."""
+        """Nothing moves before all places are found, so that a canceled run leaves everything where it was."""
         if not self._size:
             return {"CANCELLED"}
-        active, units = context.object, Units.of(context.scene.unit_settings)
-        moved, notes, fits = [], [], True
+        moved, distances = [], []
         for plan, found in self._found:  # parents first, for a child moves with its parent
             try:
                 if _move(context, plan):
                     moved.append(plan.obj)
             except Exception as error:
-                self._failures.append((plan.obj.name, internal_error.reason(error, snapping.REFUSALS)))
+                self._failures.append(reports.failure(plan.obj.name_full, error))
                 continue
-            notes.append(_told(plan.obj.name, found, self._size, units))
-            fits &= found.largest <= FITS * self._size
+            distances.append(_distance(plan.obj.name, found, self._size))
         snapping.refresh(context, moved)
-        if notes and fits and not self._failures:
-            self.report(
-                {"INFO"},
-                "Laid {:s} onto {:s}. {:s}".format(
-                    selection.counted(len(notes)), active.name, ". ".join(selection.listed(notes))
-                ),
-            )
-            return {"FINISHED"}
-        text = "Laid {count} onto " + active.name
-        return selection.summarise(self, len(notes), len(self._others), text, self._failures, notes)
+        done = finding("poses_matched", count=len(distances), object=context.object.name)
+        return selection.summarize(self, len(distances), len(self._others), done, self._failures, distances)
 
 
-def _told(name: str, found: Match, size: float, units: Units) -> str:
-    apart = "{:s}: at most {:s} apart, {:s} on average".format(
-        name, units.text("length", found.largest), units.text("length", found.mean)
-    )
-    if found.largest > FITS * size:
-        return apart + "; it is no copy, or is cut off somewhere"
-    return apart
+def _distance(name: str, found: Match, size: float) -> Finding:
+    code = "pose_distance" if found.largest <= FITS * size else "pose_not_a_copy"
+    return finding(code, object=name, maximum=float(found.largest), mean=float(found.mean))
 
 
 def _check(context: Context, obj: Object) -> None:
     """Raises where the object cannot be laid onto the active one."""
     reframe.check_movable(obj)
     if obj in selection.lineage(context.object):
-        raise Refused("the active object is its child and would move with it; clear the parent first")
+        raise EditRefusedError("active_is_child")
 
 
 def _planned(context: Context, obj: Object, shape: Shape, target: Shape, found: Match) -> tuple[reframe.Plan, Match]:
     """Where the object lies on the target, and how well."""
     if found.mirrored:
-        raise Refused("it is a mirror image of the active object, and no turn lays it there")
+        raise EditRefusedError("mirror_image")
     unit = decimal(context.scene.unit_settings.scale_length)
     matrix = world(obj)
     matrix[:3, :3] = found.rotation @ matrix[:3, :3]

@@ -9,6 +9,7 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 from numpy.typing import NDArray
 
+from ....core.verdict.finding import finding
 from ...scene import reframe
 from ...scene.transforms import world
 from .. import selection
@@ -79,10 +80,10 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
                 return True
             return False
 
-        _, failures = selection.each(objects, turn, snapping.REFUSALS)
+        _, failures = selection.each(objects, turn)
         snapping.refresh(context, moved)
-        text = "Aligned the principal axes of {count} with the world's"
-        return selection.summarise(self, len(moved), len(objects), text, failures, idle="all of it was aligned already")
+        done = finding("aligned_to_world", count=len(moved))
+        return selection.summarize(self, len(moved), len(objects), done, failures, idle=finding("already_aligned"))
 
     def _align(self, context: Context, obj: Object, frame: NDArray) -> bool:
         reframe.check_movable(obj)

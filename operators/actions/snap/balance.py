@@ -24,16 +24,17 @@ from ....core.measurement import Measurement
 from ....core.mesh.surface import Surface
 from ....core.numerics.float32 import decimal
 from ....core.statics.balance import Balanced, balance
+from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...bodies.measure_object import measure_object
 from ...read import Part, read_object
 from ...read.quiet import paused
-from ...scene.transforms import FLOAT32, Refused
-from ...write.units import Units
-from .. import selection
+from ...scene.transforms import FLOAT32
+from ...write import reports
 from . import base as snapping
 
 ATTEMPTS = 6  # at a cut of faces that suits the shape that it leads to
 THERE = 1e-6  # of the body's size: what float32 coordinates leave of a center
+ROUNDING = 1e-7  # of the body's size: a coordinate below is reported as 0
 
 
 class OBJECT_OT_body_moments_sculpt_balance(Operator):
@@ -94,14 +95,11 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
     def poll(cls, context: Context) -> bool:
         obj = context.active_object
         if obj is None or obj.type != "MESH":
-            cls.poll_message_set("Make a mesh the active object")
-            return False
+            return reports.unavailable(cls, finding("poll_active_mesh"))
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            cls.poll_message_set("Switch to Edit Mode and select the vertices that may move")
-            return False
+            return reports.unavailable(cls, finding("poll_edit_vertices"))
         if context.mode == "OBJECT" and not obj.vertex_groups:
-            cls.poll_message_set("Select the vertices that may move in Edit Mode, or give the object a vertex group")
-            return False
+            return reports.unavailable(cls, finding("poll_vertices_or_group"))
         return True
 
     def draw(self, context: Context) -> None:
@@ -127,13 +125,14 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         try:
             mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, self.group)
             with paused():  # what is tried and put back is no edit
-                told, notes = _balance(context, obj, mesh, wanted, unit)
+                findings = _balance(context, obj, mesh, wanted, unit)
             obj.data.update_tag()  # for others that show the mesh it is one
-        except snapping.REFUSALS as error:
-            reason = str(getattr(error, "reason", error))
-            return selection.summarise(self, 0, 1, "", [(obj.name, reason)])
+        except MeasureError as error:
+            reports.report(self, reports.failure(obj.name_full, error))
+            return {"CANCELLED"}
         snapping.refresh(context, [obj])
-        return selection.summarise(self, 1, 1, told, notes=notes)
+        reports.report(self, *findings)
+        return {"FINISHED"}
 
 
 @dataclass(frozen=True)
@@ -167,7 +166,7 @@ class _EditedMesh:
         self.movable = np.flatnonzero(selected)
         self.willing = np.ones(len(self.movable))
         if not len(self.movable):
-            raise Refused("no vertex is selected; select those that may move")
+            raise EditRefusedError("balance_no_selection")
 
     def _vertices(self) -> bmesh.types.BMVertSeq:
         return bmesh.from_edit_mesh(self.obj.data).verts
@@ -190,7 +189,11 @@ class _GroupedMesh:
     def __init__(self, obj: Object, name: str):
         group = obj.vertex_groups.get(name) if name else obj.vertex_groups.active
         if group is None:
-            raise Refused("it has no vertex group {:s}; name one that holds the vertices that may move".format(name))
+            raise (
+                EditRefusedError("balance_no_group", group=name)
+                if name
+                else EditRefusedError("balance_no_active_group")
+            )
         self.mesh, self.changed = obj.data, False
         weights = np.zeros(len(self.mesh.vertices))
         for vertex in self.mesh.vertices:  # Blender gives weights one by one only
@@ -200,9 +203,7 @@ class _GroupedMesh:
         self.movable = np.flatnonzero(weights > 0.0)
         self.willing = weights[self.movable]
         if not len(self.movable):
-            raise Refused(
-                "no vertex has a weight in its vertex group {:s}; assign those that may move".format(group.name)
-            )
+            raise EditRefusedError("balance_group_empty", group=group.name)
         self.start = np.empty(3 * len(weights), np.float32)
         self.mesh.attributes["position"].data.foreach_get("vector", self.start)
         self.start = self.start.reshape(-1, 3)
@@ -216,7 +217,7 @@ class _GroupedMesh:
 
 def _balance(
     context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, wanted: _Wanted, unit: float
-) -> tuple[str, list[str]]:
+) -> list[Finding]:
     """Carry it out, or leave all as it was. Returns what to report."""
     _check(obj)
     part = _read(context, obj, mesh)
@@ -246,27 +247,22 @@ def _balance(
                 break
             surface = replace(_read(context, obj, None).surface.mapped(linear, offset), points=start.points)
         else:
-            raise Refused("its faces are cut differently with every change; triangulate the mesh itself first")
-    units = Units.of(context.scene.unit_settings)
+            raise EditRefusedError("balance_triangulation_varies")
     moves = (points[mesh.movable].astype(np.float64) - mesh.start[mesh.movable]) @ linear.T
     number, largest = int(np.count_nonzero(moves.any(axis=1))), float(np.linalg.norm(moves, axis=1).max())
-    told = "Moved {:s} by at most {:s}: the center of mass went from {:s} to {:s}".format(
-        "1 vertex" if number == 1 else "{:d} vertices".format(number),
-        units.text("length", largest),
-        *(
-            "({:s})".format(", ".join(units.texts("length", one.mass_properties.center, size)))
-            for one in (before, after)
-        ),
-    )
-    notes = []
+    centers = [
+        np.where(np.abs(center) < ROUNDING * size, 0.0, center).tolist()
+        for center in (before.mass_properties.center, after.mass_properties.center)
+    ]
+    findings = [finding("balanced", count=number, distance=largest, start=centers[0], end=centers[1])]
     if obj.data.users - obj.data.use_fake_user > 1:
-        notes.append("Other objects use its mesh and have changed with it")
+        findings.append(finding("balance_mesh_shared"))
     if any(
         other.type == "MESH" and other.data.is_editmode and other.data != obj.data
         for other in context.view_layer.objects
     ):
-        notes.append("Only {:s} was balanced; the others in Edit Mode are as they were".format(obj.name))
-    return told, notes
+        findings.append(finding("balance_only_active", object=obj.name))
+    return findings
 
 
 @contextmanager
@@ -282,44 +278,42 @@ def _put_back(context: Context, mesh: _EditedMesh | _GroupedMesh) -> Iterator[No
 
 
 def _check(obj: Object) -> None:
-    """Refused where the mesh cannot be changed, or its change is not the object's."""
+    """EditRefusedError where the mesh cannot be changed, or its change is not the object's."""
     if not obj.data.is_editable:
-        raise Refused("its mesh is linked from another file; make it local first")
+        raise EditRefusedError("balance_linked_mesh")
     if obj.data.shape_keys is not None:
-        raise Refused("it has shape keys, which hold shapes of their own; apply or remove them first")
+        raise EditRefusedError("balance_shape_keys")
     if obj.body_moments.kind == "SHELL" and obj.body_moments.wall != "THIN":
-        raise Refused("it is a shell of real thickness; set Wall to Thin for balancing, which is good for thin ones")
+        raise EditRefusedError("balance_wall")
 
 
 def _measured(context: Context, obj: Object) -> Measurement:
-    """The object as it is always measured; Refused where its center cannot be differentiated by its vertices."""
+    """The object as it is always measured; EditRefusedError where its center cannot be differentiated by its
+    vertices."""
     found = measure_object(obj, context.evaluated_depsgraph_get())
     if found.mass_moments[0].of == "mass":
-        raise Refused("its density is not the same everywhere; balance it with one density")
+        raise EditRefusedError("balance_varying_density")
     if found.kind == "solid" and (found.method != "exact" or found.health.welded):
-        raise Refused(
-            "it is not closed with all faces outward as it stands; merge it by distance, close it and "
-            "recalculate its normals first, or measure it as a shell"
-        )
+        raise EditRefusedError("balance_unclean")
     return found
 
 
 def _read(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh | None) -> Part:
-    """The surface as it is measured; Refused where its vertices are not those of the mesh."""
+    """The surface as it is measured; EditRefusedError where its vertices are not those of the mesh."""
     reading = read_object(obj, context.evaluated_depsgraph_get(), edges=False)
     part = reading.parts[0]
     if reading.singular:
-        raise Refused("a zero scale flattens it; set its scale first")
+        raise EditRefusedError("balance_zero_scale")
     if reading.places > 1:
-        raise Refused("it shows instances, whose vertices are not its own; make them real first")
+        raise EditRefusedError("balance_instances")
     if mesh is not None and not (
         part.surface.points.shape == mesh.start.shape and np.array_equal(part.surface.points, mesh.start)
     ):
         shown = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
-        raise Refused(
-            "what is measured is not the mesh itself but what {:s} make of it; apply or hide them first".format(
-                ", ".join(shown) or "its animation, constraints or instances"
-            )
+        raise (
+            EditRefusedError("balance_modified", modifiers=shown)
+            if shown
+            else EditRefusedError("balance_modified_unknown")
         )
     return part
 

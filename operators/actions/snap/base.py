@@ -12,7 +12,7 @@ between two measured frames.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from bpy.props import BoolProperty
@@ -22,14 +22,13 @@ from numpy.typing import NDArray
 from ....core.inertia.principal_frame import EQUAL_AXES, strict_frame
 from ....core.numerics.float32 import decimal
 from ....core.verdict import internal_error
+from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.measure_object import measure_body
-from ...read import Unreadable
 from ...read.quiet import paused
 from ...scene import reframe
-from ...scene.transforms import Refused
 from ...session import results, staleness
 from ...settings.options import MeasureOptions
-from ...write import properties
+from ...write import properties, reports
 from .. import selection
 
 STRICT = BoolProperty(
@@ -40,7 +39,6 @@ STRICT = BoolProperty(
     ),
     default=False,
 )
-REFUSALS = (Refused, Unreadable, ValueError, RuntimeError)
 TURNED = 1e-3  # what float32 coordinates may turn directions by that moments of higher order fix
 DIAGONAL = 4e-7  # of the trace: what float32 coordinates leave of products of inertia
 
@@ -50,7 +48,7 @@ class Body:
     """An object as measured now, world axes, lengths in Blender units.
 
     center (3,), axes (3, 3) principal, as columns, det +1; inertia (3, 3) about the center in
-    kg·m²; gyration (3,) radii; size: the largest of them; note: what was free to choose. own: the
+    kg·m²; gyration (3,) radii; size: the largest of them; finding: what was free to choose. own: the
     axes of equal moments whose directions are the shape's own; unique: whether the shape fixes all.
     """
 
@@ -60,7 +58,7 @@ class Body:
     inertia: NDArray[np.float64]
     gyration: NDArray[np.float64]
     mass: float
-    note: str
+    finding: Finding | None
     own: tuple[int, ...] = ()
     unique: bool = False
 
@@ -70,7 +68,7 @@ class Body:
 
     def is_principal(self, frame: NDArray) -> bool:
         """Whether the columns of `frame` are this body's principal axes, in this order and with
-        these signs, as far as its coordinates can tell."""
+        these signs, as far as its coordinates can show."""
         tensor = frame.T @ self.inertia @ frame
         limit = DIAGONAL * np.trace(tensor)
         diagonal = np.diag(tensor)
@@ -92,14 +90,12 @@ class Body:
 
 
 def body_of(context: Context, obj: Object, strict: bool = False) -> Body:
-    """Measure an object; Refused where its numbers depend on a reference point. strict: with the
-    axes of Zhang and Chen's rule, or refused where it has none."""
+    """Measure an object; EditRefusedError where its numbers depend on a reference point. strict: with the axes of Zhang
+    and Chen's rule, or refused where it has none."""
     measured = measure_body(obj, context.evaluated_depsgraph_get(), MeasureOptions(pose=True))
     measurement = measured.measurement
     if measurement.method.endswith("open"):
-        raise Refused(
-            "it is open and cannot be capped, so that its center is not its own; close it, or set its kind to Shell"
-        )
+        raise EditRefusedError("open_object")
     unit = decimal(context.scene.unit_settings.scale_length)
     body = measurement.mass_properties
     principal = body.principal
@@ -113,7 +109,7 @@ def body_of(context: Context, obj: Object, strict: bool = False) -> Body:
         inertia=body.inertia,
         gyration=body.radii_of_gyration / unit,
         mass=body.mass,
-        note=principal.note,
+        finding=principal.finding,
         own=tuple(i for i in EQUAL_AXES[principal.symmetry] if i not in principal.free),
         unique=principal.unique,
     )
@@ -132,8 +128,8 @@ def refresh(context: Context, objects: list[Object]) -> None:
     for obj in stored:
         try:
             results.store(obj, measure_body(obj, depsgraph, MeasureOptions(pose=True)), context.scene)
-        except Exception as error:  # what is stored stays, and the panel says that it is out of date
-            internal_error.reason(error, REFUSALS)
+        except Exception as error:  # what is stored stays, and the panel shows that it is out of date
+            internal_error.finding_of(error)
             continue
         fresh.append(obj)
     staleness.settle(context, fresh)
@@ -143,12 +139,12 @@ def reframe_selected(
     operator: Operator,
     context: Context,
     wanted: Callable[[Object, Body], NDArray | None],
-    text: str,
+    done: Finding,
     move_only: bool,
     strict: bool = False,
 ) -> set[str]:
     """Give each selected object the matrix that `wanted` returns for it, while nothing visible moves, and report it.
-    `wanted` returns None where the object is right as it is.
+    `wanted` returns None where the object is right as it is. done: the report; it gets the value `count`.
     """
     objects = selection.selected(context)
     plans: list[reframe.Plan] = []
@@ -161,18 +157,18 @@ def reframe_selected(
             plans.append(reframe.Plan(obj, target, body.size, move_only=move_only))
         return True
 
-    _, failures = selection.each(objects, plan, REFUSALS)
+    _, failures = selection.each(objects, plan)
     with paused(), selection.progress(len(plans)) as step:
-        done, refused = reframe.reframe(context, plans, step)
-        failures += [(obj.name, reason) for obj, reason in refused]
+        changed, refused = reframe.reframe(context, plans, step)
+        failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
         if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
             plans.clear()
-            selection.each([one.obj for one in done], plan, REFUSALS)
+            selection.each([one.obj for one in changed], plan)
             reframe.reframe(context, plans)
-    refresh(context, [plan.obj for plan in done])
+    refresh(context, [plan.obj for plan in changed])
     if not move_only:
-        staleness.mark_turned(plan.obj for plan in done)
-    notes = ["{:s} {:s}".format(plan.obj.name, note) for plan in done for note in plan.notes]
-    return selection.summarise(
-        operator, len(done), len(objects), text, failures, notes, idle="all of it was there already"
-    )
+        staleness.mark_turned(plan.obj for plan in changed)
+    findings = [found.of_sources([plan.obj.name]) for plan in changed for found in plan.findings]
+    done = replace(done, values={"count": len(changed)})
+    idle = finding("already_in_place")
+    return selection.summarize(operator, len(changed), len(objects), done, failures, findings, idle)

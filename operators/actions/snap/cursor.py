@@ -9,10 +9,9 @@ from mathutils import Matrix
 
 from ....core.inertia.mass_properties import combined
 from ....core.numerics.float32 import decimal
+from ....core.verdict.finding import EditRefusedError, finding
 from ...bodies.measure_object import measure_object
-from ...scene.transforms import Refused
 from .. import selection
-from . import base as snapping
 
 
 class VIEW3D_OT_body_moments_cursor_to_center(Operator):
@@ -40,12 +39,12 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
         def add(obj: Object) -> bool:
             measurement = measure_object(obj, depsgraph)
             if measurement.method.endswith("open"):
-                raise Refused("it is open and cannot be capped, so that its center is not its own; close it first")
+                raise EditRefusedError("open_object")
             bodies.append((measurement.mass_moments, measurement.mass_properties))
             return True
 
-        count, failures = selection.each(objects, add, snapping.REFUSALS)
-        notes = []
+        count, failures = selection.each(objects, add)
+        findings = []
         if bodies:
             # One body keeps the frame that was measured, with what its own exact third moments say
             # of the signs.
@@ -54,9 +53,9 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
             cursor.location = total.center / decimal(context.scene.unit_settings.scale_length)
             if self.rotate:
                 _turn(cursor, total.principal.axes)
-                notes = [total.principal.note] if total.principal.note else []
-        text = "Moved the cursor to the center of mass of {count}" if objects else "Nothing selected can be measured"
-        return selection.summarise(self, count, len(objects), text, failures, notes)
+                findings = [total.principal.finding] if total.principal.finding is not None else []
+        done = finding("cursor_moved", count=count) if objects else finding("nothing_measurable")
+        return selection.summarize(self, count, len(objects), done, failures, findings)
 
 
 def _turn(cursor: View3DCursor, axes: np.ndarray) -> None:

@@ -10,15 +10,15 @@ from bpy.props import BoolProperty
 from bpy.types import Context, Depsgraph, Object, Operator
 from mathutils import Matrix
 
-from ....core.verdict import internal_error
+from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...scene.changes import Change, carry_out, dependents, rounds, side_by_side
-from ...scene.transforms import Channels, Refused, basis, world
+from ...scene.transforms import Channels, basis, world
+from ...write import reports
 from .. import selection
 from . import base as snapping
 
 OF = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
 KEPT = ("parent", "parent_type", "parent_bone", "empty_display_size")
-FOLLOWS = "it follows its empty {:s}, as its child or by a constraint, and would move along; clear that first"
 
 
 class OBJECT_OT_body_moments_add_empty(Operator):
@@ -46,38 +46,30 @@ class OBJECT_OT_body_moments_add_empty(Operator):
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected(context)
         existing = {empty[OF]: empty for empty in context.scene.objects if empty.type == "EMPTY" and OF in empty}
-        notes: list[str] = []
-
-        failures: list[tuple[str, str]] = []
+        findings: list[Finding] = []
+        failures: list[Finding] = []
         placed: list[Object] = []
 
         def add(obj: Object) -> Change:
             yield
             try:
                 if self.parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
-                    raise Refused("its scale is zero along an axis; set the scale first, or turn off Parent to Object")
+                    raise EditRefusedError("scale_zero_axis_of_parent_target")
                 body = snapping.body_of(context, obj)
                 step(len(placed) + len(failures))
                 yield  # all are measured before the scene changes
                 if (yield from _placed(existing.get(obj), context, body, obj if self.parent else None)):
-                    notes.extend(["{:s}: {:s}".format(obj.name, body.note)] if body.note else [])
+                    findings.extend([body.finding.of_sources([obj.name])] if body.finding is not None else [])
                     placed.append(obj)
             except Exception as error:
-                failures.append((obj.name_full, internal_error.reason(error, snapping.REFUSALS)))
+                failures.append(reports.failure(obj.name_full, error))
 
         followers = dependents(existing.values())  # what moves with an empty is measured after that
         with selection.progress(len(objects)) as step:
             for several in rounds((obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects):
                 carry_out(context, side_by_side(map(add, several)))
-        return selection.summarise(
-            self,
-            len(placed),
-            len(objects),
-            "Placed an empty at the principal frame of {count}",
-            failures,
-            notes,
-            idle="the empties are there already",
-        )
+        done, idle = finding("empties_placed", count=len(placed)), finding("empties_in_place")
+        return selection.summarize(self, len(placed), len(objects), done, failures, findings, idle)
 
 
 def _new_empty(context: Context, obj: Object) -> Object:
@@ -100,8 +92,8 @@ def _new_empty(context: Context, obj: Object) -> Object:
 def _placed(
     existing: Object | None, context: Context, body: snapping.Body, parent: Object | None
 ) -> Generator[None, Depsgraph, bool]:
-    """Move the empty, or a new one, to the body's frame; returns whether it was elsewhere. Refused where it cannot be
-    there: then all is as it was."""
+    """Move the empty, or a new one, to the body's frame; returns whether it was elsewhere. EditRefusedError where it
+    cannot be there: then all is as it was."""
     if existing is not None:
         return (yield from _moved(existing, body, parent))
     empty = _new_empty(context, body.obj)
@@ -113,9 +105,10 @@ def _placed(
 
 
 def _moved(empty: Object, body: snapping.Body, parent: Object | None) -> Generator[None, Depsgraph, bool]:
-    """Move the empty to the body's frame; returns whether it was elsewhere. Refused where it cannot be there."""
+    """Move the empty to the body's frame; returns whether it was elsewhere. EditRefusedError where it cannot be
+    there."""
     if _follows(body.obj, empty):
-        raise Refused(FOLLOWS.format(empty.name))
+        raise EditRefusedError("empty_followed", empty=empty.name)
     if _is_there(empty, body) and empty.parent == parent:
         return False
     saved = Channels(empty)
@@ -139,9 +132,7 @@ def _moved(empty: Object, body: snapping.Body, parent: Object | None) -> Generat
             yield
         held, follows = not _is_there(empty, body), (world(body.obj) != was).any()
         if held or follows:
-            raise Refused(
-                (FOLLOWS if follows else "a constraint holds its empty {:s}; remove that first").format(empty.name)
-            )
+            raise EditRefusedError("empty_followed" if follows else "empty_constrained", empty=empty.name)
     except BaseException:
         for name, value in before.items():
             setattr(empty, name, value)

@@ -3,7 +3,7 @@
 """Transform Orientation from Principal Axes: move, turn and scale along them without changing
 any data.
 
-Blender makes orientations only from a 3D view. Where there is none (batch), the operator says so.
+Blender makes orientations only from a 3D view. Where there is none (batch), the operator reports it.
 """
 
 import bpy
@@ -11,6 +11,8 @@ from bpy.props import BoolProperty, StringProperty
 from bpy.types import Context, Operator
 from mathutils import Matrix
 
+from ....core.verdict.finding import MeasureError, finding
+from ...write import reports
 from .. import selection
 from . import base as snapping
 
@@ -36,22 +38,19 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
     def poll(cls, context: Context) -> bool:
         obj = context.view_layer.objects.active
         if obj is None or not obj.select_get():
-            cls.poll_message_set("Make an object active and select it")
-            return False
+            return reports.unavailable(cls, finding("poll_active_selected"))
         return selection.poll_selected(cls, context)
 
     def execute(self, context: Context) -> set[str]:
         obj = context.view_layer.objects.active
         try:
             body = snapping.body_of(context, obj)
-        except snapping.REFUSALS as error:
-            return selection.summarise(self, 0, 1, "", [(obj.name, str(getattr(error, "reason", error)))])
+        except MeasureError as error:
+            reports.report(self, reports.failure(obj.name_full, error))
+            return {"CANCELLED"}
         place = _view(context)
         if place is None:
-            self.report(
-                {"WARNING"},
-                "A transform orientation can only be created where a 3D Viewport is open",
-            )
+            reports.report(self, finding("orientation_needs_viewport"))
             return {"CANCELLED"}
         name = self.name or "{:s} Principal".format(obj.name)
         slot = context.scene.transform_orientation_slots[0]
@@ -61,8 +60,9 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         slot.custom_orientation.matrix = Matrix(body.axes)
         if not self.use:
             slot.type = before
-        notes = [body.note] if body.note else []
-        return selection.summarise(self, 1, 1, 'Created the orientation "{:s}"'.format(name), notes=notes)
+        free = [body.finding] if body.finding is not None else []
+        reports.report(self, finding("orientation_created", name=name), *free)
+        return {"FINISHED"}
 
 
 def _view(context: Context) -> dict | None:

@@ -7,6 +7,7 @@ the data.
 import numpy as np
 from bpy.types import Context, Object, Operator
 
+from ....core.verdict.finding import finding
 from ...scene import reframe
 from ...scene.transforms import world
 from .. import selection
@@ -34,7 +35,7 @@ class OBJECT_OT_body_moments_origin_to_center(Operator):
             self,
             context,
             _at_center,
-            "Moved the origin of {count} to the center of mass",
+            finding("origins_moved"),
             move_only=True,
         )
 

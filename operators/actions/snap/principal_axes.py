@@ -9,6 +9,7 @@ After this they are right to do so.
 import numpy as np
 from bpy.types import Context, Object, Operator
 
+from ....core.verdict.finding import finding
 from ...scene import reframe
 from ...scene.transforms import world
 from .. import selection
@@ -40,7 +41,7 @@ class OBJECT_OT_body_moments_axes_to_principal(Operator):
             self,
             context,
             _along_axes,
-            "Made the principal frame the own frame of {count}",
+            finding("axes_made_principal"),
             move_only=False,
             strict=self.strict,
         )

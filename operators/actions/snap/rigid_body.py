@@ -13,9 +13,11 @@ from bpy.props import BoolProperty
 from bpy.types import Context, Object, Operator
 
 from ....core.numerics.float32 import decimal
+from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...read.quiet import paused
 from ...scene import reframe
-from ...scene.transforms import Refused, require_own, world
+from ...scene.transforms import require_own, world
+from ...write import reports
 from .. import selection
 from . import base as snapping
 
@@ -47,24 +49,21 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
         bodies: list[snapping.Body] = []
 
         def measure(obj: Object) -> bool:
-            require_own(obj, "its rigid body's mass")
+            require_own(obj, "library_override_mass")
             if obj.rigid_body is None and not self.add:
-                raise Refused("it is no rigid body; turn on Add Rigid Bodies, or add one in its physics properties")
+                raise EditRefusedError("not_a_rigid_body")
             if obj.rigid_body is None and obj.type != "MESH":
-                raise Refused("only meshes can be rigid bodies; convert it first")
+                raise EditRefusedError("rigid_body_needs_mesh")
             body = snapping.body_of(context, obj)
             limit = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min
             if body.mass < limit:
-                raise Refused(
-                    "its mass of {:.3g} kg is less than the {:.3g} kg that a rigid body can "
-                    "have; raise its density".format(body.mass, limit)
-                )
+                raise EditRefusedError("rigid_body_mass_too_small", mass=float(body.mass), limit=limit)
             bodies.append(body)
             return True
 
         context.view_layer.update()  # edits of before are noted as such
         with paused():  # Blender reports a rigid body as a change of the shape
-            _, failures = selection.each(objects, measure, snapping.REFUSALS)
+            _, failures = selection.each(objects, measure)
             new = [body.obj for body in bodies if body.obj.rigid_body is None]
             failures += _add(context, new)
             changed = {obj for obj in new if obj.rigid_body is not None}
@@ -80,39 +79,26 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
             if body.obj.rigid_body is not None
             and np.abs(world(body.obj)[:3, 3] - body.center).max() > reframe.location_tolerance(body.obj, body.size)
         ]
-        notes = []
+        findings = []
         unit = decimal(context.scene.unit_settings.scale_length)
         if count and unit != 1.0 and context.scene.unit_settings.system != "NONE":
-            notes = [
-                "Blender's physics properties show masses times {:.6g}, the scene's unit scale cubed; physics takes "
-                "the kilograms that were set".format(unit**3)
-            ]
+            findings.append(finding("rigid_body_display_scaled", factor=unit**3))
         if elsewhere and count:
-            notes += [
-                "Physics takes the origin as center of mass, which it is not for {:s}: use Axes "
-                "to Principal Axes".format(", ".join(elsewhere[: selection.LISTED]))
-            ]
-        return selection.summarise(
-            self,
-            count,
-            len(objects),
-            "Set the rigid body mass of {count}",
-            failures,
-            notes,
-            idle="the masses were right already",
-        )
+            findings.append(finding("rigid_body_center_elsewhere", objects=elsewhere))
+        done, idle = finding("rigid_body_masses_set", count=count), finding("rigid_body_masses_equal")
+        return selection.summarize(self, count, len(objects), done, failures, findings, idle)
 
 
-def _add(context: Context, objects: list[Object]) -> list[tuple[str, str]]:
-    """Make them active rigid bodies, all by one operator; (name, reason) of those that Blender makes none of."""
-    reason = "Blender makes no rigid body of it"
+def _add(context: Context, objects: list[Object]) -> list[Finding]:
+    """Make them active rigid bodies, all by one operator; why Blender makes none of some."""
+    refusal = EditRefusedError("rigid_body_not_added_unknown")
     if objects:
         try:
             with context.temp_override(object=objects[0], active_object=objects[0], selected_objects=objects):
                 bpy.ops.rigidbody.objects_add(type="ACTIVE")
         except RuntimeError as error:
-            reason = str(error)
-    return [(obj.name_full, reason) for obj in objects if obj.rigid_body is None]
+            refusal = EditRefusedError("rigid_body_not_added", error=" ".join(str(error).split()))
+    return [reports.failure(obj.name_full, refusal) for obj in objects if obj.rigid_body is None]
 
 
 CLASSES = (OBJECT_OT_body_moments_set_rigid_body_mass,)

@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Findings as operators show them: reports, reasons why a button is off, the status bar. Sentences are in the language
+of the interface and lengths in the scene's units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+import bpy
+from bpy.types import Operator
+
+from ...core.verdict import internal_error
+from ...core.verdict.finding import Finding, MeasureError, Severity, finding
+from .messages import sentence, severity
+from .units import Units
+
+MAX_REPORTED = 3  # findings of one kind that a report names before it only counts
+LEVELS = {Severity.NOTE: "INFO", Severity.WARNING: "WARNING", Severity.ERROR: "ERROR"}
+
+
+def text(*findings: Finding) -> str:
+    """The sentences of findings, one after the other."""
+    lengths = partial(Units.of(bpy.context.scene.unit_settings).text, "length")
+    joined = ""
+    for shown in (sentence(one, bpy.app.translations.pgettext_rpt, lengths) for one in findings):
+        between = " " if joined.endswith(".") else ". " if shown.endswith(".") else "; "
+        joined += between + shown if joined else shown
+    return joined
+
+
+def _rank(found: Finding) -> int:
+    return tuple(Severity).index(severity(found))
+
+
+def report(operator: Operator, *findings: Finding) -> None:
+    """One report of findings, as severe as the most severe of them."""
+    worst = max(findings, key=_rank)
+    operator.report({LEVELS[severity(worst)]}, text(*findings))
+
+
+def unavailable(operator: type[Operator], reason: Finding) -> bool:
+    """What `poll` returns where an operator cannot run, for this reason."""
+    operator.poll_message_set(text(reason))
+    return False
+
+
+def first(findings: Sequence[Finding]) -> list[Finding]:
+    """The first of the most severe findings, and how many more there are."""
+    ranked = sorted(findings, key=_rank, reverse=True)
+    more = len(ranked) - MAX_REPORTED
+    return [*ranked[:MAX_REPORTED], *([finding("and_more", count=more)] if more > 0 else [])]
+
+
+def failure(name: str, reason: Finding | Exception) -> Finding:
+    """Why one of several objects was left as it is: it was refused, or this program failed."""
+    cause = reason if isinstance(reason, Finding) else internal_error.finding_of(reason)
+    return finding("failure", object=name, cause=cause.as_record())
+
+
+def refusal(error: MeasureError) -> Finding:
+    """Why an operator does nothing at all."""
+    if not error.subject:
+        return error.finding
+    return finding("refused", object=error.subject, cause=error.finding.as_record())
