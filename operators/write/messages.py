@@ -73,12 +73,12 @@ class _Formatter(string.Formatter):
     def format_field(self, value: Any, format_spec: str) -> str:
         if isinstance(value, Mapping):
             return _filled(value["code"], value["values"], self.translate, self.lengths)
-        if format_spec == "word":
-            return self.translate(value)
         if format_spec == "percent":
             return "{:.3g}%".format(100.0 * value)
         if format_spec == "length":
             return self.lengths(value)
+        if format_spec == "word":
+            return self.translate(value)
         if format_spec == "size":
             return " x ".join("{:d}".format(number) for number in value)
         if format_spec == "point":
