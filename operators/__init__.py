@@ -12,6 +12,7 @@ from types import ModuleType
 
 # Everything that is registered, in this order: modules with `register`, or with CLASSES only.
 PARTS = (
+    "write.translations",
     "settings.properties",
     *("session.walls", "session.moments", "session.live"),
     *("actions.setup.presets", "actions.setup.import_scan"),

@@ -15,11 +15,11 @@ from ..operators.read.visibility import GEOMETRY_TYPES
 from ..operators.session import results
 from ..operators.write.units import Units
 from . import rows
-from .buttons import _actions, _analysis
-from .density import _material
-from .numbers import _more, _numbers
-from .totals import _totals
-from .verdict import _method_and_warnings, _verdict
+from .buttons import actions, analysis
+from .density import settings_rows
+from .numbers import more, numbers
+from .totals import totals
+from .verdict import method_and_findings, verdict
 
 
 class BodyPanel:
@@ -36,26 +36,28 @@ class BodyPanel:
         layout = self.layout
         layout.use_property_decorate = False
         units = Units.of(scene.unit_settings)
-        found = results.of_object(obj, scene)
-        _verdict(layout, context, obj, measured=found is not None)
+        shown = results.of_object(obj, scene)
+        verdict(layout, context, obj, measured=shown is not None)
         if obj.type in GEOMETRY_TYPES or obj.instance_collection is not None:
-            _material(layout, context, obj)
+            settings_rows(layout, context, obj)
         row = layout.row(align=True)
         row.scale_y = 1.4
         row.operator("object.body_moments_measure", icon="PHYSICS")
         row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
         if len(context.selected_objects) > 1:
             layout.operator("object.body_moments_copy_settings", icon="PASTEDOWN")
-        if found is not None:
-            _numbers(layout, context, units, found)
-            _more(layout, obj, units, found)
-            rows.warnings(layout, context, "body_moments_warnings", _method_and_warnings(obj)[1])
+        if shown is not None:
+            _, findings = method_and_findings(obj)
+            rows.warnings(layout, context, "body_moments_warnings", findings)
+            numbers(layout, context, units, shown)
+            more(layout, obj, units, shown)
+            rows.notes(layout, context, "body_moments_notes", findings)
             row = layout.row(align=True)
             row.operator("object.body_moments_copy_report", icon="COPYDOWN")
             row.operator("object.body_moments_clear", icon="TRASH")
-        _actions(layout, obj)
-        _analysis(layout)
-        _totals(layout, context, units)
+        actions(layout, obj)
+        analysis(layout)
+        totals(layout, context, units)
 
 
 class VIEW3D_PT_body_moments(BodyPanel, Panel):

@@ -7,9 +7,9 @@ from __future__ import annotations
 from bpy.types import Object, UILayout
 
 
-def _actions(layout: UILayout, obj: Object) -> None:
+def actions(layout: UILayout, obj: Object) -> None:
     header, body = layout.panel("body_moments_snap", default_closed=False)
-    header.label(text="Snap")
+    header.label(text="Apply to Object")
     if body is None:
         return
     column = body.column(align=True)
@@ -29,8 +29,8 @@ def _actions(layout: UILayout, obj: Object) -> None:
     body.operator("object.body_moments_sculpt_balance", icon="SCULPTMODE_HLT")
 
 
-def _analysis(layout: UILayout) -> None:
+def analysis(layout: UILayout) -> None:
     header, body = layout.panel("body_moments_analysis", default_closed=True)
     header.label(text="Analysis")
     if body is not None:
-        body.operator("object.body_moments_fourier", text="Fourier Transform…", icon="MOD_WAVE")
+        body.operator("object.body_moments_fourier", text="Fourier Transform...", icon="MOD_WAVE")

@@ -6,30 +6,25 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
+from ..core.verdict.finding import finding
 from ..operators.session import live
 from ..operators.session import walls as wall_slider
-from ..operators.write.units import Units
 from . import grid, rows
 from . import material_menus as materials
 
 
-def _material(layout: UILayout, context: Context, obj: Object) -> None:
+def settings_rows(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
     if obj.override_library is not None:
-        rows.sentence(
-            layout,
-            context,
-            "A library override: the file keeps none of these settings, nor results; make it local first",
-            icon="ERROR",
-        )
+        rows.message(layout, context, finding("panel_override"))
     if obj.type == "VOLUME" and grid.settings_rows(layout, context, obj):
         return
     column = layout.column()
     column.use_property_split = True
     if obj.type == "VOLUME":
-        column.row().prop(settings, "mass_from", text="Given", expand=True)
+        column.row().prop(settings, "mass_from", expand=True)
         if settings.mass_from == "MASS":
-            column.prop(settings, "mass", text="Mass kg")
+            column.prop(settings, "mass", text="Mass (kg)")
         else:
             _one_density(column, settings, "Material")
         return
@@ -45,17 +40,17 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
         _largest(column, context, obj)
     elif settings.kind == "SOLID":
         column.prop(settings, "overlap")
-    column.row().prop(settings, "mass_from", text="Given", expand=True)
+    column.row().prop(settings, "mass_from", expand=True)
     if settings.mass_from == "DENSITY" and settings.kind == "WIRE":
-        column.prop(settings, "linear_density", text="Density kg/m")
+        column.prop(settings, "linear_density", text="Density (kg/m)")
         return
     if settings.mass_from == "MASS":
-        column.prop(settings, "mass", text="Mass kg")
+        column.prop(settings, "mass", text="Mass (kg)")
         return
-    column.prop(settings, "density_from", text="From")
+    column.prop(settings, "density_from")
     if settings.density_from == "POLYNOMIAL":
-        column.prop(settings, "density_polynomial", text="kg/m³")
-        column.row().prop(settings, "density_frame", text="x, y, z in m", expand=True)
+        column.prop(settings, "density_polynomial")
+        column.row().prop(settings, "density_frame", expand=True)
     elif settings.density_from == "ATTRIBUTE":
         if obj.type == "MESH":
             column.prop_search(settings, "density_attribute", obj.data, "attributes", results_are_suggestions=True)
@@ -64,7 +59,7 @@ def _material(layout: UILayout, context: Context, obj: Object) -> None:
     elif settings.density_from == "VOLUME":
         column.prop(settings, "density_volume")
     elif settings.density_from == "MATERIALS":
-        _materials(layout, obj)
+        _materials(layout, context, obj)
     else:
         _one_density(column, settings, "Material")
 
@@ -74,25 +69,24 @@ def _largest(layout: UILayout, context: Context, obj: Object) -> None:
     limit = wall_slider.largest(obj)
     if limit is None:
         return
-    units = Units.of(context.scene.unit_settings)
+    folds = wall_slider.folds(obj)
     row = layout.row()
-    row.alert = wall_slider.folds(obj)
-    text = "Folds Over from {:s}" if row.alert else "Good up to {:s}"
-    row.label(text=text.format(units.text("length", limit)), icon="ERROR" if row.alert else "INFO")
+    row.alert = folds
+    rows.message(row, context, finding("panel_wall_folds" if folds else "panel_wall_limit", length=limit))
 
 
-def _materials(layout: UILayout, obj: Object) -> None:
+def _materials(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
     column = layout.column(align=True)
-    column.label(text="Densities, kg/m³")
+    column.label(text="Densities (kg/m³)")
     shown = {slot.material: None for slot in obj.material_slots if slot.material}
     for material in shown:
         materials.density_row(column, material, material.name)
     if not shown:
-        column.label(text="It has no material slots", icon="INFO")
+        rows.message(column, context, finding("panel_no_material_slots"))
     column = layout.column()
     column.use_property_split = True
-    _one_density(column, settings, "Without One")
+    _one_density(column, settings, "Others")
 
 
 def _labelled(column: UILayout, label: str) -> UILayout:
@@ -109,4 +103,4 @@ def _one_density(column: UILayout, settings, heading: str) -> None:
     row = _labelled(column, heading)
     row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
-    column.prop(settings, "density", text="Density kg/m³")
+    column.prop(settings, "density", text="Density (kg/m³)")

@@ -19,13 +19,13 @@ def settings_rows(layout: UILayout, context: Context, obj: Object) -> bool:
     if settings.grid_as == "SOLID":
         return False
     column.prop(settings, "spline_order")
-    column.row().prop(settings, "mass_from", text="Given", expand=True)
+    column.row().prop(settings, "mass_from", expand=True)
     column.row().prop(settings, "values_from", expand=True)
     if settings.values_from == "FACTOR":
-        column.prop(settings, "value_density", text="Value 1 in kg/m³")
+        column.prop(settings, "value_density", text="Value 1 (kg/m³)")
     else:
         column.prop(settings, "transfer_table", text="Table")
         rows.sentence(layout.column(), context, settings.transfer_table.replace(", ", " · "))
     if settings.mass_from == "MASS":
-        column.prop(settings, "mass", text="Mass kg")
+        column.prop(settings, "mass", text="Mass (kg)")
     return True

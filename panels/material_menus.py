@@ -11,16 +11,18 @@ from bl_ui.utils import PresetPanel
 from bpy.types import Context, Material, Menu, Panel, UILayout
 
 from ..core.density.materials import CATEGORIES, MATERIALS
+from ..core.verdict.finding import finding
 from ..operators.actions.setup.presets import (
     PRESETS,
     MATERIAL_OT_body_moments_set_density,
     OBJECT_OT_body_moments_preset_add,
     OBJECT_OT_body_moments_set_material,
 )
+from . import rows
 
 
 class OBJECT_MT_body_moments_materials(Menu):
-    """Materials by category. Typing searches them"""
+    """Densities of materials by category. Type to search"""
 
     bl_idname = "OBJECT_MT_body_moments_materials"
     bl_label = "Materials"
@@ -56,9 +58,9 @@ def density_row(layout: UILayout, material: Material, label: str = "") -> None:
     row.enabled = material.is_editable  # the menu goes by names, which a local one may share with a linked one
     if label:
         split = row.split(factor=0.4, align=True)
-        split.label(text=label, icon="MATERIAL")
+        split.label(text=label, icon="MATERIAL", translate=False)
         row = split.row(align=True)
-    row.prop(settings, "density", text="" if label else "Density kg/m³")
+    row.prop(settings, "density", text="" if label else "Density (kg/m³)")
     row.context_pointer_set("body_moments_material", material)
     row.menu(OBJECT_MT_body_moments_materials.bl_idname, text="", icon="DOWNARROW_HLT")
 
@@ -88,9 +90,9 @@ CATEGORY_MENUS = tuple(
 
 
 class OBJECT_PT_body_moments_presets(PresetPanel, Panel):
-    """Presets of the user's own"""
+    """Presets of the settings"""
 
-    bl_label = "Body Presets"
+    bl_label = "Body Moments Presets"
     preset_subdir = PRESETS
     preset_operator = "script.execute_preset"
     preset_add_operator = OBJECT_OT_body_moments_preset_add.bl_idname
@@ -101,7 +103,7 @@ class OBJECT_PT_body_moments_presets(PresetPanel, Panel):
             return
         # Without a folder of presets, Blender's own drawing complains about missing paths.
         manager = context.window_manager
-        self.layout.label(text="Keep these settings as")
+        self.layout.label(text="Save Settings As")
         row = self.layout.row()
         row.prop(manager, "preset_name", text="")
         row.operator(self.preset_add_operator, text="", icon="ADD").name = manager.preset_name
@@ -129,9 +131,9 @@ class MATERIAL_PT_body_moments(Panel):
         density_row(layout, material)
         column = layout.column()
         if material.body_moments.material:
-            column.label(text=material.body_moments.material, icon="CHECKMARK")
+            column.label(text=material.body_moments.material, icon="CHECKMARK", translate=False)
         elif not material.body_moments.density:
-            column.label(text="None: the object's density is taken", icon="INFO")
+            rows.message(column, context, finding("panel_material_default"))
 
 
 CLASSES = (

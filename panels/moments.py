@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from bpy.types import Context, Panel
 
+from ..core.verdict.finding import finding
 from ..operators.session import moments as moments_table
 from . import rows
 
@@ -29,22 +30,18 @@ class MomentsPanel:
         computed = moments_table.found(obj)
         if computed is None:
             return
-        rows.outdated(layout, moments_table.outdated(obj, context.scene))
+        rows.outdated(layout, context, moments_table.outdated(obj, context.scene))
         degrees, missing = moments_table.shown(obj, context.scene)
-        if missing:
-            rows.sentence(layout, context, missing, icon="ERROR")
+        if missing is not None:
+            rows.message(layout, context, missing)
         for degree in degrees:
             column = layout.column(align=True)
-            column.label(text="Order {:d}{:s}".format(degree.degree, degree.unit and ", " + degree.unit))
+            rows.filled(column, "Order {:d} ({:s})" if degree.unit else "Order {:d}", degree.degree, degree.unit)
             for label, text, exact in degree.rows:
                 rows.texts(column, label, text, exact, degree.unit)
         if computed.order > moments_table.SHOWN:
-            rows.sentence(
-                layout,
-                context,
-                "Orders {:d} to {:d} are in the copy.".format(moments_table.SHOWN + 1, computed.order),
-                icon="INFO",
-            )
+            orders = finding("panel_orders_copied", first=moments_table.SHOWN + 1, last=computed.order)
+            rows.message(layout, context, orders)
         layout.operator("object.body_moments_copy_moments", icon="COPYDOWN")
 
 

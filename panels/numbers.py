@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 from bpy.types import Context, Object, UILayout
 
+from ..core.verdict.finding import finding
 from ..operators.session import live
 from ..operators.write import properties
 from ..operators.write.units import SI_UNITS, Units
@@ -21,7 +22,14 @@ NUMBERS = ("1", "2", "3")
 EQUAL = 1e-6  # moments closer than this, relatively, are shown as equal
 
 
-BOUNDS = (("Rounding, at Most", None), ("Coordinates Stored as Float32, at Most", "input"))
+EQUAL_MOMENTS = {  # by whether 1 and 2, and 2 and 3, are equal
+    (True, True): "panel_equal_moments_all",
+    (True, False): "panel_equal_moments_12",
+    (False, True): "panel_equal_moments_23",
+}
+
+
+BOUNDS = (("Rounding, at Most", None), ("Float32 Coordinates, at Most", "input"))
 
 
 ESTIMATED = "Quadrature and Rounding, Estimated"
@@ -35,84 +43,78 @@ BOUNDED = {
 }
 
 
-def _numbers(layout: UILayout, context: Context, units: Units, found: properties.Stored) -> None:
-    scene, source = context.scene, properties.density_from(context.object)
+def numbers(layout: UILayout, context: Context, units: Units, shown: properties.Stored) -> None:
+    scene = context.scene
     column = layout.column(align=True)
-    rows.value(column, units, "Mass", "mass", found.body.mass)
+    rows.value(column, units, "Mass", "mass", shown.body.mass)
     length = properties.optional(context.object, "body_length")
     if length is None:
-        rows.value(column, units, "Density", "density", found.density)
+        rows.value(column, units, "Density", "density", shown.density)
+        source = properties.density_from(context.object)
         if source:
-            rows.sentence(column, context, "The mean, from {:s}".format(source), icon="BLANK1")
-        rows.value(column, units, "Volume", "volume", found.volume)
-        if found.area:  # a grid of densities has no surface
-            rows.value(column, units, "Area", "area", found.area)
+            rows.message(column, context, finding("panel_density_mean", cause=source), icon="BLANK1")
+        rows.value(column, units, "Volume", "volume", shown.volume)
+        if shown.area:  # a grid of densities has no surface
+            rows.value(column, units, "Area", "area", shown.area)
     else:
         rows.value(column, units, "Length", "length", length)
     layout.row().prop(scene.body_moments, "frame", expand=True)
     column = layout.column(align=True)
-    rows.heading(column, "Center of Mass", "length", found.body.center)
-    rows.values(column, units, AXES, "length", found.body.center, found.body.radii_of_gyration.max())
+    rows.heading(column, "Center of Mass", "length", shown.body.center)
+    rows.values(column, units, AXES, "length", shown.body.center, shown.body.radii_of_gyration.max())
     column = layout.column(align=True)
-    rows.heading(column, "Principal Moments", "inertia", found.body.principal.moments)
-    rows.values(column, units, NUMBERS, "inertia", found.body.principal.moments)
+    moments = shown.body.principal.moments
+    rows.heading(column, "Principal Moments", "inertia", moments)
+    rows.values(column, units, NUMBERS, "inertia", moments)
     column = layout.column(align=True)
-    rows.heading(column, "Principal Axes", "", found.body.principal.axes.T)
-    for label, axis in zip(NUMBERS, found.body.principal.axes.T):
+    rows.heading(column, "Principal Axes", "", shown.body.principal.axes.T)
+    for label, axis in zip(NUMBERS, shown.body.principal.axes.T):
         rows.direction(column, label, axis)
-    free = _free_axes(found.body.principal.moments)
-    if free:
-        column.label(text=free, icon="INFO")
+    code = EQUAL_MOMENTS.get(tuple((np.diff(moments) <= EQUAL * moments[2]).tolist()))
+    if code:
+        rows.message(column, context, finding(code))
 
 
-def _free_axes(moments: np.ndarray) -> str:
-    """What equal moments leave to choose."""
-    first, second = (np.diff(moments) <= EQUAL * moments[2]).tolist()
-    if first and second:
-        return "All axes have equal moments"
-    return "Axes 1 and 2 have equal moments" if first else "Axes 2 and 3 have equal moments" if second else ""
-
-
-def _more(layout: UILayout, obj: Object, units: Units, found: properties.Stored) -> None:
+def more(layout: UILayout, obj: Object, units: Units, shown: properties.Stored) -> None:
     header, body = layout.panel("body_moments_gyration", default_closed=True)
     header.label(text="Radii of Gyration")
     if body is not None:
-        rows.values(body.column(align=True), units, NUMBERS, "length", found.body.radii_of_gyration)
+        rows.values(body.column(align=True), units, NUMBERS, "length", shown.body.radii_of_gyration)
     header, body = layout.panel("body_moments_tensor", default_closed=True)
     header.label(text="Inertia Tensor")
     if body is not None:
         column = body.column(align=True)
-        column.label(text="At the center of mass, Ixy = −∫xy dm")
-        entries = properties.tensor_entries(found.body.inertia)
+        column.label(text="About the center of mass, Ixy = −∫xy dm")
+        entries = properties.tensor_entries(shown.body.inertia)
         rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
     if live.shown(obj) is not None:
         return
     display = properties.optional(obj, "body_display_volume")
     if display is not None:
         header, body = layout.panel("body_moments_display_mesh", default_closed=True)
-        header.label(text="Display Mesh Instead")
+        header.label(text="Display Mesh")
         if body is not None:
             column = body.column(align=True)
             rows.value(column, units, "Volume", "volume", display)
-            rows.value(column, units, "Difference", "volume", display - found.volume)
-            column.label(text="{:+.3g} % of the volume".format(100.0 * (display / found.volume - 1.0)))
+            rows.value(column, units, "Difference", "volume", display - shown.volume)
+            rows.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))
     header, body = layout.panel("body_moments_bounds", default_closed=True)
     header.label(text="Error Bounds")
     if body is not None:
-        _bounds(body, obj, units, found)
+        _bounds(body, obj, units, shown)
 
 
-def _bounds(layout: UILayout, obj: Object, units: Units, found: properties.Stored) -> None:
+def _bounds(layout: UILayout, obj: Object, units: Units, shown: properties.Stored) -> None:
     sizes = {
-        "volume": found.volume,
-        "area": found.area,
-        "center_of_mass": np.abs(found.body.center).max(),
-        "inertia": found.body.principal.moments.max(),
+        "volume": shown.volume,
+        "area": shown.area,
+        "center_of_mass": np.abs(shown.body.center).max(),
+        "inertia": shown.body.principal.moments.max(),
     }
     for heading, bound in BOUNDS:
         column = layout.column(align=True)
         column.label(text=ESTIMATED if bound is None and properties.is_estimated(obj) else heading)
-        values = found.error_bound if bound is None else found.error_bound[bound]
+        values = shown.error_bound if bound is None else shown.error_bound[bound]
         for name, (label, quantity) in BOUNDED.items():
             if name in ("volume", "area") and not sizes[name]:
                 continue  # a wire has neither, a grid of densities no surface

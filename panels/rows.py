@@ -1,10 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rows of a narrow panel: values that can be copied, and sentences that wrap."""
+"""Rows of a narrow panel: values that can be copied, and sentences that wrap.
+
+Blender translates what it draws: what is a label in the source, as it is; what is filled, before that (`filled`,
+`message`). Names, numbers and filled texts are drawn as they are.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 import blf
@@ -12,13 +16,16 @@ import bpy
 import numpy as np
 from bpy.types import Context, UILayout
 
+from ..core.verdict.finding import Finding, Severity, finding
 from ..operators.actions.measure.copy import OBJECT_OT_body_moments_copy_value
-from ..operators.write.alarms import alarms
+from ..operators.write.messages import of_severity, severity
+from ..operators.write.translations import localized, localized_sentence
 from ..operators.write.units import SI_UNITS, Units
 
 LABEL, SHORT, INDEX = 0.36, 0.2, 0.1  # share of a row that its label takes, one of few letters, and of one
 MARGIN = 96  # what tabs, borders and an icon take of the region's width, in unscaled pixels
 NARROW = 80  # no line is made narrower: longer words would stand alone, and be cut off
+ICONS = {Severity.NOTE: "INFO", Severity.WARNING: "ERROR", Severity.ERROR: "CANCEL"}  # ERROR is Blender's warning sign
 
 
 def value(layout: UILayout, units: Units, label: str, quantity: str, si: float) -> None:
@@ -48,19 +55,19 @@ def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) ->
 
 def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
     """A unit vector in one row, or in three where that is too narrow."""
-    told = ["{:.4f}".format(component + 0.0).replace("-0.0000", "0.0000").replace("-", "−") for component in vector]
-    if not _fits(1.0 - INDEX, *told):
-        for name, text, component in zip("xyz", told, vector):
+    cosines = ["{:.4f}".format(component + 0.0).replace("-0.0000", "0.0000").replace("-", "−") for component in vector]
+    if not _fits(1.0 - INDEX, *cosines):
+        for name, text, component in zip("xyz", cosines, vector):
             texts(layout, "{:s} {:s}".format(label, name).strip(), text, repr(float(component)), "")
         return
     row = layout.row(align=True)
     split = row.split(factor=INDEX, align=True)
     split.label(text=label)
     cells = split.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
-    for text in told:
+    for text in cosines:
         cell = cells.row(align=True)
         cell.alignment = "RIGHT"
-        cell.label(text=text)
+        cell.label(text=text, translate=False)
     _copy(row, repr([float(component) for component in vector]), "")
 
 
@@ -77,7 +84,7 @@ def texts(layout: UILayout, label: str, text: str, exact: str, unit: str) -> Non
         cell = row
     cell = cell.row(align=True)
     cell.alignment = "RIGHT"
-    cell.label(text=text)
+    cell.label(text=text, translate=False)
     _copy(row, exact, unit)
 
 
@@ -87,34 +94,59 @@ def _copy(row: UILayout, exact: str, unit: str) -> None:
     button.unit = unit
 
 
+def filled(layout: UILayout, template: str, *values: object, icon: str = "NONE") -> None:
+    """A label that is filled after it was translated."""
+    layout.label(text=localized(template).format(*values), icon=icon, translate=False)
+
+
 def sentence(layout: UILayout, context: Context, text: str, icon: str = "NONE") -> None:
-    """A text in as many lines as the region's width asks for."""
+    """A text, already translated, in as many lines as the region's width asks for."""
     column = layout.column(align=True)
     column.scale_y = 0.85
     for i, line in enumerate(_wrapped(text, *_width(context))):
         if icon == "NONE":
-            column.label(text=line)
+            column.label(text=line, translate=False)
         else:
-            column.label(text=line, icon=icon if i == 0 else "BLANK1")
+            column.label(text=line, icon=icon if i == 0 else "BLANK1", translate=False)
 
 
-def outdated(layout: UILayout, reason: str) -> None:
+def message(layout: UILayout, context: Context, shown: Finding, icon: str = "") -> None:
+    """The sentence of a finding. icon: by default that of its severity."""
+    text = localized_sentence(shown, context.scene.unit_settings)
+    sentence(layout, context, text, icon or ICONS[severity(shown)])
+
+
+def outdated(layout: UILayout, context: Context, code: str | None) -> None:
     """Why numbers no longer hold, where they do not."""
-    if reason:
+    if code is not None:
         row = layout.row()
         row.alert = True
-        row.label(text="Out of Date: {:s}".format(reason), icon="FILE_REFRESH")
+        reason = localized_sentence(finding(code), context.scene.unit_settings)
+        sentence(row, context, localized("Out of date: {:s}").format(reason), icon="FILE_REFRESH")
 
 
-def warnings(layout: UILayout, context: Context, idname: str, sentences: Sequence[str]) -> None:
-    """A sub-panel of what was decided on the way, where there is any."""
-    if not sentences:
+def warnings(layout: UILayout, context: Context, idname: str, findings: Iterable[Finding]) -> None:
+    """A sub-panel, open at first, of what is a reason to doubt the numbers, where there is any; errors first."""
+    findings = list(findings)
+    alarming = [*of_severity(findings, Severity.ERROR), *of_severity(findings, Severity.WARNING)]
+    _listed(layout, context, idname, "Warnings ({:d})", alarming, closed=False)
+
+
+def notes(layout: UILayout, context: Context, idname: str, findings: Iterable[Finding]) -> None:
+    """A sub-panel, closed at first, of what is no such reason."""
+    _listed(layout, context, idname, "Notes ({:d})", of_severity(findings, Severity.NOTE), closed=True)
+
+
+def _listed(
+    layout: UILayout, context: Context, idname: str, heading: str, findings: Sequence[Finding], closed: bool
+) -> None:
+    if not findings:
         return
-    header, body = layout.panel(idname, default_closed=False)
-    header.label(text=("Warnings ({:d})" if alarms(sentences) else "Notes ({:d})").format(len(sentences)))
+    header, body = layout.panel(idname, default_closed=closed)
+    filled(header, heading, len(findings))
     if body is not None:
-        for one in sentences:
-            sentence(body, context, one, icon="DOT")
+        for shown in findings:
+            message(body, context, shown)
 
 
 def _fits(share: float, *cells: str) -> bool:

@@ -11,6 +11,7 @@ from bpy.types import Context, Panel, UILayout
 from ..operators.actions.measure import section as sections
 from ..operators.read.section import SECTION_TYPES
 from ..operators.write import section as record
+from ..operators.write.translations import localized
 from ..operators.write.units import SI_UNITS, Units, number
 from . import rows
 
@@ -39,24 +40,26 @@ class SectionPanel:
         obj, layout = context.object, self.layout
         layout.use_property_decorate = False
         layout.operator("object.body_moments_measure_section", icon="FACESEL")
-        found = record.stored(obj)
-        if found is None:
+        stored = record.stored(obj)
+        if stored is None:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
         units = Units.of(context.scene.unit_settings)
-        _verdict(layout, found, sections.outdated(obj, context.scene, found))
-        _numbers(layout, units, found.section)
-        _more(layout, units, found.section)
-        rows.warnings(layout, context, "body_moments_section_warnings", found.warnings)
+        _verdict(layout, context, stored, sections.outdated(obj, context.scene, stored))
+        rows.warnings(layout, context, "body_moments_section_warnings", stored.findings)
+        _numbers(layout, units, stored.section)
+        _more(layout, units, stored.section)
+        rows.notes(layout, context, "body_moments_section_notes", stored.findings)
         layout.operator("object.body_moments_copy_section", icon="COPYDOWN")
 
 
-def _verdict(layout: UILayout, found: record.StoredSection, outdated: str) -> None:
+def _verdict(layout: UILayout, context: Context, stored: record.StoredSection, outdated: str | None) -> None:
     column = layout.column(align=True)
-    counts = ((found.section.outlines, "1 Outline", "{:d} Outlines"), (found.section.holes, "1 Hole", "{:d} Holes"))
-    parts = [one if count == 1 else many.format(count) for count, one, many in counts if count]
-    column.label(text="{:s}: {:s}".format(found.what, ", ".join(parts)), icon="CHECKMARK")
-    rows.outdated(column, outdated)
+    outlines, holes = stored.section.outlines, stored.section.holes
+    counts = ((outlines, "1 Outline", "{:d} Outlines"), (holes, "1 Hole", "{:d} Holes"))
+    parts = [localized(one if count == 1 else many).format(count) for count, one, many in counts if count]
+    rows.sentence(column, context, "{:s}: {:s}".format(localized(stored.what), ", ".join(parts)), icon="CHECKMARK")
+    rows.outdated(column, context, outdated)
 
 
 def _numbers(layout: UILayout, units: Units, section) -> None:
@@ -75,12 +78,12 @@ def _numbers(layout: UILayout, units: Units, section) -> None:
     rows.heading(column, "Principal", "area_moment", section.principal)
     rows.values(column, units, ("I1", "I2"), "area_moment", section.principal)
     if section.free:
-        column.label(text="Every axis is principal", icon="INFO")
+        column.label(text="Every Axis Is Principal", icon="INFO")
     else:
         turned = degrees(section.angle)
         rows.texts(
             column,
-            "Angle x to 1",
+            "Angle from x to 1",
             "{:s}°".format(number(0.0 if abs(turned) < 1e-6 else turned)),
             repr(section.angle),
             "rad",
@@ -89,10 +92,10 @@ def _numbers(layout: UILayout, units: Units, section) -> None:
 
 def _more(layout: UILayout, units: Units, section) -> None:
     header, body = layout.panel("body_moments_section_moduli", default_closed=True)
-    header.label(text="Section Moduli, Radii of Gyration")
+    header.label(text="Section Moduli and Radii of Gyration")
     if body is not None:
         column = body.column(align=True)
-        rows.heading(column, "Elastic, Outermost Corner", "volume", section.moduli)
+        rows.heading(column, "Elastic, at the Outermost Corner", "volume", section.moduli)
         rows.values(column, units, ["W" + name for name in ABOUT], "volume", section.moduli)
         column = body.column(align=True)
         rows.heading(column, "Radii of Gyration", "length", section.radii)
@@ -101,14 +104,14 @@ def _more(layout: UILayout, units: Units, section) -> None:
     header.label(text="Plane")
     if body is not None:
         column = body.column(align=True)
-        column.label(text="x is nearest to the object's {:s} axis".format(section.plane.named))
+        rows.filled(column, "x is nearest to the object's {:s} axis", section.plane.named)
         for label, axis in zip(("x", "y", "n"), section.plane.axes.T):
             rows.direction(column, label, axis)
         column = body.column(align=True)
         rows.heading(column, "Centroid from Object Origin", "length", section.centroid)
         rows.values(column, units, ("x", "y"), "length", section.centroid, section.area**0.5)
-        column.label(text="Ix = ∫y² dA, Ixy = +∫xy dA at the centroid")
-        column.label(text="Jp = Ix + Iy, not the torsion constant")
+        column.label(text="About the centroid, Ix = ∫y² dA, Ixy = +∫xy dA")
+        column.label(text="Jp = Ix + Iy is not the torsion constant")
     header, body = layout.panel("body_moments_section_bounds", default_closed=True)
     header.label(text="Error Bounds")
     if body is not None:
@@ -120,7 +123,7 @@ def _more(layout: UILayout, units: Units, section) -> None:
         }
         for title, bounds in (
             ("Rounding, at Most", section.error),
-            ("Coordinates Stored as Float32, at Most", section.input),
+            ("Float32 Coordinates, at Most", section.input),
         ):
             column = body.column(align=True)
             column.label(text=title)

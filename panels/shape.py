@@ -1,23 +1,26 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of what a body's shape tells, wherever it lies: its symmetry, its copies, and laying one on another."""
+"""The sub-panel of a body's shape, wherever it lies: its symmetry, its copies, and moving one onto another."""
 
 from __future__ import annotations
 
 from bpy.types import Context, Object, Panel, UILayout
 
+from ..core.verdict.finding import finding
 from ..operators.session import staleness
+from ..operators.write.messages import SIMILARITY
+from ..operators.write.translations import localized
 from . import rows
 
 SHOWN = 12  # elements of a symmetry, and similar shapes
-KINDS = {"AXIS": "{:d}-Fold", "PLANE": "Mirror", "ROUND": "Round"}
+KINDS = {"AXIS": "{:d}-Fold Axis", "PLANE": "Mirror Plane", "ROUND": "Axis of Revolution"}
 ICONS = {
     "copy": "CHECKMARK",
-    "scaled copy": "FULLSCREEN_ENTER",
-    "mirror image": "MOD_MIRROR",
-    "scaled mirror": "MOD_MIRROR",
-    "copy or mirror": "QUESTION",
-    "scaled copy or mirror": "QUESTION",
+    "scaled_copy": "FULLSCREEN_ENTER",
+    "mirror": "MOD_MIRROR",
+    "scaled_mirror": "MOD_MIRROR",
+    "copy_or_mirror": "QUESTION",
+    "scaled_copy_or_mirror": "QUESTION",
     "similar": "RADIOBUT_OFF",
     "different": "X",
 }
@@ -39,7 +42,7 @@ class ShapePanel:
         row = column.row(align=True)
         row.operator("object.body_moments_find_similar", icon="VIEWZOOM")
         row.operator("object.body_moments_find_in_library", text="", icon="FILEBROWSER")
-        _found(layout, context)
+        _similar(layout, context)
 
 
 def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
@@ -47,19 +50,12 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
         return
     kept = obj.body_moments_symmetry
     column = layout.column(align=True)
-    column.label(text="Symmetry {:s}".format(kept.group), icon="CHECKMARK")
-    rows.outdated(column, staleness.symmetry_reason(obj))
+    rows.filled(column, "Symmetry {:s}", kept.group, icon="CHECKMARK")
+    rows.outdated(column, context, staleness.symmetry_reason(obj))
     if kept.compatible != kept.group:
-        text = "Moments to order 6 alone would allow {:s}".format(kept.compatible)
-        rows.sentence(column, context, text, icon="BLANK1")
-    rows.sentence(
-        column,
-        context,
-        "The {:s} lies on its images within {:.2g} of the radius of gyration".format(
-            "display mesh" if kept.of_display_mesh else "surface", kept.tolerance
-        ),
-        icon="BLANK1",
-    )
+        rows.message(column, context, finding("panel_symmetry_of_moments", group=kept.compatible), icon="BLANK1")
+    code = "panel_symmetry_tolerance_of_display_mesh" if kept.of_display_mesh else "panel_symmetry_tolerance"
+    rows.message(column, context, finding(code, share=kept.tolerance), icon="BLANK1")
     if not kept.elements:
         return
     header, body = layout.panel("body_moments_symmetry", default_closed=True)
@@ -67,41 +63,44 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
     if body is None:
         return
     column = body.column(align=True)
-    column.label(text="Directions and normals, object axes")
+    column.label(text="Directions and normals along the object's axes")
     for element in kept.elements[:SHOWN]:
-        column.label(text=KINDS[element.kind].format(element.order))
+        rows.filled(column, KINDS[element.kind], element.order)
         rows.direction(column, "", element.direction)
     if len(kept.elements) > SHOWN:
-        column.label(text="and {:d} more".format(len(kept.elements) - SHOWN))
+        rows.message(column, context, finding("and_more", count=len(kept.elements) - SHOWN), icon="BLANK1")
 
 
-def _found(layout: UILayout, context: Context) -> None:
+def _similar(layout: UILayout, context: Context) -> None:
     search = context.scene.body_moments_search
     if not search.wanted:
         return
     header, body = layout.panel("body_moments_similar", default_closed=False)
-    header.label(text="Similar to {:s}".format(search.wanted))
+    rows.filled(header, "Similar to {:s}", search.wanted)
     if body is None:
         return
     column = body.column(align=True)
     if search.looked_at:
-        column.label(text=search.looked_at, icon="FILE")
+        column.label(text=search.looked_at, icon="FILE", translate=False)
     if not search.found:
-        column.label(text="Nothing to compare with", icon="INFO")
+        rows.message(column, context, finding("panel_nothing_to_compare"))
     else:
         row = column.row()
         row.alignment = "RIGHT"
-        row.label(text="Verdict, Distance")
-    for one in search.found[:SHOWN]:
+        row.label(text="Similarity, Distance")
+    for shape in search.found[:SHOWN]:
         row = column.row(align=True)
+        icon = ICONS.get(shape.verdict, "QUESTION")
         if search.looked_at:
-            row.label(text=one.name, icon=ICONS[one.verdict])
+            row.label(text=shape.name, icon=icon, translate=False)
         else:
-            row.operator("object.body_moments_select_found", text=one.name, icon=ICONS[one.verdict]).name = one.name
+            button = row.operator("object.body_moments_select_found", text=shape.name, icon=icon, translate=False)
+            button.name = shape.name
         cell = row.row(align=True)
         cell.alignment = "RIGHT"
-        size = " ×{:.4g}".format(one.scale) if one.verdict.startswith("scaled") else ""
-        cell.label(text="{:s}{:s}, {:.2g}".format(one.verdict.title(), size, one.distance))
+        words = localized(SIMILARITY.get(shape.verdict, shape.verdict))
+        size = " ×{:.4g}".format(shape.scale) if shape.verdict.startswith("scaled") else ""
+        cell.label(text="{:s}{:s}, {:.2g}".format(words, size, shape.distance), translate=False)
 
 
 class VIEW3D_PT_body_moments_shape(ShapePanel, Panel):

@@ -6,15 +6,16 @@ from __future__ import annotations
 
 from bpy.types import Context, UILayout
 
+from ..core.verdict.finding import finding
 from ..operators.session import results
-from ..operators.session.total_caveats import LISTED
-from ..operators.write.text import listed
+from ..operators.write.messages import listed
+from ..operators.write.translations import localized
 from ..operators.write.units import Units
 from . import rows
 from .numbers import AXES, NUMBERS
 
 
-def _totals(layout: UILayout, context: Context, units: Units) -> None:
+def totals(layout: UILayout, context: Context, units: Units) -> None:
     header, body = layout.panel("body_moments_totals", default_closed=True)
     header.label(text="Total of Selection")
     if body is None:
@@ -22,16 +23,16 @@ def _totals(layout: UILayout, context: Context, units: Units) -> None:
     total = results.total(context)
     column = body.column(align=True)
     if not total.count:
-        column.label(text="No selected object is measured", icon="INFO")
+        rows.message(column, context, finding("panel_nothing_measured"))
         return
-    column.label(text="1 object" if total.count == 1 else "{:d} objects".format(total.count), icon="GROUP")
+    rows.filled(column, "1 Object" if total.count == 1 else "{:d} Objects", total.count, icon="GROUP")
     for names, text in ((total.missing, "Not measured: {:s}"), (total.outdated, "Out of date: {:s}")):
         if names:
             row = column.row()
             row.alert = True
-            rows.sentence(row, context, text.format(", ".join(listed(names, LISTED))), icon="ERROR")
-    for one in total.doubts:
-        rows.sentence(column, context, one, icon="ERROR")
+            rows.sentence(row, context, localized(text).format(listed(names)), icon="ERROR")
+    for caveat in total.findings:
+        rows.message(column, context, caveat)
     column = body.column(align=True)
     if total.body is not None:
         rows.value(column, units, "Mass", "mass", total.body.mass)

@@ -4,61 +4,66 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from bpy.types import Context, Object, UILayout
 
+from ..core.verdict.finding import Finding, finding
 from ..operators.session import live, results, staleness
 from ..operators.write import properties
+from ..operators.write.messages import METHODS
+from ..operators.write.translations import localized
 from . import rows
 
-# method: (headline, icon, explanation)
-VERDICTS = {
-    "exact": ("Exact, Closed Surface", "CHECKMARK", ""),
-    "grid exact": ("Exact, from a Grid", "VOLUME_DATA", ""),
-    "union": ("United Shells", "INFO", "By Blender's exact boolean, to 7 digits"),
-    "shell": ("Shell", "MOD_SOLIDIFY", "The mass is in the surface"),
-    "wire": ("Wire", "CURVE_DATA", "The mass is along the curve"),
-    "reoriented": ("Reoriented", "INFO", "Closed after flipped faces were turned"),
-    "capped": ("Capped", "ERROR", "The surface is open; its holes were capped"),
-    "open": ("Open", "CANCEL", "Not closed: the numbers depend on the reference point"),
+ICONS = {
+    "exact": "CHECKMARK",
+    "grid exact": "VOLUME_DATA",
+    "shell": "MOD_SOLIDIFY",
+    "wall": "MOD_SOLIDIFY",
+    "wire": "CURVE_DATA",
+    "capped": "ERROR",
+    "open": "CANCEL",
 }
+SOURCES = {"NURBS": "NURBS: {:s}", "grid": "Grid: {:s}"}  # of what was measured, before a method
 
 
-def _method_and_warnings(obj: Object) -> tuple[str, list[str]]:
+def method_and_findings(obj: Object) -> tuple[str, Sequence[Finding]]:
     """Of the numbers that are shown: live or stored."""
     now = live.shown(obj)
     if now is not None and now.measurement is not None:
-        return now.measurement.method, list(now.measurement.warnings)
-    return properties.method_and_warnings(obj)
+        return str(now.measurement.method), now.measurement.findings
+    return properties.method(obj), properties.findings(obj)
 
 
-def _verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> None:
+def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> None:
     column = layout.column(align=True)
     refusal = results.refusal(obj)
-    if refusal or not measured:
+    if refusal is not None or not measured:
         text = "Not Measured Again" if measured else "Not Measured"
-        column.label(text=text, icon="CANCEL" if refusal else "RADIOBUT_OFF")
-    if refusal:
-        rows.sentence(column, context, refusal, icon="BLANK1")
+        column.label(text=text, icon="RADIOBUT_OFF" if refusal is None else "CANCEL")
+    if refusal is not None:
+        rows.message(column, context, refusal, icon="BLANK1")
     if not measured:
         return
-    method, _ = _method_and_warnings(obj)
-    *before, last = method.split() or [""]
-    headline, icon, explanation = VERDICTS.get(method) or VERDICTS.get(last, (method.title(), "INFO", ""))
-    before = [] if method in VERDICTS else [word[:1].upper() + word[1:] for word in before]
-    column.label(text=" ".join([*before, headline]), icon=icon)
-    if last == "shell" and obj.body_moments.wall != "THIN":
-        explanation = "The mass is in walls of real thickness"
-    if explanation:
-        rows.sentence(column, context, explanation, icon="BLANK1")
+    _headline(column, context, *method_and_findings(obj))
     now = live.shown(obj)
     if now is not None and now.measurement is not None:
         if live.is_outdated(obj, context.scene):
-            row = column.row()
-            row.alert = True
-            row.label(text="Out of Date: Settings Changed", icon="FILE_REFRESH")
+            rows.outdated(column, context, "stale_settings")
             return
-        column.label(text="Live, in {:.0f} ms: Measure Stores It".format(1e3 * now.seconds), icon="REC")
+        rows.message(column, context, finding("panel_live", milliseconds=1e3 * now.seconds), icon="REC")
         return
     if now is not None:
-        rows.sentence(column, context, now.reason, icon="ERROR")
-    rows.outdated(column, staleness.reason(obj, context.scene))
+        rows.message(column, context, now.refusal)
+    rows.outdated(column, context, staleness.reason(obj, context.scene))
+
+
+def _headline(column: UILayout, context: Context, method: str, findings: Sequence[Finding]) -> None:
+    """What the method was, in two lines. A method of another version of the add-on speaks for itself."""
+    source, last = ("", method) if method in METHODS else method.rpartition(" ")[::2]
+    if last == "shell" and any(one.code == "wall_measured" for one in findings):
+        last = "wall"
+    headline, explanation = METHODS.get(last, (last.title(), ""))
+    rows.filled(column, SOURCES.get(source, "{:s}"), localized(headline), icon=ICONS.get(last, "INFO"))
+    if explanation:
+        rows.sentence(column, context, localized(explanation), icon="BLANK1")

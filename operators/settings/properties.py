@@ -36,78 +36,78 @@ class BodyMomentsObjectSettings(PropertyGroup):
 
     kind: EnumProperty(
         name="Kind",
-        description="What the surface stands for",
+        description="What the geometry of the object represents",
         items=(
-            ("SOLID", "Solid", "The surface bounds a body that is filled with the material"),
-            ("SHELL", "Shell", "The surface itself is a sheet of the given thickness"),
-            ("WIRE", "Wire", "A curve itself is a wire of the given mass per length"),
+            ("SOLID", "Solid", "The surface bounds a volume filled with material"),
+            ("SHELL", "Shell", "The surface is a sheet or wall of the given thickness"),
+            ("WIRE", "Wire", "The curve is a wire of the given mass per length"),
         ),
         default="SOLID",
     )
     mass_from: EnumProperty(
-        name="Mass From",
-        description="Which of mass and density is given; the other follows from the geometry",
+        name="Specify",
+        description="Whether density or mass is entered; the other is computed",
         items=(
-            ("DENSITY", "Density", "The density is given, the mass follows"),
-            ("MASS", "Mass", "The mass is given, as weighed, and the density follows"),
+            ("DENSITY", "Density", "Enter the density and compute the mass"),
+            ("MASS", "Mass", "Enter the measured mass and compute the mean density"),
         ),
         default="DENSITY",
     )
     density_from: EnumProperty(
         name="Density From",
-        description="Where the density comes from",
+        description="Source of the density",
         items=(
             ("VALUE", "One Value", "The same density everywhere"),
             (
                 "MATERIALS",
                 "Materials",
-                "Each material's own: of a shell by face, of a solid by closed part. Faces without a material that "
-                "has a density take the object's",
+                "Density of each material, per face of a shell and per closed component of a solid. Faces whose "
+                "material has no density use the object's",
             ),
             (
                 "POLYNOMIAL",
                 "Polynomial",
-                "A polynomial in x, y and z, in kg/m³ where coordinates are in meters",
+                "Polynomial in x, y and z, in kg/m³ for coordinates in meters",
             ),
             (
                 "ATTRIBUTE",
                 "Vertex Attribute",
-                "Of a shell: a float attribute on its vertices, in kg/m³, linear in between",
+                "Float attribute on the vertices of a shell, in kg/m³, interpolated linearly",
             ),
-            ("VOLUME", "Volume Object", "Of a solid: the grid of a Volume object, constant in each voxel"),
+            ("VOLUME", "Volume Object", "Grid of a Volume object around a solid, constant in each voxel"),
         ),
         default="VALUE",
     )
     density_polynomial: StringProperty(
         name="Polynomial",
         description=(
-            "kg/m³, of x, y, z in meters, such as 1000 + 20*z; or its coefficients for 1, x, y, z, x², xy, xz, "
-            "y², yz, z², … separated by commas"
+            "Density in kg/m³ for x, y and z in meters, such as 1000 + 20*z. Alternatively the coefficients of 1, x, "
+            "y, z, x², xy, xz, y², yz, z², … separated by commas"
         ),
         default="1000",
     )
     density_frame: EnumProperty(
         name="Coordinates",
-        description="What x, y and z of the polynomial are",
+        description="Coordinate system of x, y and z in the polynomial",
         items=(
             (
                 "OBJECT",
-                "Own",
-                "Meters along the object's own axes from its origin; a negative scale mirrors them, and instances "
-                "carry the density along, each in its own place",
+                "Object",
+                "Meters along the object's axes from its origin, mirrored by a negative scale. Each instance has its "
+                "own",
             ),
-            ("WORLD", "World", "Meters along the world's axes from its origin"),
+            ("WORLD", "World", "Meters along the world axes from the world origin"),
         ),
         default="OBJECT",
     )
     density_attribute: StringProperty(
         name="Attribute",
-        description="Name of a float attribute on the vertices, kg/m³, as the modifiers leave it",
+        description="Float attribute on the vertices with the density in kg/m³, after modifiers",
         default="density",
     )
     density: FloatProperty(
         name="Density",
-        description="Density in kg/m³, whatever the scene's units are. Type lb/ft³ as 170*16.0185",
+        description="Density in kg/m³, independent of the scene units. Type lb/ft³ as 170*16.0185",
         default=1000.0,
         min=0.0,
         soft_min=0.01,
@@ -118,7 +118,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     linear_density: FloatProperty(
         name="Linear Density",
-        description="Mass per length of a wire, in kg/m, whatever the scene's units are",
+        description="Mass per length of the wire in kg/m, independent of the scene units",
         default=1.0,
         min=0.0,
         step=10,
@@ -126,7 +126,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     mass: FloatProperty(
         name="Mass",
-        description="Mass in kilograms, whatever the scene's units are. Type pounds as 5*0.45359237",
+        description="Mass in kilograms, independent of the scene units. Type pounds as 5*0.45359237",
         default=1.0,
         min=0.0,
         step=10,
@@ -134,15 +134,15 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     wall: EnumProperty(
         name="Wall",
-        description="Where the material of the shell is",
+        description="Position of the material relative to the surface",
         items=(
-            ("THIN", "Thin", "In the surface itself: area times thickness, good for thin sheets"),
-            ("INWARD", "Inward", "Behind the faces, as real material with mitred corners"),
-            ("OUTWARD", "Outward", "In front of the faces, as real material with mitred corners"),
+            ("THIN", "Thin", "Area times thickness, for thin sheets"),
+            ("INWARD", "Inward", "Real thickness behind the faces, with mitered corners"),
+            ("OUTWARD", "Outward", "Real thickness in front of the faces, with mitered corners"),
             (
                 "CENTERED",
                 "Centered",
-                "Half behind the faces, half in front, as real material with mitred corners",
+                "Real thickness, half behind and half in front of the faces, with mitered corners",
             ),
         ),
         default="THIN",
@@ -150,7 +150,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     thickness: FloatProperty(
         name="Thickness",
-        description="Thickness of the sheet",
+        description="Thickness of the sheet or wall",
         default=0.001,
         min=0.0,
         precision=6,
@@ -159,46 +159,46 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     overlap: EnumProperty(
         name="Overlaps",
-        description=("What is measured where shells of this object overlap or lie inside one another"),
+        description="How overlapping or nested components of the object count",
         items=(
             (
                 "SIGNED",
-                "Counted Each",
-                "Every shell counts; what two of them share counts twice, with a warning",
+                "Count Each Shell",
+                "Every component counts fully; shared space counts twice, with a warning",
             ),
-            ("UNION", "United", "Shells are united first, by Blender's exact boolean"),
+            ("UNION", "Count as Union", "Components are united first by Blender's exact Boolean"),
         ),
         default="SIGNED",
     )
     material: StringProperty(
         name="Material",
-        description="Name of the material that the density was taken from",
+        description="Material that the density was taken from",
     )
     grid: StringProperty(
         name="Grid",
-        description="Name of the grid that is measured; empty for “density”, or else the first that can be one",
+        description="Grid to measure. If empty, “density” or else the first suitable grid",
     )
     grid_as: EnumProperty(
         name="Measure As",
-        description="What the values of the grid are",
+        description="What the values of the grid represent",
         items=(
-            ("DENSITY", "Density", "The values tell how much mass there is at each place"),
-            ("SOLID", "Solid", "The grid is a level set: the solid that it bounds is filled with the material"),
+            ("DENSITY", "Density", "The values determine the density of each voxel"),
+            ("SOLID", "Solid", "The grid is a level set that bounds a solid filled with material"),
         ),
         default="DENSITY",
     )
     values_from: EnumProperty(
         name="Values",
-        description="How the values of the grid become densities",
+        description="How grid values are converted to densities",
         items=(
-            ("FACTOR", "Factor", "Each value times the same density"),
-            ("TABLE", "Table", "By a transfer table, as for CT numbers"),
+            ("FACTOR", "Factor", "Multiply the values by a density"),
+            ("TABLE", "Table", "Use a transfer table, for example for CT numbers"),
         ),
         default="FACTOR",
     )
     value_density: FloatProperty(
         name="Density of Value 1",
-        description="Density in kg/m³ where the grid's value is 1",
+        description="Density in kg/m³ where the grid value is 1",
         default=1.0,
         min=0.0,
         soft_max=25000.0,
@@ -208,21 +208,21 @@ class BodyMomentsObjectSettings(PropertyGroup):
     transfer_table: StringProperty(
         name="Transfer Table",
         description=(
-            "Pairs of a value and a density in kg/m³, separated by commas; straight between them, constant beyond. "
-            "The default turns CT numbers into tissue densities"
+            "Pairs of a grid value and a density in kg/m³, separated by commas. Linear in between, constant beyond. "
+            "The default converts CT numbers to tissue densities"
         ),
         default=CT,
     )
     spline_order: IntProperty(
         name="Spline Order",
-        description="The values are the coefficients of a spline of this order: 1 voxels, 2 trilinear, 4 cubic",
+        description="Order of the spline whose coefficients the values are: 1 for voxels, 2 for trilinear, 4 for cubic",
         default=1,
         min=1,
         max=6,
     )
     density_volume: PointerProperty(
         name="Volume",
-        description="The Volume object whose grid is the density inside of this solid",
+        description="Volume object whose grid is the density inside the solid",
         type=Object,
         poll=lambda _settings, obj: obj.type == "VOLUME",
     )
@@ -233,7 +233,7 @@ class BodyMomentsMaterialSettings(PropertyGroup):
 
     density: FloatProperty(
         name="Density",
-        description="Density in kg/m³, whatever the scene's units are; 0 for none, then the object's is taken",
+        description="Density in kg/m³, independent of the scene units. At 0, the density of the object is used",
         default=0.0,
         min=0.0,
         soft_max=25000.0,
@@ -243,7 +243,7 @@ class BodyMomentsMaterialSettings(PropertyGroup):
     )
     material: StringProperty(
         name="Material",
-        description="Name of the entry that the density was taken from",
+        description="Entry of the material table that the density was taken from",
     )
 
 
@@ -252,40 +252,40 @@ class BodyMomentsSceneSettings(PropertyGroup):
 
     frame: EnumProperty(
         name="Frame",
-        description=("The axes and origin that the center of mass, the axes and the tensor are shown in"),
+        description="Axes and origin in which the center of mass, the axes and the tensor are shown",
         items=(
-            ("WORLD", "World", "The scene's axes and origin"),
-            ("OBJECT", "Object", "The object's own location and rotation, with unit scale"),
+            ("WORLD", "World", "World axes and origin"),
+            ("OBJECT", "Object", "Location and rotation of the object, with unit scale"),
         ),
         default="WORLD",
     )
     moments_order: IntProperty(
         name="Order",
-        description="The highest p + q + r of the moments ∫ x^p y^q z^r that are computed",
+        description="Highest p + q + r of the computed moments ∫ x^p y^q z^r",
         default=4,
         min=1,
         max=MAX_ORDER,
         soft_max=20,
     )
     moments_of: EnumProperty(
-        name="Over",
-        description="What the moments are integrals over; no density is in them",
+        name="Domain",
+        description="What the moments integrate over, without density",
         items=(
-            ("VOLUME", "Volume", "The volume; of a shell, its area times its thickness"),
-            ("SURFACE", "Surface", "The area of the faces"),
+            ("VOLUME", "Volume", "Volume. For shells, area times thickness"),
+            ("SURFACE", "Surface", "Area of the faces"),
         ),
         default="VOLUME",
     )
     moments_about: EnumProperty(
         name="About",
-        description="The point that coordinates are measured from",
+        description="Point that the coordinates are relative to",
         items=(
-            ("ORIGIN", "Frame's Origin", "The origin of the frame that is chosen"),
-            ("CENTER", "Center", "The center of the volume, or of the surface: central moments"),
+            ("ORIGIN", "Frame Origin", "Origin of the chosen frame"),
+            ("CENTER", "Center", "Center of the volume or surface: central moments"),
             (
                 "NORMALIZED",
                 "Center, Normalized",
-                "Central moments of the body scaled to a volume, or an area, of 1: the same for every size",
+                "Central moments of the shape scaled to a volume or area of 1, independent of size",
             ),
         ),
         default="ORIGIN",

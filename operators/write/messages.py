@@ -7,7 +7,7 @@ Values stay numbers, strings, booleans and lists; only the table formats them:
 
     {share:percent}      a fraction, as 12.3%                {samples:size}   integers, as 2 x 3 x 4
     {thickness:length}   meters, as the scene shows them     {point:point}    three of these
-    {names}              a list, the first 8: “A”, “B”, 3 more
+    {names}              a list, the first 8: “A”, “B”, 3 more    {side:word}     a word of ours, to be translated
     {cause}, {causes}    another finding, or several ({"code", "values"}): their messages
     {elements}           what it is about (`Finding.elements`, of which there are `count`): 3, 5, 9, or 3 of “Cube”
 
@@ -80,6 +80,8 @@ class _Formatter(string.Formatter):
             return "{:.3g}%".format(100.0 * value)
         if format_spec == "length":
             return self.lengths(value)
+        if format_spec == "word":
+            return self.translate(value)
         if format_spec == "size":
             return " x ".join("{:d}".format(number) for number in value)
         if format_spec == "point":
@@ -458,7 +460,9 @@ MESSAGES: dict[str, Message] = {
     "open_patches_order": _error("The surface is open, so moments above order 3 are not known. Choose a lower order."),
     # ------------------------------------------------------------------ Walls
     "no_thickness": _error("The shell has no thickness. Set Thickness."),
-    "wall_measured": _note("The wall was measured with real thickness: {thickness:length}, {side}, mitered corners."),
+    "wall_measured": _note(
+        "The wall was measured with real thickness: {thickness:length}, {side:word}, mitered corners."
+    ),
     "wall_unoriented": _warning(
         "The surface is not closed; “inward” is behind its faces as they are. Use Mesh > Normals > Flip to change"
         " sides."
@@ -480,11 +484,11 @@ MESSAGES: dict[str, Message] = {
         "join them."
     ),
     "wall_folds": _error(
-        "A wall of {thickness:length} ({side}) folds over itself near {point:point}; the largest is {largest:length}. "
-        "Reduce Thickness, change Wall, or set Wall to Thin."
+        "A wall of {thickness:length} ({side:word}) folds over itself near {point:point}; the largest is "
+        "{largest:length}. Reduce Thickness, change Wall, or set Wall to Thin."
     ),
     "wall_folds_somewhere": _error(
-        "A wall of {thickness:length} ({side}) folds over itself; the largest is {largest:length}. Reduce "
+        "A wall of {thickness:length} ({side:word}) folds over itself; the largest is {largest:length}. Reduce "
         "Thickness, change "
         "Wall, or set Wall to Thin."
     ),
@@ -593,8 +597,8 @@ MESSAGES: dict[str, Message] = {
         "The density may be negative inside the object, though no tested point shows it."
     ),
     "density_negative": _error(
-        "The density is negative: {density:.4g} kg/m³ at {point:point} in {frame} coordinates. Change Polynomial or "
-        "Coordinates."
+        "The density is negative: {density:.4g} kg/m³ at {point:point} in {frame:word} coordinates. Change Polynomial "
+        "or Coordinates."
     ),
     # where a density comes from (the panel, `density_from` of records, body_density_from)
     "density_from_value": _note("one value"),
@@ -602,9 +606,9 @@ MESSAGES: dict[str, Message] = {
     "density_from_samples": _note("samples"),
     "density_from_grid": _note("grid “{grid}”"),
     "density_from_grid_of": _note("grid “{grid}” of “{object}”"),
-    "density_from_polynomial": _note("polynomial {polynomial}, in {frame} coordinates"),
+    "density_from_polynomial": _note("polynomial {polynomial}, in {frame:word} coordinates"),
     "density_from_coefficients": _note(
-        "polynomial with the coefficients {polynomial} of 1, x, y, z, …, in {frame} coordinates"
+        "polynomial with the coefficients {polynomial} of 1, x, y, z, …, in {frame:word} coordinates"
     ),
     "density_from_attribute": _note("vertex attribute “{attribute}”"),
     "density_from_materials": _note("materials: {materials}"),
@@ -844,15 +848,15 @@ MESSAGES: dict[str, Message] = {
     "mirror_image": _error("A mirror image of the active object, which no rotation can match."),
     # ------------------------------------------------------------------ Fourier transform
     "fourier_of_wire": _error(
-        "The Fourier transform of a wire is not available. Set Kind to Solid or Shell, or Of to Area."
+        "The Fourier transform of a wire is not available. Set Kind to Solid or Shell, or Domain to Surface."
     ),
     "fourier_of_open_surface": _error(
-        "The surface is open and bounds no body. Close it, set Kind to Shell, or set Of to Area."
+        "The surface is open and bounds no body. Close it, set Kind to Shell, or set Domain to Surface."
     ),
     "fourier_of_wall": _error(
-        "The Fourier transform needs a thin shell. Set Wall to Thin or Of to Area, or apply a Solidify modifier."
+        "The Fourier transform needs a thin shell. Set Wall to Thin or Domain to Surface, or apply a Solidify modifier."
     ),
-    "fourier_no_extent": _error("The object has no extent. Set Largest rad/m."),
+    "fourier_no_extent": _error("The object has no extent. Set Max Frequency."),
     "fourier_approximate": _note(
         "The fast Fourier transform of this grid is accurate to {share:g} of its value at 0. Use --q for the "
         "closed form."
@@ -957,8 +961,8 @@ MESSAGES: dict[str, Message] = {
     "parent_scale_zero": _error("The parent has a zero scale. Set it."),
     "parent_or_delta_scale_zero": _error("The parent's scale or the delta scale is zero. Clear it."),
     "parent_shears": _error("The parent shears the object. Clear the parent, or apply its scale."),
-    "channel_locked": _error("The {channel} is locked. Unlock it in Object Properties > Transform."),
-    "channel_animated": _error("The {channel} is animated or driven. Remove the animation."),
+    "channel_locked": _error("The {channel:word} is locked. Unlock it in Object Properties > Transform."),
+    "channel_animated": _error("The {channel:word} is animated or driven. Remove the animation."),
     "location_constrained": _error("A constraint or the parent holds the location. Apply or remove it."),
     "rotation_constrained": _error("A constraint or the parent holds the rotation or scale. Apply or remove it."),
     "collection_instance": _error(
@@ -1035,7 +1039,7 @@ MESSAGES: dict[str, Message] = {
         "The center of mass stays {distance:length} short. Select more vertices, or a nearer point."
     ),
     "balance_short_by_limit": _error(
-        "With Largest Move {limit:length} the center of mass stays {distance:length} short. Raise Largest Move, "
+        "With Max Distance {limit:length} the center of mass stays {distance:length} short. Raise Max Distance, "
         "or select more vertices."
     ),
     "balance_folds_faces": _error(

@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel says, drawn into a layout that writes everything down."""
+"""What the panel shows, drawn into a layout that writes everything down."""
 
 from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.verdict.finding import finding
 
 from tests.blender.bodies import add, measured, mesh_body, only, strip_mesh
 
@@ -38,9 +39,10 @@ class Layout:
     def separator(self, **_options):
         pass
 
-    def label(self, text="", icon="NONE"):
-        assert icon in bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items
-        self.record.append(("label", text))
+    def label(self, text="", icon="NONE", **options):
+        parameters = bpy.types.UILayout.bl_rna.functions["label"].parameters
+        assert icon in parameters["icon"].enum_items and {*options} <= {*parameters.keys()}
+        self.record.append(("label", text, options.get("translate", True)))
 
     def prop(self, data, name, text=None, **_options):
         assert name in data.bl_rna.properties
@@ -86,6 +88,19 @@ def labels(record):
     return [entry[1] for entry in record if entry[0] == "label"]
 
 
+def shows(record, code, **values):
+    """Whether the sentence of a finding is drawn, in however many lines."""
+    return str(finding(code, **values)) in " ".join(labels(record))
+
+
+def findings_of(obj, severity=None):
+    """The codes that are stored, all or of one severity."""
+    from body_moments.operators.write import messages, properties
+
+    found = properties.findings(obj)
+    return [one.code for one in (found if severity is None else messages.of_severity(found, severity))]
+
+
 def copied(record, unit):
     return [
         entry[2].value
@@ -94,7 +109,7 @@ def copied(record, unit):
     ]
 
 
-def test_both_panels_draw_and_an_object_without_results_is_told_as_such():
+def test_both_panels_draw_and_show_that_an_object_has_no_results():
     add(mesh_body())
     assert "Not Measured" in labels(drawn())
     assert bpy.types.VIEW3D_PT_body_moments.bl_category == "Moments"
@@ -106,12 +121,12 @@ def test_why_an_object_could_not_be_measured_is_shown_until_it_is():
     flat.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
     obj = add(flat)
     bpy.ops.object.body_moments_measure()
-    shown = " ".join(labels(drawn()))
-    assert "Not Measured" in shown and "face" in shown
+    record = drawn()
+    assert "Not Measured" in labels(record) and shows(record, "only_loose_geometry", vertices=2, edges=1)
     obj.data = mesh_body()
     bpy.ops.object.body_moments_measure()
     assert "Not Measured" not in labels(drawn())
-    assert "Exact, Closed Surface" in labels(drawn())
+    assert "Exact" in labels(drawn())
 
 
 def test_a_refusal_beside_stored_numbers_does_not_deny_them():
@@ -120,7 +135,7 @@ def test_a_refusal_beside_stored_numbers_does_not_deny_them():
     obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "-1"
     bpy.ops.object.body_moments_measure()
     found = labels(drawn())
-    assert "Not Measured Again" in found and "Not Measured" not in found and "Exact, Closed Surface" in found
+    assert "Not Measured Again" in found and "Not Measured" not in found and "Exact" in found
 
 
 def test_a_refusal_is_not_held_against_other_settings():
@@ -128,19 +143,19 @@ def test_a_refusal_is_not_held_against_other_settings():
     settings = obj.body_moments
     settings.density_from, settings.density_polynomial = "POLYNOMIAL", "1000+"
     bpy.ops.object.body_moments_measure()
-    assert "polynomial" in " ".join(labels(drawn()))
+    assert shows(drawn(), "polynomial_syntax_at", part="1000+")
     settings.density_from = "VALUE"
-    assert "Not Measured" in labels(drawn()) and "polynomial" not in " ".join(labels(drawn()))
+    assert "Not Measured" in labels(drawn()) and not shows(drawn(), "polynomial_syntax_at", part="1000+")
     settings.density_from = "POLYNOMIAL"
-    assert "polynomial" in " ".join(labels(drawn()))
+    assert shows(drawn(), "polynomial_syntax_at", part="1000+")
 
 
-def test_a_flat_solid_is_told_of_walls_and_sections():
+def test_a_flat_solid_gets_the_remedies_shell_and_section():
     flat = bpy.data.meshes.new("Flat")
     flat.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
     add(flat)
     bpy.ops.object.body_moments_measure()
-    assert "a flat one as a section" in " ".join(labels(drawn()))
+    assert shows(drawn(), "no_volume")
 
 
 def test_every_kind_of_object_can_be_active():
@@ -184,7 +199,7 @@ def test_the_order_is_that_of_cad_dialogs():
     bpy.ops.object.body_moments_measure()
     found = labels(drawn())
     order = [
-        "Exact, Closed Surface",
+        "Exact",
         "Mass",
         "Density",
         "Volume",
@@ -194,7 +209,7 @@ def test_the_order_is_that_of_cad_dialogs():
         "Principal Axes",
         "Radii of Gyration",
         "Inertia Tensor",
-        "Snap",
+        "Apply to Object",
         "Total of Selection",
     ]
     places = [found.index(text) for text in order]
@@ -231,7 +246,7 @@ def test_the_frame_shown_is_the_frame_chosen(frame, unit):
     assert np.abs(shown.radii_of_gyration / truth.radii_of_gyration - 1.0).max() < 1e-12
 
 
-def test_the_total_tells_what_may_be_no_part_of_it(capfd):
+def test_the_total_shows_what_may_be_no_part_of_it(capfd):
     """Without a window there is no clipboard: the whole report goes to the standard output."""
     from body_moments.operators.session import results
 
@@ -240,31 +255,32 @@ def test_the_total_tells_what_may_be_no_part_of_it(capfd):
     body.modifiers.new("Cut", "BOOLEAN").object = cutter
     only(body, cutter)
     bpy.ops.object.body_moments_measure()
-    (told,) = results.total(bpy.context).doubts
-    assert "“Cutter” of “Body”" in told
-    assert "Operands of Boolean" in " ".join(labels(drawn()))
+    (caveat,) = results.total(bpy.context).findings
+    assert caveat.code == "total_boolean_operands" and "“Cutter” of “Body”" in str(caveat)
+    assert shows(drawn(), caveat.code, **caveat.values)
     bpy.ops.object.body_moments_copy_report()
-    assert told in capfd.readouterr().out
+    assert str(caveat) in capfd.readouterr().out
     body.modifiers.clear()
     bpy.context.view_layer.update()
-    assert "displayed as wire" in results.total(bpy.context).doubts[0]
+    assert [one.code for one in results.total(bpy.context).findings] == ["total_hidden_objects"]
     only(cutter)
     bpy.context.view_layer.update()
-    assert results.total(bpy.context).doubts == ()
+    assert results.total(bpy.context).findings == ()
 
 
-def test_the_total_tells_that_an_open_body_makes_it_stand_on_nothing(capfd):
+def test_the_total_shows_that_an_open_body_makes_it_depend_on_a_point(capfd):
     from body_moments.operators.session import results
 
     only(add(mesh_body(), "Body"), add(strip_mesh(), "Strip"))
     bpy.ops.object.body_moments_measure()
-    (told,) = results.total(bpy.context).doubts
-    assert "reference point" in told and "“Strip”" in told and "“Body”" not in told
+    (caveat,) = results.total(bpy.context).findings
+    assert caveat.code == "total_of_open_objects"
+    assert "“Strip”" in str(caveat) and "“Body”" not in str(caveat)
     bpy.ops.object.body_moments_copy_report()
-    assert told in capfd.readouterr().out
+    assert str(caveat) in capfd.readouterr().out
 
 
-def test_what_is_rounding_in_a_totals_center_is_told_as_0():
+def test_what_is_rounding_in_a_totals_center_is_shown_as_0():
     for turn in ((0.3, 0.2, 0.1), (0.1, 0.5, 0.7)):
         bpy.ops.mesh.primitive_cylinder_add(vertices=7, rotation=turn)
     bpy.ops.object.select_all(action="SELECT")
@@ -293,11 +309,11 @@ def test_totals_have_parallel_axis_terms():
     moments = truth.principal.moments
     assert np.abs(total.body.principal.moments - moments).max() < 1e-9 * moments.max()
     found = labels(drawn())
-    assert "3 objects" in found
-    assert "Not measured: Not Measured" in " ".join(found)
+    assert "3 Objects" in found
+    assert "Not measured: “Not Measured”" in " ".join(found)
     objects[1].body_moments.density = 5.0
     bpy.context.view_layer.update()
-    assert "Out of date: 1" in " ".join(labels(drawn()))
+    assert "Out of date: “1”" in " ".join(labels(drawn()))
 
 
 def test_damaged_results_are_not_shown():
@@ -309,21 +325,55 @@ def test_damaged_results_are_not_shown():
     assert "Not Measured" in labels(drawn())
 
 
-def test_warnings_are_wrapped_and_complete():
+def store_findings(obj, *findings):
+    from body_moments.operators.write import properties
+
+    obj["body_findings"] = properties.findings_text(findings)
+
+
+FOUND = (finding("t_junctions", count=3), finding("overlap_unchecked", count=2), finding("no_faces"))
+
+
+def test_warnings_are_shown_wrapped_before_the_numbers_and_notes_behind_them_errors_first():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
-    sentence = "This is a long warning that does not fit into one line of a narrow panel, whatever its font is"
-    obj["body_warnings"] = sentence
+    assert not any(label.startswith(("Warnings", "Notes")) for label in labels(drawn()))
+    store_findings(obj, *FOUND)
     found = labels(drawn())
-    lines = found[found.index("Warnings (1)") + 1 :]
-    lines = lines[: lines.index("Snap")]
-    assert " ".join(lines) == sentence and len(lines) > 2
+    start, end, behind = found.index("Warnings (2)"), found.index("Mass"), found.index("Notes (1)")
+    assert start < end < behind < found.index("Apply to Object")
+    assert " ".join(found[start + 1 : end]) == "{} {}".format(FOUND[2], FOUND[1])
+    assert end - start > 4  # lines
+    assert " ".join(found[behind + 1 :]).startswith(str(FOUND[0]))
+
+
+def test_warnings_are_open_and_notes_closed_at_first(monkeypatch):
+    closed = {}
+
+    def panel(self, name, default_closed=False):
+        closed[name] = default_closed
+        return self._sub(), self._sub()
+
+    monkeypatch.setattr(Layout, "panel", panel)
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    store_findings(obj, *FOUND)
+    drawn()
+    assert closed["body_moments_warnings"] is False and closed["body_moments_notes"] is True
+
+
+def test_findings_that_are_damaged_or_of_another_version_do_not_stop_the_panel():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    for text in ("", "[", "{}", '[{"code": "of_the_future", "values": {}}]', '[{"code": "holes_capped"}]', "[1]"):
+        obj["body_findings"] = text
+        assert "Exact" in labels(drawn())
+    obj["body_method"] = "guess"
+    assert "Guess" in labels(drawn())
 
 
 @pytest.mark.parametrize("kind", ["FONT", "META", "CURVE"])
-def test_polygons_that_stand_for_a_curve_are_told_and_no_alarm(kind, capfd):
-    from body_moments.operators.write import report
-
+def test_polygons_that_stand_for_a_curve_are_a_note_and_no_warning(kind, capfd):
     if kind == "META":
         bpy.ops.object.metaball_add()
         bpy.context.object.data.render_resolution = bpy.context.object.data.resolution
@@ -336,13 +386,15 @@ def test_polygons_that_stand_for_a_curve_are_told_and_no_alarm(kind, capfd):
     bpy.ops.object.body_moments_measure()
     obj = bpy.context.object
     out = capfd.readouterr().out
-    assert "polygons that Blender draws" in obj["body_warnings"]
+    assert {"surface_drawn_as_polygons", "curves_drawn_as_polygons"} & {*findings_of(obj, "note")}
+    assert not findings_of(obj, "warning") and obj["body_warnings"] == ""
     assert "Info: Measured {:s}\n".format(obj.name) in out and "Warning" not in out
-    assert any(label.startswith("Notes (") for label in labels(drawn()))
-    assert "the surface itself" not in report.report_text(bpy.context, [obj])
+    found = labels(drawn())
+    assert any(label.startswith("Notes (") for label in found)
+    assert not any(label.startswith("Warnings (") for label in found)
 
 
-def test_a_density_from_a_grid_is_told_and_no_alarm(tmp_path, capfd):
+def test_a_density_from_a_grid_is_shown_and_no_warning(tmp_path, capfd):
     from tests.blender.grids import vdb_grid, volume_object
 
     only(volume_object(tmp_path / "a.vdb", vdb_grid(np.ones((4, 4, 4), np.float32))))
@@ -351,21 +403,24 @@ def test_a_density_from_a_grid_is_told_and_no_alarm(tmp_path, capfd):
     assert "Notes (2)" in labels(drawn())
 
 
-def test_faces_of_a_mesh_that_are_not_flat_are_an_alarm():
+def test_faces_of_a_mesh_that_are_not_planar_are_a_warning():
     obj = add(mesh_body())
     obj.data.vertices[3].co.z += 0.2
     obj.data.update()
     bpy.ops.object.body_moments_measure()
-    assert "not flat" in obj["body_warnings"] and "Warnings (1)" in labels(drawn())
+    assert findings_of(obj, "warning") == ["non_planar_faces"] and "Warnings (1)" in labels(drawn())
 
 
-def test_an_alarm_beside_a_plain_statement_is_one(capfd):
+def test_a_warning_beside_a_note_is_one(capfd):
     bpy.ops.curve.primitive_bezier_circle_add()
     curve = bpy.context.object.data
     curve.bevel_depth, curve.render_resolution_u = 0.1, 30
     bpy.ops.object.body_moments_measure()
     assert "Warning: Measured BézierCircle, with warnings" in capfd.readouterr().out.replace("Bezier", "Bézier")
-    assert any(label.startswith("Warnings (") for label in labels(drawn()))
+    found = labels(drawn())
+    assert any(label.startswith("Warnings (") for label in found) and any(
+        label.startswith("Notes (") for label in found
+    )
 
 
 def test_sentences_fit_into_the_narrowest_sidebar():
@@ -415,7 +470,10 @@ def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
 
 
 def outdated():
-    return [text for text in labels(drawn()) if text.startswith("Out of Date")]
+    """The code of the reason that is shown, if any."""
+    text = " ".join(labels(drawn(closed=("body_moments_totals",))))
+    codes = ("settings", "geometry", "transform")
+    return [code for code in codes if "Out of date: {}".format(finding("stale_" + code)) in text]
 
 
 def test_out_of_date_after_a_change_of_transform_settings_or_geometry_and_not_after_measuring():
@@ -426,19 +484,19 @@ def test_out_of_date_after_a_change_of_transform_settings_or_geometry_and_not_af
     assert not outdated()
     obj.location.x = 2.0
     update()
-    assert outdated() == ["Out of Date: Transform Changed"]
+    assert outdated() == ["transform"]
     obj.location.x = 0.0
     update()
     assert not outdated()
     obj.body_moments.density = 7000.0
-    assert outdated() == ["Out of Date: Settings Changed"]
+    assert outdated() == ["settings"]
     bpy.ops.object.body_moments_measure()
     update()
     assert not outdated()
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
     update()
-    assert outdated() == ["Out of Date: Geometry Changed"]
+    assert outdated() == ["geometry"]
     bpy.ops.object.body_moments_measure()
     update()
     assert not outdated()
@@ -528,7 +586,7 @@ def test_the_panel_shows_the_settings_of_each_source_of_density():
     obj.body_moments.density_from = "ATTRIBUTE"
     assert "density_attribute" in settings_drawn(obj)
     obj.body_moments.density_from = "MATERIALS"
-    assert settings_drawn(obj).count("density") == 1 and "It has no material slots" in labels(drawn())
+    assert settings_drawn(obj).count("density") == 1 and shows(drawn(), "panel_no_material_slots")
     for name in ("Steel", "Cork"):
         obj.data.materials.append(bpy.data.materials.new(name))
     obj.data.materials.append(bpy.data.materials["Cork"])  # one row for each material
@@ -539,25 +597,27 @@ def test_the_panel_shows_the_settings_of_each_source_of_density():
     assert "density_from" not in settings_drawn(obj)
 
 
-def test_the_panel_says_where_the_density_came_from():
+def test_the_panel_shows_where_the_density_came_from():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
-    assert not [text for text in labels(drawn()) if text.startswith("The mean")]
+    assert not [text for text in labels(drawn()) if text.startswith("Mean density")]
     obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "900 + z"
     bpy.ops.object.body_moments_measure()
-    told = " ".join(labels(drawn()))
-    assert "The mean, from polynomial" in told and "900 + z" in told
+    text = " ".join(labels(drawn()))
+    assert "Mean density, from polynomial" in text and "900 + z" in text
 
 
 def test_a_materials_panel_draws_its_density():
     from body_moments.panels.material_menus import MATERIAL_PT_body_moments
 
     made = bpy.data.materials.new("Steel")
-    for density, told in ((0.0, "None: the object's density is taken"), (7820.0, None)):
+    for density, default in ((0.0, True), (7820.0, False)):
         made.body_moments.density = density
         layout = Layout()
-        MATERIAL_PT_body_moments.draw(SimpleNamespace(layout=layout), SimpleNamespace(material=made))
-        assert ("prop", "density") in layout.record and labels(layout.record) == ([told] if told else [])
+        with bpy.context.temp_override(material=made):
+            MATERIAL_PT_body_moments.draw(SimpleNamespace(layout=layout), bpy.context)
+        assert ("prop", "density") in layout.record
+        assert shows(layout.record, "panel_material_default") == default and (default or not labels(layout.record))
     assert MATERIAL_PT_body_moments.poll(SimpleNamespace(material=made))
     assert not MATERIAL_PT_body_moments.poll(SimpleNamespace())
 
@@ -577,17 +637,17 @@ def test_the_menus_set_the_material_that_the_layout_points_at():
             assert {entry[2].target for entry in buttons} == {"Steel"}
 
 
-def test_a_nurbs_surface_says_what_its_display_mesh_would_have_given_and_follows_edits():
+def test_a_nurbs_surface_shows_what_its_display_mesh_would_have_given_and_follows_edits():
     bpy.ops.surface.primitive_nurbs_surface_sphere_add()
     assert ("operator", "object.body_moments_live") in [entry[:2] for entry in drawn()]
     bpy.ops.object.body_moments_measure()
     shown = labels(drawn())
-    assert "NURBS Exact, Closed Surface" in shown
-    assert "Display Mesh Instead" in shown and any("-1.33 %" in label for label in shown)
+    assert "NURBS: Exact" in shown
+    assert "Display Mesh" in shown and "-1.33% of the volume" in shown
     bpy.ops.object.body_moments_live()
-    assert any(label.startswith("Live, in") for label in labels(drawn()))
+    assert any(label.startswith("Live (") for label in labels(drawn()))
     bpy.ops.object.body_moments_live()
-    assert not any(label.startswith("Live, in") for label in labels(drawn()))
+    assert not any(label.startswith("Live (") for label in labels(drawn()))
 
 
 def test_a_wire_shows_its_length_and_asks_for_its_linear_density():

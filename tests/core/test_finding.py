@@ -67,7 +67,7 @@ def test_severity_belongs_to_the_code():
 
 
 def test_a_template_has_only_placeholders_that_the_formatter_knows():
-    known = ("", "percent", "length", "point", "size")
+    known = ("", "percent", "length", "point", "size", "word")
     for code, entry in MESSAGES.items():
         for text in filter(None, (entry.text, entry.plural)):
             for _, name, spec, conversion in string.Formatter().parse(text):

@@ -14,10 +14,10 @@ SYMMETRY = "body_moments_symmetry"
 
 
 class OBJECT_OT_body_moments_clear(Operator):
-    """Remove the stored mass properties and sections from the selected objects. Settings stay"""
+    """Remove the stored results from the selected objects. Settings are kept"""
 
     bl_idname = "object.body_moments_clear"
-    bl_label = "Clear"
+    bl_label = "Clear Results"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

@@ -26,7 +26,7 @@ def to_clipboard(operator: Operator, context: Context, text: str, done: Finding)
 
 
 class OBJECT_OT_body_moments_copy_value(Operator):
-    """Copy this value to the clipboard, in SI units and with all its digits"""
+    """Copy this value to the clipboard in SI units, with all digits"""
 
     bl_idname = "object.body_moments_copy_value"
     bl_label = "Copy Value"
@@ -53,7 +53,7 @@ class OBJECT_OT_body_moments_copy_report(Operator):
     bl_idname = "object.body_moments_copy_report"
     bl_label = "Copy Report"
     bl_description = (
-        "Copy the stored mass properties of the selected objects, and their total, to the clipboard as text in SI units"
+        "Copy the stored mass properties of the selected objects and their total to the clipboard, as text in SI units"
     )
     bl_options = {"REGISTER"}
 

@@ -29,24 +29,24 @@ class _Settings:
     """What is asked for, in both operators."""
 
     filepath: StringProperty(
-        name="File Path", description="The .npz file to write", subtype="FILE_PATH", options={"SKIP_SAVE"}
+        name="File Path", description="Path of the .npz file to write", subtype="FILE_PATH", options={"SKIP_SAVE"}
     )
     of: EnumProperty(
-        name="Of",
+        name="Domain",
         default="BODY",
-        description="What is transformed",
+        description="What the transform integrates over",
         items=(
-            ("BODY", "Body", "∫ exp(−i q·x) dV of a solid, in m³; of a shell, its area's times its thickness"),
-            ("AREA", "Area", "∫ exp(−i q·x) dA over its faces, in m²"),
+            ("BODY", "Body", "∫ exp(−i q·x) dV in m³. For shells, area times thickness"),
+            ("AREA", "Surface", "∫ exp(−i q·x) dA over the faces, in m²"),
         ),
     )
     frame: EnumProperty(
         name="Frame",
         default="WORLD",
-        description="The axes of the frequencies, and the origin",
+        description="Axes and origin of the frequencies",
         items=(
-            ("WORLD", "World", "Along the world's axes, about its origin"),
-            ("OBJECT", "Object", "Along the object's axes, about its origin, with unit scale"),
+            ("WORLD", "World", "World axes and origin"),
+            ("OBJECT", "Object", "Location and rotation of the object, with unit scale"),
         ),
     )
     count: IntProperty(
@@ -54,16 +54,16 @@ class _Settings:
         default=64,
         min=2,
         max=256,
-        description="Along each axis. The grid holds 0 in its middle, in the order of numpy.fft.fftshift",
+        description="Number of frequencies along each axis. 0 is in the middle, as after numpy.fft.fftshift",
     )
     largest: FloatProperty(
-        name="Largest rad/m",
+        name="Max Frequency",
         default=0.0,
         min=0.0,
         soft_max=1e6,
         precision=4,
-        description="The largest frequency along each axis, in rad/m. 0 takes the one that samples twice the "
-        "object's size: what a discrete Fourier transform of a box with as much room again has",
+        description="Highest frequency along each axis in rad/m. 0 uses that of a discrete Fourier transform of a box "
+        "of twice the object's size",
     )
 
 

@@ -12,13 +12,13 @@ from ...write import reports
 
 
 class OBJECT_OT_body_moments_live(Operator):
-    """Show what the numbers are while control points are edited or animated"""
+    """Update the numbers while control points are edited or animated"""
 
     bl_idname = "object.body_moments_live"
     bl_label = "Live"
     bl_description = (
-        "Show what the numbers are while control points are edited or animated, until the file is closed. Measure "
-        "stores them"
+        "Update the numbers while control points are edited or animated, until the file is closed. Press Measure to "
+        "store them"
     )
     bl_options = {"INTERNAL"}
 

@@ -22,7 +22,7 @@ AT_ONCE = 4  # up to so many objects are measured before the window is drawn aga
 
 
 class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
-    """Compute the exact mass properties of the selected objects and store them on each"""
+    """Compute the exact mass properties of the selected objects and store them as custom properties"""
 
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"

@@ -28,13 +28,13 @@ def _active(cls: type[Operator], context: Context) -> Object | None:
 
 
 class OBJECT_OT_body_moments_compute_moments(Operator):
-    """Compute all moments of the active object to the chosen order"""
+    """Compute all moments of the active object up to the chosen order"""
 
     bl_idname = "object.body_moments_compute_moments"
     bl_label = "Compute Moments"
     bl_description = (
-        "Compute all moments of the active object to the chosen order, of its volume and of its surface. Time grows "
-        "with the third power of the order: a million triangles take a second to order 4 and some twenty to order 20"
+        "Compute all moments of the active object's volume and surface up to the chosen order. A million triangles "
+        "take about 1 second at order 4 and 20 seconds at order 20"
     )
     bl_options = {"REGISTER"}
 
@@ -64,10 +64,10 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
 
 
 class OBJECT_OT_body_moments_copy_moments(Operator):
-    """Copy all computed moments, with their error bounds, to the clipboard as CSV"""
+    """Copy all computed moments and their error bounds to the clipboard as CSV"""
 
     bl_idname = "object.body_moments_copy_moments"
-    bl_label = "Copy All as CSV"
+    bl_label = "Copy Moments as CSV"
     bl_options = {"REGISTER"}
 
     @classmethod

@@ -80,13 +80,13 @@ def outdated(obj: Object, scene: bpy.types.Scene, found: record.StoredSection) -
 
 
 class OBJECT_OT_body_moments_measure_section(Operator):
-    """Compute the section properties of what is selected"""
+    """Compute the section properties of the selection"""
 
     bl_idname = "object.body_moments_measure_section"
     bl_label = "Measure Section"
     bl_description = (
-        "Compute the section properties of the selected faces in Edit Mode, or of the selected flat objects, 2-D "
-        "curves and texts, and store them on each"
+        "Compute the section properties of the selected faces in Edit Mode, or of the selected flat meshes, 2D "
+        "curves and texts, and store them on the objects"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -135,7 +135,7 @@ class OBJECT_OT_body_moments_copy_section(Operator):
     """Copy the stored section properties of the active object to the clipboard, as text in SI units"""
 
     bl_idname = "object.body_moments_copy_section"
-    bl_label = "Copy Report"
+    bl_label = "Copy Section Report"
     bl_options = {"REGISTER"}
 
     @classmethod

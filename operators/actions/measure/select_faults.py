@@ -51,14 +51,13 @@ MOVING = {
 
 
 class OBJECT_OT_body_moments_select_faults(Operator):
-    """Measure the selected meshes and select what is wrong with them in Edit Mode"""
+    """Measure the selected meshes and select their defects in Edit Mode"""
 
     bl_idname = "object.body_moments_select_faults"
-    bl_label = "Measure and Select Faults"
+    bl_label = "Select Defects"
     bl_description = (
-        "Measure the selected meshes and select what is wrong with them in Edit Mode: "
-        "boundary edges, edges of more than two faces, flipped, double and zero-area "
-        "faces. Objects without faults are deselected"
+        "Measure the selected meshes and select their defects in Edit Mode: boundary and non-manifold edges, and "
+        "flipped, duplicate and zero-area faces. Objects without defects are deselected"
     )
     bl_options = {"REGISTER", "UNDO"}
 

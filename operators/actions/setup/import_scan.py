@@ -32,7 +32,7 @@ SLAB = 1 << 22  # samples at a time
 
 
 class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
-    """Import a scan or an array of densities as a Volume object. A .vdb file is written beside it"""
+    """Import a scan or array of densities as a Volume object. A .vdb file is written beside it"""
 
     bl_idname = "object.body_moments_import_scan"
     bl_label = "Import Scan"
@@ -41,36 +41,36 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
     filter_glob: StringProperty(default=";".join("*" + end for end in SUFFIXES), options={"HIDDEN"})
     use_spacing: BoolProperty(
         name="Set Spacing",
-        description="Take the spacing below, in meters, in place of the file's own",
+        description="Use the spacing below instead of the file's",
         default=False,
     )
     spacing: FloatVectorProperty(
         name="Spacing",
-        description="How far samples are apart along x, y and z, in meters",
+        description="Distance between samples along x, y and z in meters",
         default=(0.001, 0.001, 0.001),
         min=1e-9,
         precision=6,
     )
     overwrite: BoolProperty(
         name="Overwrite",
-        description="Replace a .vdb file of the same name beside the scan",
+        description="Replace an existing .vdb file beside the scan",
         default=False,
     )
     raw_shape: IntVectorProperty(
         name="Raw Size",
-        description="Of a .raw file: its samples along x, y and z, x fastest; 0 where its name tells",
+        description="Number of samples of a .raw file along x, y and z, x fastest. 0 if the file name states it",
         default=(0, 0, 0),
         min=0,
     )
     raw_type: EnumProperty(
         name="Raw Type",
-        description="Of a .raw file: what one sample is",
+        description="Sample type of a .raw file",
         items=[(name, name, "") for name in TYPES],
         default="uint8",
     )
     raw_big_endian: BoolProperty(
         name="Raw Big-Endian",
-        description="Of a .raw file: the highest byte of a sample comes first",
+        description="The most significant byte comes first in a .raw file",
         default=False,
     )
 

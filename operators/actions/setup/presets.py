@@ -37,20 +37,20 @@ TABLE = [
 
 
 class OBJECT_OT_body_moments_set_material(Operator):
-    """Set the density of all selected objects to that of a material"""
+    """Set the density of the selected objects to that of a material"""
 
     bl_idname = "object.body_moments_set_material"
     bl_label = "Set Material"
     bl_description = (
-        "Set the density of all selected objects to that of a material. Where their density comes from their "
-        "materials, it is that of faces whose material has none"
+        "Set the density of the selected objects to that of a material. With Density From set to Materials, it "
+        "applies to faces whose material has no density"
     )
     bl_options = {"REGISTER", "UNDO"}
     bl_property = "material"
 
     material: EnumProperty(
         name="Material",
-        description="The material whose density is taken",
+        description="Material to take the density from",
         items=TABLE,
     )
 
@@ -90,7 +90,7 @@ def _density_of(settings) -> tuple:
 
 
 class MATERIAL_OT_body_moments_set_density(Operator):
-    """Give a material the density of an entry of the table"""
+    """Set the density of a Blender material from the material table"""
 
     bl_idname = "material.body_moments_set_density"
     bl_label = "Set Material Density"
@@ -99,12 +99,12 @@ class MATERIAL_OT_body_moments_set_density(Operator):
 
     material: EnumProperty(
         name="Material",
-        description="The entry of the table whose density is taken",
+        description="Entry of the material table to take the density from",
         items=TABLE,
     )
     target: StringProperty(
         name="Blender Material",
-        description="Name of the material that gets the density",
+        description="Material to set the density of",
         options={"HIDDEN"},
     )
 
@@ -125,12 +125,12 @@ class MATERIAL_OT_body_moments_set_density(Operator):
 
 
 class OBJECT_OT_body_moments_copy_settings(Operator):
-    """Copy the settings of the active object to all other selected ones"""
+    """Copy the settings of the active object to the other selected objects"""
 
     bl_idname = "object.body_moments_copy_settings"
     bl_label = "Copy Settings to Selected"
     bl_description = (
-        "Copy kind, material, density or mass, thickness and overlaps from the active object to all other selected ones"
+        "Copy kind, material, density or mass, wall and overlaps from the active object to the other selected objects"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -155,7 +155,7 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
 
 
 class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
-    """Keep the settings of the active object as a preset, or remove a preset"""
+    """Add or remove a preset of the active object's settings"""
 
     bl_idname = "object.body_moments_preset_add"
     bl_label = "Add Body Moments Preset"

@@ -29,8 +29,8 @@ from ..modal import Stepwise
 
 ORDER = 12  # of the descriptors: more than separate parts, a fourth of the time that 20 takes
 LISTED = 20
-MIRRORED = BoolProperty(name="Mirror Images Too", default=False, description="Mirror images are as near as copies")
-SCALED = BoolProperty(name="Other Sizes Too", default=False, description="Copies of another size are as near as others")
+MIRRORED = BoolProperty(name="Ignore Mirroring", default=False, description="Rank mirror images like copies")
+SCALED = BoolProperty(name="Ignore Size", default=False, description="Rank scaled copies like copies")
 
 
 class BodyMomentsSimilar(PropertyGroup):
@@ -38,16 +38,16 @@ class BodyMomentsSimilar(PropertyGroup):
 
     name: StringProperty(name="Name")
     file: StringProperty(name="File")
-    verdict: StringProperty(name="Verdict", description="What it is to the object that was looked for")
-    distance: FloatProperty(name="Distance", description="Difference of the signatures; 0 for a copy")
-    scale: FloatProperty(name="Size", description="Its size by the size of the object that was looked for")
+    verdict: StringProperty(name="Similarity", description="Relation to the object that was searched for")
+    distance: FloatProperty(name="Distance", description="Difference of the signatures, 0 for a copy")
+    scale: FloatProperty(name="Size", description="Size relative to the object that was searched for")
 
 
 class BodyMomentsSearch(PropertyGroup):
     """The last search."""
 
-    wanted: StringProperty(name="Wanted")
-    looked_at: StringProperty(name="Looked At")
+    wanted: StringProperty(name="Object")
+    looked_at: StringProperty(name="Library")
     found: CollectionProperty(type=BodyMomentsSimilar)
 
 
@@ -106,13 +106,13 @@ class _Find:
 
 
 class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
-    """Find the objects in the scene whose shape is most like the active one's"""
+    """Find the visible objects most similar in shape to the active object"""
 
     bl_idname = "object.body_moments_find_similar"
     bl_label = "Find Similar"
     bl_description = (
-        "Compare the shapes of all visible objects with the active one's, however they lie and whatever their size and "
-        "faces: copies, mirror images and what is merely similar"
+        "Compare the shapes of all visible objects with the active object, in any pose, size and triangulation, and "
+        "list copies, mirror images and similar shapes"
     )
     PROGRESS = finding("progress_comparing")
     CANCELED = finding("canceled_search")
@@ -120,7 +120,7 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
     select: BoolProperty(
         name="Select Copies",
         default=True,
-        description="Select the copies of the active object's shape, and nothing else",
+        description="Select the copies of the active object, and deselect everything else",
     )
     mirrored: MIRRORED
     scaled: SCALED
@@ -193,18 +193,18 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
 
 
 class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
-    """Find the bodies of a library whose shape is most like the active object's"""
+    """Find the bodies of a library most similar in shape to the active object"""
 
     bl_idname = "object.body_moments_find_in_library"
     bl_label = "Find in Library"
     bl_description = (
-        "Compare the active object's shape with those of a library: JSON lines that the command line wrote with "
+        "Compare the shape of the active object with those of a library, written by the command line with "
         "--signature --format jsonl"
     )
 
     mirrored: MIRRORED
     scaled: SCALED
-    filepath: StringProperty(name="Library", description="The file to look in", subtype="FILE_PATH")
+    filepath: StringProperty(name="Library", description="File of the library", subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.jsonl", options={"HIDDEN"})
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
@@ -232,10 +232,10 @@ class OBJECT_OT_body_moments_select_found(Operator):
     """Make this object active and select it"""
 
     bl_idname = "object.body_moments_select_found"
-    bl_label = "Select Found Object"
+    bl_label = "Select Similar Object"
     bl_options = {"REGISTER", "UNDO"}
 
-    name: StringProperty(name="Name", description="The object to select")
+    name: StringProperty(name="Name", description="Object to select")
 
     def execute(self, context: Context) -> set[str]:
         obj = next((one for one in context.view_layer.objects if one.name_full == self.name), None)

@@ -43,8 +43,8 @@ class BodyMomentsElement(PropertyGroup):
     kind: EnumProperty(
         items=(
             ("AXIS", "Axis", "Rotation axis"),
-            ("PLANE", "Plane", "Mirror plane, by its normal"),
-            ("ROUND", "Round", "Axis about which every rotation is one"),
+            ("PLANE", "Plane", "Mirror plane, given by its normal"),
+            ("ROUND", "Round", "Axis of revolution"),
         )
     )
     order: IntProperty(name="Order")
@@ -54,14 +54,16 @@ class BodyMomentsElement(PropertyGroup):
 class BodyMomentsSymmetry(PropertyGroup):
     """The symmetry that was found of an object."""
 
-    group: StringProperty(name="Symmetry", description="Schoenflies symbol of what the surface confirms")
-    compatible: StringProperty(name="By Moments", description="Schoenflies symbol of what the moments allow")
+    group: StringProperty(name="Symmetry", description="Schoenflies symbol of the symmetry that the surface confirms")
+    compatible: StringProperty(
+        name="By Moments", description="Schoenflies symbol of the symmetry that the moments allow"
+    )
     tolerance: FloatProperty(
         name="Tolerance",
-        description="By which the surface was held against its images, by the body's radius of gyration",
+        description="Largest distance of the surface from its images, relative to the radius of gyration",
     )
     of_display_mesh: BoolProperty(
-        name="Of Display Mesh", description="What was looked at is the display mesh of a NURBS surface"
+        name="Of Display Mesh", description="The display mesh of a NURBS surface was compared"
     )
     fingerprint: StringProperty()
     elements: CollectionProperty(type=BodyMomentsElement)
@@ -73,8 +75,8 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
     bl_idname = "object.body_moments_find_symmetry"
     bl_label = "Find Symmetry"
     bl_description = (
-        "Find the rotation axes and mirror planes through the center of mass of the selected objects: those that their "
-        "moments to sixth order allow, confirmed on their surfaces"
+        "Find the rotation axes and mirror planes through the center of mass of the selected objects that moments to "
+        "order 6 allow and the surface confirms"
     )
     bl_options = {"REGISTER", "UNDO"}
     PROGRESS = finding("progress_symmetry")
@@ -86,7 +88,7 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
         min=1e-6,
         max=0.1,
         precision=6,
-        description="How far the surface's image may lie from it, by the body's radius of gyration",
+        description="Largest allowed distance of the surface from its images, relative to the radius of gyration",
     )
 
     @classmethod

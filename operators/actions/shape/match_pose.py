@@ -22,14 +22,14 @@ from ..snap import base as snapping
 
 
 class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
-    """Lay the other selected objects onto the active one"""
+    """Move the other selected objects onto the active object"""
 
     bl_idname = "object.body_moments_match_pose"
     bl_label = "Match Pose"
     bl_description = (
-        "Move and turn the other selected objects until they lie on the active one, by centers of mass and principal "
-        "axes, and report how far their surfaces are apart. A symmetric object takes the nearest of its poses; a "
-        "mirror image is left where it is"
+        "Move and rotate the other selected objects onto the active object by centers of mass and principal axes, and "
+        "report the distance between the surfaces. Symmetric objects take the nearest of their poses; mirror images "
+        "are left unchanged"
     )
     bl_options = {"REGISTER", "UNDO"}
     PROGRESS = finding("progress_comparing")

@@ -29,24 +29,24 @@ def directions(order: str) -> NDArray[np.float64]:
 
 
 class OBJECT_OT_body_moments_align_to_world(Operator):
-    """Turn the object so that its principal axes lie along the world's axes"""
+    """Rotate the object so that its principal axes align with the world axes"""
 
     bl_idname = "object.body_moments_align_to_world"
     bl_label = "Align Object to World"
     bl_description = (
-        "Turn the object so that its principal axes lie along the world's axes, in an order of your choice, about its "
-        "center of mass or to the world's origin. Children turn with it"
+        "Rotate the object so that its principal axes align with the world axes, about its center of mass or at the "
+        "world origin. Children follow"
     )
     bl_options = {"REGISTER", "UNDO"}
 
     order: EnumProperty(
         name="Axes",
-        description=("The world axes that principal axes 1, 2 and 3 (smallest to largest moment) are laid along"),
+        description="World axes for principal axes 1, 2 and 3 (smallest to largest moment)",
         items=[
             (
                 order,
                 "1 → {:s}, 2 → {:s}, 3 → {:s}{:s}".format(order[0], order[1], "" if i < 3 else "−", order[2]),
-                "Long axis (smallest moment) along {:s}, largest moment about {:s}".format(order[0], order[2]),
+                "Smallest moment about {:s}, largest moment about {:s}".format(order[0], order[2]),
             )
             for i, order in enumerate(ORDERS)
         ],
@@ -54,10 +54,10 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
     )
     pivot: EnumProperty(
         name="Center of Mass",
-        description="Where the center of mass goes",
+        description="New location of the center of mass",
         items=(
-            ("CENTER", "Stays", "The object turns about its center of mass"),
-            ("ORIGIN", "To World Origin", "The center of mass moves to the world's origin"),
+            ("CENTER", "Keep", "Rotate about the center of mass"),
+            ("ORIGIN", "World Origin", "Move the center of mass to the world origin"),
         ),
         default="CENTER",
     )

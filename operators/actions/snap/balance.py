@@ -38,46 +38,46 @@ ROUNDING = 1e-7  # of the body's size: a coordinate below is reported as 0
 
 
 class OBJECT_OT_body_moments_sculpt_balance(Operator):
-    """Move vertices as little as possible so that the center of mass comes over a point"""
+    """Move vertices as little as possible to bring the center of mass over a point"""
 
     bl_idname = "object.body_moments_sculpt_balance"
     bl_label = "Sculpt Balance"
     bl_description = (
-        "Make it stand: move the selected vertices (in Object Mode those of a vertex group) as "
-        "little as possible so that the center of mass comes over a point"
+        "Make it stand: move the selected vertices (in Object Mode those of a vertex group) as little as possible to "
+        "bring the center of mass over a point"
     )
     bl_options = {"REGISTER", "UNDO"}
 
     target: EnumProperty(
-        name="Over",
-        description="Where the center of mass shall come",
+        name="Target",
+        description="Where to bring the center of mass",
         items=(
             ("CURSOR", "3D Cursor", "The 3D cursor"),
-            ("POINT", "Point", "A point in the world, given below"),
+            ("POINT", "Point", "The point below, in world coordinates"),
         ),
         default="CURSOR",
     )
     point: FloatVectorProperty(
         name="Point",
-        description="The point in the world that the center of mass shall come over",
+        description="Target point in world coordinates",
         subtype="TRANSLATION",
     )
     axes: EnumProperty(
-        name="Match",
-        description="In which directions the center of mass shall come to the point",
+        name="Align",
+        description="In which directions the center of mass is brought to the target",
         items=(
             (
                 "ALONG_GRAVITY",
-                "Over It",
-                "Onto the line through the point along gravity, at whatever height",
+                "Along Gravity",
+                "Onto the line through the target along gravity, at any height",
             ),
-            ("ALL", "On It", "Onto the point itself"),
+            ("ALL", "All Axes", "Onto the target itself"),
         ),
         default="ALONG_GRAVITY",
     )
     limit: FloatProperty(
-        name="Largest Move",
-        description="How far each vertex may move; 0 for as far as the mesh is large",
+        name="Max Distance",
+        description="Longest move of a vertex. 0 for the size of the mesh",
         default=0.0,
         min=0.0,
         unit="LENGTH",
@@ -86,8 +86,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
     group: StringProperty(
         name="Vertex Group",
         description=(
-            "In Object Mode, the vertices that may move, as willingly as they weigh; the active "
-            "group where none is named"
+            "Vertices that may move in Object Mode, in proportion to their weights. If empty, the active group"
         ),
     )
 

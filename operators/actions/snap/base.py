@@ -34,8 +34,8 @@ from .. import selection
 STRICT = BoolProperty(
     name="Zhang and Chen's Rule",
     description=(
-        "Take axes 1 and 2 in the direction of positive third moments, as the paper does, and refuse "
-        "the bodies of which that rule says nothing: most that have a symmetry"
+        "Take axes 1 and 2 in the direction of positive third moments, as in the paper. Objects for which "
+        "the rule is undefined, such as most symmetric ones, are left unchanged"
     ),
     default=False,
 )

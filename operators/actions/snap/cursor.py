@@ -15,15 +15,15 @@ from .. import selection
 
 
 class VIEW3D_OT_body_moments_cursor_to_center(Operator):
-    """Move the 3D cursor to the center of mass of the selected objects, all of them as one body"""
+    """Move the 3D cursor to the common center of mass of the selected objects"""
 
     bl_idname = "view3d.body_moments_cursor_to_center"
     bl_label = "Cursor to Center of Mass"
     bl_options = {"REGISTER", "UNDO"}
 
     rotate: BoolProperty(
-        name="Turn to Principal Axes",
-        description="Lay the cursor's axes along the principal axes",
+        name="Rotate to Principal Axes",
+        description="Align the 3D cursor with the principal axes",
         default=False,
     )
 

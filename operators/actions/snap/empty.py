@@ -22,20 +22,19 @@ KEPT = ("parent", "parent_type", "parent_bone", "empty_display_size")
 
 
 class OBJECT_OT_body_moments_add_empty(Operator):
-    """Add an empty at the center of mass"""
+    """Add an empty at the center of mass, along the principal axes"""
 
     bl_idname = "object.body_moments_add_empty"
     bl_label = "Add Empty at Principal Frame"
     bl_description = (
-        "Add an empty at the center of mass, with the principal axes as its own and "
-        "arrows as long as the largest radius of gyration. An empty that was added "
-        "before is moved"
+        "Add an empty at the center of mass, along the principal axes, with arrows as long as the largest radius of "
+        "gyration. An empty added before is moved"
     )
     bl_options = {"REGISTER", "UNDO"}
 
     parent: BoolProperty(
         name="Parent to Object",
-        description="Make the object the parent of its empty, so that the empty moves with it",
+        description="Parent the empty to the object, so that it moves along",
         default=True,
     )
 

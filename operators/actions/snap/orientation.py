@@ -26,11 +26,11 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
 
     name: StringProperty(
         name="Name",
-        description=("Name of the orientation; empty for the object's name. One of this name is replaced"),
+        description="Name of the orientation. If empty, the object's name. An orientation of this name is replaced",
     )
     use: BoolProperty(
-        name="Use",
-        description="Make it the current orientation",
+        name="Use After Creation",
+        description="Make it the current transform orientation",
         default=True,
     )
 

@@ -15,14 +15,13 @@ from . import base as snapping
 
 
 class OBJECT_OT_body_moments_origin_to_center(Operator):
-    """Move the origin to the exact center of mass of the evaluated body"""
+    """Move the origin to the exact center of mass of the evaluated object"""
 
     bl_idname = "object.body_moments_origin_to_center"
     bl_label = "Origin to Center of Mass"
     bl_description = (
-        "Move the origin to the exact center of mass of the evaluated body. What can be "
-        "seen does not move: children stay, other users of the data keep it, and where "
-        "a modifier depends on the origin the object is left as it is"
+        "Move the origin to the exact center of mass of the evaluated object. Nothing visible moves: children and "
+        "other users of the data stay in place. Objects whose modifiers depend on the origin are left unchanged"
     )
     bl_options = {"REGISTER", "UNDO"}
 

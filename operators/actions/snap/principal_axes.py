@@ -19,14 +19,13 @@ UNIT_SCALE = 1e-6
 
 
 class OBJECT_OT_body_moments_axes_to_principal(Operator):
-    """Make the principal frame the object's own"""
+    """Make the principal frame the frame of the object"""
 
     bl_idname = "object.body_moments_axes_to_principal"
     bl_label = "Axes to Principal Axes"
     bl_description = (
-        "Make the principal frame the object's own: its origin becomes the center of "
-        "mass, its local X, Y and Z the principal axes from the smallest moment to the "
-        "largest, its scale 1. What can be seen does not move"
+        "Move the origin to the center of mass and align the local X, Y and Z axes with the principal axes, from the "
+        "smallest moment to the largest, with unit scale. Nothing visible moves"
     )
     bl_options = {"REGISTER", "UNDO"}
 

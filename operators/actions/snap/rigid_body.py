@@ -28,15 +28,14 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
     bl_idname = "object.body_moments_set_rigid_body_mass"
     bl_label = "Set Rigid Body Mass"
     bl_description = (
-        "Set the mass of rigid bodies to the measured mass in kilograms. The physics "
-        "engine takes an object's origin as its center of mass: use Axes to Principal "
-        "Axes as well"
+        "Set the mass of rigid bodies to the measured mass in kilograms. The physics engine uses the origin as center "
+        "of mass; use Axes to Principal Axes as well"
     )
     bl_options = {"REGISTER", "UNDO"}
 
     add: BoolProperty(
         name="Add Rigid Bodies",
-        description="Make objects without a rigid body active rigid bodies first",
+        description="Add an active rigid body to objects without one",
         default=False,
     )
 
