@@ -59,3 +59,10 @@ def mixed(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
     return z ^ (z >> np.uint64(31))
+
+
+def unique_pairs(pairs: NDArray[np.integer]) -> NDArray[np.intp]:
+    """(k, 2) rows of two numbers from 0 to 2³¹, sorted, each once: as `np.unique` along an axis, but faster."""
+    width = int(pairs.max(initial=0)) + 1
+    key = np.unique(pairs[:, 0].astype(np.int64) * width + pairs[:, 1])
+    return np.stack(np.divmod(key, width), axis=1).astype(np.intp, copy=False)

@@ -24,6 +24,7 @@ from ..mesh.edges import closed_sides, mesh_faces
 from ..mesh.planarity import Flatness, Witness
 from ..mesh.surface import Surface, all_there
 from ..moments.moments import SECOND, Moments, sum_moments
+from ..numerics.arrays import unique_pairs
 from ..numerics.graph import components
 from ..polyhedron import third_order as polyhedron
 from ..verdict.finding import Finding, MeasureError, finding
@@ -406,7 +407,7 @@ def _cap_finding(
     if not flat + curved:
         return []
     edges = body.capped_edges[solid[body.capped_shell]]
-    edges = np.unique(edges if vertices is None else vertices[edges], axis=0)
+    edges = unique_pairs(edges if vertices is None else vertices[edges])
     if slight:
         return [finding("holes_capped_slightly", edges, count=flat + curved, share=share)]
     return [finding("holes_capped", edges, count=flat + curved, flat=flat, curved=curved, share=share)]

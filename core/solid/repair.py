@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ..mesh.edges import Edges, find_edges, named_edges, orientation, shells
 from ..mesh.surface import Surface, normals
 from ..mesh.welding import equal_positions, face_groups, near_positions, vertex_tolerance
+from ..numerics.arrays import unique_pairs
 from ..numerics.graph import components
 from ..verdict.finding import Finding, finding
 from ..verdict.tolerances import NEGLIGIBLE
@@ -274,7 +275,6 @@ def _join(body: Mended, given: NDArray, edges: Edges, tolerance: float) -> None:
         "boundary_edges": _named(given, rim),
         "inconsistent_edges": _named(given, np.concatenate([one[against], other[against]])),
     }
-    capped = capped[~body.open[shell[capped // 3]]]
     body.capped_edges, body.capped_shell = _pairs(given, capped), shell[capped // 3]
     if gaps:
         sides = np.concatenate([gap.sides, np.flatnonzero(settled)])
@@ -300,7 +300,7 @@ def _crowded(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.intp]:
 
 def _named(given: NDArray, sides: NDArray) -> NDArray[np.intp]:
     """(k, 2) the sides as vertex pairs of the input, the lower first, sorted, each once."""
-    return np.unique(_pairs(given, sides), axis=0)
+    return unique_pairs(_pairs(given, sides))
 
 
 def _pairs(given: NDArray, sides: NDArray) -> NDArray[np.intp]:

@@ -403,3 +403,17 @@ def shifts(each, step):
             matrix = np.eye(4)
             matrix[:2, 3] = step * i, step * j
             yield matrix
+
+
+@pytest.mark.parametrize("shape", ["flat", "curved"])
+@pytest.mark.parametrize(("width", "ending"), [(0.1, ""), (0.004, "_slightly")])
+def test_caps_that_change_less_than_a_ten_thousandth_have_a_code_of_their_own(shape, width, ending):
+    ball = sphere()
+    points = ball.points.copy()
+    points[:, -1] += width * (points[:, 1] - [0.0, 0.0, -1.0])  # the pole becomes a hole
+    if shape == "curved":
+        points[:, -1, 2] += width * points[:, 1, 0] * points[:, 1, 1]
+    found = measure_patches([Patch(ball.spaces, points, ball.weights)])
+    finding = only(found)
+    assert (found.method, finding.code) == ("capped", f"{shape}_patch_holes_capped{ending}")
+    assert finding.values["count"] == 1 and 0.0 < finding.values["share"] == found.health.cap_area_share

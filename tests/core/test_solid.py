@@ -832,9 +832,12 @@ def test_edges_of_findings_are_in_the_inputs_vertices():
     assert (only(verdict(loose)).elements == only(verdict((points, triangles))).elements + 3).all()
     fin = np.concatenate([CUBE[0], [[3.0, 0.5, 0.5]]]), np.concatenate([CUBE[1], [[0, 1, 8]]])
     assert only(verdict(fin)).elements.tolist() == [12]  # the flat component's face
-    thirds = moved(grid(3), None, (0, 0, 1))
-    edges = verdict(joined(without(CUBE, *TOP), thirds)).findings[0].elements
-    assert {(4, 5), (4, 6), (5, 7), (6, 7)} < set(map(tuple, edges.tolist()))
+    points, triangles = joined(without(CUBE, *TOP), moved(grid(3), None, (0, 0, 1)))
+    loose = np.concatenate([np.full((3, 3), 9.0), points]), triangles + 3
+    edges = only(verdict(loose)).elements
+    assert {(7, 8), (7, 9), (8, 10), (9, 10)} < set(map(tuple, edges.tolist())) and len(edges) == 16
+    beside = joined(without(CUBE, *TOP), moved(grid(2), None, (9, 0, 0)))  # whose boundary is that of no hole
+    assert verdict(beside).findings[0].elements.tolist() == [[4, 5], [4, 6], [5, 7], [6, 7]]
 
 
 def test_faces_of_findings_are_those_of_the_components_in_question():

@@ -280,6 +280,14 @@ def test_what_has_no_side_is_refused_with_the_remedy(part, code):
         sweep(bodies.surface(part))
 
 
+def test_edges_that_make_no_wall_are_named_by_the_vertices_given():
+    points, triangles = bodies.welded(bodies.joined(bodies.box(), bodies.box((0, 1, 1), (1, 2, 2))))
+    with pytest.raises(MeasureError) as caught:
+        sweep(bodies.surface((np.concatenate([np.full((3, 3), 9.0), points]), triangles + 3)))
+    (edge,) = caught.value.finding.elements
+    assert points[edge - 3].tolist() == [[0, 1, 1], [1, 1, 1]]
+
+
 def test_the_first_order_is_the_area_and_a_thin_wall_is_a_thin_shell():
     part = bodies.moved(cube(), bodies.rotation(3) @ SHEAR)
     found = sweep(bodies.surface(part))
