@@ -433,7 +433,7 @@ def test_out_of_date_after_a_change_of_shape_place_or_unit_and_not_after_measuri
     update()
     assert outdated(obj) is None
     bpy.context.scene.unit_settings.scale_length = 0.5
-    assert outdated(obj) == "Unit Scale Changed"
+    assert outdated(obj) == "stale_unit_scale"
     bpy.context.scene.unit_settings.scale_length = 1.0
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
@@ -523,14 +523,14 @@ def test_the_panel_shows_what_engineers_look_for_and_copies_all_digits():
     bpy.ops.object.body_moments_measure_section()
     record, section = drawn(), stored(obj).section
     found = labels(record)
-    for text in ("Area", "Perimeter", "Ix", "Iy", "Ixy", "I1", "I2", "Polar Jp", "Angle x to 1", "Wx", "i1", "0°"):
+    for text in ("Area", "Perimeter", "Ix", "Iy", "Ixy", "I1", "I2", "Polar Jp", "Angle from x to 1", "Wx", "i1", "0°"):
         assert text in found
     assert "1.875 m²" in found
     assert [float(text) for text in copied(record, "m⁴")[1:4]] == section.second.tolist()
     assert float(copied(record, "m²")[0]) == section.area
     obj.location.x = 1.0
     bpy.context.view_layer.update()
-    assert "Out of Date: Transform Changed" in labels(drawn())
+    assert "Out of date: Transform changed" in " ".join(labels(drawn()))
 
 
 def test_damaged_sections_are_not_shown():
@@ -541,13 +541,13 @@ def test_damaged_sections_are_not_shown():
         bpy.context.view_layer.update()
 
 
-def test_the_report_says_conventions_and_warnings():
+def test_the_report_says_conventions_and_notes():
     from body_moments.operators.write import section
 
     obj = add(text_of("A"), "Letter")
     bpy.ops.object.body_moments_measure_section()
     text = section.text(obj.name, stored(obj))
-    for words in ("Letter", "Ixy = +∫xy dA", "not the torsion constant", "Warning", "resolution of 12", "m⁴"):
+    for words in ("Letter", "Ixy = +∫xy dA", "not the torsion constant", "resolution 12", "m⁴"):
         assert words in text
     assert bpy.ops.object.body_moments_copy_section() == {"FINISHED"}
 
