@@ -25,6 +25,7 @@ import bpy
 from ...core.measurement import Measurement
 from ...core.scans import formats as scans
 from ...core.verdict import internal_error
+from ...core.verdict.finding import MeasureError
 from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
 from ..bodies.shape import DISPLAY_MESH, OF_SHAPES, POLYGONS, NoShape, shape_of
@@ -248,7 +249,7 @@ class Run:
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
         self.faults += 1
-        return _error(name, internal_error.reason(error))
+        return _error(name, internal_error.finding_of(error))
 
     def _store(
         self,
@@ -267,11 +268,10 @@ class Run:
             try:
                 store(obj, one)
                 settings.keep(obj.body_moments, wanted, bpy.context.scene)
+            except MeasureError as refusal:
+                yield _error(label, refusal.finding)
             except Exception as error:
-                if internal_error.is_refusal(error, (RuntimeError,)):
-                    yield _error(label, error)
-                else:
-                    yield self._fault(label, error)
+                yield self._fault(label, error)
         settle(bpy.context, [obj for _, obj, _ in measured])
 
 
