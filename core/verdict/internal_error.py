@@ -8,12 +8,10 @@ Either ends the work on its object alone. An error is reported as one, and its t
 from __future__ import annotations
 
 import traceback
-from pathlib import Path
 
 from .finding import Finding, MeasureError, finding
 
-ROOT = Path(__file__).resolve().parents[2]
-UNFORESEEN = (RecursionError, NotImplementedError)  # which Python derives from RuntimeError, that Blender refuses by
+PACKAGE = __name__.removesuffix("core.verdict.internal_error")
 
 
 def finding_of(error: Exception) -> Finding:
@@ -22,28 +20,15 @@ def finding_of(error: Exception) -> Finding:
     if isinstance(error, MeasureError):
         return error.finding
     traceback.print_exception(error)
-    message = " ".join(str(error).split()).removesuffix(".") or "no message"
+    message = " ".join(str(error).split()).removesuffix(".") or "-"
     return finding("internal_error", type=type(error).__name__, error=message, where=_where(error))
 
 
 def _where(error: Exception) -> str:
-    """File and line of the innermost frame of this program, as this program's files are called."""
-    where = "unknown place"
+    """File and line of the innermost frame of this program."""
+    where = "-"
     for frame, line in traceback.walk_tb(error.__traceback__):
-        path = Path(frame.f_code.co_filename)
-        if path.is_relative_to(ROOT):
-            where = "{:s}:{:d}".format(path.relative_to(ROOT).as_posix(), line)
+        name = frame.f_globals.get("__name__", "")
+        if name.startswith(PACKAGE):
+            where = "{:s}.py:{:d}".format(name.removeprefix(PACKAGE).replace(".", "/"), line)
     return where
-
-
-def reason(error: Exception, refusals: tuple[type[Exception], ...] = ()) -> str:
-    """What to report of an exception. refusals: what only says that an object cannot be worked on, and why."""
-    if is_refusal(error, refusals):
-        return str(getattr(error, "reason", error))
-    traceback.print_exception(error)
-    told = ": ".join([type(error).__name__, *filter(None, [" ".join(str(error).split()).removesuffix(".")])])
-    return "Internal error: {:s}; please report it.".format(told)
-
-
-def is_refusal(error: Exception, refusals: tuple[type[Exception], ...]) -> bool:
-    return isinstance(error, refusals) and not isinstance(error, UNFORESEEN)

@@ -374,7 +374,7 @@ def test_no_result_is_written_over_the_file_that_is_measured(tmp_path, capfd, st
     bpy.ops.wm.open_mainfile(filepath=path)
     assert batch.main(["measure", option, path, *waves]) == 2
     assert (tmp_path / "part.blend").read_bytes() == kept
-    assert "is the measured file" in capfd.readouterr().err
+    assert "is a file that is read" in capfd.readouterr().err
 
 
 def test_no_result_is_written_over_the_wave_vectors(tmp_path, capfd, standard_output):

@@ -231,7 +231,7 @@ def test_what_was_saved_meanwhile_is_kept(tmp_path, monkeypatch, change, opened)
     (found,) = line.documents
     assert [entry["name"] for entry in found["objects"]] == [files.BOX_NAME]
     (error,) = found["errors"]
-    assert "measure it again" in error["reason"] and line.faults == 0
+    assert "Measure it again" in error["reason"] and line.faults == 0
     assert [path.read_bytes()] == saved and [file.name for file in tmp_path.iterdir()] == ["part.blend"]
 
 
@@ -307,7 +307,7 @@ def test_a_writer_that_waited_too_long_is_refused_and_removes_nothing_of_the_oth
     holder(path)
     found = document(path, "--write")
     (error,) = found["errors"]
-    assert len(found["objects"]) == 1 and "run this again" in error["reason"]
+    assert len(found["objects"]) == 1 and "Run this again" in error["reason"]
     assert path.read_bytes() == kept and partial.exists() and file_lock.beside(path, "body_moments.lock").exists()
 
 

@@ -62,7 +62,7 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
             yield done
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
-        """Nothing is stored before everything is measured, so that a cancelled run leaves nothing behind."""
+        """Nothing is stored before everything is measured, so that a canceled run leaves nothing behind."""
         for obj, refusal in self._refused:
             self._failures.append(reports.failure(obj.name_full, refusal))
             results.refuse(obj, refusal)

@@ -170,7 +170,7 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
         yield from selection.one_by_one(self._others, compare, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
-        """Nothing is kept or selected before everything is compared, so that a cancelled search leaves nothing."""
+        """Nothing is kept or selected before everything is compared, so that a canceled search leaves nothing."""
         if self.wanted is None:
             return {"CANCELLED"}
         rows = [
