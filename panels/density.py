@@ -9,6 +9,7 @@ from bpy.types import Context, Object, UILayout
 from ..core.verdict.finding import finding
 from ..operators.session import live
 from ..operators.session import walls as wall_slider
+from ..operators.write.translations import CONTEXT
 from . import grid, rows
 from . import material_menus as materials
 
@@ -94,7 +95,7 @@ def _labelled(column: UILayout, label: str) -> UILayout:
     split = column.row(align=True).split(factor=0.4, align=True)
     heading = split.row()
     heading.alignment = "RIGHT"
-    heading.label(text=label)
+    heading.label(text=label, text_ctxt=CONTEXT)
     return split.row(align=True)
 
 

@@ -18,6 +18,8 @@ from ...core.numerics.float32 import decimal
 from ...core.polyhedron.any_order import MAX_ORDER
 from .hooks import wall_changed
 
+TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Blender's own translations
+
 COPIED = (
     *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
     *("density_from", "density_polynomial", "density_frame", "density_attribute"),
@@ -36,6 +38,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
 
     kind: EnumProperty(
         name="Kind",
+        translation_context=TRANSLATION_CONTEXT,
         description="What the geometry of the object represents",
         items=(
             ("SOLID", "Solid", "The surface bounds a volume filled with material"),
@@ -261,6 +264,7 @@ class BodyMomentsSceneSettings(PropertyGroup):
     )
     moments_order: IntProperty(
         name="Order",
+        translation_context=TRANSLATION_CONTEXT,
         description="Highest p + q + r of the computed moments ∫ x^p y^q z^r",
         default=4,
         min=1,
@@ -278,6 +282,7 @@ class BodyMomentsSceneSettings(PropertyGroup):
     )
     moments_about: EnumProperty(
         name="About",
+        translation_context=TRANSLATION_CONTEXT,
         description="Point that the coordinates are relative to",
         items=(
             ("ORIGIN", "Frame Origin", "Origin of the chosen frame"),

@@ -370,7 +370,7 @@ MESSAGES: dict[str, Message] = {
         "Blender's fill of the curve was measured, as a varying density needs polygons."
     ),
     "curve_before_modifiers": _warning("The curve was measured without the modifiers that work on its mesh."),
-    "bevel_range_ignored": _warning("The whole curve was measured; Start and End of its bevel are ignored."),
+    "bevel_range_ignored": _warning("The whole curve was measured; the start and end of its bevel are ignored."),
     "splines_left_out": _warning(
         "{count} of {total} splines is left out: too few points for its order or for Bézier ends.",
         "{count} of {total} splines are left out: too few points for their order or for Bézier ends.",
@@ -548,7 +548,7 @@ MESSAGES: dict[str, Message] = {
     ),
     "attribute_missing": _error("No vertex attribute “{attribute}”. Create it, or change Attribute."),
     "attribute_type": _error(
-        "The attribute “{attribute}” is not a float per vertex. Use Convert Attribute in Mesh Properties."
+        "The attribute “{attribute}” is not a float per vertex. Use Convert Attribute in Object Data Properties."
     ),
     "attribute_non_finite": _error(
         "The attribute “{attribute}” is not finite at {count} vertex: {elements}. Set its density.",
@@ -933,7 +933,7 @@ MESSAGES: dict[str, Message] = {
     "section_text_on_curve": _error(
         "The text follows a curve and is not filled. Fill it, or use Object > Convert > Mesh."
     ),
-    "section_3d_curve": _error("A 3D curve encloses no flat region. Set it to 2D in Curve Properties > Shape."),
+    "section_3d_curve": _error("A 3D curve encloses no flat region. Set it to 2D in Object Data Properties > Shape."),
     "section_extruded": _error("The curve is extruded or beveled. Set Extrude and Bevel Depth to 0."),
     "section_offset": _error("The Offset moves the filled outline. Set it to 0, or use Object > Convert > Mesh."),
     "section_non_finite": _error("Some points have no finite coordinates. Delete them, or fix what made them."),

@@ -4,37 +4,55 @@
 
 Blender itself looks up labels, tooltips and texts without placeholders. Everything with placeholders goes through
 `localized` or `localized_sentence`, and is drawn with `translate=False`. Stored texts and records stay English.
+
+A language is a module with TEXTS, by the English text, and MESSAGES, by the code of a message.
 """
 
 from __future__ import annotations
 
 from functools import partial
+from types import ModuleType
 from typing import Any
 
 import bpy
 
 from ...core.verdict.finding import Finding
-from .german import GERMAN
-from .messages import sentence
+from . import german
+from .messages import MESSAGES, sentence
 from .units import Units
 
 ADDON_ID = __package__.removesuffix(".operators.write")
-LANGUAGES = {"de_DE": GERMAN}
+LANGUAGES = {"de_DE": german}
+# Words that mean something else in Blender's own translations, such as Frame and Order, are looked up under this.
+CONTEXT = "Body Moments"
 
 
 def dictionary() -> dict[str, dict[tuple[str, str], str]]:
     """All translations, as Blender takes them: locale → (context, English text) → text. Names of operators have a
-    context of their own, so that every text stands under both."""
-    contexts = (bpy.app.translations.contexts.default, bpy.app.translations.contexts.operator_default)
+    context of their own, so that every text stands under each."""
+    contexts = bpy.app.translations.contexts
     return {
-        locale: {(context, english): text for english, text in texts.items() for context in contexts}
-        for locale, texts in LANGUAGES.items()
+        locale: {
+            (context, english): text
+            for english, text in _translated(language).items()
+            for context in (contexts.default, contexts.operator_default, CONTEXT)
+        }
+        for locale, language in LANGUAGES.items()
     }
+
+
+def _translated(language: ModuleType) -> dict[str, str]:
+    """English text → text in a language."""
+    texts = dict(language.TEXTS)
+    for code, translated in language.MESSAGES.items():
+        entry = MESSAGES[code]
+        texts |= zip(filter(None, (entry.text, entry.plural)), translated, strict=True)
+    return texts
 
 
 def localized(text: str) -> str:
     """A text of the interface in the user's language, before it is filled."""
-    return bpy.app.translations.pgettext_iface(text)
+    return bpy.app.translations.pgettext_iface(text, CONTEXT)
 
 
 def localized_sentence(finding: Finding, unit_settings: Any) -> str:
