@@ -39,7 +39,7 @@ RUNNING = "{}.{}".format(*sys.version_info)  # the version of the Python that ru
 
 # Blender as a module -> the Python which its wheel is made for
 BLENDERS = {"4.5": "3.11", "5.2": "3.13"}
-GROUPS = ("core", "blender", "package", "window")
+GROUPS = ("core", "blender", "corpus", "package", "window")
 RUN_LIMIT = 1800  # seconds for one run of pytest
 EXIT_LIMIT = 60  # seconds that an interpreter may take to end once its tests are over
 
