@@ -7,7 +7,9 @@
 
 for a Python with the bpy module (.envs/blender-5.2/bin/python). The second prints every difference and their count, and
 ends with 1 where there is one. `within` is what tests/corpus/test_corpus.py asks, on any machine, of the references
-that are kept here: Blender 5.2's, and of 4.5 what differs (--write reference-4.5.json.gz --beside reference-5.2.json.gz).
+that are kept here: Blender 5.2's, and of 4.5 what differs:
+
+    --write reference-5.2.json.gz, and with the other: --write reference-4.5.json.gz --beside reference-5.2.json.gz
 """
 
 from __future__ import annotations
@@ -256,8 +258,8 @@ class Tolerance:
         return allowed
 
     def of_signature(self, signature: dict | None):
-        sizes = {} if signature is None else {
-            name: max(map(abs, value), default=0.0) if isinstance(value, list) else abs(value) for name, value in signature.items()}
+        sizes = {name: max((abs(one) for _, one in leaves(value) if isinstance(one, (int, float))), default=0.0)
+                 for name, value in (signature or {}).items()}
 
         def allowed(place: str, one: object) -> float:
             name = (place.split(" › ") + [""])[1]
@@ -288,7 +290,7 @@ class Tolerance:
 
 
 def _prepare() -> str:
-    """Loads the add-on from this checkout under a name of its own, with a user folder of its own; returns that folder."""
+    """Loads the add-on from this checkout under a name of its own, with a user folder of its own; that folder."""
     folder = tempfile.mkdtemp(prefix="body_moments_corpus_")
     for name in [name for name in os.environ if name.startswith(("BLENDER_USER_", "BLENDER_SYSTEM_"))]:
         del os.environ[name]
@@ -307,6 +309,7 @@ def _measure() -> dict[str, object]:
     folder = _prepare()
     try:
         import body_moments
+
         from tests.corpus.runs import collect
 
         body_moments.register()

@@ -80,9 +80,9 @@ def _operators(folder: Path, name: str) -> dict[str, object]:
     measure()
     found = {}
     for obj in bpy.context.scene.objects:
-        keys = [key for key in obj.keys() if key.startswith("body_") and key != SETTINGS]  # Blender 4.5 lists it too
-        stored = {key: _plain(obj[key]) for key in keys}
-        stored = {key: value for key, value in stored.items() if not isinstance(value, str) or key == "body_method"}
+        stored = {key: _plain(value) for key, value in obj.items()
+                  if key.startswith("body_") and key != SETTINGS  # Blender 4.5 lists them too
+                  and (key == "body_method" or not isinstance(value, str))}
         if stored:
             found["properties/{}/{}".format(name, obj.name)] = stored
     return found
@@ -151,14 +151,16 @@ def _arrays(folder: Path):
         "tilted.nrrd": nrrd(values, "space dimension: 3", tilted, "space origin: (1,2,3)"),
         "plain.nii": nifti(np.round(values).astype(np.int16), spacing=(2, 2, 3), slope=3.0, intercept=1.0),
         "packed.nii.gz": gzip.compress(nifti(round_one, spacing=(1, 2, 2))),
-        "turned.nii": nifti(values.astype(np.float32), spacing=(1, 2, 3), quaternion=(0.1, 0.2, 0.3, 5, 6, 7), qfac=-1.0),
+        "turned.nii": nifti(values.astype(np.float32), spacing=(1, 2, 3), quaternion=(0.1, 0.2, 0.3, 5, 6, 7),
+                            qfac=-1.0),
         "mapped.nii": nifti(values.astype(np.float32), sform=[[0, -2, 0, 10], [3, 0, 0.5, -20], [0, 0, 4, 5]]),
         "below zero.nrrd": nrrd(-block), "empty.nrrd": nrrd(0 * block), "not finite.nrrd": nrrd(block * np.nan),
         "broken.nrrd": b"nonsense",
     }
     for name, data in scans.items():
         (folder / name).write_bytes(data)
-    arrays = [folder / name for name in ("random.npy", "float32.npy", "block.npy", "ball.npy", "fortran.npy", "zipped.npz")]
+    names = ("random.npy", "float32.npy", "block.npy", "ball.npy", "fortran.npy", "zipped.npz")
+    arrays = [folder / name for name in names]
     every = [*arrays, *(folder / name for name in scans)]
     place = ("--spacing", "0.5,0.25,1.5", "--origin", "-1,20,300")
     yield ("--order", "4"), every

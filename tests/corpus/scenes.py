@@ -116,8 +116,9 @@ def closed():
     hexagon = s.prism(s.regular(6), 1.5)
     twisted = np.concatenate([hexagon[0][:6], s.turned(hexagon, 2, 0.5)[0][6:]]), hexagon[1]
     spread({
-        "Box": s.box((0, 0, 0), (1, 2, 3)), "Cube": s.box((-1, -1, -1), (1, 1, 1)), "Plate": s.box((0, 0, 0), (2, 3, 1e-3)),
-        "Rod": s.box((0, 0, 0), (1e-2, 2e-2, 5)), "Ball": s.ball(2), "Sphere": s.uv_sphere(), "Cone": s.cone(),
+        "Box": s.box((0, 0, 0), (1, 2, 3)), "Cube": s.box((-1, -1, -1), (1, 1, 1)),
+        "Plate": s.box((0, 0, 0), (2, 3, 1e-3)), "Rod": s.box((0, 0, 0), (1e-2, 2e-2, 5)), "Ball": s.ball(2),
+        "Sphere": s.uv_sphere(), "Cone": s.cone(),
         "Pyramid": s.cone(4, 1.5, 1.0), "Torus": s.torus(), "Thin torus": s.torus(20, 6, 2.0, 0.1),
         "Cylinder": tube, "Frustum": s.prism(s.regular(12), 2.0, (0.3, 0.1), 0.5),
         "L beam": ell, "U beam": s.prism(s.U_PLAN, 4.0), "T beam": s.prism(s.T_PLAN, 2.0),
@@ -147,7 +148,8 @@ def faulty():
         "Five tetrahedra": s.random_tetrahedra(3),
         "Broken box": s.joined(*s.fracture()),
         "Cavity": s.joined(cube4, s.inverted(cube2)),
-        "Two cavities": s.joined(cube4, s.inverted(s.moved(unit, (-1.5, -1, -1))), s.inverted(s.moved(unit, (0.5, 0, 0)))),
+        "Two cavities": s.joined(cube4, s.inverted(s.moved(unit, (-1.5, -1, -1))),
+                                 s.inverted(s.moved(unit, (0.5, 0, 0)))),
         "Body in a cavity": s.joined(cube4, s.inverted(cube2), s.moved(unit, (-0.5, -0.5, -0.5))),
         "Nested outward": s.joined(cube4, cube2),
         "Nested outward twice": s.joined(cube4, cube2, s.moved(cube2, scale=0.5)),
@@ -186,7 +188,8 @@ def overlaps():
     parts = {"Halves": s.joined(unit, s.moved(unit, (0.5, 0, 0))), "Three boxes": three,
              "Nested": s.joined(cube4, cube2), "Balls": s.joined(s.ball(2), s.moved(s.ball(2), (0.7, 0.1, 0.2))),
              "Apart": s.joined(unit, s.moved(unit, (2, 0, 0))), "Single": unit}
-    for (name, part), place in zip(parts.items(), ("at the origin", "turned", "mirrored", "sheared", "far away", "tiny")):
+    places = ("at the origin", "turned", "mirrored", "sheared", "far away", "tiny")
+    for (name, part), place in zip(parts.items(), places):
         body("{} {}".format(name, place), part, place=place)
         body("{} united".format(name), part, {"overlap": "UNION"}, "scaled unevenly")
 
@@ -213,9 +216,9 @@ def shells():
             body("{} {} {}".format(name, wall.lower(), place), part,
                  {"kind": "SHELL", "wall": wall, "thickness": 0.0625}, place)
     thin = {"kind": "SHELL", "thickness": 0.01}
-    spread_thin = {"Flat sheet": s.sheet(3), "Hill": s.sheet(5, 0.4), "Möbius strip": s.moebius(), "Torus": s.torus(),
-                   "Broken box": s.joined(*s.fracture())}
-    for (name, part), place in zip(spread_thin.items(), ("sheared", "far away", "huge", "tiny", "mirrored and sheared")):
+    sheets = {"Flat sheet": s.sheet(3), "Hill": s.sheet(5, 0.4), "Möbius strip": s.moebius(), "Torus": s.torus(),
+              "Broken box": s.joined(*s.fracture())}
+    for (name, part), place in zip(sheets.items(), ("sheared", "far away", "huge", "tiny", "mirrored and sheared")):
         body("{} thin {}".format(name, place), part, thin, place)
     body("Box far away inward", s.box((0, 0, 0), (1, 2, 3)), {"kind": "SHELL", "wall": "INWARD", "thickness": 0.1},
          "far away")
@@ -223,7 +226,8 @@ def shells():
     body("Box tiny centered", s.box((0, 0, 0), (1, 2, 3)), tiny, "tiny")
     body("Flipped box inward", s.with_flipped(s.box(), 2), {"kind": "SHELL", "wall": "INWARD", "thickness": 0.125})
     body("Slit outward", s.prism(s.U_PLAN), {"kind": "SHELL", "wall": "OUTWARD", "thickness": 0.25})
-    body("Weighed shell", s.box(), {"kind": "SHELL", "wall": "INWARD", "thickness": 0.1, "mass_from": "MASS", "mass": 3.0})
+    weighed = {"kind": "SHELL", "wall": "INWARD", "thickness": 0.1, "mass_from": "MASS", "mass": 3.0}
+    body("Weighed shell", s.box(), weighed)
     many = {"kind": "SHELL", "wall": "OUTWARD", "thickness": 0.05}
     body("Polycube outward", s.polycube(3, 6), many, "turned")
     for kind, wall in (("sphere", "THIN"), ("torus", "THIN"), ("sphere", "INWARD"), ("torus", "OUTWARD")):
@@ -387,7 +391,8 @@ def built():
     modifier(body("Bevel", s.box((0, 0, 0), (2, 2, 1))), "BEVEL", width=0.1, segments=2)
     modifier(body("Triangulate", s.raised_column(), place="turned"), "TRIANGULATE")
     modifier(body("Decimate", s.ball(3)), "DECIMATE", ratio=0.5)
-    modifier(body("Screw", (np.array([(1, 0, 0), (2, 0, 0), (2, 0, 1), (1, 0, 1.0)]), [[0, 1, 2, 3]])), "SCREW", steps=12)
+    square = np.array([(1, 0, 0), (2, 0, 0), (2, 0, 1), (1, 0, 1)]), [[0, 1, 2, 3]]
+    modifier(body("Screw", square), "SCREW", steps=12)
     modifier(body("Edge split", s.box(), place="turned"), "EDGE_SPLIT")
     modifier(body("Displaced", s.ball(2)), "DISPLACE", strength=0.25, mid_level=0.0)
     modifier(body("Remesh", s.box((0, 0, 0), (2, 1, 1))), "REMESH", mode="BLOCKS", octree_depth=3)
@@ -436,7 +441,8 @@ def built():
             ("Inner instance", outer, members, "turned"), ("Collection instance", None, members, "off the origin"),
             ("Collection instance mirrored", None, members, "mirrored"),
             ("Collection instance far away", None, members, "far away"),
-            ("Collection instance sheared", None, members, "sheared"), ("Nested instance", None, outer, "scaled unevenly")):
+            ("Collection instance sheared", None, members, "sheared"),
+            ("Nested instance", None, outer, "scaled unevenly")):
         obj = add(name, None, collection, **PLACES[place])
         obj.instance_type, obj.instance_collection = "COLLECTION", instanced
     for kind in ("VERTS", "FACES"):
@@ -490,8 +496,9 @@ def densities():
         body("One value {}".format(number), ell, {"density": value}, place)
     for number, (value, place) in enumerate(((1e-6, "tiny"), (3.5, "mirrored"), (1e9, "far away"))):
         body("Weighed {}".format(number), ell, {"mass_from": "MASS", "mass": value}, place)
-    polynomials = (("1000 + 20*z", "turned"), ("500 + x*x + 2*y*z + 100*y*y", "mirrored"), ("700 + 3*x - y + 0.5*z**3", "sheared"),
-                   ("1000, 10, 20, 30", "scaled unevenly"), ("800 + x**4", "off the origin"))
+    polynomials = (("1000 + 20*z", "turned"), ("500 + x*x + 2*y*z + 100*y*y", "mirrored"),
+                   ("700 + 3*x - y + 0.5*z**3", "sheared"), ("1000, 10, 20, 30", "scaled unevenly"),
+                   ("800 + x**4", "off the origin"))
     for number, (text, place) in enumerate(polynomials):
         for frame in ("OBJECT", "WORLD"):
             body("Polynomial {} {}".format(number, frame.lower()), ell, {
@@ -501,7 +508,8 @@ def densities():
     body("Polynomial of an open box", s.without(unit, 1), {"density_from": "POLYNOMIAL",
                                                            "density_polynomial": "1000 + 50*z"}, "turned")
     rng = np.random.default_rng(3)
-    for name, part, place in (("Attribute of a hill", s.sheet(4, 0.3), "turned"), ("Attribute of a ball", s.ball(1), "sheared"),
+    for name, part, place in (("Attribute of a hill", s.sheet(4, 0.3), "turned"),
+                              ("Attribute of a ball", s.ball(1), "sheared"),
                               ("Attribute of a hull", s.random_hull(1, 8), "mirrored")):
         obj = body(name, part, {"kind": "SHELL", "density_from": "ATTRIBUTE", "thickness": 0.01}, place)
         values = np.round(rng.uniform(500, 3000, len(obj.data.vertices)))
@@ -642,7 +650,8 @@ def refused():
 def small_set():
     """One of each way, for other units."""
     spread({"Box": s.box((0, 0, 0), (1, 2, 3)), "L beam": s.prism(s.L_PLAN), "Hull": s.random_hull(6, 9),
-            "Open box": s.without(s.box(), 1), "Cavity": s.joined(s.box((-2, -2, -2), (2, 2, 2)), s.inverted(s.box()))}, 2)
+            "Open box": s.without(s.box(), 1),
+            "Cavity": s.joined(s.box((-2, -2, -2), (2, 2, 2)), s.inverted(s.box()))}, 2)
     body("Thin shell", s.box(), {"kind": "SHELL", "thickness": 0.125}, "turned")
     body("Wall", s.box((0, 0, 0), (1, 2, 3)), {"kind": "SHELL", "wall": "INWARD", "thickness": 0.125}, "turned")
     body("Polynomial", s.box(), {"density_from": "POLYNOMIAL", "density_polynomial": "1000 + 20*z"}, "turned")
@@ -668,7 +677,8 @@ def sections():
     """Flat bodies, for the operator that measures sections."""
     outlines = {"L section": s.L_PLAN, "U section": s.U_PLAN, "Comb section": s.COMB_PLAN,
                 "Slanted section": s.SLANTED_PLAN, "Hexagon": s.regular(6).tolist()}
-    for (name, outline), place in zip(outlines.items(), ("at the origin", "turned", "sheared", "scaled unevenly", "far away")):
+    places = ("at the origin", "turned", "sheared", "scaled unevenly", "far away")
+    for (name, outline), place in zip(outlines.items(), places):
         flat = (np.column_stack([np.asarray(outline, float), np.zeros(len(outline))]), [list(range(len(outline)))])
         body(name, flat, place=place)
     body("Sheet", s.sheet(4), place="tiny")
