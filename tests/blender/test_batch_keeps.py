@@ -195,7 +195,7 @@ def test_what_is_read_with_a_file_is_kept_even_with_force(tmp_path, main, no_mea
     assert main(tmp_path / part, option, path, *waves)[0] == 2
     for target in (path, link):
         code, said = main("--force", tmp_path / part, option, target, *waves)
-        assert code == 2 and str(target) in said and "name another" in said and "--force" not in said
+        assert code == 2 and str(target) in said and "Use another name" in said and "--force" not in said
     assert path.read_bytes() == kept
 
 

@@ -307,7 +307,7 @@ def test_a_writer_that_waited_too_long_is_refused_and_removes_nothing_of_the_oth
     holder(path)
     found = document(path, "--write")
     (error,) = found["errors"]
-    assert len(found["objects"]) == 1 and "Run this again" in error["reason"]
+    assert len(found["objects"]) == 1 and "another process" in error["reason"]
     assert path.read_bytes() == kept and partial.exists() and file_lock.beside(path, "body_moments.lock").exists()
 
 

@@ -40,8 +40,10 @@ def load(path: Path) -> dict[str, object]:
 
 def save(path: Path, table: dict[str, object]) -> None:
     """One entry a line, in the order of their keys; floats as the shortest digits that give the same bits."""
-    lines = ["{}: {}".format(json.dumps(key, ensure_ascii=False), json.dumps(table[key], ensure_ascii=False))
-             for key in sorted(table)]
+    lines = [
+        "{}: {}".format(json.dumps(key, ensure_ascii=False), json.dumps(table[key], ensure_ascii=False))
+        for key in sorted(table)
+    ]
     data = ("{\n" + ",\n".join(lines) + "\n}\n").encode()
     path.write_bytes(gzip.compress(data, 9, mtime=0) if path.suffix == ".gz" else data)
 
@@ -258,8 +260,10 @@ class Tolerance:
         return allowed
 
     def of_signature(self, signature: dict | None):
-        sizes = {name: max((abs(one) for _, one in leaves(value) if isinstance(one, (int, float))), default=0.0)
-                 for name, value in (signature or {}).items()}
+        sizes = {
+            name: max((abs(one) for _, one in leaves(value) if isinstance(one, (int, float))), default=0.0)
+            for name, value in (signature or {}).items()
+        }
 
         def allowed(place: str, one: object) -> float:
             name = (place.split(" › ") + [""])[1]
@@ -298,8 +302,9 @@ def _prepare() -> str:
     tests = ModuleType("tests")
     tests.__path__ = [str(ROOT / "tests")]
     sys.modules["tests"] = tests
-    spec = importlib.util.spec_from_file_location("body_moments", ROOT / "__init__.py",
-                                                  submodule_search_locations=[str(ROOT)])
+    spec = importlib.util.spec_from_file_location(
+        "body_moments", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
+    )
     sys.modules["body_moments"] = module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return folder
@@ -324,8 +329,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Measures the corpus, and keeps or compares the numbers bit for bit.")
     parser.add_argument("reference", nargs="?", type=Path, metavar="REFERENCE.json")
     parser.add_argument("--write", type=Path, metavar="OUT.json")
-    parser.add_argument("--beside", type=Path, metavar="BASE.json",
-                        help="with --write: only what differs from BASE by more than rounding")
+    parser.add_argument(
+        "--beside",
+        type=Path,
+        metavar="BASE.json",
+        help="with --write: only what differs from BASE by more than rounding",
+    )
     options = parser.parse_args()
     if (options.reference is None) == (options.write is None):
         parser.error("give either a reference or --write")

@@ -39,8 +39,12 @@ RUNS = {
     "density": (("--density", "2700", "--frame", "object"), ["faulty", "shells"]),
     "mass": (("--mass", "7.5"), ["faulty", "nurbs"]),
 }
-TRANSFORMED = (("closed", "Oblique beam mirrored and sheared"), ("shapes", "L beam as a shell"),
-               ("built", "Nodes on a grid"), ("faulty", "Open sphere off the origin"))
+TRANSFORMED = (
+    ("closed", "Oblique beam mirrored and sheared"),
+    ("shapes", "L beam as a shell"),
+    ("built", "Nodes on a grid"),
+    ("faulty", "Open sphere off the origin"),
+)
 
 
 def collect(folder: Path) -> dict[str, object]:
@@ -80,9 +84,13 @@ def _operators(folder: Path, name: str) -> dict[str, object]:
     measure()
     found = {}
     for obj in bpy.context.scene.objects:
-        stored = {key: _plain(value) for key, value in obj.items()
-                  if key.startswith("body_") and key != SETTINGS  # Blender 4.5 lists them too
-                  and (key == "body_method" or not isinstance(value, str))}
+        stored = {
+            key: _plain(value)
+            for key, value in obj.items()
+            if key.startswith("body_")
+            and key != SETTINGS  # Blender 4.5 lists them too
+            and (key == "body_method" or not isinstance(value, str))
+        }
         if stored:
             found["properties/{}/{}".format(name, obj.name)] = stored
     return found
@@ -106,8 +114,13 @@ def _measured(folder: Path, run: str, options, files) -> dict[str, object]:
     results.mkdir(exist_ok=True)
     output = results / (run + " " + files[0].stem + ".jsonl")
     words = [ROOT / "operators" / "batch.py", "measure", *options, "--format", "jsonl", "--output", output, *files]
-    done = subprocess.run([sys.executable, "-P", *map(str, words)], stdin=subprocess.DEVNULL, capture_output=True,
-                          encoding="utf-8", errors="replace")
+    done = subprocess.run(
+        [sys.executable, "-P", *map(str, words)],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        encoding="utf-8",
+        errors="replace",
+    )
     if done.returncode not in (0, 1) or not output.is_file():
         raise RuntimeError("{}: exit code {}\n{}".format(run, done.returncode, done.stderr[-4000:]))
     table = {}
@@ -151,10 +164,13 @@ def _arrays(folder: Path):
         "tilted.nrrd": nrrd(values, "space dimension: 3", tilted, "space origin: (1,2,3)"),
         "plain.nii": nifti(np.round(values).astype(np.int16), spacing=(2, 2, 3), slope=3.0, intercept=1.0),
         "packed.nii.gz": gzip.compress(nifti(round_one, spacing=(1, 2, 2))),
-        "turned.nii": nifti(values.astype(np.float32), spacing=(1, 2, 3), quaternion=(0.1, 0.2, 0.3, 5, 6, 7),
-                            qfac=-1.0),
+        "turned.nii": nifti(
+            values.astype(np.float32), spacing=(1, 2, 3), quaternion=(0.1, 0.2, 0.3, 5, 6, 7), qfac=-1.0
+        ),
         "mapped.nii": nifti(values.astype(np.float32), sform=[[0, -2, 0, 10], [3, 0, 0.5, -20], [0, 0, 4, 5]]),
-        "below zero.nrrd": nrrd(-block), "empty.nrrd": nrrd(0 * block), "not finite.nrrd": nrrd(block * np.nan),
+        "below zero.nrrd": nrrd(-block),
+        "empty.nrrd": nrrd(0 * block),
+        "not finite.nrrd": nrrd(block * np.nan),
         "broken.nrrd": b"nonsense",
     }
     for name, data in scans.items():
@@ -172,8 +188,11 @@ def _arrays(folder: Path):
 def _mesh_files(folder: Path) -> list[Path]:
     """Bodies in files of other programs, written here, and one that Blender exports."""
     files = []
-    parts = {"beam": s.prism(s.SLANTED_PLAN, 0.7), "hull": s.moved(s.random_hull(4, 10), (10, 20, 30)),
-             "open": s.without(s.uv_sphere(), 3)}
+    parts = {
+        "beam": s.prism(s.SLANTED_PLAN, 0.7),
+        "hull": s.moved(s.random_hull(4, 10), (10, 20, 30)),
+        "open": s.without(s.uv_sphere(), 3),
+    }
     for name, part in parts.items():
         points, polygons = part[0].tolist(), part[1]
         triangles = s.triangulated(part)[1]
@@ -214,6 +233,9 @@ def _transforms(folder: Path) -> dict[str, object]:
         table |= _measured(folder, "fourier {} {}".format(how, name), words, [folder / (scene + ".blend")])
         with np.load(out) as held:
             table["fourier/{} {}".format(how, name)] = {
-                "q": held["q"].tolist(), "real": held["F"].real.tolist(), "imag": held["F"].imag.tolist(),
-                "method": str(held["method"])}
+                "q": held["q"].tolist(),
+                "real": held["F"].real.tolist(),
+                "imag": held["F"].imag.tolist(),
+                "method": str(held["method"]),
+            }
     return table

@@ -27,8 +27,12 @@ PLACES = {
     "far in its mesh": {"baked": (1000, -500, 250), "location": (1, 1, 1)},
     "tiny in its mesh": {"size": 1e-5, "location": (0.5, 0, 0)},
     "huge in its mesh": {"size": 1e4, "baked": (1e4, 2e4, 0), "rotation_euler": TURN},
-    "mirrored and sheared": {"location": (-3, 1, 0), "rotation_euler": (0.5, -0.3, 0.2), "scale": (1, -1, 2),
-                             "sheared": (0.5, 1, 3)},
+    "mirrored and sheared": {
+        "location": (-3, 1, 0),
+        "rotation_euler": (0.5, -0.3, 0.2),
+        "scale": (1, -1, 2),
+        "sheared": (0.5, 1, 3),
+    },
 }
 
 
@@ -115,18 +119,33 @@ def closed():
     ell, tube = s.prism(s.L_PLAN), s.prism(s.regular(24, 0.5), 3.0)
     hexagon = s.prism(s.regular(6), 1.5)
     twisted = np.concatenate([hexagon[0][:6], s.turned(hexagon, 2, 0.5)[0][6:]]), hexagon[1]
-    spread({
-        "Box": s.box((0, 0, 0), (1, 2, 3)), "Cube": s.box((-1, -1, -1), (1, 1, 1)),
-        "Plate": s.box((0, 0, 0), (2, 3, 1e-3)), "Rod": s.box((0, 0, 0), (1e-2, 2e-2, 5)), "Ball": s.ball(2),
-        "Sphere": s.uv_sphere(), "Cone": s.cone(),
-        "Pyramid": s.cone(4, 1.5, 1.0), "Torus": s.torus(), "Thin torus": s.torus(20, 6, 2.0, 0.1),
-        "Cylinder": tube, "Frustum": s.prism(s.regular(12), 2.0, (0.3, 0.1), 0.5),
-        "L beam": ell, "U beam": s.prism(s.U_PLAN, 4.0), "T beam": s.prism(s.T_PLAN, 2.0),
-        "Comb": s.prism(s.COMB_PLAN, 0.7), "Slanted beam": s.prism(s.SLANTED_PLAN, 0.7),
-        "Oblique beam": s.prism(s.SLANTED_PLAN, 1.0, (0.7, -0.2)), "Raised column": s.raised_column(),
-        "Deeply raised column": s.raised_column(-0.6), "Tonon's tetrahedron": s.TONON,
-        "Twisted prism": twisted,
-    }, 3)
+    spread(
+        {
+            "Box": s.box((0, 0, 0), (1, 2, 3)),
+            "Cube": s.box((-1, -1, -1), (1, 1, 1)),
+            "Plate": s.box((0, 0, 0), (2, 3, 1e-3)),
+            "Rod": s.box((0, 0, 0), (1e-2, 2e-2, 5)),
+            "Ball": s.ball(2),
+            "Sphere": s.uv_sphere(),
+            "Cone": s.cone(),
+            "Pyramid": s.cone(4, 1.5, 1.0),
+            "Torus": s.torus(),
+            "Thin torus": s.torus(20, 6, 2.0, 0.1),
+            "Cylinder": tube,
+            "Frustum": s.prism(s.regular(12), 2.0, (0.3, 0.1), 0.5),
+            "L beam": ell,
+            "U beam": s.prism(s.U_PLAN, 4.0),
+            "T beam": s.prism(s.T_PLAN, 2.0),
+            "Comb": s.prism(s.COMB_PLAN, 0.7),
+            "Slanted beam": s.prism(s.SLANTED_PLAN, 0.7),
+            "Oblique beam": s.prism(s.SLANTED_PLAN, 1.0, (0.7, -0.2)),
+            "Raised column": s.raised_column(),
+            "Deeply raised column": s.raised_column(-0.6),
+            "Tonon's tetrahedron": s.TONON,
+            "Twisted prism": twisted,
+        },
+        3,
+    )
     spread({"Prism of {}".format(n): s.prism(s.regular(n, 1.0, 0.1 * n), 0.5 + 0.25 * n) for n in range(3, 13)}, 2)
     spread({"Hull {}".format(i): s.random_hull(i, 6 + i) for i in range(8)}, 2)
     spread({"Polycube {}".format(i): s.polycube(i, 4 + i) for i in (1, 2, 3, 5, 7)}, 2)
@@ -138,56 +157,75 @@ def faulty():
     unit, cube4, cube2 = s.box(), s.box((-2, -2, -2), (2, 2, 2)), s.box((-1, -1, -1), (1, 1, 1))
     crossing = s.moved(s.turned(s.box((-0.5, -0.5, -2), (0.5, 0.5, 2)), 0, 0.8), (1, 0.5, 0))
     fin = (np.concatenate([unit[0], [[0.5, -1, 0.5], [0.5, -1, 1.5]]]), [*unit[1], [0, 8, 9]])
-    two = (np.concatenate([unit[0], unit[0][[0, 1, 4, 5]] - (0, 1, 0)]),
-           [*unit[1], [8, 9, 11, 10], [8, 10, 4, 0], [9, 1, 5, 11], [10, 11, 5, 4], [8, 0, 1, 9]])
-    needles = s.triangulated((np.concatenate([unit[0], [[0.5, 1e-6, 0]]]),
-                              [[0, 2, 3, 1, 8], unit[1][1], [0, 8, 1, 5, 4], *unit[1][3:]]))
+    two = (
+        np.concatenate([unit[0], unit[0][[0, 1, 4, 5]] - (0, 1, 0)]),
+        [*unit[1], [8, 9, 11, 10], [8, 10, 4, 0], [9, 1, 5, 11], [10, 11, 5, 4], [8, 0, 1, 9]],
+    )
+    needles = s.triangulated(
+        (np.concatenate([unit[0], [[0.5, 1e-6, 0]]]), [[0, 2, 3, 1, 8], unit[1][1], [0, 8, 1, 5, 4], *unit[1][3:]])
+    )
     bow = s.prism([(0, 0), (1, 1), (1, 0), (0, 1)])
-    spread({
-        "Two boxes apart": s.joined(unit, s.moved(unit, (5, 0, 0), 2)),
-        "Five tetrahedra": s.random_tetrahedra(3),
-        "Broken box": s.joined(*s.fracture()),
-        "Cavity": s.joined(cube4, s.inverted(cube2)),
-        "Two cavities": s.joined(cube4, s.inverted(s.moved(unit, (-1.5, -1, -1))),
-                                 s.inverted(s.moved(unit, (0.5, 0, 0)))),
-        "Body in a cavity": s.joined(cube4, s.inverted(cube2), s.moved(unit, (-0.5, -0.5, -0.5))),
-        "Nested outward": s.joined(cube4, cube2),
-        "Nested outward twice": s.joined(cube4, cube2, s.moved(cube2, scale=0.5)),
-        "Overlapping boxes": s.joined(unit, s.moved(unit, (0.5, 0, 0))),
-        "Crossing beams": s.joined(cube2, crossing),
-        "Touching boxes": s.joined(unit, s.moved(unit, (1, 0, 0))),
-        "Flipped face": s.with_flipped(unit, 1),
-        "Three flipped faces": s.with_flipped(s.prism(s.L_PLAN), 0, 3, 5),
-        "Inside out": s.inverted(s.prism(s.L_PLAN)),
-        "One part inside out": s.joined(unit, s.inverted(s.moved(unit, (3, 0, 0)))),
-        "Open box": s.without(unit, 1),
-        "Open at two ends": s.without(s.prism(s.regular(9), 2.0), 0, 1),
-        "Open beam": s.without(s.prism(s.L_PLAN), 1),
-        "Open sphere": s.without(s.uv_sphere(), 0, 1, 2, 3, 4, 10, 11),
-        "Open raised column": s.without(s.raised_column(), 1),
-        "Open and flipped": s.with_flipped(s.without(s.uv_sphere(), 7, 30), 3, 12),
-        "Two open boxes": s.joined(s.without(unit, 1), s.without(s.moved(unit, (2, 0, 0)), 3)),
-        "T-junctions": s.t_junctions(), "Dense side": s.dense_side(),
-        "Duplicate face": s.with_again(unit, 1), "All faces twice": s.with_again(unit, *range(6)),
-        "Unwelded box": s.unwelded(unit), "Unwelded sphere": s.unwelded(s.uv_sphere()),
-        "Unwelded flipped face": s.with_flipped(s.unwelded(unit), 1),
-        "Needles": needles,
-        "Face without area": (np.concatenate([unit[0], [[0.5, 0, 0]]]), [*unit[1], [0, 8, 1]]),
-        "Loose face": (np.concatenate([unit[0], [[3, 0, 0], [4, 0, 0], [3, 1, 0]]]), [*unit[1], [8, 9, 10]]),
-        "Fin": fin, "Inner wall": two, "Bow tie": bow,
-        "Möbius strip": s.moebius(), "Klein bottle": s.torus(24, 12, twist=True),
-        "Sheet in space": s.sheet(4, 0.5),
-        "Edge in common": s.joined(unit, s.moved(unit, (1, 1, 0))),
-    }, 2, [place for place in PLACES if place != "tiny in its mesh"])
+    spread(
+        {
+            "Two boxes apart": s.joined(unit, s.moved(unit, (5, 0, 0), 2)),
+            "Five tetrahedra": s.random_tetrahedra(3),
+            "Broken box": s.joined(*s.fracture()),
+            "Cavity": s.joined(cube4, s.inverted(cube2)),
+            "Two cavities": s.joined(
+                cube4, s.inverted(s.moved(unit, (-1.5, -1, -1))), s.inverted(s.moved(unit, (0.5, 0, 0)))
+            ),
+            "Body in a cavity": s.joined(cube4, s.inverted(cube2), s.moved(unit, (-0.5, -0.5, -0.5))),
+            "Nested outward": s.joined(cube4, cube2),
+            "Nested outward twice": s.joined(cube4, cube2, s.moved(cube2, scale=0.5)),
+            "Overlapping boxes": s.joined(unit, s.moved(unit, (0.5, 0, 0))),
+            "Crossing beams": s.joined(cube2, crossing),
+            "Touching boxes": s.joined(unit, s.moved(unit, (1, 0, 0))),
+            "Flipped face": s.with_flipped(unit, 1),
+            "Three flipped faces": s.with_flipped(s.prism(s.L_PLAN), 0, 3, 5),
+            "Inside out": s.inverted(s.prism(s.L_PLAN)),
+            "One part inside out": s.joined(unit, s.inverted(s.moved(unit, (3, 0, 0)))),
+            "Open box": s.without(unit, 1),
+            "Open at two ends": s.without(s.prism(s.regular(9), 2.0), 0, 1),
+            "Open beam": s.without(s.prism(s.L_PLAN), 1),
+            "Open sphere": s.without(s.uv_sphere(), 0, 1, 2, 3, 4, 10, 11),
+            "Open raised column": s.without(s.raised_column(), 1),
+            "Open and flipped": s.with_flipped(s.without(s.uv_sphere(), 7, 30), 3, 12),
+            "Two open boxes": s.joined(s.without(unit, 1), s.without(s.moved(unit, (2, 0, 0)), 3)),
+            "T-junctions": s.t_junctions(),
+            "Dense side": s.dense_side(),
+            "Duplicate face": s.with_again(unit, 1),
+            "All faces twice": s.with_again(unit, *range(6)),
+            "Unwelded box": s.unwelded(unit),
+            "Unwelded sphere": s.unwelded(s.uv_sphere()),
+            "Unwelded flipped face": s.with_flipped(s.unwelded(unit), 1),
+            "Needles": needles,
+            "Face without area": (np.concatenate([unit[0], [[0.5, 0, 0]]]), [*unit[1], [0, 8, 1]]),
+            "Loose face": (np.concatenate([unit[0], [[3, 0, 0], [4, 0, 0], [3, 1, 0]]]), [*unit[1], [8, 9, 10]]),
+            "Fin": fin,
+            "Inner wall": two,
+            "Bow tie": bow,
+            "Möbius strip": s.moebius(),
+            "Klein bottle": s.torus(24, 12, twist=True),
+            "Sheet in space": s.sheet(4, 0.5),
+            "Edge in common": s.joined(unit, s.moved(unit, (1, 1, 0))),
+        },
+        2,
+        [place for place in PLACES if place != "tiny in its mesh"],
+    )
 
 
 def overlaps():
     """For --overlap union as well."""
     unit, cube4, cube2 = s.box(), s.box((-2, -2, -2), (2, 2, 2)), s.box((-1, -1, -1), (1, 1, 1))
     three = s.joined(unit, s.moved(unit, (0.5, 0.25, 0.125)), s.moved(unit, (-0.25, 0.5, 0.5)))
-    parts = {"Halves": s.joined(unit, s.moved(unit, (0.5, 0, 0))), "Three boxes": three,
-             "Nested": s.joined(cube4, cube2), "Balls": s.joined(s.ball(2), s.moved(s.ball(2), (0.7, 0.1, 0.2))),
-             "Apart": s.joined(unit, s.moved(unit, (2, 0, 0))), "Single": unit}
+    parts = {
+        "Halves": s.joined(unit, s.moved(unit, (0.5, 0, 0))),
+        "Three boxes": three,
+        "Nested": s.joined(cube4, cube2),
+        "Balls": s.joined(s.ball(2), s.moved(s.ball(2), (0.7, 0.1, 0.2))),
+        "Apart": s.joined(unit, s.moved(unit, (2, 0, 0))),
+        "Single": unit,
+    }
     places = ("at the origin", "turned", "mirrored", "sheared", "far away", "tiny")
     for (name, part), place in zip(parts.items(), places):
         body("{} {}".format(name, place), part, place=place)
@@ -196,9 +234,17 @@ def overlaps():
 
 def shapes():
     """With signatures, and moments of order 8."""
-    parts = {"Box": s.box((0, 0, 0), (1, 2, 3)), "Cube": s.box(), "L beam": s.prism(s.L_PLAN),
-             "Slanted beam": s.prism(s.SLANTED_PLAN, 0.7), "Hull": s.random_hull(4, 10), "Polycube": s.polycube(2, 6),
-             "Torus": s.torus(), "Open sphere": s.without(s.uv_sphere(), 0, 5), "Tetrahedra": s.random_tetrahedra(2, 3)}
+    parts = {
+        "Box": s.box((0, 0, 0), (1, 2, 3)),
+        "Cube": s.box(),
+        "L beam": s.prism(s.L_PLAN),
+        "Slanted beam": s.prism(s.SLANTED_PLAN, 0.7),
+        "Hull": s.random_hull(4, 10),
+        "Polycube": s.polycube(2, 6),
+        "Torus": s.torus(),
+        "Open sphere": s.without(s.uv_sphere(), 0, 5),
+        "Tetrahedra": s.random_tetrahedra(2, 3),
+    }
     spread(parts, 2)
     body("L beam as a shell", s.prism(s.L_PLAN), {"kind": "SHELL", "thickness": 0.01}, "turned")
     body("Hull as a shell", s.random_hull(2, 9), {"kind": "SHELL", "thickness": 0.01}, "sheared")
@@ -206,22 +252,41 @@ def shapes():
 
 def shells():
     """Thin, and with walls of real thickness."""
-    parts = {"Box": s.box((0, 0, 0), (1, 2, 3)), "L beam": s.prism(s.L_PLAN), "Ball": s.ball(2),
-             "Hull": s.random_hull(3, 9), "Open box": s.without(s.box((0, 0, 0), (2, 2, 2)), 1),
-             "Sheet": s.sheet(1), "Prism": s.prism(s.regular(7), 2.0)}
+    parts = {
+        "Box": s.box((0, 0, 0), (1, 2, 3)),
+        "L beam": s.prism(s.L_PLAN),
+        "Ball": s.ball(2),
+        "Hull": s.random_hull(3, 9),
+        "Open box": s.without(s.box((0, 0, 0), (2, 2, 2)), 1),
+        "Sheet": s.sheet(1),
+        "Prism": s.prism(s.regular(7), 2.0),
+    }
     places = cycle([place for place in PLACES if not place.startswith(("far", "tiny", "huge"))])
     for name, part in parts.items():
         for wall in ("THIN", "INWARD", "OUTWARD", "CENTERED"):
             place = next(places)
-            body("{} {} {}".format(name, wall.lower(), place), part,
-                 {"kind": "SHELL", "wall": wall, "thickness": 0.0625}, place)
+            body(
+                "{} {} {}".format(name, wall.lower(), place),
+                part,
+                {"kind": "SHELL", "wall": wall, "thickness": 0.0625},
+                place,
+            )
     thin = {"kind": "SHELL", "thickness": 0.01}
-    sheets = {"Flat sheet": s.sheet(3), "Hill": s.sheet(5, 0.4), "Möbius strip": s.moebius(), "Torus": s.torus(),
-              "Broken box": s.joined(*s.fracture())}
+    sheets = {
+        "Flat sheet": s.sheet(3),
+        "Hill": s.sheet(5, 0.4),
+        "Möbius strip": s.moebius(),
+        "Torus": s.torus(),
+        "Broken box": s.joined(*s.fracture()),
+    }
     for (name, part), place in zip(sheets.items(), ("sheared", "far away", "huge", "tiny", "mirrored and sheared")):
         body("{} thin {}".format(name, place), part, thin, place)
-    body("Box far away inward", s.box((0, 0, 0), (1, 2, 3)), {"kind": "SHELL", "wall": "INWARD", "thickness": 0.1},
-         "far away")
+    body(
+        "Box far away inward",
+        s.box((0, 0, 0), (1, 2, 3)),
+        {"kind": "SHELL", "wall": "INWARD", "thickness": 0.1},
+        "far away",
+    )
     tiny = {"kind": "SHELL", "wall": "CENTERED", "thickness": 1e-6}
     body("Box tiny centered", s.box((0, 0, 0), (1, 2, 3)), tiny, "tiny")
     body("Flipped box inward", s.with_flipped(s.box(), 2), {"kind": "SHELL", "wall": "INWARD", "thickness": 0.125})
@@ -231,8 +296,11 @@ def shells():
     many = {"kind": "SHELL", "wall": "OUTWARD", "thickness": 0.05}
     body("Polycube outward", s.polycube(3, 6), many, "turned")
     for kind, wall in (("sphere", "THIN"), ("torus", "THIN"), ("sphere", "INWARD"), ("torus", "OUTWARD")):
-        obj = made(getattr(bpy.ops.surface, "primitive_nurbs_surface_{}_add".format(kind)),
-                   "NURBS {} {} shell".format(kind, wall.lower()), location=(1, 2, 3))
+        obj = made(
+            getattr(bpy.ops.surface, "primitive_nurbs_surface_{}_add".format(kind)),
+            "NURBS {} {} shell".format(kind, wall.lower()),
+            location=(1, 2, 3),
+        )
         given(obj, kind="SHELL", wall=wall, thickness=0.05)
 
 
@@ -268,9 +336,14 @@ WAVE = np.array([(0, 0, 0), (1, 2, 0.5), (2, -1, 1), (3, 1, -0.5), (4, 0, 0), (5
 
 
 def curves():
-    wires = {"Rods": curve("Rods", ZIGZAG), "Loop of rods": curve("Loop", ZIGZAG, cyclic=True),
-             "Spline": curve("Spline", WAVE, "NURBS"), "Closed spline": curve("Closed", WAVE, "NURBS", True),
-             "Bézier": curve("Bezier", WAVE, "BEZIER"), "Closed Bézier": curve("BezierLoop", WAVE, "BEZIER", True)}
+    wires = {
+        "Rods": curve("Rods", ZIGZAG),
+        "Loop of rods": curve("Loop", ZIGZAG, cyclic=True),
+        "Spline": curve("Spline", WAVE, "NURBS"),
+        "Closed spline": curve("Closed", WAVE, "NURBS", True),
+        "Bézier": curve("Bezier", WAVE, "BEZIER"),
+        "Closed Bézier": curve("BezierLoop", WAVE, "BEZIER", True),
+    }
     places = cycle(PLACES)
     for name, data in wires.items():
         for _ in range(2):
@@ -280,8 +353,13 @@ def curves():
     given(add("Weighed wire", wires["Spline"], location=(1, 2, 3)), kind="WIRE", mass_from="MASS", mass=3.0)
     sheet = {"kind": "SHELL", "thickness": 0.01}
     ell = curve("Outline", np.array(s.L_PLAN), cyclic=True, dimensions="2D", fill_mode="BOTH")
-    hole = curve("Holes", [np.array(s.L_PLAN), np.array([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])],
-                 cyclic=True, dimensions="2D", fill_mode="BOTH")
+    hole = curve(
+        "Holes",
+        [np.array(s.L_PLAN), np.array([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])],
+        cyclic=True,
+        dimensions="2D",
+        fill_mode="BOTH",
+    )
     smooth = curve("Smooth", np.array(s.L_PLAN), "NURBS", True, "2D", fill_mode="BOTH")
     given(add("Filled outline", ell, location=(1, 0, 0), rotation_euler=TURN), **sheet)
     given(add("Filled outline with a hole", hole, location=(0, 2, 0), scale=(2, 1, 1)), **sheet)
@@ -301,8 +379,9 @@ def curves():
     flat = bpy.data.curves.new("Flat text", "FONT")
     flat.body = "Flat"
     given(add("Flat text", flat, rotation_euler=TURN), **sheet)
-    for number, (places, radius) in enumerate(((((0, 0, 0),), 1.0), (((0, 0, 0), (1.2, 0.1, 0)), 0.8),
-                                               (((0, 0, 0), (1, 0, 0), (0, 1, 0.5)), 0.7))):
+    for number, (places, radius) in enumerate(
+        ((((0, 0, 0),), 1.0), (((0, 0, 0), (1.2, 0.1, 0)), 0.8), (((0, 0, 0), (1, 0, 0), (0, 1, 0.5)), 0.7))
+    ):
         data = bpy.data.metaballs.new("Drop{}".format(number))
         data.resolution = 0.3
         for place in places:
@@ -346,9 +425,13 @@ def patch(name, points, weights=None, orders=(4, 4), cyclic=(False, False), endp
 
 
 def nurbs():
-    moves = {"": {}, " turned": {"location": (5, -2, 8), "rotation_euler": TURN},
-             " mirrored unevenly": {"location": (1, 2, 3), "rotation_euler": TURN, "scale": (1, 2, -0.5)},
-             " far away": {"location": (1e4, -1e4, 2e4)}, " tiny": {"scale": (1e-5, 1e-5, 1e-5)}}
+    moves = {
+        "": {},
+        " turned": {"location": (5, -2, 8), "rotation_euler": TURN},
+        " mirrored unevenly": {"location": (1, 2, 3), "rotation_euler": TURN, "scale": (1, 2, -0.5)},
+        " far away": {"location": (1e4, -1e4, 2e4)},
+        " tiny": {"scale": (1e-5, 1e-5, 1e-5)},
+    }
     for kind in ("sphere", "torus", "cylinder", "surface"):
         for words, transform in moves.items():
             add_one = getattr(bpy.ops.surface, "primitive_nurbs_surface_{}_add".format(kind))
@@ -360,13 +443,23 @@ def nurbs():
     for number in range(3):
         hills = np.stack([x, y, np.round(rng.uniform(-0.5, 0.5, x.shape), 3)], axis=-1)
         weights = np.round(rng.uniform(0.5, 2.0, x.shape), 3) if number else None
-        given(patch("Open patch {}".format(number), hills, weights, (4 - number % 2, 3), location=(number, 0, 1)),
-              kind="SHELL", thickness=0.02)
+        given(
+            patch("Open patch {}".format(number), hills, weights, (4 - number % 2, 3), location=(number, 0, 1)),
+            kind="SHELL",
+            thickness=0.02,
+        )
     u, v = np.meshgrid(np.arange(6) * np.pi / 3, np.arange(8) * np.pi / 4)
     ring = np.stack([(3 + np.cos(u)) * np.cos(v), (3 + np.cos(u)) * np.sin(v), np.sin(u)], axis=-1)
     patch("Cyclic patch", ring, cyclic=(True, True), endpoint=(False, False))
-    patch("Cyclic patch with weights", ring, np.round(rng.uniform(0.7, 1.5, u.shape), 3), cyclic=(True, True),
-          endpoint=(False, False), location=(9, 1, 2), scale=(1, 2, 1))
+    patch(
+        "Cyclic patch with weights",
+        ring,
+        np.round(rng.uniform(0.7, 1.5, u.shape), 3),
+        cyclic=(True, True),
+        endpoint=(False, False),
+        location=(9, 1, 2),
+        scale=(1, 2, 1),
+    )
 
 
 # What Blender builds
@@ -421,28 +514,43 @@ def built():
     grandchild = body("Grandchild", s.box(), place="mirrored")
     child.parent, grandchild.parent = parent, child
 
-    tree_of(body("Nodes on a grid", ell, place="turned"),
-            lambda tree, source: on_grid(tree, source, 3, (1.0, 2.0, 0.5)))
-    tree_of(body("Nodes beside its own", s.box(), place="mirrored"), lambda tree, source: joined_nodes(
-        tree, on_grid(tree, node(tree, "GeometryNodeMeshCone")), source))
-    tree_of(body("Nodes realized", ell, place="off the origin"), lambda tree, source: node(
-        tree, "GeometryNodeRealizeInstances", Geometry=on_grid(tree, source)))
-    tree_of(body("Nodes within nodes", s.box(), place="turned"), lambda tree, source: on_grid(
-        tree, on_grid(tree, source, 2), 2, (1.0, 1.0, -1.0)))
-    tree_of(body("Nodes transformed", ell), lambda tree, source: node(
-        tree, "GeometryNodeTransform", {"Translation": (1, 2, 3), "Rotation": TURN, "Scale": (1, -2, 1)},
-        Geometry=source))
+    tree_of(
+        body("Nodes on a grid", ell, place="turned"), lambda tree, source: on_grid(tree, source, 3, (1.0, 2.0, 0.5))
+    )
+    tree_of(
+        body("Nodes beside its own", s.box(), place="mirrored"),
+        lambda tree, source: joined_nodes(tree, on_grid(tree, node(tree, "GeometryNodeMeshCone")), source),
+    )
+    tree_of(
+        body("Nodes realized", ell, place="off the origin"),
+        lambda tree, source: node(tree, "GeometryNodeRealizeInstances", Geometry=on_grid(tree, source)),
+    )
+    tree_of(
+        body("Nodes within nodes", s.box(), place="turned"),
+        lambda tree, source: on_grid(tree, on_grid(tree, source, 2), 2, (1.0, 1.0, -1.0)),
+    )
+    tree_of(
+        body("Nodes transformed", ell),
+        lambda tree, source: node(
+            tree,
+            "GeometryNodeTransform",
+            {"Translation": (1, 2, 3), "Rotation": TURN, "Scale": (1, -2, 1)},
+            Geometry=source,
+        ),
+    )
 
     members = bpy.data.collections.new("Members")
     body("Member box", s.box(), place="turned", collection=members)
     body("Member beam", ell, place="scaled unevenly", collection=members)
     outer = bpy.data.collections.new("Outer")
     for name, collection, instanced, place in (
-            ("Inner instance", outer, members, "turned"), ("Collection instance", None, members, "off the origin"),
-            ("Collection instance mirrored", None, members, "mirrored"),
-            ("Collection instance far away", None, members, "far away"),
-            ("Collection instance sheared", None, members, "sheared"),
-            ("Nested instance", None, outer, "scaled unevenly")):
+        ("Inner instance", outer, members, "turned"),
+        ("Collection instance", None, members, "off the origin"),
+        ("Collection instance mirrored", None, members, "mirrored"),
+        ("Collection instance far away", None, members, "far away"),
+        ("Collection instance sheared", None, members, "sheared"),
+        ("Nested instance", None, outer, "scaled unevenly"),
+    ):
         obj = add(name, None, collection, **PLACES[place])
         obj.instance_type, obj.instance_collection = "COLLECTION", instanced
     for kind in ("VERTS", "FACES"):
@@ -486,31 +594,58 @@ def densities():
     pair = s.joined(unit, s.moved(unit, (4, 0, 0)))
     for place in ("at the origin", "scaled unevenly", "mirrored", "far away", "sheared", "tiny"):
         of_materials("Dumbbell " + place, pair, [0] * 6 + [1] * 6, place)
-    of_materials("Three materials", s.joined(pair, s.moved(unit, (0, 4, 0))), [0] * 6 + [1] * 6 + [2] * 6, "turned",
-                 density=900.0)
-    of_materials("Materials in nested boxes", s.joined(s.moved(unit, (-1, -1, -1), 3), s.inverted(unit), unit),
-                 [0] * 12 + [1] * 6, "turned")
+    of_materials(
+        "Three materials",
+        s.joined(pair, s.moved(unit, (0, 4, 0))),
+        [0] * 6 + [1] * 6 + [2] * 6,
+        "turned",
+        density=900.0,
+    )
+    of_materials(
+        "Materials in nested boxes",
+        s.joined(s.moved(unit, (-1, -1, -1), 3), s.inverted(unit), unit),
+        [0] * 12 + [1] * 6,
+        "turned",
+    )
     of_materials("Materials of a shell", unit, [0, 1, 0, 0, 2, 1], "mirrored", kind="SHELL", thickness=0.01)
     of_materials("Materials, weighed", pair, [0] * 6 + [1] * 6, "turned", mass_from="MASS", mass=12.5)
     for number, (value, place) in enumerate(((0.5, "turned"), (2700.0, "sheared"), (21450.0, "huge"))):
         body("One value {}".format(number), ell, {"density": value}, place)
     for number, (value, place) in enumerate(((1e-6, "tiny"), (3.5, "mirrored"), (1e9, "far away"))):
         body("Weighed {}".format(number), ell, {"mass_from": "MASS", "mass": value}, place)
-    polynomials = (("1000 + 20*z", "turned"), ("500 + x*x + 2*y*z + 100*y*y", "mirrored"),
-                   ("700 + 3*x - y + 0.5*z**3", "sheared"), ("1000, 10, 20, 30", "scaled unevenly"),
-                   ("800 + x**4", "off the origin"))
+    polynomials = (
+        ("1000 + 20*z", "turned"),
+        ("500 + x*x + 2*y*z + 100*y*y", "mirrored"),
+        ("700 + 3*x - y + 0.5*z**3", "sheared"),
+        ("1000, 10, 20, 30", "scaled unevenly"),
+        ("800 + x**4", "off the origin"),
+    )
     for number, (text, place) in enumerate(polynomials):
         for frame in ("OBJECT", "WORLD"):
-            body("Polynomial {} {}".format(number, frame.lower()), ell, {
-                "density_from": "POLYNOMIAL", "density_polynomial": text, "density_frame": frame}, place)
-    body("Polynomial of a shell", unit, {"density_from": "POLYNOMIAL", "density_polynomial": "1000 + 50*z + x*x",
-                                         "kind": "SHELL", "thickness": 0.02}, "turned")
-    body("Polynomial of an open box", s.without(unit, 1), {"density_from": "POLYNOMIAL",
-                                                           "density_polynomial": "1000 + 50*z"}, "turned")
+            body(
+                "Polynomial {} {}".format(number, frame.lower()),
+                ell,
+                {"density_from": "POLYNOMIAL", "density_polynomial": text, "density_frame": frame},
+                place,
+            )
+    body(
+        "Polynomial of a shell",
+        unit,
+        {"density_from": "POLYNOMIAL", "density_polynomial": "1000 + 50*z + x*x", "kind": "SHELL", "thickness": 0.02},
+        "turned",
+    )
+    body(
+        "Polynomial of an open box",
+        s.without(unit, 1),
+        {"density_from": "POLYNOMIAL", "density_polynomial": "1000 + 50*z"},
+        "turned",
+    )
     rng = np.random.default_rng(3)
-    for name, part, place in (("Attribute of a hill", s.sheet(4, 0.3), "turned"),
-                              ("Attribute of a ball", s.ball(1), "sheared"),
-                              ("Attribute of a hull", s.random_hull(1, 8), "mirrored")):
+    for name, part, place in (
+        ("Attribute of a hill", s.sheet(4, 0.3), "turned"),
+        ("Attribute of a ball", s.ball(1), "sheared"),
+        ("Attribute of a hull", s.random_hull(1, 8), "mirrored"),
+    ):
         obj = body(name, part, {"kind": "SHELL", "density_from": "ATTRIBUTE", "thickness": 0.01}, place)
         values = np.round(rng.uniform(500, 3000, len(obj.data.vertices)))
         obj.data.attributes.new("density", "FLOAT", "POINT").data.foreach_set("value", values)
@@ -564,12 +699,17 @@ def volumes(folder):
     given(volume_of(folder / "level.vdb", "Level set", level), grid_as="SOLID")
     whole = rng.integers(0, 9, (6, 6, 6)).astype(np.float32)
     source = volume(folder / "source.vdb", "Source", whole, location=(0.25, 0, 0))
-    for name, part, place in (("Box in a cloud", s.box((1, 1, 1), (3, 4, 4)), "at the origin"),
-                              ("Beam in a cloud", s.moved(s.prism(s.L_PLAN), (1, 1, 1)), "at the origin"),
-                              ("Ball in a cloud", s.moved(s.ball(1), (2.5, 2.5, 2.5)), "at the origin")):
+    for name, part, place in (
+        ("Box in a cloud", s.box((1, 1, 1), (3, 4, 4)), "at the origin"),
+        ("Beam in a cloud", s.moved(s.prism(s.L_PLAN), (1, 1, 1)), "at the origin"),
+        ("Ball in a cloud", s.moved(s.ball(1), (2.5, 2.5, 2.5)), "at the origin"),
+    ):
         given(body(name, part, place=place), density_from="VOLUME", density_volume=source)
-    given(body("Turned box in a cloud", s.box((-1, -1, -1), (1, 1, 1)), location=(2.5, 3, 2.5), rotation_euler=TURN),
-          density_from="VOLUME", density_volume=source)
+    given(
+        body("Turned box in a cloud", s.box((-1, -1, -1), (1, 1, 1)), location=(2.5, 3, 2.5), rotation_euler=TURN),
+        density_from="VOLUME",
+        density_volume=source,
+    )
     fog = add("Fog", bpy.data.volumes.new("Fog"))
     filler = body("Filler", s.box((0, 0, 0), (2, 1, 1)), place="at the origin")
     one = fog.modifiers.new("Fog", "MESH_TO_VOLUME")
@@ -649,9 +789,16 @@ def refused():
 
 def small_set():
     """One of each way, for other units."""
-    spread({"Box": s.box((0, 0, 0), (1, 2, 3)), "L beam": s.prism(s.L_PLAN), "Hull": s.random_hull(6, 9),
+    spread(
+        {
+            "Box": s.box((0, 0, 0), (1, 2, 3)),
+            "L beam": s.prism(s.L_PLAN),
+            "Hull": s.random_hull(6, 9),
             "Open box": s.without(s.box(), 1),
-            "Cavity": s.joined(s.box((-2, -2, -2), (2, 2, 2)), s.inverted(s.box()))}, 2)
+            "Cavity": s.joined(s.box((-2, -2, -2), (2, 2, 2)), s.inverted(s.box())),
+        },
+        2,
+    )
     body("Thin shell", s.box(), {"kind": "SHELL", "thickness": 0.125}, "turned")
     body("Wall", s.box((0, 0, 0), (1, 2, 3)), {"kind": "SHELL", "wall": "INWARD", "thickness": 0.125}, "turned")
     body("Polynomial", s.box(), {"density_from": "POLYNOMIAL", "density_polynomial": "1000 + 20*z"}, "turned")
@@ -675,21 +822,42 @@ def kilometers():
 
 def sections():
     """Flat bodies, for the operator that measures sections."""
-    outlines = {"L section": s.L_PLAN, "U section": s.U_PLAN, "Comb section": s.COMB_PLAN,
-                "Slanted section": s.SLANTED_PLAN, "Hexagon": s.regular(6).tolist()}
+    outlines = {
+        "L section": s.L_PLAN,
+        "U section": s.U_PLAN,
+        "Comb section": s.COMB_PLAN,
+        "Slanted section": s.SLANTED_PLAN,
+        "Hexagon": s.regular(6).tolist(),
+    }
     places = ("at the origin", "turned", "sheared", "scaled unevenly", "far away")
     for (name, outline), place in zip(outlines.items(), places):
         flat = (np.column_stack([np.asarray(outline, float), np.zeros(len(outline))]), [list(range(len(outline)))])
         body(name, flat, place=place)
     body("Sheet", s.sheet(4), place="tiny")
-    add("Outline", curve("Outline", np.array(s.L_PLAN), cyclic=True, dimensions="2D", fill_mode="BOTH"),
-        location=(1, 2, 3), rotation_euler=TURN)
+    add(
+        "Outline",
+        curve("Outline", np.array(s.L_PLAN), cyclic=True, dimensions="2D", fill_mode="BOTH"),
+        location=(1, 2, 3),
+        rotation_euler=TURN,
+    )
 
 
 SCENES = {
-    "closed": closed, "faulty": faulty, "overlaps": overlaps, "shapes": shapes, "shells": shells, "curves": curves,
-    "nurbs": nurbs, "built": built, "densities": densities, "volumes": volumes, "booleans": booleans,
-    "refused": refused, "millimeters": millimeters, "kilometers": kilometers, "sections": sections,
+    "closed": closed,
+    "faulty": faulty,
+    "overlaps": overlaps,
+    "shapes": shapes,
+    "shells": shells,
+    "curves": curves,
+    "nurbs": nurbs,
+    "built": built,
+    "densities": densities,
+    "volumes": volumes,
+    "booleans": booleans,
+    "refused": refused,
+    "millimeters": millimeters,
+    "kilometers": kilometers,
+    "sections": sections,
 }
 EVALUATED = {"curves", "built", "booleans", "overlaps", "volumes/Fog", "volumes/Level set", "volumes total"}
 NAMED = {"booleans": lambda name: not name.endswith("operand"), "refused": lambda name: True}

@@ -101,8 +101,10 @@ def uv_sphere(segments=12, rings=8, radius=1.0):
     for i in range(segments):
         j = (i + 1) % segments
         faces += [[top, i, j], [bottom, last + j, last + i]]
-        faces += [[r * segments + i, (r + 1) * segments + i, (r + 1) * segments + j, r * segments + j]
-                  for r in range(rings - 2)]
+        faces += [
+            [r * segments + i, (r + 1) * segments + i, (r + 1) * segments + j, r * segments + j]
+            for r in range(rings - 2)
+        ]
     return points, faces
 
 
@@ -141,15 +143,18 @@ def torus(nu=16, nv=8, major=1.0, minor=0.35, twist=False):
     def vertex(i, j):
         return i % nu * nv + (-j if twist and i // nu % 2 else j) % nv
 
-    faces = [[vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)]
-             for i in range(nu) for j in range(nv)]
+    faces = [
+        [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)] for i in range(nu) for j in range(nv)
+    ]
     return points, faces
 
 
 def moebius(n=40, width=0.3):
     u = np.arange(n) * 2 * np.pi / n
-    sides = [np.stack([(1 + w * np.cos(u / 2)) * np.cos(u), (1 + w * np.cos(u / 2)) * np.sin(u), w * np.sin(u / 2)],
-                      axis=1) for w in (-width, width)]
+    sides = [
+        np.stack([(1 + w * np.cos(u / 2)) * np.cos(u), (1 + w * np.cos(u / 2)) * np.sin(u), w * np.sin(u / 2)], axis=1)
+        for w in (-width, width)
+    ]
     return np.concatenate(sides), [*([i, i + 1, n + i + 1, n + i] for i in range(n - 1)), [n - 1, n, 0, 2 * n - 1]]
 
 
@@ -276,5 +281,7 @@ def random_tetrahedra(seed, count=5, spread=4.0):
     return joined(*parts)
 
 
-TONON = (np.array([[8.3322, -11.86875, 0.93355], [0.75523, 5.0, 16.37072], [52.61236, 5.0, -5.3858],
-                   [2.0, 5.0, 3.0]]), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+TONON = (
+    np.array([[8.3322, -11.86875, 0.93355], [0.75523, 5.0, 16.37072], [52.61236, 5.0, -5.3858], [2.0, 5.0, 3.0]]),
+    [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+)

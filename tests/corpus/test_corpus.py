@@ -16,8 +16,8 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from tests.corpus.compare import differences, load, within  # noqa: E402
-from tests.corpus.scenes import EVALUATED, SCENES  # noqa: E402
+from tests.corpus.compare import differences, load, within
+from tests.corpus.scenes import EVALUATED, SCENES
 
 FOLDER = Path(__file__).resolve().parent
 SHOWN = 25
@@ -31,8 +31,13 @@ def reference():
 
 def test_no_number_has_changed(reference, tmp_path):
     out = tmp_path / "now.json"
-    done = subprocess.run([sys.executable, "-P", str(FOLDER / "compare.py"), "--write", str(out)],
-                          stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", errors="replace")
+    done = subprocess.run(
+        [sys.executable, "-P", str(FOLDER / "compare.py"), "--write", str(out)],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        encoding="utf-8",
+        errors="replace",
+    )
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-4000:]
     first = {}
     for place, before, after in within(reference, load(out), EVALUATED):
@@ -46,8 +51,19 @@ def test_the_corpus_is_large_and_of_every_kind(reference):
     bodies = {key.split("/", 1)[1] for key in reference if key.count("/") == 2 and not key.startswith("properties/")}
     assert len(bodies) >= 450
     assert {one["type"] for one in records} >= {"MESH", "CURVE", "SURFACE", "FONT", "META", "VOLUME", "EMPTY", "ARRAY"}
-    assert {one["method"] for one in records} >= {"exact", "capped", "reoriented", "open", "shell", "union", "wire",
-                                                  "NURBS exact", "NURBS capped", "NURBS shell", "grid exact"}
+    assert {one["method"] for one in records} >= {
+        "exact",
+        "capped",
+        "reoriented",
+        "open",
+        "shell",
+        "union",
+        "wire",
+        "NURBS exact",
+        "NURBS capped",
+        "NURBS shell",
+        "grid exact",
+    }
     assert len(reference["named/refused.blend errors"]) >= 30
     assert {key.split("/")[1] for key in reference if key.startswith("properties/")} >= SCENES.keys() - {"refused"}
 
@@ -68,14 +84,23 @@ def test_a_moment_that_is_off_by_1e_12_is_found(reference, name):
     assert len(strict) > 0.6 * len(touched)
 
 
-@pytest.mark.parametrize("change", [
-    lambda record: record.update(method="capped"), lambda record: record.update(symmetry="oblate"),
-    lambda record: record["health"].update(components=2), lambda record: record["health"].update(closed=False),
-    lambda record: record.pop("mass"), lambda record: record.update(mass=None),
-    lambda record: record.update(mass=record["mass"] * (1 + 1e-12)),
-    lambda record: record["error_bound"].update(volume=1.01 * record["error_bound"]["volume"]),
-    lambda record: record["principal_axes"][0].reverse(), lambda record: record["pose"]["matrix"][0].reverse(),
-    lambda record: record["inertia"][0].pop(), lambda record: record["inertia"][0].__setitem__(1, "text")])
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda record: record.update(method="capped"),
+        lambda record: record.update(symmetry="oblate"),
+        lambda record: record["health"].update(components=2),
+        lambda record: record["health"].update(closed=False),
+        lambda record: record.pop("mass"),
+        lambda record: record.update(mass=None),
+        lambda record: record.update(mass=record["mass"] * (1 + 1e-12)),
+        lambda record: record["error_bound"].update(volume=1.01 * record["error_bound"]["volume"]),
+        lambda record: record["principal_axes"][0].reverse(),
+        lambda record: record["pose"]["matrix"][0].reverse(),
+        lambda record: record["inertia"][0].pop(),
+        lambda record: record["inertia"][0].__setitem__(1, "text"),
+    ],
+)
 def test_a_change_of_one_record_is_found(reference, change):
     key = "world/closed.blend/Slanted beam far in its mesh"
     before, after = {key: reference[key]}, {key: deepcopy(reference[key])}
@@ -85,9 +110,12 @@ def test_a_change_of_one_record_is_found(reference, change):
 
 def test_a_change_of_what_is_stored_refused_or_there_is_found(reference):
     stored, refused = "properties/closed/Slanted beam far in its mesh", "named/refused.blend errors"
-    for key, new in ((stored, {**reference[stored], "body_method": "open"}),
-                     (stored, {**reference[stored], "body_mass": reference[stored]["body_mass"] * (1 + 1e-12)}),
-                     (refused, reference[refused][1:]), (refused, [*reference[refused], "Zero"])):
+    for key, new in (
+        (stored, {**reference[stored], "body_method": "open"}),
+        (stored, {**reference[stored], "body_mass": reference[stored]["body_mass"] * (1 + 1e-12)}),
+        (refused, reference[refused][1:]),
+        (refused, [*reference[refused], "Zero"]),
+    ):
         before, after = {key: reference[key]}, {key: new}
         assert list(within(before, after, EVALUATED)) and list(differences(before, after))
     assert list(within(before, {})) and list(differences(before, {}))
