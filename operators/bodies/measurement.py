@@ -50,7 +50,15 @@ def _higher(body: Body, shell: bool) -> Callable[[], Moments] | None:
     """What gives the moments of higher order of what the principal frame is made from, where they are known."""
     if body.to_order is None or body.mass is not None or body.length is not None:
         return None
-    return lambda: body.to_order(ORDER, shell)[1 if shell else 0]
+
+    def higher() -> Moments:
+        with np.errstate(over="ignore", invalid="ignore"):
+            moments = body.to_order(ORDER, shell)[1 if shell else 0]
+        if not np.isfinite([moments.raw, moments.error]).all():
+            raise ReadError("object_too_large")
+        return moments
+
+    return higher
 
 
 def _require_volume(body: Body, options: MeasureOptions) -> Moments:
