@@ -20,6 +20,7 @@ import io
 import os
 import sys
 import traceback
+from collections.abc import Callable
 from contextlib import redirect_stdout, suppress
 from pathlib import Path
 
@@ -49,6 +50,7 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
         # the help, where it was asked for
         return ended.code if _written(told.getvalue(), None, channel) else OUR_FAULT
 
+    from .command import results
     from .command.run import Run
     from .write.record import FORMATS
 
@@ -59,7 +61,8 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     except Exception:
         traceback.print_exc()
         return OUR_FAULT
-    if not _written(text, options.output, channel) or run.faults:
+    check = results.guard("output", options.output in options.forced)
+    if not _written(text, options.output, channel, check) or run.faults:
         return OUR_FAULT
     return SOME_NOT if run.errors else ALL_MEASURED
 
@@ -81,12 +84,12 @@ def _similar(options, channel: int) -> int:
     return SOME_NOT if faults else ALL_MEASURED
 
 
-def _written(text: str, path: Path | None, channel: int) -> bool:
+def _written(text: str, path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> bool:
     """Whether a result could be written; the reason goes to the standard error where it could not."""
     from .command import output
 
     try:
-        output.write(text, path, channel)
+        output.write(text, path, channel, check)
     except OSError as error:
         sys.stderr.write("body_moments: the result cannot be written: {}\n".format(error))
         return False

@@ -4,10 +4,7 @@
 
 from __future__ import annotations
 
-import gzip
 import math
-import zipfile
-import zlib
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -49,8 +46,6 @@ def read_scan(path: str | Path) -> Scan:
         pass  # where it cannot be opened this says why; what reads it would take it for damaged
     try:
         scan = read(path)
-    except (zlib.error, gzip.BadGzipFile, zipfile.BadZipFile, EOFError) as error:
-        raise ValueError("The file is damaged or cut short: its compressed part cannot be unpacked.") from error
     except MemoryError as error:
         raise ValueError("The samples do not fit into memory; unpack the file, then they need not.") from error
     if not np.isfinite(scan.matrix).all() or not abs(np.linalg.det(scan.matrix[:3, :3])) > 0.0:

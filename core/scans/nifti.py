@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import gzip
 import math
 import struct
 from pathlib import Path
@@ -13,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics.rotations import rotation_matrix
-from .scan import Scan, mapped, shape_of, unpacked
+from .scan import Scan, damaged, gzip_blocks, mapped, shape_of, unpacked
 
+HEADER = 348  # bytes
 TYPES = {2: "u1", 4: "i2", 8: "i4", 16: "f4", 64: "f8", 256: "i1", 512: "u2", 768: "u4", 1024: "i8", 1280: "u8"}
 UNITS = {1: 1.0, 2: 1e-3, 3: 1e-6}
 
@@ -22,10 +22,9 @@ UNITS = {1: 1.0, 2: 1e-3, 3: 1e-6}
 def read_nifti(path: Path) -> Scan:
     """The scan, mapped where it is not packed."""
     packed = path.name.lower().endswith(".gz")
-    with gzip.open(path) if packed else open(path, "rb") as file:
-        head = file.read(348)
-    if len(head) < 348:
-        raise ValueError("The file is cut short: a NIfTI-1 header has 348 bytes.")
+    head = _head(path, packed)
+    if len(head) < HEADER:
+        raise damaged(path, "it is cut short, for a NIfTI-1 header has {:d} bytes".format(HEADER))
     order = next((mark for mark in "<>" if struct.unpack_from(mark + "i", head)[0] == 348), None)
     if order is None or head[344:348] not in (b"n+1\0", b"ni1\0"):
         raise ValueError("The file does not begin as a NIfTI-1 file does.")
@@ -49,6 +48,18 @@ def read_nifti(path: Path) -> Scan:
     if slope == 0.0:  # by the standard: not scaled
         slope, intercept = 1.0, 0.0
     return Scan(samples, matrix, UNITS.get(head[123] & 7), placed, slope, intercept)
+
+
+def _head(path: Path, packed: bool) -> bytes:
+    if not packed:
+        with open(path, "rb") as file:
+            return file.read(HEADER)
+    head = b""
+    for block in gzip_blocks(path, 0):
+        head += block[: HEADER - len(head)]
+        if len(head) == HEADER:
+            break
+    return head
 
 
 def _place(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:

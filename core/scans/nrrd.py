@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from .scan import Scan, mapped, shape_of, unpacked
+from .scan import Scan, damaged, mapped, shape_of, unpacked
 
 HEADER = 1 << 20  # bytes of a header, at most
 UNITS = {
@@ -134,7 +134,7 @@ def _after_lines(path: Path, start: int, count: int) -> int:
         file.seek(start)
         for _ in range(count):
             if not file.readline(HEADER).endswith(b"\n"):
-                raise ValueError("The file is cut short: it has not the lines that its header tells to skip.")
+                raise damaged(path, "it is cut short, for it has not the lines that its header tells to skip")
         return file.tell()
 
 

@@ -12,36 +12,46 @@ from pathlib import Path
 
 import numpy as np
 
-from .scan import Scan, mapped, real_samples, shape_of
+from .scan import Scan, check_length, damaged, mapped, real_samples, shape_of
 
 TYPES = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float32", "float64")
+ENTRY = b"PK\1\2"  # how an entry of a zip archive's directory begins
 
 
 def read_npy(path: Path) -> Scan:
     """The array, mapped."""
     try:
-        array = np.load(path, mmap_mode="r", allow_pickle=False)
+        array = np.lib.format.open_memmap(path, mode="r")
     except MemoryError:
         raise
     except Exception as error:  # of a damaged header NumPy evaluates what it finds, and may raise anything
-        raise ValueError("The file is no whole array of numbers in NumPy's format.") from error
-    return Scan(real_samples(array), np.eye(4))
+        raise damaged(path, "it is no whole array of numbers in NumPy's format") from error
+    real_samples(array)
+    check_length(path, path.stat().st_size - array.offset, array.nbytes)
+    return Scan(array, np.eye(4))
 
 
 def read_npz(path: Path) -> Scan:
-    """The array called “density”, else the first of three dimensions."""
+    """The array called “density”, else the first of three dimensions. It is read to the end of its entry, where
+    zipfile compares the checksum; of the others the headers alone are read."""
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            names = list(archive.files)
-            heads = {name: _npz_header(path, name) for name in names}
-            volumes = [name for name, shape in heads.items() if len(shape) == 3]
+        with zipfile.ZipFile(path) as archive:
+            entries = archive.infolist()
+            if any(ENTRY in entry.comment + entry.extra for entry in entries):
+                raise zipfile.BadZipFile("an entry of its directory hides the next")  # by a wrong length
+            heads = {entry.filename: _npz_header(archive, entry) for entry in entries}
+            volumes = [name.removesuffix(".npy") for name, shape in heads.items() if len(shape) == 3]
             name = "density" if "density" in volumes else volumes[0] if volumes else None
-            array = archive[name] if name else None
+            if name:
+                with archive.open(name + ".npy") as file:
+                    array = np.lib.format.read_array(file, allow_pickle=False)
     except MemoryError:
         raise
+    except zipfile.BadZipFile as error:
+        raise damaged(path, "it is no whole archive ({:s})".format(str(error).rstrip("."))) from error
     except Exception as error:  # as above, and whatever unpacking raises
-        raise ValueError("The file is no whole archive of arrays in NumPy's format.") from error
-    if array is None:
+        raise damaged(path, "it is no whole archive of arrays in NumPy's format") from error
+    if not name:
         raise ValueError("None of its arrays has 3 dimensions.")
     notes = ()
     if len(volumes) > 1:
@@ -53,14 +63,14 @@ def read_npz(path: Path) -> Scan:
     return Scan(real_samples(array), np.eye(4), notes=notes)
 
 
-def _npz_header(path: Path, name: str) -> tuple[int, ...]:
-    """The shape of an array in an archive, which must be able to hold it."""
-    with zipfile.ZipFile(path) as archive, archive.open(name + ".npy") as file:
+def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
+    """The shape of an array in an archive, which must fill its entry: beyond the array no checksum would be reached."""
+    with archive.open(entry) as file:
         version = np.lib.format.read_magic(file)
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
         shape, _, dtype = read(file)
-        if dtype.itemsize * math.prod(shape) > archive.getinfo(name + ".npy").file_size:
-            raise ValueError("cut short")
+        if not dtype.hasobject and file.tell() + dtype.itemsize * math.prod(shape) != entry.file_size:
+            raise ValueError("The array does not fill its entry.")
     return shape
 
 

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 import bpy
 from bpy.types import Context, Object, Operator
 
+from ...core.verdict import internal_error
 from ..read import measurable
 from ..scene.transforms import lineage
 from ..write.text import LISTED, counted, in_a_row, listed, one_line
@@ -97,15 +98,15 @@ def one_by_one(
 ) -> Iterator[float]:
     """Run `action` on one object after the other: it does the work, or returns an iterator that does it in steps and
     yields its share that is done. Yields how many objects are done. (name, reason) of those that it refused are added
-    to `failures`.
+    to `failures`, and of those where it failed otherwise: none of them ends the others.
     """
     for done, obj in enumerate(objects, 1):
         try:
             for share in action(obj) or ():
                 yield done - 1 + share
-        except refusals as error:
+        except Exception as error:
             # Objects of two libraries may have one name.
-            failures.append((obj.name_full, str(getattr(error, "reason", error))))
+            failures.append((obj.name_full, internal_error.reason(error, refusals)))
         yield done
 
 
@@ -115,7 +116,7 @@ def each(
     refusals: tuple[type[Exception], ...],
 ) -> tuple[int, list[tuple[str, str]]]:
     """Run `action` on each object; how many it changed, and (name, reason) of those that it
-    refused.
+    refused, or where it failed.
     """
     changed: list[Object] = []
     failures: list[tuple[str, str]] = []

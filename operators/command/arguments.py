@@ -16,7 +16,7 @@ import bpy
 from ...core.density.spline_tables import MAX_ORDER as MAX_SPLINE_ORDER
 from ...core.polyhedron.any_order import MAX_ORDER
 from ..write.record import FORMATS, FRAMES
-from . import fourier
+from . import fourier, inputs, output, results
 
 DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
 
@@ -47,7 +47,7 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     if options.output is not None and options.output.is_dir():
         parser.error("argument --output: {} is a folder".format(options.output))
     fourier.check(options, parser)
-    _keep_what_is_read(options, parser)
+    _keep_files(options, parser)
     return options
 
 
@@ -62,16 +62,37 @@ def _negatives_joined(argv: list[str]) -> list[str]:
     return joined
 
 
-def _keep_what_is_read(options: argparse.Namespace, parser: argparse.ArgumentParser) -> None:
-    """Ends with a message where a result would be written over a file that is measured."""
-    read = [*options.files] or [bpy.data.filepath]
+def _keep_files(options: argparse.Namespace, parser: argparse.ArgumentParser) -> None:
+    """Ends with a message where a result would be written over a file that is read, or, without --force, over one that
+    is no result of ours. `options.forced`: those of the targets that --force is about.
+    """
+    options.forced = []
+    # Also the file that is open, whether or not it is measured, and that of the wave vectors.
+    read = [path for path in (*options.files, bpy.data.filepath, options.q) if path and os.path.exists(path)]
+    replaced = []
     for name in ("output", "fourier"):
         target = getattr(options, name)
-        if target is None or not target.exists():
+        if target is None or not target.exists() or output.is_stdout(target):
             continue
-        for path in read:
-            if os.path.exists(path) and os.path.samefile(path, target):
-                parser.error("argument --{}: {} is the file that is measured; name another".format(name, target))
+        message = "argument --{}: {{}}; name another file".format(name)
+        if any(os.path.samefile(path, target) for path in read):
+            parser.error(message.format("{} is a file that is read".format(target)))
+        try:
+            if results.replaceable(target, name):
+                continue
+            empty = results.is_empty(target)
+        except OSError as error:
+            parser.error(message.format("{} cannot be replaced: {}".format(target, error.strerror)))
+        if not (empty or options.force):
+            parser.error(message.format(results.REFUSAL.format(target)) + ", or give --force")
+        replaced.append((target, message))
+        if not empty:
+            options.forced.append(target)
+    # Opening what is measured takes its time, and only here does it matter what that reads.
+    for path in inputs.files_read(options.files) if replaced else ():
+        for target, message in replaced:
+            if target.samefile(path):
+                parser.error(message.format("{} is read with what is measured".format(target)))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -195,9 +216,14 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
     )
     add("--output", type=Path, metavar="PATH", help="(standard output)")
     add(
+        "--force",
+        action="store_true",
+        help="--output and --fourier may replace any file that is not read (only results of body_moments)",
+    )
+    add(
         "--write",
         action="store_true",
-        help="store the results on the objects and save the .blend file",
+        help="store the results on the objects and save the .blend file, unless something else has saved it meanwhile",
     )
 
 

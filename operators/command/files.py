@@ -11,10 +11,8 @@ STL cut short (read as an empty mesh, or as half of one), a file in which no obj
 from __future__ import annotations
 
 import os
-import shutil
 import struct
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 
 import addon_utils
@@ -41,7 +39,6 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
         lambda path: bpy.ops.wm.usd_import(filepath=path, import_visible_only=False),
     ),
 }
-_PACKED = (b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # how a .blend compressed with zstd or gzip begins
 
 
 class Unusable(Exception):
@@ -71,31 +68,9 @@ def open_file(path: str) -> None:
     except AttributeError as error:
         raise Unusable("This Blender was built without an importer of {} files.".format(kind)) from error
     except RuntimeError as error:
-        raise Unusable("Blender cannot read the file: {}.".format(_told(error))) from error
+        raise Unusable("Blender cannot read the file: {}.".format(reason(error))) from error
     if not bpy.context.scene.objects:
         raise Unusable("Blender finds no object in the file; check that it really is {}.".format(kind))
-
-
-def save_file(path: str) -> None:
-    """Save the open scene as the .blend file `path`, whole or not at all. Raises Unusable."""
-    path = os.path.realpath(path)
-    folder, name = os.path.split(path)
-    partial = os.path.join(folder, "{}.{}.partial".format(name, os.getpid()))
-    try:
-        if not os.access(path, os.W_OK):
-            raise Unusable("The file cannot be saved: it is read-only.")
-        with open(path, "rb") as file:
-            packed = file.read(4).startswith(_PACKED)
-        bpy.ops.wm.save_as_mainfile(
-            filepath=partial, copy=True, compress=packed, relative_remap=False, check_existing=False
-        )
-        shutil.copymode(path, partial)
-        os.replace(partial, path)
-    except (RuntimeError, OSError) as error:
-        raise Unusable("The file cannot be saved: {}.".format(_told(error))) from error
-    finally:
-        with suppress(FileNotFoundError):
-            os.unlink(partial)
 
 
 def _check(path: str, kind: str) -> None:
@@ -136,7 +111,7 @@ def _check_stl(head: bytes, tail: bytes, size: int) -> None:
         raise Unusable('The STL file is cut short: its last line, "endsolid", is missing.')
 
 
-def _told(error: Exception) -> str:
+def reason(error: Exception) -> str:
     """What Blender said, as one line: the first line of a report, the last of a traceback."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     if not lines:

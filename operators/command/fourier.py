@@ -16,6 +16,7 @@ from ...core.fourier.wave_vectors import Grid, wave_vectors
 from ..bodies.fourier import object_transform
 from ..settings.options import MeasureOptions
 from ..write import spectrum
+from .results import guard
 
 LARGEST_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 
@@ -74,7 +75,7 @@ def write(obj: bpy.types.Object, options: Namespace, wanted: MeasureOptions) -> 
     for _ in under_way.steps():
         pass
     found, notes = under_way.result()
-    spectrum.save(options.fourier, found, options.frame)
+    spectrum.save(options.fourier, found, options.frame, guard("fourier", options.fourier in options.forced))
     return notes
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 import io
 import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from ..write.whole_file import whole_file
@@ -49,15 +50,20 @@ def _is_open(descriptor: int) -> bool:
     return True
 
 
-def write(text: str, path: Path | None, channel: int) -> None:
-    """Write a result to `path`, or to a descriptor where it is None. Raises OSError."""
+def is_stdout(path: Path) -> bool:
+    """Whether this is a name of the standard output."""
+    return str(path) in _STDOUT
+
+
+def write(text: str, path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> None:
+    """Write a result to `path`, or to a descriptor where it is None. check: as in `whole_file`. Raises OSError."""
     # A file name that is not UTF-8 holds lone surrogates. Escaped so, they are what JSON writes for
     # them.
     data = text.encode("utf-8", "backslashreplace")
-    if path is None or str(path) in _STDOUT:
+    if path is None or is_stdout(path):
         _write_all(channel, data)
     else:
-        with whole_file(path) as file:
+        with whole_file(path, check) as file:
             file.write(data)
 
 

@@ -13,10 +13,10 @@ from __future__ import annotations
 import os
 import re
 import sys
-import traceback
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -24,6 +24,7 @@ import bpy
 
 from ...core.measurement import Measurement
 from ...core.scans import formats as scans
+from ...core.verdict import internal_error
 from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
 from ..bodies.shape import DISPLAY_MESH, OF_SHAPES, POLYGONS, NoShape, shape_of
@@ -36,7 +37,8 @@ from ..write import record
 from ..write.properties import store
 from ..write.text import listed
 from . import fourier
-from .files import BLEND, UNITLESS, Unusable, open_file, save_file, suffix
+from .files import BLEND, UNITLESS, Unusable, open_file, suffix
+from .saving import Place, reserved
 
 _OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale")
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
@@ -74,6 +76,19 @@ class Run:
 
     def _document(self, path: str | None) -> dict[str, Any]:
         file = path or bpy.data.filepath or _asked_for()
+        with self._place(path) as place:
+            return self._measured(path, file, place)
+
+    def _place(self, path: str | None) -> AbstractContextManager[Place | None]:
+        """Where --write is going to store the results."""
+        target = path or bpy.data.filepath
+        if not self.options.write or path is not None and suffix(path) != BLEND or not os.path.isfile(target):
+            return nullcontext()
+        asked = _asked_for() if path is None else None
+        at_start = asked is not None and os.path.realpath(asked) == os.path.realpath(target)
+        return reserved(target, path is None, at_start)
+
+    def _measured(self, path: str | None, file: str | None, place: Place | None) -> dict[str, Any]:
         measured: list[tuple[str, bpy.types.Object, Measurement]] = []
         objects, errors, doubtful = [], [], []
         try:
@@ -105,7 +120,8 @@ class Run:
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
             if self.options.write:
-                errors.extend(_store(path, measured, wanted))
+                errors.extend(self._store(path, measured, wanted))
+                doubtful += _save(place, file)
         except Unusable as refusal:
             errors.append(_error(None, refusal))
         except Exception as error:
@@ -232,8 +248,31 @@ class Run:
 
     def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
         self.faults += 1
-        traceback.print_exception(error)
-        return _error(name, "A fault of the program: {}: {}.".format(type(error).__name__, error))
+        return _error(name, internal_error.reason(error))
+
+    def _store(
+        self,
+        path: str | None,
+        measured: list[tuple[str, bpy.types.Object, Measurement]],
+        wanted: MeasureOptions,
+    ) -> Iterator[dict[str, Any]]:
+        """Store the results, once all of them are there: drivers may read them and change what is
+        measured next. The settings that were given go with them, or the results would be out of date.
+        """
+        if path is not None and suffix(path) != BLEND:
+            raise Unusable("Only a .blend file can keep the results; --write did nothing here.")
+        if not bpy.data.filepath:
+            raise Unusable("The scene has never been saved, so --write has no file to save.")
+        for label, obj, one in measured:
+            try:
+                store(obj, one)
+                settings.keep(obj.body_moments, wanted, bpy.context.scene)
+            except Exception as error:
+                if internal_error.is_refusal(error, (RuntimeError,)):
+                    yield _error(label, error)
+                else:
+                    yield self._fault(label, error)
+        settle(bpy.context, [obj for _, obj, _ in measured])
 
 
 def _error(name: str | None, reason: object) -> dict[str, Any]:
@@ -327,24 +366,11 @@ def _array_notes(options: Namespace) -> Iterator[str]:
         yield "Only arrays and scans take {}; it was not used here.".format(words)
 
 
-def _store(
-    path: str | None,
-    measured: list[tuple[str, bpy.types.Object, Measurement]],
-    wanted: MeasureOptions,
-) -> Iterator[dict[str, Any]]:
-    """Store the results, once all of them are there: drivers may read them and change what is
-    measured next. The settings that were given go with them, or the results would be out of date.
-    """
-    if path is not None and suffix(path) != BLEND:
-        raise Unusable("Only a .blend file can keep the results; --write did nothing here.")
-    if not bpy.data.filepath:
-        raise Unusable("The scene has never been saved, so --write has no file to save.")
-    for label, obj, one in measured:
-        try:
-            store(obj, one)
-        except RuntimeError as refusal:
-            yield _error(label, refusal)
-            continue
-        settings.keep(obj.body_moments, wanted, bpy.context.scene)
-    settle(bpy.context, [obj for _, obj, _ in measured])
-    save_file(bpy.data.filepath)
+def _save(place: Place | None, file: str | None) -> tuple[str, ...]:
+    """Save the file that was opened. Returns warnings, which are on the standard error too."""
+    if place is None:
+        raise Unusable("The file cannot be saved: it is no longer there.")
+    warnings = place.save()
+    for warning in warnings:
+        sys.stderr.write("body_moments: {}: {}\n".format(file, warning))
+    return warnings

@@ -78,7 +78,7 @@ class SampledGrid:
             tree = keep(bpy.data.node_groups, bpy.data.node_groups.new("Body Moments Reading", "GeometryNodeTree"))
             probe = keep(bpy.data.objects, bpy.data.objects.new("Body Moments Reading", mesh))
             scene = keep(bpy.data.scenes, bpy.data.scenes.new("Body Moments Reading"))
-            scene.frame_current = self._depsgraph.scene.frame_current
+            layer = _layer_at_frame_of(self._depsgraph.scene, scene)
             _fill(tree, self._obj, self._name, self._kind)
             probe.modifiers.new("Body Moments Reading", "NODES").node_group = tree
             scene.collection.objects.link(probe)
@@ -95,7 +95,6 @@ class SampledGrid:
                 mesh.attributes["position"].data.foreach_set("vector", places.reshape(-1))
                 mesh.update_tag()
                 mesh.update()
-                layer = scene.view_layers[0]
                 layer.update()
                 values = np.zeros(count, self._dtype)
                 evaluated = probe.evaluated_get(layer.depsgraph).data
@@ -108,6 +107,25 @@ class SampledGrid:
         finally:
             for collection, block in reversed(made):
                 collection.remove(block)
+
+
+def _layer_at_frame_of(shown, scene):
+    """A view layer of an empty scene that is now at the frame of the one that is shown.
+
+    To set `frame_current` makes Blender evaluate the animation of every scene, and so put back what was changed and not
+    keyed yet; `frame_set` evaluates this scene alone, but calls handlers, which need not know. The new layer has not
+    been evaluated: else what it shows next would be reported as changed.
+    """
+    handlers = [getattr(bpy.app.handlers, name) for name in ("frame_change_pre", "frame_change_post")]
+    kept = [functions[:] for functions in handlers]
+    try:
+        for functions in handlers:
+            functions.clear()
+        scene.frame_set(shown.frame_current, subframe=shown.frame_subframe)
+    finally:
+        for functions, before in zip(handlers, kept):
+            functions[:] = before
+    return scene.view_layers.new("Body Moments Reading")
 
 
 def _fill(tree, obj, name: str, kind: str) -> None:

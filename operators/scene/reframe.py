@@ -26,6 +26,7 @@ from bpy.types import ID, Context, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ...core.verdict import internal_error
 from ..read import Unreadable
 from ..settings.density import fixed_to
 from .changes import Change, carry_out, dependents, rounds, side_by_side
@@ -115,11 +116,12 @@ def reframe(
         nonlocal done
         try:
             yield from _reframed(group, users)
-        except (Refused, Unreadable, ValueError, RuntimeError) as error:
+        except Exception as error:
             if again is not None:
                 again.append(group)
                 return
-            refused.update(dict.fromkeys((plan.obj for plan in group), str(getattr(error, "reason", error))))
+            reason = internal_error.reason(error, (Refused, Unreadable, ValueError, RuntimeError))
+            refused.update(dict.fromkeys((plan.obj for plan in group), reason))
         done += len(group)
         progress(done)
 
@@ -240,7 +242,7 @@ def move(context: Context, plan: Plan) -> None:
                 "its shape would change, because it depends on where it is through {:s}; apply that first, "
                 "or make what it refers to its child".format(names or "what deforms or shows it")
             )
-    except Refused:
+    except BaseException:
         saved.restore()
         context.view_layer.update()
         raise

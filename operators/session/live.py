@@ -22,6 +22,7 @@ from bpy.types import Depsgraph, Object, Scene
 from ...core.measurement import Measurement
 from ...core.numerics.float32 import decimal
 from ...core.nurbs.tracked_solid import FollowedBody
+from ...core.verdict import internal_error
 from ..bodies.body import Body
 from ..bodies.measure_object import measure_object
 from ..bodies.measurement import as_measurement
@@ -73,10 +74,11 @@ def follow(obj: Object, depsgraph: Depsgraph) -> Live:
     measurement, reason = None, ""
     try:
         measurement = _measured(obj, depsgraph)
-    except Unreadable as error:
-        reason = error.reason
-    except ValueError as error:
-        reason = str(error)
+    except (Unreadable, ValueError) as error:
+        reason = str(getattr(error, "reason", error))
+    except Exception as error:
+        reason = internal_error.reason(error)
+        _followed.pop(obj.session_uid, None)  # what is half followed is no start for the next edit
     found = _shown[obj.session_uid] = Live(
         measurement, reason, time.perf_counter() - start, settings_hash(obj, depsgraph.scene)
     )

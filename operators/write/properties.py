@@ -94,27 +94,33 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
         "body_warnings": "\n".join(measurement.warnings),
         "body_fingerprint": measurement.fingerprint,
     }
-    for key in OPTIONAL:
-        value = getattr(measurement, key.removeprefix("body_"))
-        if value is not None:
-            values[key] = value
-        elif key in obj:
-            del obj[key]
+    optional = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
+    values |= {key: value for key, value in optional.items() if value is not None}
     varying = (
         {}
         if measurement.one_density
         else {"body_density_from": measurement.density_from, "body_materials": "\n".join(measurement.materials)}
     )
-    for key in ("body_density_from", "body_materials"):
-        if varying.get(key):
-            values[key] = varying[key]
-        elif key in obj:
+    values |= {key: value for key, value in varying.items() if value}
+    before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
+    before = {key: value.to_list() if hasattr(value, "to_list") else value for key, value in before.items()}
+    try:
+        _write(obj, values)
+    except BaseException:
+        _write(obj, before)
+        raise
+    follow(obj)
+
+
+def _write(obj: bpy.types.Object, values: dict) -> None:
+    """Makes these, by their keys, the only results of the object."""
+    for key in DESCRIPTIONS:
+        if key not in values and key in obj:
             del obj[key]
     for key, value in values.items():
         obj[key] = value
         if not isinstance(value, str):
             obj.id_properties_ui(key).update(description=DESCRIPTIONS[key], precision=6)
-    follow(obj)
 
 
 def require_storable(obj: bpy.types.Object) -> None:
@@ -139,8 +145,13 @@ def clear(obj: bpy.types.Object) -> bool:
 
 
 def follow(obj: bpy.types.Object) -> None:
-    """Makes Blender evaluate the drivers that read what was stored, but none of the object's modifiers."""
-    obj.update_tag(refresh={"TIME"})
+    """Makes Blender evaluate the drivers that read what was stored, and nothing else.
+
+    Tags do more: TIME evaluates the object's animation, which puts back whatever was changed and not keyed yet; OBJECT,
+    what depends on its place, such as the Booleans that it is an operand of. To set a property that is only drawn makes
+    Blender copy the object for evaluation, and look at its custom properties then.
+    """
+    obj.show_name = obj.show_name
 
 
 def is_stored(obj: bpy.types.Object) -> bool:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import bpy
@@ -13,23 +14,26 @@ from numpy.typing import NDArray
 from ...core.fourier.spectrum import Spectrum
 from .whole_file import whole_file
 
+ARRAYS = ("q", "F", "error", "input", "method", "frame")  # what a file holds
 MARK = "body_fourier"  # on the images that are ours to overwrite: their name
 DECADES = 6.0  # from white to black
 GAP = 2  # pixels between slices
 
 
-def save(path: Path, spectrum: Spectrum, frame: str) -> None:
+def save(path: Path, spectrum: Spectrum, frame: str, check: Callable[[Path], None] | None = None) -> None:
     """Write an .npz file, whole or not at all: q (M, 3) in rad/m, F (M,) complex in m³ or m², error (M,) and input,
-    what rounding and storing coordinates as float32 may have changed, method and frame. Raises OSError."""
-    with whole_file(path) as file:
+    what rounding and storing coordinates as float32 may have changed, method and frame. check: as in `whole_file`.
+    Raises OSError."""
+    with whole_file(path, check) as file:
         np.savez(
             file,
-            q=spectrum.q,
-            F=spectrum.values,
-            error=spectrum.error,
-            input=spectrum.input,
-            method=spectrum.method,
-            frame=frame,
+            **dict(
+                zip(
+                    ARRAYS,
+                    (spectrum.q, spectrum.values, spectrum.error, spectrum.input, spectrum.method, frame),
+                    strict=True,
+                )
+            ),
         )
 
 

@@ -98,6 +98,7 @@ def test_given_mass_object_names_and_notes(tmp_path):
         (nrrd(box("f4", np.nan)), (), "not finite"),
         (nrrd(box()), ("--kind", "shell"), "no sheet"),
         (nrrd(box()), ("--write",), "Only a .blend"),
+        (nrrd(box(), encoding="gzip")[:-1] + b"!", (), "“a.nrrd” is damaged: its packed part"),
     ],
 )
 def test_what_cannot_be_measured_is_an_error_and_no_crash(tmp_path, data, options, text):

@@ -97,7 +97,7 @@ def test_csv_is_alone_too(folder):
 def test_the_output_goes_to_a_file_and_nowhere_else(folder, tmp_path):
     output = tmp_path / "out.json"
     output.write_text("old")
-    ended = script("measure", "part.glb", "--output", output, cwd=folder)
+    ended = script("measure", "part.glb", "--output", output, "--force", cwd=folder)
     assert ended.returncode == 0 and ended.stdout == b""
     assert json.loads(output.read_text(encoding="utf-8"))["objects"][0]["name"] == files.BOX_NAME
     assert [path.name for path in tmp_path.iterdir()] == ["out.json"]

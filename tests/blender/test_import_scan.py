@@ -92,6 +92,9 @@ def test_what_cannot_be_imported_leaves_nothing(tmp_path):
     bad[1, 1, 1] = np.inf
     assert "not finite" in refusal(written(tmp_path / "c.nrrd", nrrd(bad)))
     assert (len(bpy.data.objects), len(bpy.data.volumes)) == before
+    packed = bytearray(nrrd(samples(), encoding="gzip"))
+    packed[-5] ^= 1
+    assert "“d.nrrd” is damaged" in refusal(written(tmp_path / "d.nrrd", packed)) and not (tmp_path / "d.vdb").exists()
     imported(good, overwrite=True)
 
 

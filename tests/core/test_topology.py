@@ -11,6 +11,7 @@ from body_moments.core.mesh.surface import Surface, flipped_quads
 from body_moments.core.mesh.welding import equal_positions, face_groups, near_positions
 from body_moments.core.numerics.arrays import first_equal
 from body_moments.core.numerics.graph import components
+from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.core.bodies import CORNERS, SIDES, box, joined, mesh, moebius, ring, soup, sphere, welded
 from tests.core.test_polyhedron import grid_torus
@@ -46,6 +47,45 @@ def test_a_long_shuffled_path_is_one_component():
     nodes = np.random.default_rng(1).permutation(100_000)
     label, number = components(len(nodes), nodes[:-1], nodes[1:])
     assert number == 1 and not label.any()
+
+
+def star(center, leaves):
+    return np.full(len(leaves), center), leaves
+
+
+def clique(nodes):
+    one, other = np.triu_indices(len(nodes), 1)
+    return nodes[one], nodes[other]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_stars_paths_and_cliques_however_numbered_have_the_components_of_union_find(seed):
+    rng = np.random.default_rng(seed)
+    nodes = [rng.permutation(3000)[:1500], np.arange(3000)][seed % 2]  # the hub in the middle, or after all its leaves
+    links = [
+        star(nodes[999], nodes[:999]),
+        (nodes[999:1150], nodes[1000:1151]),
+        clique(nodes[1200:1240]),
+        star(nodes[1241], nodes[1242:1500]),
+    ]
+    a, b = np.concatenate(links, axis=1)
+    mixed = rng.permutation(len(a))
+    label, number = components(3000, a[mixed], b[mixed])
+    _, expected = np.unique(union_find(3000, a, b), return_inverse=True)
+    assert number == expected.max() + 1 and label.tolist() == expected.tolist()
+
+
+def test_a_hub_after_all_its_leaves_takes_no_longer_than_one_before_them():
+    """Where each round joined one leaf more, this would take hours."""
+    leaves = np.arange(1_000_000)
+    label, number = components(len(leaves) + 1, *star(len(leaves), leaves))
+    assert number == 1 and not label.any()
+
+
+@pytest.mark.parametrize("copies", [2, 1100, 20_000])
+def test_copies_of_one_face_are_one_component(copies):
+    found = measure_solid(Surface(CORNERS, quads=np.repeat(SIDES[:1], copies, axis=0)), shell=True)
+    assert found.health.components == 1
 
 
 def test_first_equal_finds_the_first_of_equal_rows_even_where_all_hashes_could_collide():

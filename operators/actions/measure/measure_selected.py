@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 import bpy
 
+from ....core.verdict import internal_error
 from ...bodies.measure_object import Measured, measure_body
 from ...read import Unreadable
 from ...session import results
@@ -56,8 +57,8 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
         for done, obj in enumerate(objects, 1):
             try:
                 self._found.append((obj, measure_body(obj, depsgraph)))
-            except Unreadable as error:
-                self._refused.append((obj, error.reason))
+            except Exception as error:
+                self._refused.append((obj, internal_error.reason(error, (Unreadable,))))
             yield done
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
@@ -70,8 +71,8 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
             results.refuse(obj, None)
             try:
                 results.store(obj, measured, context.scene)
-            except RuntimeError as error:
-                self._failed.append("{:s}: {:s}".format(obj.name_full, str(error)))
+            except Exception as error:
+                self._failed.append("{:s}: {:s}".format(obj.name_full, internal_error.reason(error, (RuntimeError,))))
                 continue
             stored.append(obj)
         settle(context, stored)

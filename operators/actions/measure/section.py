@@ -11,6 +11,7 @@ from bpy.types import Context, Depsgraph, Object, Operator
 from ....core.numerics.float32 import decimal
 from ....core.plane.polygon import flaws, nested
 from ....core.plane.section import Section, fit_plane, measure_section, region
+from ....core.verdict import internal_error
 from ...read import Unreadable
 from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
 from ...read.section import SECTION_TYPES, SectionReading, read_section
@@ -117,8 +118,9 @@ class OBJECT_OT_body_moments_measure_section(Operator):
             try:
                 properties.require_storable(obj)
                 found.append((obj, *section_of(obj, depsgraph)))
-            except (Unreadable, RuntimeError) as error:
-                failed.append("{:s}: {:s}".format(obj.name_full, getattr(error, "reason", str(error))))
+            except Exception as error:
+                reason = internal_error.reason(error, (Unreadable, RuntimeError))
+                failed.append("{:s}: {:s}".format(obj.name_full, reason))
         unit = decimal(context.scene.unit_settings.scale_length)
         for obj, section, what, warnings in found:
             numbers = np.concatenate(

@@ -11,6 +11,7 @@ from bpy.types import Context, Event, Object, Operator
 
 from ....core.numerics.float32 import decimal
 from ....core.shape.registration import FITS, Match
+from ....core.verdict import internal_error
 from ...bodies.shape import Shape, Skin, matched, surface_shape_of
 from ...scene import reframe
 from ...scene.transforms import Refused, world
@@ -92,8 +93,8 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
             try:
                 if _move(context, plan):
                     moved.append(plan.obj)
-            except snapping.REFUSALS as error:
-                self._failures.append((plan.obj.name, str(error)))
+            except Exception as error:
+                self._failures.append((plan.obj.name, internal_error.reason(error, snapping.REFUSALS)))
                 continue
             notes.append(_told(plan.obj.name, found, self._size, units))
             fits &= found.largest <= FITS * self._size

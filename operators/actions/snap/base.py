@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ....core.inertia.principal_frame import EQUAL_AXES, strict_frame
 from ....core.numerics.float32 import decimal
+from ....core.verdict import internal_error
 from ...bodies.measure_object import measure_body
 from ...read import Unreadable
 from ...read.quiet import paused
@@ -131,7 +132,8 @@ def refresh(context: Context, objects: list[Object]) -> None:
     for obj in stored:
         try:
             results.store(obj, measure_body(obj, depsgraph, MeasureOptions(pose=True)), context.scene)
-        except REFUSALS:  # what is stored stays, and the panel says that it is out of date
+        except Exception as error:  # what is stored stays, and the panel says that it is out of date
+            internal_error.reason(error, REFUSALS)
             continue
         fresh.append(obj)
     staleness.settle(context, fresh)

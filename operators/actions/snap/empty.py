@@ -10,6 +10,7 @@ from bpy.props import BoolProperty
 from bpy.types import Context, Depsgraph, Object, Operator
 from mathutils import Matrix
 
+from ....core.verdict import internal_error
 from ...scene.changes import Change, carry_out, dependents, rounds, side_by_side
 from ...scene.transforms import Channels, Refused, basis, world
 from .. import selection
@@ -58,12 +59,11 @@ class OBJECT_OT_body_moments_add_empty(Operator):
                 body = snapping.body_of(context, obj)
                 step(len(placed) + len(failures))
                 yield  # all are measured before the scene changes
-                empty = existing.get(obj) or _new_empty(context, obj)
-                if (yield from _placed(empty, body, obj if self.parent else None)):
+                if (yield from _placed(existing.get(obj), context, body, obj if self.parent else None)):
                     notes.extend(["{:s}: {:s}".format(obj.name, body.note)] if body.note else [])
                     placed.append(obj)
-            except snapping.REFUSALS as error:
-                failures.append((obj.name_full, str(getattr(error, "reason", error))))
+            except Exception as error:
+                failures.append((obj.name_full, internal_error.reason(error, snapping.REFUSALS)))
 
         followers = dependents(existing.values())  # what moves with an empty is measured after that
         with selection.progress(len(objects)) as step:
@@ -97,7 +97,22 @@ def _new_empty(context: Context, obj: Object) -> Object:
     return empty
 
 
-def _placed(empty: Object, body: snapping.Body, parent: Object | None) -> Generator[None, Depsgraph, bool]:
+def _placed(
+    existing: Object | None, context: Context, body: snapping.Body, parent: Object | None
+) -> Generator[None, Depsgraph, bool]:
+    """Move the empty, or a new one, to the body's frame; returns whether it was elsewhere. Refused where it cannot be
+    there: then all is as it was."""
+    if existing is not None:
+        return (yield from _moved(existing, body, parent))
+    empty = _new_empty(context, body.obj)
+    try:
+        return (yield from _moved(empty, body, parent))
+    except BaseException:
+        bpy.data.objects.remove(empty)
+        raise
+
+
+def _moved(empty: Object, body: snapping.Body, parent: Object | None) -> Generator[None, Depsgraph, bool]:
     """Move the empty to the body's frame; returns whether it was elsewhere. Refused where it cannot be there."""
     if _follows(body.obj, empty):
         raise Refused(FOLLOWS.format(empty.name))
@@ -109,26 +124,29 @@ def _placed(empty: Object, body: snapping.Body, parent: Object | None) -> Genera
     was = world(body.obj)
     frame = np.eye(4)
     frame[:3, :3], frame[:3, 3] = body.axes, body.center
-    empty.parent = parent
-    if parent is not None:
-        empty.parent_type = "OBJECT"
-        empty.matrix_parent_inverse = Matrix(np.linalg.inv(world(parent)))
-    empty.empty_display_size = body.size
-    empty.matrix_world = Matrix(frame)
-    yield
-    if parent is not None and not _is_there(empty, body):  # a curve also lays its children along its path
-        outer = np.linalg.solve(basis(empty).T, world(empty).T).T
-        inverse = np.array(empty.matrix_parent_inverse, np.float64) @ np.linalg.inv(outer)
-        empty.matrix_parent_inverse, empty.matrix_basis = Matrix(inverse), Matrix(frame)
+    try:
+        empty.parent = parent
+        if parent is not None:
+            empty.parent_type = "OBJECT"
+            empty.matrix_parent_inverse = Matrix(np.linalg.inv(world(parent)))
+        empty.empty_display_size = body.size
+        empty.matrix_world = Matrix(frame)
         yield
-    held, follows = not _is_there(empty, body), (world(body.obj) != was).any()
-    if held or follows:
+        if parent is not None and not _is_there(empty, body):  # a curve also lays its children along its path
+            outer = np.linalg.solve(basis(empty).T, world(empty).T).T
+            inverse = np.array(empty.matrix_parent_inverse, np.float64) @ np.linalg.inv(outer)
+            empty.matrix_parent_inverse, empty.matrix_basis = Matrix(inverse), Matrix(frame)
+            yield
+        held, follows = not _is_there(empty, body), (world(body.obj) != was).any()
+        if held or follows:
+            raise Refused(
+                (FOLLOWS if follows else "a constraint holds its empty {:s}; remove that first").format(empty.name)
+            )
+    except BaseException:
         for name, value in before.items():
             setattr(empty, name, value)
         saved.restore()
-        raise Refused(
-            (FOLLOWS if follows else "a constraint holds its empty {:s}; remove that first").format(empty.name)
-        )
+        raise
     return True
 
 

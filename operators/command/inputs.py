@@ -1,0 +1,174 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which files are read with those that are named: the samples of a detached NRRD, buffers and textures of a glTF, the
+libraries of a .blend, layers of USD. No result may take the place of one.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import struct
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import bpy
+
+from ...core.scans.nrrd import HEADER
+from .files import Unusable, open_file
+
+_CRATE = b"PXR-USDC"  # how a binary USD layer begins
+
+
+def files_read(paths: Iterable[str]) -> Iterator[Path]:
+    """All files that exist and that the named ones refer to, or else the open scene, directly or by way of others.
+    Opens what is named in Blender. What cannot be read refers to nothing.
+    """
+    paths = list(paths)
+    known: set[Path] = set()
+    waiting = [Path(path) for path in paths] or _open_files()
+    for path in paths:
+        with suppress(Unusable, RuntimeError):
+            open_file(path)
+            waiting += _open_files()
+    while waiting:
+        path = waiting.pop().resolve()
+        if path in known or not path.is_file():
+            continue
+        known.add(path)
+        yield path
+        with suppress(OSError, ValueError, struct.error, RecursionError):
+            waiting += _named_in(path)
+
+
+def _open_files() -> list[Path]:
+    """The files that the open scene refers to."""
+    paths = bpy.utils.blend_paths(absolute=True, packed=True)
+    return [file for path in paths for file in _tiles(Path(path))]
+
+
+def _named_in(path: Path) -> list[Path]:
+    names = _NAMES.get(path.suffix.lower())
+    return [] if names is None else [file for name in names(path) for file in _tiles(path.parent / name)]
+
+
+def _tiles(path: Path) -> Iterable[Path]:
+    """The file, or all tiles of an image that is cut into them."""
+    if "<UDIM>" not in path.name:
+        return [path]
+    tile = re.compile(re.escape(path.name).replace(re.escape("<UDIM>"), r"\d+"))
+    return [one for one in path.parent.iterdir() if tile.fullmatch(one.name)] if path.parent.is_dir() else []
+
+
+def _of_nrrd(path: Path) -> Iterator[str]:
+    with open(path, "rb") as file:
+        head = file.read(HEADER).decode("latin-1")
+    yield from re.findall(r"(?im)^data ?file:[ \t]*(.+?)\s*$", head)
+
+
+def _of_gltf(path: Path) -> Iterator[str]:
+    data = path.read_bytes()
+    if data.startswith(b"glTF"):  # a .glb: its first chunk is the text
+        (length,) = struct.unpack_from("<I", data, 12)
+        data = data[20 : 20 + length]
+    document = json.loads(data)
+    for group in ("buffers", "images"):
+        for one in document.get(group, ()):
+            if isinstance(one, dict) and not str(one.get("uri", "data:")).startswith("data:"):
+                yield _unquoted(one["uri"])
+
+
+def _unquoted(uri: str) -> str:
+    """With the characters that %20 and the like stand for."""
+    data = re.sub(rb"%([0-9a-fA-F]{2})", lambda match: bytes.fromhex(match[1].decode()), uri.encode())
+    return data.decode("utf-8", "surrogateescape")
+
+
+def _of_obj(path: Path) -> Iterator[str]:
+    """A line has one name, which may hold spaces, or several."""
+    with open(path, "rb") as file:
+        found = [line.strip() for line in file if line.lstrip().startswith(b"mtllib")]
+    for words in found:
+        line = words.decode("utf-8", "surrogateescape")
+        yield line.removeprefix("mtllib").strip()
+        yield from line.split()[1:]
+
+
+def _of_usd(path: Path) -> Iterator[str]:
+    """All texts that may be the name of a file."""
+    data = path.read_bytes()
+    if data.startswith(_CRATE):
+        texts = _tokens(data).split(b"\0")
+    else:
+        texts = [long or short for long, short in re.findall(rb"@@@(.+?)@@@|@([^@\n]+)@", data)]
+    for text in texts:
+        if 0 < len(text) < 4096:
+            yield text.decode("utf-8", "surrogateescape")
+
+
+def _tokens(data: bytes) -> bytes:
+    """The words of a binary USD layer, each with a zero byte behind it. Raises ValueError and struct.error."""
+    (contents,) = struct.unpack_from("<q", data, 16)
+    (count,) = struct.unpack_from("<Q", data, contents)
+    for number in range(min(count, 64)):
+        name, start, _ = struct.unpack_from("<16sqq", data, contents + 8 + 32 * number)
+        if name.rstrip(b"\0") == b"TOKENS":
+            (packed,) = struct.unpack_from("<Q", data, start + 16)
+            return _unpacked(data[start + 24 : start + 24 + packed])
+    raise ValueError("The layer has no words.")
+
+
+def _unpacked(packed: bytes) -> bytes:
+    """LZ4 blocks, as USD joins them: their number, and behind it, where it is not 0, each with its size before it."""
+    if not packed[0]:
+        return _lz4(packed[1:])
+    blocks, at = [], 1
+    for _ in range(packed[0]):
+        (length,) = struct.unpack_from("<i", packed, at)
+        blocks.append(_lz4(packed[at + 4 : at + 4 + length]))
+        at += 4 + length
+    return b"".join(blocks)
+
+
+def _lz4(block: bytes) -> bytes:
+    """https://github.com/lz4/lz4/blob/dev/doc/lz4_Block_format.md"""
+    text = bytearray()
+    at = 0
+
+    def length(short: int) -> int:
+        nonlocal at
+        total = short
+        while short == 15 or short == 255:
+            short = block[at]
+            total += short
+            at += 1
+        return total
+
+    try:
+        while at < len(block):
+            token = block[at]
+            at += 1
+            count = length(token >> 4)
+            text += block[at : at + count]
+            at += count
+            if at >= len(block):
+                break
+            back = block[at] | block[at + 1] << 8
+            at += 2
+            count = length(token & 15) + 4
+            start = len(text) - back
+            if not 0 < back <= len(text):
+                raise ValueError("The layer is damaged.")
+            text += (text[start:] * (count // back + 1))[:count]
+    except IndexError:
+        raise ValueError("The layer is cut short.") from None
+    return bytes(text)
+
+
+_NAMES: dict[str, Callable[[Path], Iterator[str]]] = {
+    **dict.fromkeys((".nrrd", ".nhdr"), _of_nrrd),
+    **dict.fromkeys((".gltf", ".glb"), _of_gltf),
+    ".obj": _of_obj,
+    **dict.fromkeys((".usd", ".usda", ".usdc"), _of_usd),
+}

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which files are results of ours, by their content: those alone are replaced without --force."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+from ..write.record import SCHEMA, to_csv
+from ..write.spectrum import ARRAYS
+
+REFUSAL = "{} is no result of body_moments and would be lost"
+
+_HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
+_DOCUMENT = re.compile(rb'\s*\[?\s*\{\s*"schema"\s*:\s*"' + re.escape(SCHEMA.encode()) + rb'"')
+_COLUMNS = next(csv.reader([to_csv([])]))
+_LAST = 2  # of them stand at the end, behind those that only some records have
+
+
+def replaceable(path: Path, option: str) -> bool:
+    """Whether nothing is lost where a result takes the place of `path`: there is nothing, or what is no file, or an
+    older result. option: "output" or "fourier". Raises OSError.
+    """
+    return not path.exists() or not path.is_file() or _is_result(path, option)
+
+
+def is_empty(path: Path) -> bool:
+    """Whether it is a file that holds nothing, as `mktemp` makes them. Raises OSError."""
+    return path.is_file() and not path.stat().st_size
+
+
+def guard(option: str, forced: bool) -> Callable[[Path], None]:
+    """What raises FileExistsError where a file has appeared that is not `replaceable`. forced: it may be replaced all
+    the same, because it stood there when that was asked for.
+    """
+
+    def check(path: Path) -> None:
+        if not forced and not is_empty(path) and not replaceable(path, option):
+            raise FileExistsError(REFUSAL.format(path))
+
+    return check
+
+
+def _is_result(path: Path, option: str) -> bool:
+    try:
+        if option == "fourier":
+            with zipfile.ZipFile(path) as arrays:
+                return sorted(arrays.namelist()) == sorted(name + ".npy" for name in ARRAYS)
+        with open(path, "rb") as file:
+            head = file.read(_HEAD)
+        return _is_table(head) or bool(_DOCUMENT.match(head)) and _are_documents(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError, zipfile.BadZipFile):
+        return False
+
+
+def _is_table(head: bytes) -> bool:
+    columns = head.split(b"\n", 1)[0].decode("utf-8").split(",")
+    return columns[: len(_COLUMNS) - _LAST] == _COLUMNS[:-_LAST] and columns[-_LAST:] == _COLUMNS[-_LAST:]
+
+
+def _are_documents(text: str) -> bool:
+    try:
+        found = json.loads(text)
+    except ValueError:
+        found = [json.loads(line) for line in text.split("\n") if line.strip()]
+    found = found if isinstance(found, list) else [found]
+    return all(isinstance(one, dict) and one.get("schema") == SCHEMA for one in found)
