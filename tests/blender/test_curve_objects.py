@@ -284,3 +284,14 @@ def test_a_wire_has_its_linear_density_and_is_up_to_date_whatever_its_density_co
     obj.select_set(True)
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
     assert staleness.reason(obj, bpy.context.scene) is None
+
+
+def test_a_hook_on_a_flattened_wire_is_refused():
+    obj = circle("bezier")
+    obj.body_moments.kind, obj.data.dimensions, obj.scale = "WIRE", "3D", (1.0, 1.0, 0.0)
+    modifier = obj.modifiers.new("Hook", "HOOK")
+    modifier.object = add(None, "Target", select=False)
+    modifier.vertex_indices_set([0, 1, 2])
+    obj.data.bevel_depth = 0.1  # else its geometry set has the curve
+    with refused("scale_zero_axis", obj.name):
+        measured(obj)

@@ -731,3 +731,11 @@ def test_the_command_line_measures_with_the_file_s_settings_unless_it_gives_a_de
     bpy.ops.wm.open_mainfile(filepath=path)
     assert bpy.data.objects["Box"].body_moments.density_from == "VALUE"
     assert measure(bpy.data.objects["Box"]).mass_properties.mass == pytest.approx(20.0)
+
+
+def test_of_many_materials_the_first_are_named():
+    boxes = [box((2 * i, 0, 0), (2 * i + 1, 1, 1)) for i in range(11)]
+    made = [material("Material {:02d}".format(i), 100.0 + i) for i in range(11)]
+    obj = by_material(add(*boxes), *made, faces=[i for i in range(11) for _ in range(6)])
+    text = str(measure(obj).density_from)
+    assert "Material 07 107 kg/m³" in text and "Material 08" not in text and text.endswith("and 3 more")

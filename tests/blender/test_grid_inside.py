@@ -11,6 +11,7 @@ from body_moments.operators.session import staleness
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties
 
+from tests.blender.bodies import strip_mesh
 from tests.blender.findings import refused, said
 from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object
 
@@ -90,6 +91,9 @@ def test_what_is_outside_of_the_grid_is_empty_and_said(tmp_path):
     found = measure(box)
     assert found.mass_properties.mass == pytest.approx(4.0, rel=1e-12)
     assert said(found)["outside_grid"] == {"share": pytest.approx(0.5)}
+    box.location.x = 0.5 - 5e-5
+    assert said(measure(box))["outside_grid_slightly"]["share"] == pytest.approx(2.5e-5, rel=1e-2)
+    box.location.x = -0.5
     assert measure(box, mass=3.0).mass_properties.mass == pytest.approx(3.0)
     assert measure(box, density=2.0).mass_properties.mass == pytest.approx(16.0)
     assert measure(box, density=2.0).method == "exact"
@@ -202,3 +206,23 @@ def test_settings_are_copied_and_survive_a_file(tmp_path):
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
     assert bpy.data.objects["Cube"].body_moments.density_volume == bpy.data.objects["Cloud"]
     assert bpy.data.objects["Cloud"].body_moments.spline_order == 4
+
+
+def test_what_is_found_about_the_source_names_it(tmp_path):
+    volume = cloud(tmp_path, np.ones((4, 4, 4), np.float32))
+    box = cube(location=(1.5, 1.5, 1.5))
+    box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
+    volume.hide_set(True)
+    assert said(measure(box))["hidden_object_measured"]["sources"] == [volume.name]
+
+
+def test_a_source_with_refused_values_is_named_and_an_open_surface_is_the_objects_own(tmp_path):
+    volume = cloud(tmp_path, np.full((4, 4, 4), -1.0, np.float32))
+    box = cube(location=(1.5, 1.5, 1.5))
+    box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
+    cause = finding("values_negative", density=-1.0).as_record()
+    with refused("density_volume_unreadable", box.name, object=volume.name, cause=cause):
+        measure(box)
+    box.data = strip_mesh()
+    with refused("open_surface_of_grid", box.name):
+        measure(box)

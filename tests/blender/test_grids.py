@@ -246,7 +246,7 @@ def test_given_mass_and_density_options(tmp_path):
     assert measure(obj, mass=5.0).mass_properties.mass == pytest.approx(5.0, rel=1e-14)
     twice = measure(obj, density=2.0)
     assert twice.mass_properties.mass == pytest.approx(2.0 * plain.mass_properties.mass, rel=1e-14)
-    with refused("grid_as_shell"):
+    with refused("grid_as_shell", obj.name):
         measure(obj, kind="shell")
 
 
@@ -343,7 +343,7 @@ def test_what_cannot_be_measured_says_why(tmp_path):
         measure(missing)
     assert caught.value.finding.values["error"].endswith("none.vdb not found")
     nothing = volume_object(tmp_path / "a.vdb", vdb_grid(np.zeros((4, 4, 4), np.float32)))
-    with refused("grid_empty"):
+    with refused("grid_empty", nothing.name):
         measure(nothing)
     bad = vdb_grid(np.ones((4, 4, 4), np.float32))
     bad.getAccessor().setValueOn((1, 1, 1), float("nan"))
@@ -500,7 +500,7 @@ def test_a_volume_that_a_mesh_shows_is_no_sheet(tmp_path):
     obj = with_nodes(linked(bpy.data.objects.new("Mesh", bpy.data.meshes.new("Mesh"))), shown)
     assert measure(obj).mass_properties.mass == pytest.approx(512.0)
     obj.body_moments.kind = "SHELL"
-    with refused("grid_as_shell"):
+    with refused("grid_as_shell", obj.name):
         measure(obj)
 
 

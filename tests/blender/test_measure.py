@@ -315,8 +315,12 @@ def test_what_several_members_have_in_common_is_said_once_with_their_names():
 @pytest.mark.parametrize("overlap", [False, True])
 def test_the_caps_share_is_that_of_the_area_of_all_members(overlap):
     small, large = without(box((0, 0, 0), (1, 1, 1)), 0), box((0, 0, 0), (10, 10, 10))
-    found = measure(collection_of(add(small, location=(9.5 if overlap else 20, 0, 0)), add(large)))
+    small = add(small, name="Small", location=(9.5 if overlap else 20, 0, 0))
+    found = measure(collection_of(add(large, name="A Large One"), small))
     assert found.method == "capped" and found.health.cap_area_share == pytest.approx(1.0 / 605.0)
+    holes = next(one for one in found.findings if one.code.startswith("holes_capped"))
+    edges = [edge for edge, name in holes.elements if name == "Small"] if overlap else holes.elements.tolist()
+    assert {tuple(sorted(edge)) for edge in edges} == {(0, 1), (1, 3), (2, 3), (0, 2)}
 
 
 def test_instances_flattened_by_their_own_scale_are_refused_by_that():
@@ -473,3 +477,28 @@ def test_equal_findings_about_different_faces_stay_apart():
     found = measure(collection_of(bad, worse))
     assert [one.elements.tolist() for one in found.findings] == [[2], [4]]
     assert [one.values["sources"] for one in found.findings] == [["Bad"], ["Bad.001"]]
+
+
+def test_how_drawn_polygons_are_cut_is_a_note_and_how_those_of_a_mesh_are_is_not():
+    bpy.ops.curve.primitive_bezier_circle_add()
+    ring = bpy.context.object
+    ring.data.bevel_depth = 0.3
+    point = ring.data.splines[0].bezier_points[0]
+    point.radius, point.tilt = 3.0, 1.5
+    bent = box()
+    bent["points"] = [(x, y, z + 0.5 * x * y) for x, y, z in bent["points"]]
+    mesh = add(bent, name="Bent", location=(9, 0, 0))
+    assert said(measure(ring)).keys() == {"curves_drawn_as_polygons", "non_planar_faces_of_display_mesh"}
+    assert said(measure(mesh)).keys() == {"non_planar_faces"}
+    both = said(measure(collection_of(ring, mesh)))
+    assert both["non_planar_faces_of_display_mesh"]["sources"] == [ring.name]
+    assert both["non_planar_faces"]["sources"] == ["Bent"]
+
+
+def test_a_small_cap_before_uniting_is_a_note():
+    points = [(x, y, z) for z in (0, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    points += [(1e-3 * x, 1e-3 * y, 1) for x, y, _ in points[:4]]
+    turns = [(i, (i + 1) % 4) for i in range(4)]
+    faces = [(3, 2, 1, 0), *((a + k, b + k, b + k + 4, a + k + 4) for a, b in turns for k in (0, 4))]
+    found = said(measure(add({"points": points, "faces": faces}), overlap="union"))
+    assert found["holes_capped_before_union_slightly"] == {"share": pytest.approx(2.5e-7, rel=1e-3)}

@@ -3,12 +3,16 @@
 """Shells of real thickness: the setting, what is found, and the thickness as a slider."""
 
 import json
+from dataclasses import replace
 
 import bpy
 import numpy as np
 import pytest
 from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.bodies.mesh import mesh_body as polygon_body
+from body_moments.operators.bodies.wall import find_walls
+from body_moments.operators.read import read_object
 from body_moments.operators.session import staleness
 from body_moments.operators.session import walls as wall_slider
 from body_moments.operators.settings.options import MeasureOptions
@@ -375,3 +379,42 @@ def test_a_head_with_sharp_folds_has_a_thin_wall():
     settings.thickness = 0.1
     with refused("wall_folds"):
         measured(obj)
+
+
+@pytest.mark.parametrize("scale", [1.0, 3.0])
+@pytest.mark.parametrize("size, code", [(0.8, "wall_thickness_varies"), (2e-3, "wall_thickness_varies_slightly")])
+def test_a_small_corner_of_more_than_three_planes_is_a_note(size, code, scale):
+    """A cube with a skew pyramid on its top."""
+    square = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) / 2.0
+    points = [(x, y, z) for z in (0.0, 1.0) for x, y in square] + [(size * x, size * y, 1.0) for x, y in square]
+    points.append((0.45 * size, 0.1 * size, 1.0 + size))
+    turns = [(i, (i + 1) % 4) for i in range(4)]
+    faces = [(3, 2, 1, 0), *((a, b, b + 4, a + 4) for a, b in turns)]
+    faces += [(a + 4, b + 4, b + 8, a + 8) for a, b in turns] + [(a + 8, b + 8, 12) for a, b in turns]
+    mesh = bpy.data.meshes.new("Skew")
+    mesh.from_pydata(points, [], faces)
+    obj = add(mesh, scale=(scale, scale, scale))
+    settings = obj.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.05 * size
+    found = said(measured(obj))
+    assert found.keys() == {"wall_measured", code} and found[code]["minimum"] < 0.99
+
+
+def test_just_below_the_largest_thickness_there_is_a_wall_and_from_it_on_none():
+    """The comparison rounds as the wall does: what is not refused is measured."""
+    walls = find_walls(*body_of(box((1, 2, 0.3), thickness=0.01)), "inward")
+    refusals = 0
+    for scale in np.random.default_rng(1).uniform(0.1, 10.0, 300):
+        scaled = replace(walls, pieces=tuple(replace(piece, scale=scale) for piece in walls.pieces))
+        for thickness in (np.nextafter(scaled.largest, 0.0), scaled.largest, np.nextafter(scaled.largest, np.inf)):
+            try:
+                assert scaled.body(float(thickness), looked=False).wall.total > 0.0
+            except MeasureError as error:
+                refusals += error.finding.code == "wall_folds"
+    assert 300 <= refusals < 900
+
+
+def body_of(obj):
+    bpy.context.view_layer.update()
+    reading = read_object(obj, bpy.context.evaluated_depsgraph_get())
+    return reading, polygon_body(reading, 1.0, shell=True, union=False, threads=1)
