@@ -12,6 +12,7 @@ from ...session import staleness
 from ...session.total_caveats import doubts, unfounded
 from ...write import properties
 from ...write.report import report_text
+from ...write.translations import localized
 from .. import selection
 
 
@@ -36,7 +37,7 @@ class OBJECT_OT_body_moments_copy_value(Operator):
 
     @classmethod
     def description(cls, _context: Context, values: OperatorProperties) -> str:
-        return "Copy {:s}\n\nUnit: {:s}".format(values.value, values.unit or "none")
+        return localized("Copy {:s}\n\nUnit: {:s}").format(values.value, values.unit or localized("none"))
 
     def execute(self, context: Context) -> set[str]:
         if not self.value:
