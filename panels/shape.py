@@ -99,7 +99,6 @@ def _similar(layout: UILayout, context: Context) -> None:
         cell = row.row(align=True)
         cell.alignment = "RIGHT"
         words = localized(SIMILARITY.get(shape.verdict, shape.verdict))
-        words = words[:1].upper() + words[1:]
         size = " ×{:.4g}".format(shape.scale) if shape.verdict.startswith("scaled") else ""
         cell.label(text="{:s}{:s}, {:.2g}".format(words, size, shape.distance), translate=False)
 
