@@ -13,6 +13,7 @@ from ...read.total_caveats import open_body_caveats, total_caveats
 from ...session import staleness
 from ...write import properties, reports
 from ...write.report import report_text
+from ...write.translations import localized
 from .. import selection
 
 
@@ -37,7 +38,7 @@ class OBJECT_OT_body_moments_copy_value(Operator):
 
     @classmethod
     def description(cls, _context: Context, values: OperatorProperties) -> str:
-        return "Copy {:s}\n\nUnit: {:s}".format(values.value, values.unit or "none")
+        return localized("Copy {:s}\n\nUnit: {:s}").format(values.value, values.unit or localized("none"))
 
     def execute(self, context: Context) -> set[str]:
         if not self.value:
