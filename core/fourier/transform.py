@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh.surface import Surface
 from ..moments.moments import U
 from ..numerics.compensated import two_sum, wave
-from ..polyhedron.third_order import solid_and_area
+from ..polyhedron import polyhedron_moments
 from .spectrum import Spectrum
 from .triangle_kernel import BLOCK, PAIRS, Faces, Means
 from .wave_vectors import Grid, GridWaves, ListWaves, wave_vectors
@@ -66,7 +66,7 @@ class Transform:
         self.q = q if isinstance(q, Grid) else wave_vectors(q, 3)
         self.of, self.threads = of, threads
         self.faces = self.direct = Faces(surface)
-        self.volume, self.area = solid_and_area(surface, threads)
+        self.volume, self.area = polyhedron_moments(surface, area_order=0, threads=threads)
         self.gap = 0.0
         if of == "volume":
             self.gap = float(np.linalg.norm(np.cross(ASKEW[0], self._vector_sum()))) / 1.5

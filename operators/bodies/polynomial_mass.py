@@ -21,7 +21,7 @@ from ...core.density.positivity import negative_place
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Moments
 from ...core.numerics.rotations import own_axes
-from ...core.polyhedron.any_order import moments_to_order
+from ...core.polyhedron import polyhedron_moments
 from ..read import Reading
 from ..settings.density import DensityField
 from .body import Body
@@ -54,11 +54,13 @@ def weigh(
         warnings.append("It is sheared, so that its density runs along the right-angled axes nearest to its own.")
     warnings += _negative(polynomial, pieces, shell, density.in_world)
     parts = []
+    order = 3 + polynomial.degree
+    area_order = order if shell else 0 if order == 3 else None  # to third order it is found on the way
     for piece in pieces:
-        moments = moments_to_order(
-            piece.surface, 3 + polynomial.degree, area=shell, threads=threads, about=piece.about
-        )[int(shell)]
-        parts.append(graded_sum(moments, polynomial, piece.matrices, piece.fields))
+        volume, area = polyhedron_moments(
+            piece.surface, order, area_order=area_order, about=piece.about, exact=True, threads=threads
+        )
+        parts.append(graded_sum(area if shell else volume, polynomial, piece.matrices, piece.fields))
     return parts, warnings
 
 

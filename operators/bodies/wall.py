@@ -18,7 +18,7 @@ from ...core.mesh.boxes import boxes_meet
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Moments, map_sum, sum_moments
 from ...core.offset.walls import Sweep, share, sweep
-from ...core.polyhedron.third_order import solid_and_area
+from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidMeasure
 from ..read import Reading
 from .body import Body
@@ -174,7 +174,7 @@ def find_walls(reading: Reading, body: Body, side: str) -> Walls:
 def _oriented(surface: Surface, solid: SolidMeasure, notes: list[str]) -> Surface:
     """The surface with its faces outward where it is closed, else as it is."""
     if solid.method in {"exact", "reoriented"}:
-        area = solid_and_area(solid.mended)[1].total
+        area = polyhedron_moments(solid.mended, area_order=0)[1].total
         if abs(area - solid.area.total) <= SAME_AREA * solid.area.total:  # else mending has left something out
             if solid.method == "reoriented":
                 notes.append("Its faces were turned outward before.")
