@@ -27,7 +27,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import Moments, U, monomials
+from ..moments.moments import Measure, Moments, U, monomials
 from .spline_tables import Axis
 
 BLOCK = 1 << 17  # coefficients at a time: 1 MB of float64
@@ -88,7 +88,7 @@ def grid_moments(
         raise ValueError("The transform of the grid is singular or not finite.")
     axes = [Axis.uniform(count, spline_order) for count in shape]
     inside = density_moments(samples, axes, order, value)
-    return replace(replace(inside, of="volume").mapped(matrix), of="mass")
+    return replace(replace(inside, of=Measure.VOLUME).mapped(matrix), of=Measure.MASS)
 
 
 class Trivariate:
@@ -184,7 +184,7 @@ def _about(
     bounds = [_bounding(axes[i], order, about[i]) for i in turn]
     size = np.einsum("ax,by,cz,xyz->abc", *bounds, size)
     units = sum(axis.roundings(order) for axis in axes) + longest + blocks + 8
-    return Moments(total[p, q, r], about, "mass", 1.01 * units * U * size[p, q, r])
+    return Moments(total[p, q, r], about, Measure.MASS, 1.01 * units * U * size[p, q, r])
 
 
 def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, int], NDArray]]:

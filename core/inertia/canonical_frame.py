@@ -20,7 +20,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import Moments, index, monomials
+from ..moments.moments import Measure, Moments, index, monomials
 from ..moments.symmetric_tensors import _contracted, _places, _rotated, distinct, tensor_index
 
 ORDER = 6  # by which the axes of every prism to a hexagon's, of a cube and of an icosahedron are found
@@ -73,7 +73,7 @@ def canonical_frames(moments: Moments, spread: Spread, starts: NDArray) -> Frame
         raise ValueError(
             "It is too small or too large for moments of order {:d} to be numbers. Scale it.".format(central.order)
         )
-    central = replace(central, raw=central.raw / total, error=central.error / total, of="mass")
+    central = replace(central, raw=central.raw / total, error=central.error / total, of=Measure.MASS)
     frames, round_about, tilt = _candidates(central, spread, starts)
     values, noise = _written(central, spread, frames)
     return Frames(*_largest(frames, values, noise), round_about, tilt)

@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface, all_there, flipped_quads
-from ..moments.moments import Moments, U
+from ..moments.moments import Measure, Moments, U
 from ..moments.monomials import monomial_count, monomials, predecessors, rows_of
 from .any_order_kernel import TINY, Levels, Sums, row_count, sizes
 from .third_order import finite_box, middle, nothing, pairs
@@ -146,7 +146,7 @@ class _Stream:
         total.settle()
         if not total.faces:
             return nothing(self.order, self.center)
-        return self._moments(total, "volume"), self._moments(total, "area") if self.area else None
+        return self._moments(total, Measure.VOLUME), self._moments(total, Measure.AREA) if self.area else None
 
     def _parts(self, tasks: Iterator[_Task]) -> Iterator[tuple[int, list[Sums]]]:
         """The results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
@@ -233,14 +233,14 @@ class _Stream:
             halves = pairs(faces) if faces.shape[1] == 3 else None
             yield (faces.T, task.size) if halves is None else (halves, task.size // 2)
 
-    def _moments(self, total: _Total, of: str) -> Moments:
+    def _moments(self, total: _Total, of: Measure) -> Moments:
         """What the sums come to, in the body's own unit, with its bounds."""
         degree = monomials(self.order).sum(axis=1)
-        row, dimension = (0, 3) if of == "volume" else (1, 2)
-        factors = _factors(self.order) / ((degree + 3.0) if of == "volume" else 1.0)
+        row, dimension = (0, 3) if of == Measure.VOLUME else (1, 2)
+        factors = _factors(self.order) / ((degree + 3.0) if of == Measure.VOLUME else 1.0)
         sizes = total.sizes[3 * row : 3 * row + 3]
         raw = (total.high[row] + total.low[row]) * factors
-        mean = 2.0 * ((degree + 3.0) if of == "volume" else 1.0)  # ∫ |x^α| is at most weight reach^α / this
+        mean = 2.0 * ((degree + 3.0) if of == Measure.VOLUME else 1.0)  # ∫ |x^α| is at most weight reach^α / this
         rounding = U * (8.0 * degree + 228.0)
         error = (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean + 8.0 * U * np.abs(raw) + TINY * total.faces
         moved = self._moved(total, of) if self.half_ulp.any() else np.zeros(len(raw))
@@ -253,11 +253,11 @@ class _Stream:
             np.ldexp(moved, powers),
         )
 
-    def _moved(self, total: _Total, of: str) -> NDArray[np.float64]:
+    def _moved(self, total: _Total, of: Measure) -> NDArray[np.float64]:
         """What moving the vertices by their half ulps may change: over the volume that they sweep; of areas, over what
         is added, and by the change of the integrand."""
         swept = total.sizes[2] * (1.0 + 1e-9)
-        if of == "volume":
+        if of == Measure.VOLUME:
             return swept
         moved = total.sizes[5] * (1.0 + 1e-9)
         half_ulp = np.ldexp(self.half_ulp, -self.exponent)

@@ -35,7 +35,7 @@ from numpy.typing import NDArray
 
 from ..mesh.planarity import Witness
 from ..mesh.surface import NO_QUADS, Surface, all_there
-from ..moments.moments import PAIRWISE, Moments, U
+from ..moments.moments import PAIRWISE, Measure, Moments, U
 from ..moments.monomials import monomial_count, monomials
 from .third_order_kernel import NO_VERTEX, TRIPLES, Faces, Found, Rows, numbers, rows
 from .third_order_small import few
@@ -105,7 +105,7 @@ def integrate(
 def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:
     """The volume and the area of no faces."""
     zeros, about = np.zeros(monomial_count(order)), np.zeros(3) if about is None else about
-    return Moments(zeros, about, "volume"), Moments(zeros, about, "area")
+    return Moments(zeros, about, Measure.VOLUME), Moments(zeros, about, Measure.AREA)
 
 
 def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -132,7 +132,7 @@ def _rescaled(
     results = []
     about = None if about is None else np.ldexp(about, -exponent)
     for moments in integrate(small, threads, about=about, **options):
-        powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.of == "volume" else 2))
+        powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.of == Measure.VOLUME else 2))
         results.append(
             replace(
                 moments,
@@ -225,11 +225,11 @@ class _Job:
         """Volume and area, with their bounds."""
         bounds = _Bounds(self, rows)
         raw = rows.sums / DIVISORS
-        volume = Moments(raw, self.center, "volume", *bounds.volume(raw))
+        volume = Moments(raw, self.center, Measure.VOLUME, *bounds.volume(raw))
         if not self.area:
-            return volume, Moments(np.zeros(1), self.center, "area")
+            return volume, Moments(np.zeros(1), self.center, Measure.AREA)
         raw = rows.areas / (DIVISORS / TO_AREA) if self.shell else np.array([bounds.sizes[1] / 2.0])
-        return volume, Moments(raw, self.center, "area", *bounds.area(raw))
+        return volume, Moments(raw, self.center, Measure.AREA, *bounds.area(raw))
 
 
 class _Bounds:

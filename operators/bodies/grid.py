@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.density.spline_grid import Blocks, grid_moments
-from ...core.moments.moments import Moments
+from ...core.moments.moments import Measure, Moments
 from ...core.verdict.health import Health
 from ..read import Part, Reading
 from ..read.volume import VolumeReading
@@ -84,11 +84,11 @@ def density_body(
         moments = grid_moments(
             samples, shape, matrix, order=order, value=lambda block: (densities(block) != 0.0).astype(np.float64)
         )
-        return replace(moments, of="volume")
+        return replace(moments, of=Measure.VOLUME)
 
     def to_order(order: int, area: bool) -> tuple[Moments, Moments | None]:
         volume = held(order)
-        return volume, Moments(np.zeros_like(volume.raw), volume.about, "area") if area else None
+        return volume, Moments(np.zeros_like(volume.raw), volume.about, Measure.AREA) if area else None
 
     volume = held(3)
     warnings += (
@@ -97,7 +97,7 @@ def density_body(
     )
     return Body(
         volume,
-        Moments(np.zeros(1), volume.about, "area"),
+        Moments(np.zeros(1), volume.about, Measure.AREA),
         Health(closed=True),
         "grid exact",
         warnings,

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from bpy.types import Context, Object, Operator
 
+from ....core.moments.moments import Measure
 from ...bodies.measure_object import THREADS, measure_object
 from ...read import Unreadable, measurable
 from ...read.fingerprint import matrix_hash, settings_hash
@@ -60,7 +61,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
             self.report({"WARNING"}, NO_WIRE.format(obj.name))
             return {"CANCELLED"}
         area = one.area_moments.truncated(options.order)
-        volume = (one.volume_moments or replace(area * one.thickness, of="volume")).truncated(options.order)
+        volume = (one.volume_moments or replace(area * one.thickness, of=Measure.VOLUME)).truncated(options.order)
         key = (matrix_hash(obj), settings_hash(obj, scene), staleness.geometry_changes(obj))
         keep(obj, Computed(obj.name, volume, area, one.rotation, one.location, key))
         told = "Computed {:d} moments of {:s}".format(len(volume.raw), obj.name)
