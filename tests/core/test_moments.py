@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moments add, scale and map exactly; their bounds hold. The oracle is rational arithmetic on boxes and simplices."""
 
+import json
 import math
 from fractions import Fraction
 
 import numpy as np
 import pytest
 from body_moments.core.moments.moments import (
+    Measure,
     Moments,
     are_similarities,
     index,
@@ -218,6 +220,14 @@ def test_normalized_moments_have_no_unit_and_know_no_place(by, size):
     assert (found.input > 0).any()
     if by == "gyration":
         assert found.raw[[4, 7, 9]].sum() == pytest.approx(1.0, rel=1e-10)
+
+
+def test_what_is_measured_is_one_of_four_and_reads_as_its_name():
+    assert Moments(np.ones(1), np.zeros(3)).of is Measure.VOLUME
+    area = Moments(np.ones(1), np.zeros(3), "area")
+    assert area.of is Measure.AREA and "{:s}".format(area.of) == "area" and json.dumps(area.of) == '"area"'
+    with pytest.raises(ValueError):
+        Moments(np.ones(1), np.zeros(3), "weight")
 
 
 def test_areas_are_normalized_to_an_area_of_one():

@@ -13,6 +13,7 @@ from body_moments.core.moments.moments import monomial_count, monomials
 from body_moments.core.polyhedron import any_order as recursion
 from body_moments.core.polyhedron import any_order_kernel as levels
 from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.polyhedron import third_order as polyhedron
 
 from tests.core import exact
 from tests.core.test_polyhedron import PLACES, SHAPES, SIZES, grid_torus
@@ -160,6 +161,29 @@ def test_low_orders_are_those_of_the_fast_kernel_and_agree_with_the_recursion(or
     assert polyhedron_moments(surface, order)[1] is None
 
 
+@pytest.mark.parametrize("order, area_order", [(5, 2), (5, 0), (2, 5), (3, 1), (1, 3), (3, 0), (0, 0)])
+def test_the_area_has_an_order_of_its_own(order, area_order):
+    points, quads = grid_torus(12, 8, noise=0.05)
+    surface = Surface(points, quads=quads)
+    volume, area = polyhedron_moments(surface, order, area_order=area_order)
+    assert (volume.order, area.order) == (order, area_order)
+    triangles = surface.all_triangles()[0]
+    assert_within(volume, exact.volume_moments(points, triangles, volume.about, order))
+    assert_within(area, exact.area_moments(points, triangles, area.about, order=area_order))
+
+
+def test_of_large_meshes_the_third_order_is_exact_on_request_alone(monkeypatch):
+    monkeypatch.setattr(polyhedron, "EXACT", 0)
+    monkeypatch.setattr(polyhedron, "FEW", 0)
+    points, quads = grid_torus(12, 8, noise=0.05)
+    surface = Surface(points, quads=quads)
+    rough, fine = (polyhedron_moments(surface, exact=on)[0] for on in (False, True))
+    assert fine.error[10:].max() < 1e-12 and rough.error[10:].min() > 1e-4
+    monkeypatch.setattr(polyhedron, "MEMORY", (0, 20_000))  # blocks are as long as what is asked for allows
+    second = [polyhedron_moments(surface, 2, exact=on)[0] for on in (False, True)]
+    assert second[0].error.max() < 1e-12 and np.array_equal(second[0].error, second[1].error)
+
+
 @pytest.mark.parametrize("order", [2, 6])
 def test_pieces_make_the_whole(path, order):
     points, quads = grid_torus(12, 8, noise=0.05)
@@ -264,6 +288,8 @@ def test_what_cannot_be_measured_is_refused(order):
     for wrong in (-1, 2.5, 2.0, "3", None):
         with pytest.raises(ValueError, match="whole number"):
             polyhedron_moments(Surface(points, quads=quads), wrong)
+    with pytest.raises(ValueError, match="whole number"):
+        polyhedron_moments(Surface(points, quads=quads), order, area_order=-1)
 
 
 def test_what_leaves_the_range_of_numbers_is_refused():
@@ -284,6 +310,8 @@ def test_what_leaves_it_at_low_orders_is_refused_too_and_what_stays_is_told():
     for order in (3, 4):
         with pytest.raises(ValueError, match="too large"):
             polyhedron_moments(iter([triangles, triangles]), order)
+        with pytest.raises(ValueError, match="too large"):
+            polyhedron_moments(Surface(points * 1e60, quads=quads), order)
 
 
 def test_a_stream_is_never_in_memory_as_a_whole():
