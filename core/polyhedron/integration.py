@@ -9,6 +9,7 @@ triangles); higher orders are for the recursion (`any_order`).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -98,7 +99,8 @@ def polyhedron_moments(
         shell = area_order is not None and area_order >= min(order, 1)
         options = {"area": area_order is not None, "shell": shell, "exact": exact and order == THIRD}
         volume, area = _sum_to_third_order(stream, threads, about, progress, planarity=planarity, **options)
-        if not np.isfinite(volume.error[: monomial_count(highest)]).all():  # an area has one power of the reach less
+        # Bounds are not negative, and an area's have one power of the reach less.
+        if not isfinite(np.add.reduce(volume.error[: monomial_count(highest)])):
             raise ValueError(TOO_LARGE.format(order))
     else:
         volume, area = any_order.integrate(stream, highest, area_order is not None, threads, progress, about, reach)
@@ -145,9 +147,12 @@ def _sum_to_third_order(
         count = len(surface.triangles) + len(surface.quads)
         if not count:
             continue
-        with np.errstate(over="ignore", invalid="ignore"):
-            part = third_order.integrate(surface, threads, about=about, **options)
-            total = part if total is None else (total[0] + part[0], total[1] + part[1])
+        part = third_order.integrate(surface, threads, about=about, **options)
+        if total is None:
+            total = part
+        else:
+            with np.errstate(over="ignore", invalid="ignore"):
+                total = total[0] + part[0], total[1] + part[1]
         about = total[0].about
         done += count
         if progress is not None:

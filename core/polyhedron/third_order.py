@@ -133,15 +133,16 @@ def _rescaled(
     about = None if about is None else np.ldexp(about, -exponent)
     for moments in integrate(small, threads, about=about, **options):
         powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.of == Measure.VOLUME else 2))
-        results.append(
-            replace(
-                moments,
-                raw=np.ldexp(moments.raw, powers),
-                about=np.ldexp(moments.about, exponent),
-                error=np.ldexp(moments.error, powers) + np.finfo(float).tiny,
-                input=np.ldexp(moments.input, powers),
+        with np.errstate(over="ignore"):  # what becomes infinite is refused by who asked for it
+            results.append(
+                replace(
+                    moments,
+                    raw=np.ldexp(moments.raw, powers),
+                    about=np.ldexp(moments.about, exponent),
+                    error=np.ldexp(moments.error, powers) + np.finfo(float).tiny,
+                    input=np.ldexp(moments.input, powers),
+                )
             )
-        )
     return results[0], results[1]
 
 
