@@ -50,8 +50,7 @@ from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.offset.walls import sweep
 from body_moments.core.papers.sheynin_tuzikov_2001 import triangle_moments as explicit_moments
-from body_moments.core.polyhedron.any_order import moments_to_order
-from body_moments.core.polyhedron.third_order import solid_and_area, solid_moments, third_moments_exact
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
 
 
@@ -80,8 +79,8 @@ def halves(quads: np.ndarray, paired: bool) -> np.ndarray:
 def measure_arrays(points: np.ndarray, triangles: np.ndarray, threads: int = 1) -> MassProperties:
     """The whole path: volume, center, inertia and the principal frame with its signs."""
     surface = Surface(points, triangles)
-    refine = lambda: third_moments_exact(surface, threads)  # noqa: E731
-    return MassProperties.from_moments(solid_moments(surface, threads), refine=refine)
+    refine = lambda: polyhedron_moments(surface, exact=True, threads=threads)[0]  # noqa: E731
+    return MassProperties.from_moments(polyhedron_moments(surface, threads=threads)[0], refine=refine)
 
 
 def gather(points: np.ndarray, faces: np.ndarray) -> None:
@@ -182,7 +181,7 @@ def walls_and_derivatives(side: int, rounds: int) -> None:
     surface = Surface(points, halves(quads, paired=False))
     swept, center = sweep(surface), np.zeros(3)
     rows = {
-        "solid to third order": lambda: solid_and_area(surface),
+        "solid to third order": lambda: polyhedron_moments(surface, area_order=0),
         "wall as polynomials": lambda: sweep(surface),
         "another thickness": lambda: swept.moments(1e-3, 0.0),
         "derivatives of volume moments": lambda: volume_gradient(surface, center),
@@ -218,7 +217,7 @@ def latency(rounds: int) -> None:
     points, quads = torus(10, 15, 0.05)
     triangles = halves(quads, paired=True)
     rows = {
-        "ours: moments": lambda: solid_moments(Surface(points, triangles)),
+        "ours: moments": lambda: polyhedron_moments(Surface(points, triangles))[0],
         "ours: with frame": lambda: measure_arrays(points, triangles),
     }
     if trimesh := optional("trimesh"):
@@ -259,9 +258,9 @@ def compare_order(points: np.ndarray, faces: np.ndarray, order: int, quick: bool
     part, base = Surface(points, faces[:count]), Surface(points, faces)
     few = max(count // 40, 200)
     rows = {
-        "base": (lambda: solid_moments(base), len(faces)),
-        "volume": (lambda: moments_to_order(part, order), count),
-        "both": (lambda: moments_to_order(part, order, area=True), count),
+        "base": (lambda: polyhedron_moments(base)[0], len(faces)),
+        "volume": (lambda: polyhedron_moments(part, order), count),
+        "both": (lambda: polyhedron_moments(part, order, area_order=order), count),
     }
     if order in EXPLICIT:
         rows["explicit"] = (lambda: explicit_moments(points, faces[:few], order), few)
@@ -269,7 +268,8 @@ def compare_order(points: np.ndarray, faces: np.ndarray, order: int, quick: bool
     each = {name: statistics.median(times[name]) / rows[name][1] * 1e9 for name in rows}
     # Threads want many blocks.
     shared = interleaved(
-        {str(threads): partial(moments_to_order, base, order, threads=threads) for threads in (1, 2)}, 1 if quick else 2
+        {str(threads): partial(polyhedron_moments, base, order, threads=threads) for threads in (1, 2)},
+        1 if quick else 2,
     )
     told = ""
     if order in EXPLICIT:
@@ -315,8 +315,8 @@ def stream(millions: float, order: int = 4) -> None:
             yield Surface(points.reshape(-1, 3), triangles)
 
     before, start = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, time.perf_counter()
-    volume, area = moments_to_order(
-        strips(), order, area=True, threads=os.cpu_count() or 1, about=np.zeros(3), reach=1.4
+    volume, area = polyhedron_moments(
+        strips(), order, area_order=order, threads=os.cpu_count() or 1, about=np.zeros(3), reach=1.4
     )
     seconds = time.perf_counter() - start
     grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
@@ -374,8 +374,10 @@ def blender(side: int, rounds: int) -> None:
 
     def moments_only(threads: int) -> None:
         (part,) = read_object(body, depsgraph, edges=False).parts
-        volume = solid_moments(part.surface, threads).mapped(part.matrices[0])
-        MassProperties.from_moments(volume, refine=lambda: third_moments_exact(part.surface, threads))
+        volume = polyhedron_moments(part.surface, threads=threads)[0].mapped(part.matrices[0])
+        MassProperties.from_moments(
+            volume, refine=lambda: polyhedron_moments(part.surface, exact=True, threads=threads)[0]
+        )
 
     def floor(fetch: Callable[[np.ndarray, np.ndarray], None]) -> None:
         surface = read_floor(body.evaluated_get(depsgraph).to_mesh())
@@ -659,7 +661,7 @@ def fourier(quick: bool) -> None:
         )
     points, quads = torus(160, 64, 0.0)
     surface = Surface(points, halves(quads, paired=False))
-    volume, grid = solid_moments(surface).total, Grid(64, 16.0 * np.pi / 1.4)
+    volume, grid = polyhedron_moments(surface)[0].total, Grid(64, 16.0 * np.pi / 1.4)
     start = time.perf_counter()
     found = finished(GridTransform(surface, grid, "volume", 1e-7 * volume))
     seconds, some = time.perf_counter() - start, rng.integers(0, 64**3, 100)

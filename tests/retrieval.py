@@ -42,8 +42,7 @@ load_package()
 
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.graph import components
-from body_moments.core.polyhedron.any_order import moments_to_order
-from body_moments.core.polyhedron.third_order import solid_moments
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.shape.signature import Signature, compared, signature
 from body_moments.core.solid.measure_solid import measure_solid
 
@@ -89,9 +88,9 @@ def parts(folder: Path) -> Iterator[tuple[str, Part]]:
 
 def signed(part: Part) -> Signature:
     points, triangles = part
-    points = points - solid_moments(Surface(points, triangles)).center
+    points = points - polyhedron_moments(Surface(points, triangles))[0].center
     radius = np.linalg.norm(points[np.unique(triangles)], axis=1).max()
-    moments = moments_to_order(Surface(points, triangles), ORDER, about=np.zeros(3), reach=radius)[0]
+    moments = polyhedron_moments(Surface(points, triangles), ORDER, about=np.zeros(3), reach=radius)[0]
     return signature(moments, radius)
 
 

@@ -24,7 +24,7 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import HALF_ULP, PAIRWISE, Moments, U, index, monomials
+from ..moments.moments import HALF_ULP, PAIRWISE, Measure, Moments, U, index, monomials
 
 BLOCK = 4096  # triangles whose table stays in the cache
 EXPONENTS = monomials(3)
@@ -44,7 +44,11 @@ def weighted_solid(points: NDArray, triangles: NDArray, density: NDArray, like: 
     raw = sums * FACTORIALS / norm
     error = (9.0 * U * (reach @ tau) + _rounding(len(triangles)) * sizes) / (2.0 * DEGREE + 6.0) * _powers(reach)
     return Moments(
-        raw, like.about, "volume", error + 8.0 * U * np.abs(raw), like.input[:20] * float(density.max(initial=0.0))
+        raw,
+        like.about,
+        Measure.VOLUME,
+        error + 8.0 * U * np.abs(raw),
+        like.input[:20] * float(density.max(initial=0.0)),
     )
 
 
@@ -65,7 +69,7 @@ def weighted_sheet(
     size = sizes / 2.0 * _powers(reach)
     error = 9.0 * U * tau.sum() / 2.0 * _powers(reach) + _rounding(len(triangles)) * size
     inputs = like.input[:20] * float(density.max(initial=0.0)) + (HALF_ULP * size if stored else 0.0)
-    return Moments(raw, like.about, "area", error + 8.0 * U * np.abs(raw), inputs)
+    return Moments(raw, like.about, Measure.AREA, error + 8.0 * U * np.abs(raw), inputs)
 
 
 def _added(
@@ -145,4 +149,4 @@ def _powers(reach: NDArray) -> NDArray[np.float64]:
 
 def as_mass(moments: Moments, factor: float = 1.0) -> Moments:
     """Weighted moments, mapped to where they belong, as mass moments; factor: a sheet's thickness."""
-    return replace(moments, of="mass") * factor
+    return replace(moments, of=Measure.MASS) * factor

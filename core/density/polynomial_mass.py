@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.affine_maps import horner, maps_last, times
-from ..moments.moments import BLOCK, Moments, U, measure_factors
+from ..moments.moments import BLOCK, Measure, Moments, U, measure_factors
 from ..moments.monomials import monomial_count, monomials, order_of, raised_places
 from ..numerics.rotations import own_axes
 from .polynomial import Polynomial
@@ -71,7 +71,7 @@ def graded_sum(
         moved = horner(weighed_input, order, *reach)
         error += rounding.sum(axis=1)
         inputs += (weight * (moved + deviation * (size + moved))).sum(axis=1)
-    return Moments(raw, about, "mass", error, inputs)
+    return Moments(raw, about, Measure.MASS, error, inputs)
 
 
 def _weighed(

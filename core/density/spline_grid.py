@@ -27,7 +27,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import Moments, U, monomials
+from ..moments.moments import Measure, Moments, U, monomials
 from ..verdict.finding import MeasureError
 from .spline_tables import Axis
 
@@ -86,7 +86,7 @@ def grid_moments(
         raise MeasureError("grid_transform_singular")
     axes = [Axis.uniform(count, spline_order) for count in shape]
     inside = density_moments(samples, axes, order, value)
-    return replace(replace(inside, of="volume").mapped(matrix), of="mass")
+    return replace(replace(inside, of=Measure.VOLUME).mapped(matrix), of=Measure.MASS)
 
 
 class Trivariate:
@@ -182,7 +182,7 @@ def _about(
     bounds = [_bounding(axes[i], order, about[i]) for i in turn]
     size = np.einsum("ax,by,cz,xyz->abc", *bounds, size)
     units = sum(axis.roundings(order) for axis in axes) + longest + blocks + 8
-    return Moments(total[p, q, r], about, "mass", 1.01 * units * U * size[p, q, r])
+    return Moments(total[p, q, r], about, Measure.MASS, 1.01 * units * U * size[p, q, r])
 
 
 def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, int], NDArray]]:

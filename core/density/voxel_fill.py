@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Moments, U, monomials
+from ..numerics.arrays import batches
 from ..numerics.quadrature import triangle_rule
 from ..verdict.finding import MeasureError
 
@@ -98,13 +99,8 @@ def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[n
 def _batches(triangles: NDArray, shape: NDArray) -> Iterator[slice]:
     """Slices of the triangles that are expected to give about PIECES pieces each."""
     spans = np.minimum(np.ptp(triangles, axis=1), shape) + 1.0
-    expected = np.cumsum(spans[:, 0] * spans[:, 1] + spans[:, 1] * spans[:, 2] + spans[:, 2] * spans[:, 0])
-    start = 0
-    while start < len(triangles):
-        done = expected[start - 1] if start else 0.0
-        stop = max(start + 1, int(np.searchsorted(expected, done + PIECES)))
-        yield slice(start, stop)
-        start = stop
+    expected = spans[:, 0] * spans[:, 1] + spans[:, 1] * spans[:, 2] + spans[:, 2] * spans[:, 0]
+    return batches(expected, PIECES)
 
 
 def _cut(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:

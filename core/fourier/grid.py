@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
+from ..moments.moments import Measure
 from ..numerics.compensated import normals
 from ..numerics.quadrature import triangle_rule
 from .nufft import WIDTHS, Spreading, aliasing
@@ -51,16 +52,16 @@ class GridTransform(Transform):
     reach the tolerance.
     """
 
-    def __init__(self, surface: Surface, grid: Grid, of: str, tolerance: float, threads: int = 1):
+    def __init__(self, surface: Surface, grid: Grid, of: Measure, tolerance: float, threads: int = 1):
         super().__init__(surface, grid, of, threads)
         self.surface, faces = surface, self.faces
         # what a mean over the area may be off by: half of the tolerance each for the points and for the kernel
-        if of == "volume":
+        if of == Measure.VOLUME:
             allowed = tolerance / faces.scale**3 / (2.0 * faces.area)
             step, largest = grid.step * faces.scale, np.sqrt(3.0) * grid.largest * faces.scale
         else:
             allowed, step, largest = tolerance / faces.scale**2 / (2.0 * faces.area), 1.0, 1.0
-        self.width = _width(grid.half, allowed * step, of == "volume")
+        self.width = _width(grid.half, allowed * step, of == Measure.VOLUME)
         self.each, self.together = allowed * largest / 2.0, allowed * faces.area / SAFETY  # of a D, of the transform
         self.fine: list[tuple[int, NDArray[np.intp]]] = []
 
@@ -70,7 +71,9 @@ class GridTransform(Transform):
         most = min(MOST, int(np.sqrt(DIRECT_COST * len(self.sums) / self.width**3)))
         self.direct = self.faces.only(np.flatnonzero(counts > most))
         self.fine = [(n, np.flatnonzero(counts == n)) for n in np.unique(counts[counts <= most]).tolist()]
-        self.spreading = Spreading(self.q.half, self.width, 3 if self.of == "volume" else 1) if self.fine else None
+        self.spreading = (
+            Spreading(self.q.half, self.width, 3 if self.of == Measure.VOLUME else 1) if self.fine else None
+        )
 
     def _counts(self) -> Generator[float, None, NDArray[np.int64]]:
         """(m,) Gauss points along a side of each triangle."""
@@ -78,7 +81,7 @@ class GridTransform(Transform):
         spans, regular = largest * self.faces.diameters, largest * self.faces.heights >= 2.0 * np.pi
         bound = _points(spans, self.each)
         q = _trial(self.q) * self.faces.scale
-        size = np.sqrt((q**2).sum(axis=1)) if self.of == "volume" else 1.0
+        size = np.sqrt((q**2).sum(axis=1)) if self.of == Measure.VOLUME else 1.0
         exact, before = None, None
         for credit in CREDITS:
             fewer = np.where(regular, bound, _points(spans, self.each * credit))
@@ -124,7 +127,7 @@ class GridTransform(Transform):
 
     def _weights(self, vectors: NDArray, q: NDArray) -> NDArray[np.float64]:
         """(k, m) (q·N) / |q|, or (1, m) |N|, for normals (3, m) and wave vectors (3, k)."""
-        if self.of == "area":
+        if self.of == Measure.AREA:
             return np.sqrt((vectors**2).sum(axis=0))[None]
         return sum(np.multiply.outer(a, b) for a, b in zip(q, vectors)) / np.sqrt((q**2).sum(axis=0))[:, None]
 
@@ -162,7 +165,7 @@ class GridTransform(Transform):
     def _spread(self, triangles: NDArray, n: int) -> None:
         """Put the points of some triangles on the fine grid."""
         points, strengths, weights = self._nodes(triangles, n)
-        if self.of == "area":
+        if self.of == Measure.AREA:
             strengths = np.sqrt((strengths**2).sum(axis=0))[None]
         strengths = (strengths[..., None] * weights).reshape(len(strengths), -1)
         self.spreading.add(points.reshape(3, -1) * (self.q.step * self.faces.scale), strengths)
@@ -171,7 +174,7 @@ class GridTransform(Transform):
         """Add to the sums what was spread, less the halves that `Transform` takes off."""
         vectors = self.waves.vectors(slice(0, self.waves.rows))
         for axis, waves in enumerate(self.spreading.sums()):
-            if self.of == "volume":
+            if self.of == Measure.VOLUME:
                 self.sums += vectors[axis] * (waves.reshape(-1) - waves[self.q.half, self.q.half, 0].real)
             else:
                 self.sums += waves.reshape(-1) - waves[self.q.half, self.q.half, 0].real

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.surface import Surface
 from ..moments.affine_maps import distinct_linear
+from ..moments.moments import Measure
 from ..numerics.compensated import wave
 from ..verdict.finding import MeasureError
 from .grid import GridTransform
@@ -30,12 +31,12 @@ TOLERANCE = 1e-7  # of the volume or the area, then
 class BodyTransform:
     """The transform of surfaces at their places: `steps` does the work, `result` gives the outcome.
 
-    parts: surfaces with their (k, 4, 4) maps. q: (M, 3) wave vectors or a Grid. of: "volume" or "area".
+    parts: surfaces with their (k, 4, 4) maps. q: (M, 3) wave vectors or a Grid. of: volume or area.
     total: the body's volume or area, to which `TOLERANCE` refers.
     """
 
     def __init__(
-        self, parts: Sequence[tuple[Surface, NDArray]], q: ArrayLike | Grid, of: str, total: float, threads: int = 1
+        self, parts: Sequence[tuple[Surface, NDArray]], q: ArrayLike | Grid, of: Measure, total: float, threads: int = 1
     ):
         self.q = q if isinstance(q, Grid) else wave_vectors(q, 3)
         self.of, self.threads = of, threads

@@ -24,9 +24,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.surface import Surface
-from ..moments.moments import U
+from ..moments.moments import Measure, U
 from ..numerics.compensated import two_sum, wave
-from ..polyhedron.third_order import solid_and_area
+from ..polyhedron import polyhedron_moments
 from ..verdict.finding import MeasureError
 from .spectrum import Spectrum
 from .triangle_kernel import BLOCK, PAIRS, Faces, Means
@@ -46,12 +46,12 @@ def solid_transform(surface: Surface, q: ArrayLike | Grid, threads: int = 1) -> 
     that are not finite and for sizes beyond the range of numbers; ValueError for coordinates that are not finite and
     for indices that name no point.
     """
-    return finished(Transform(surface, q, "volume", threads))
+    return finished(Transform(surface, q, Measure.VOLUME, threads))
 
 
 def surface_transform(surface: Surface, q: ArrayLike | Grid, threads: int = 1) -> Spectrum:
     """∫ exp(-i q·x) dA over a surface, closed or not, at wave vectors (M, 3) or on a grid."""
-    return finished(Transform(surface, q, "area", threads))
+    return finished(Transform(surface, q, Measure.AREA, threads))
 
 
 def finished(transform: Transform) -> Spectrum:
@@ -62,15 +62,15 @@ def finished(transform: Transform) -> Spectrum:
 
 
 class Transform:
-    """A transform under way: `steps` does the work, `result` tells the outcome. of: "volume" or "area"."""
+    """A transform under way: `steps` does the work, `result` tells the outcome. of: volume or area."""
 
-    def __init__(self, surface: Surface, q: ArrayLike | Grid, of: str, threads: int = 1):
+    def __init__(self, surface: Surface, q: ArrayLike | Grid, of: Measure, threads: int = 1):
         self.q = q if isinstance(q, Grid) else wave_vectors(q, 3)
         self.of, self.threads = of, threads
         self.faces = self.direct = Faces(surface)
-        self.volume, self.area = solid_and_area(surface, threads)
+        self.volume, self.area = polyhedron_moments(surface, area_order=0, threads=threads)
         self.gap = 0.0
-        if of == "volume":
+        if of == Measure.VOLUME:
             self.gap = float(np.linalg.norm(np.cross(ASKEW[0], self._vector_sum()))) / 1.5
             if self.gap > OPEN * self.faces.area:
                 raise MeasureError("fourier_of_open_surface")
@@ -135,7 +135,7 @@ class Transform:
             rows = slice(i, min(i + size, part.stop))
             real, imaginary = means(rows)
             weight = block.lengths
-            if self.of == "volume":
+            if self.of == Measure.VOLUME:
                 weight, spare = np.empty_like(real), np.empty_like(real)
                 across(rows, weight, spare)
             here = slice((rows.start - part.start) * columns, (rows.stop - part.start) * columns)
@@ -146,7 +146,7 @@ class Transform:
     def result(self) -> Spectrum:
         """The spectrum, when all steps are done."""
         faces, values = self.faces, self.sums + self.rest
-        if self.of == "area":
+        if self.of == Measure.AREA:
             values, unit, moments = values + faces.area, 2, self.area
         else:
             values, unit, moments = self._divided(values), 3, self.volume

@@ -20,7 +20,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import Moments, index, monomials
+from ..moments.moments import Measure, Moments, index, monomials
 from ..moments.symmetric_tensors import _contracted, _places, _rotated, distinct, tensor_index
 from ..verdict.finding import MeasureError
 
@@ -72,7 +72,7 @@ def canonical_frames(moments: Moments, spread: Spread, starts: NDArray) -> Frame
     total = central.raw[0]
     if not np.finfo(float).tiny < total * spread.size.max() ** central.order < np.inf:
         raise MeasureError("moments_overflow", order=central.order)
-    central = replace(central, raw=central.raw / total, error=central.error / total, of="mass")
+    central = replace(central, raw=central.raw / total, error=central.error / total, of=Measure.MASS)
     frames, round_about, tilt = _candidates(central, spread, starts)
     values, noise = _written(central, spread, frames)
     return Frames(*_largest(frames, values, noise), round_about, tilt)

@@ -15,7 +15,7 @@ from math import hypot
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import SECOND, Moments, U, monomial_count, sum_moments
+from ..moments.moments import SECOND, Measure, Moments, U, monomial_count, sum_moments
 from ..verdict.finding import MeasureError
 from .principal_frame import PrincipalFrame, principal_frame
 
@@ -84,7 +84,7 @@ class MassProperties:
         raw = np.zeros(monomial_count(3))
         raw[0] = self.mass
         raw[SECOND] = np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia
-        return Moments(raw, self.center, "mass")
+        return Moments(raw, self.center, Measure.MASS)
 
     @property
     def radii_of_gyration(self) -> NDArray[np.float64]:
@@ -104,7 +104,7 @@ class MassProperties:
 
 def combined(bodies: Sequence[tuple[Moments, float]], prefer: NDArray | None = None) -> MassProperties:
     """Several bodies, (moments, density) each, as one."""
-    weighed = [replace(moments, of="mass") * density for moments, density in bodies]
+    weighed = [replace(moments, of=Measure.MASS) * density for moments, density in bodies]
     return MassProperties.from_moments(sum_moments(weighed), prefer=prefer)
 
 

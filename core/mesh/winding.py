@@ -1,6 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Generalized winding numbers of closed triangle surfaces about points."""
+"""Generalized winding numbers of triangle surfaces about points.
+
+By solid angles, which an open surface has too: it is not the count of `bvh.Tree.inside`, whose rays need closed shells
+and answer for thousands of points at once.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +17,7 @@ BLOCK = 1 << 15  # triangles at a time
 
 
 def winding(points: NDArray, triangles: NDArray, place: ArrayLike) -> float:
-    """How often closed triangles surround a place: the sum of their solid angles by 4 π (A. van Oosterom and
+    """How often triangles surround a place: the sum of their solid angles by 4 π (A. van Oosterom and
     J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983)."""
     total = 0.0
     for start in range(0, len(triangles), BLOCK):

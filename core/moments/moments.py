@@ -15,11 +15,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from enum import StrEnum
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..verdict.finding import MeasureError
 from .affine_maps import horner, maps_last, shift, turn
 from .monomials import index, monomial_count, monomials, order_of, raised_places
 
@@ -36,24 +36,34 @@ THIRD = np.array(
 )
 
 
+class Measure(StrEnum):
+    """What moments are integrals over."""
+
+    VOLUME = "volume"
+    AREA = "area"
+    LENGTH = "length"
+    MASS = "mass"
+
+
 @dataclass(frozen=True, eq=False)
 class Moments:
     """Moments of one body to some order.
 
     raw: (K,) float64 in the order of `monomials`, unit^(dimension of `of` + degree).
     about: (3,) the point they are taken about, in the same coordinates.
-    of: what they measure: "volume", "area", "length" or "mass".
+    of: what they measure.
     error: (K,) bound of |raw - exact| for the coordinates as given: rounding, and truncation where a source says so.
     input: (K,) bound of the change when every coordinate moves by its float32 half ulp; zero for float64 sources.
     """
 
     raw: NDArray[np.float64]
     about: NDArray[np.float64]
-    of: str = "volume"
+    of: Measure = Measure.VOLUME
     error: NDArray[np.float64] = field(default=None)
     input: NDArray[np.float64] = field(default=None)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "of", Measure(self.of))
         if self.error is None:
             object.__setattr__(self, "error", np.zeros_like(self.raw))
         if self.input is None:
@@ -133,49 +143,7 @@ class Moments:
         matrix[:3, :3] = np.asarray(rotation, np.float64).T
         matrix[:3, 3] = -matrix[:3, :3] @ np.asarray(origin, np.float64)
         # A change of axes stretches nothing, whatever is measured and however the rotation was rounded.
-        return replace(map_sum(replace(self, of="mass"), matrix[None], np.zeros(3)), of=self.of)
-
-    def normalized(self, by: str = "size") -> Moments:
-        """The central moments without unit, of degree n, about (0, 0, 0): the same wherever the body is and however
-        large.
-
-        by: "size", μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas: those of the body scaled to a volume, or area,
-        of 1. "gyration", μ / (m R^n) with R² = ∫ r² dm / m: those of the body scaled to a radius of gyration and a mass
-        of 1. `error` and `input` hold for the body's true center. MeasureError where there is too little to divide by.
-        """
-        dimension = {"volume": 3, "area": 2}.get(self.of)
-        if by == "size" and dimension is None:
-            raise ValueError("masses need 'gyration'")
-        if self.order < (2 if by == "gyration" else 1) or not self.total > 2.0 * (self.error[0] + self.input[0]):
-            raise MeasureError("normalization_undefined")
-        body = self.about_center()
-        n = monomials(self.order).sum(axis=1)
-        trace = float(body.raw[[4, 7, 9]].sum()) if by == "gyration" else 1.0
-        if by == "gyration":
-            factor = (trace / body.total) ** (-n / 2.0) / body.total
-        else:
-            factor = body.total ** -(1.0 + n / dimension)
-        bounds = []
-        for delta in (body.error, body.error + body.input):  # of the total, the trace, and the center's place
-            total = body.total / (body.total - delta[0])
-            off = (np.abs(body.raw[1:4]) + delta[1:4]) / (body.total - delta[0]) + 2.0 * U * np.abs(body.about)
-            size = np.abs(body.raw) + delta
-            away = shift(size[None], self.order, off[None])[0] - size + 8.0 * U * n * size
-            if by == "gyration":
-                spread = delta[[4, 7, 9]].sum() + away[[4, 7, 9]].sum()
-                if not trace > 2.0 * spread:
-                    raise MeasureError("normalization_undefined")
-                stretch = total ** np.abs(n / 2.0 - 1.0) * (trace / (trace - spread)) ** (n / 2.0)
-            else:
-                stretch = total ** (1.0 + n / dimension)
-            bounds.append(factor * (stretch * (delta + away) + (stretch - 1.0 + (8.0 + 4.0 * n) * U) * size))
-        return Moments(
-            body.raw * factor,
-            np.zeros(3),
-            self.of if by == "size" else "mass",
-            bounds[0],
-            (bounds[1] - bounds[0]) * bool(self.input.any()),
-        )
+        return replace(map_sum(replace(self, of=Measure.MASS), matrix[None], np.zeros(3)), of=self.of)
 
     def mapped(self, matrix: ArrayLike) -> Moments:
         """The moments of the body's image under an affine map.
@@ -310,22 +278,22 @@ def _bounds(
     return rounding[degree], mapped_input[degree]
 
 
-def measure_factors(of: str, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+def measure_factors(of: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     """(k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and by how much the
     map fails to have one factor."""
     exact = np.zeros(linear.shape[2])
-    if of == "mass":
+    if of == Measure.MASS:
         return np.ones(linear.shape[2]), exact, exact
     a, b, c = linear
     terms = [(a[i] * b[j] * c[k], a[i] * b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
     det = np.abs(sum(plus - minus for plus, minus in terms))
     permanent = sum(np.abs(plus) + np.abs(minus) for plus, minus in terms)
-    if of == "volume":
+    if of == Measure.VOLUME:
         return det, 8 * U * permanent, exact
     deviation = _stretch_deviation(linear)
     if np.any(deviation > SIMILARITY):
         raise ValueError("not a similarity")
-    power = 1 if of == "length" else 2
+    power = 1 if of == Measure.LENGTH else 2
     return np.cbrt(det) ** power, 8 * U * np.cbrt(permanent) ** power, deviation
 
 

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ranges of segments, hashes of rows, first occurrences, Morton order."""
+"""Ranges of segments, pairs in bounded pieces, hashes of rows, first occurrences, Morton order."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +22,29 @@ def ramp(counts: NDArray) -> NDArray[np.intp]:
     """0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, …"""
     ends = np.cumsum(counts)
     return np.arange(ends[-1]) - np.repeat(ends - counts, counts)
+
+
+def batches(weights: NDArray, size: float) -> Iterator[slice]:
+    """Slices of consecutive items whose weights add up to about `size`, of at least one item each."""
+    total, start = np.cumsum(weights), 0
+    while start < len(total):
+        done = total[start - 1] if start else 0
+        stop = max(start + 1, int(np.searchsorted(total, done + size)))
+        yield slice(start, stop)
+        start = stop
+
+
+def following_pairs(
+    order: NDArray[np.intp], counts: NDArray[np.intp], size: int
+) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """The pairs of each item of a sequence with the next ones, in pieces of about `size` pairs.
+
+    order: (n,) the sequence. counts: (n,) how many of the items that follow each one it is paired with.
+    """
+    for part in batches(counts, size):
+        row = np.repeat(np.arange(part.start, part.stop), counts[part])
+        if len(row):
+            yield order[row], order[row + 1 + ramp(counts[part])]
 
 
 def first_equal(*columns: NDArray) -> NDArray[np.intp]:

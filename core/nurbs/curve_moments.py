@@ -21,7 +21,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import Moments, U, monomials
+from ..moments.moments import Measure, Moments, U, monomials
 from .bezier import bernstein, halves
 from .curve import Curve
 from .patch_moments import ROUNDING, TOLERANCE
@@ -49,7 +49,8 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
 
     values, estimate, size = _integrated(curves, length, 1.0, order, about, reach, LENGTH_TOLERANCE, kinks=True)
     scale = size * reach ** degree.astype(np.float64)
-    return Moments(values, about, "length", estimate * reach ** degree.astype(np.float64) + ROUNDING * U * 8 * scale)
+    error = estimate * reach ** degree.astype(np.float64) + ROUNDING * U * 8 * scale
+    return Moments(values, about, Measure.LENGTH, error)
 
 
 def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, about: NDArray | None = None) -> Moments:
@@ -78,7 +79,7 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
         values, size = values + more, size + length
     powers = reach ** (degree + 1.0)
     error = (estimate / max(reach, 1e-300) * powers + ROUNDING * U * 8 * size * powers) / (degree + 2.0)
-    return Moments(values / (degree + 2.0), about, "area", error)
+    return Moments(values / (degree + 2.0), about, Measure.AREA, error)
 
 
 def _reach(curves: Sequence[Curve], about: NDArray) -> float:

@@ -23,7 +23,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import Moments, U, monomials
+from ..moments.moments import Measure, Moments, U, monomials
 from ..moments.monomials import monomial_count
 from ..numerics.bspline import Space
 from ..numerics.quadrature import gauss, gauss_and_ends
@@ -104,7 +104,7 @@ def volume_moments(
         values, estimate, settled = values + found.values, found.estimate, found.settled
         size += found.size
     error = (estimate + (ROUNDING * U * size) * (orders + degree)) * unit / (degree + 3.0)
-    return Moments(values / (degree + 3.0), about, "volume", error), settled
+    return Moments(values / (degree + 3.0), about, Measure.VOLUME, error), settled
 
 
 def flux_sums(cells: Cells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
@@ -137,7 +137,7 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
     found = adaptive(parts, area, unit, AREA_TOLERANCE)
     orders = max(sum(part.orders) for part in parts)
     error = (FOLDED * found.estimate + ROUNDING * U * orders * found.size) * unit
-    return Moments(found.values, about, "area", error), found.settled
+    return Moments(found.values, about, Measure.AREA, error), found.settled
 
 
 def _turning(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
@@ -259,7 +259,7 @@ def sheet_moments(
     found = adaptive(parts, sheet, unit, AREA_TOLERANCE, thickness=outer - inner)
     orders = max(sum(part.orders) for part in parts)
     error = (found.estimate + ROUNDING * U * orders * found.size) * unit
-    return Moments(found.values, about, "volume", error), found.settled
+    return Moments(found.values, about, Measure.VOLUME, error), found.settled
 
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.boxes import overlapping_boxes
-from ..numerics.arrays import ramp
+from ..numerics.arrays import following_pairs
 from ..numerics.bspline import Space, clamped
 from ..numerics.graph import components
 from ..verdict.finding import MeasureError
@@ -243,15 +243,10 @@ def _near(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.int
     line = line[order]
     count = np.searchsorted(line, line + (limit * slope.sum() + 1e-12 * np.abs(line).max()), side="right")
     count -= np.arange(1, len(line) + 1)
-    total, begin, found = np.cumsum(count), 0, []
-    while begin < len(line):
-        end = max(int(np.searchsorted(total, (total[begin - 1] if begin else 0) + PIECE)), begin + 1)
-        rows = np.repeat(np.arange(begin, end), count[begin:end])
-        if len(rows):
-            i, j = order[rows], order[rows + 1 + ramp(count[begin:end])]
-            near = (np.abs(keys[i] - keys[j]) <= limit).all(axis=1)
-            found.append(np.sort([i[near], j[near]], axis=0))
-        begin = end
+    found = []
+    for i, j in following_pairs(order, count, PIECE):
+        near = (np.abs(keys[i] - keys[j]) <= limit).all(axis=1)
+        found.append(np.sort([i[near], j[near]], axis=0))
     return tuple(np.concatenate([np.empty((2, 0), np.intp), *found], axis=1))
 
 

@@ -18,7 +18,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import Moments, monomials, sum_moments
+from ..moments.moments import Measure, Moments, monomials, sum_moments
 from ..verdict.tolerances import TOLERANCE
 from .incremental import Evaluator
 from .patch import Patch
@@ -85,7 +85,7 @@ class FollowedBody:
         """As `measure_patches`, by the patches' fluxes."""
         about = self.measure.volume.about
         total = sum(evaluator.area for evaluator in self._evaluators)
-        area = Moments(np.array([total]), about, "area", self._area_error * total)
+        area = Moments(np.array([total]), about, Measure.AREA, self._area_error * total)
         fluxes: list[list[Moments]] = [[] for _ in range(closure.number)]
         for flux, turn, own in zip(self._fluxes, closure.turned, closure.component):
             fluxes[own].append(flux * -1.0 if turn else flux)

@@ -25,7 +25,7 @@ from ..mesh.bvh import sort_shells
 from ..mesh.edges import find_edges
 from ..mesh.surface import Surface
 from ..mesh.welding import equal_positions
-from ..moments.moments import PAIRWISE, Moments, U, index, monomial_count, monomials
+from ..moments.moments import PAIRWISE, Measure, Moments, U, index, monomial_count, monomials
 from ..numerics.graph import components
 from ..numerics.vectors import cross
 from ..solid.nesting import pierced, relate, winds_twice
@@ -90,7 +90,7 @@ class Sweep:
         swept = sum(self.swept @ s ** np.arange(4) for s in (inward, outward))
         reach = self.reach[0] + max(inward, outward) * self.reach[1]
         moved = swept * np.multiply.reduce(reach ** monomials(ORDER), axis=1)
-        return Moments(raw, self.about, "volume", error, np.minimum(self.input @ both, moved))
+        return Moments(raw, self.about, Measure.VOLUME, error, np.minimum(self.input @ both, moved))
 
     def box(self, inward: float, outward: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(3,) and (3,) the least and the largest coordinates of the wall."""

@@ -25,115 +25,21 @@ from itertools import chain, islice
 from math import factorial, frexp
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..mesh.surface import Surface, all_there, flipped_quads
-from ..moments.moments import Moments, U
+from ..moments.moments import Measure, Moments, U
 from ..moments.monomials import monomial_count, monomials, predecessors, rows_of
 from ..verdict.finding import MeasureError
-from .any_order_kernel import TINY, Levels, Sums, layout, sizes
-from .third_order import finite_box, middle, pairs, solid_and_area
+from .any_order_kernel import TINY, Levels, Sums, row_count, sizes
+from .third_order import finite_box, middle, nothing, pairs
 from .third_order_kernel import NO_VERTEX
 
-MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
-FAST = 3  # orders up to this one have their own kernel
 NUMBERS = 1_400_000  # that a block's scratch may hold; with fewer, two threads wait for each other
 FEWEST = 4608  # faces in a block; of rows less than half its buffer of 8192 long, numpy copies those it uses again
 BATCH = 8  # blocks that are handed to a thread at once
 USUAL = 8  # powers of two up to which coordinates are left as they are
 RANGE = 1000.0  # powers of two beyond which a moment is no number
-
-
-def moments_to_order(
-    body: Surface | Iterable[Surface | NDArray],
-    order: int,
-    *,
-    area: bool = False,
-    threads: int = 1,
-    progress: Callable[[int], None] | None = None,
-    about: ArrayLike | None = None,
-    reach: float | None = None,
-) -> tuple[Moments, Moments | None]:
-    """All moments of p+q+r ≤ order of the body that a closed surface bounds, and of the surface itself where `area`.
-
-    body: a Surface; or an iterable of pieces of one body, in the same coordinates, of which only a few are held at a
-        time: Surfaces, or (m, 3, 3) arrays of the corners of outward counter-clockwise triangles.
-    progress: called now and then with the number of faces done.
-    about: (3,) the reference point, by default the middle of the bounding box; of a stream that can be read only once,
-        the middle of its first piece. Far from the body digits are lost, and `error` says how many: give a point in it.
-    reach: how far the body extends from there, roughly; of such a stream by default what its first piece does.
-
-    `error` bounds the rounding of every moment, `input` what storing coordinates as float32 may have changed (of a
-    closed surface). Memory beside what `body` holds: for each thread a block's scratch, some 13 MB at order 4, 30 MB at
-    order 20 and 65 MB at order 30, and some 15 MB for the bounds. ValueError where coordinates are not finite, a face
-    names no vertex, or a piece of a stream reaches much farther than the first; MeasureError where a moment would be
-    beyond the range of numbers.
-    """
-    if not isinstance(order, (int, np.integer)) or order < 0:
-        raise ValueError("order not a natural number")
-    if about is not None:
-        about = np.array(about, np.float64)
-        if about.shape != (3,) or not np.isfinite(about).all():
-            raise ValueError("about must be finite (3,)")
-    pieces = [body] if isinstance(body, Surface) else body
-    if isinstance(pieces, (list, tuple)) and about is None:
-        about = _middle_of([_as_surface(piece) for piece in pieces])
-    stream = (_as_surface(piece) for piece in pieces)
-    if order <= FAST:
-        return _fast(stream, order, area, threads, progress, about)
-    return _Stream(order, area, threads, progress, about, reach).measured(stream)
-
-
-def _as_surface(piece: Surface | NDArray) -> Surface:
-    if isinstance(piece, Surface):
-        return piece
-    corners = np.asarray(piece)
-    if corners.ndim != 3 or corners.shape[1:] != (3, 3) or np.iscomplexobj(corners):
-        raise ValueError("corners not real (m, 3, 3)")
-    return Surface(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
-
-
-def _middle_of(surfaces: list[Surface]) -> NDArray[np.float64] | None:
-    """(3,) the middle of the box around all of them; None where there is nothing."""
-    boxes = [finite_box(surface) for surface in surfaces if len(surface.points)]
-    if not boxes:
-        return None
-    lows, highs = zip(*boxes)
-    dtype = np.result_type(*(surface.points for surface in surfaces))
-    return middle(np.min(lows, axis=0), np.max(highs, axis=0), dtype)
-
-
-def _fast(
-    stream: Iterable[Surface],
-    order: int,
-    area: bool,
-    threads: int,
-    progress: Callable[[int], None] | None,
-    about: NDArray | None,
-) -> tuple[Moments, Moments | None]:
-    """By the kernel for low orders, piece by piece."""
-    total: list[Moments] = []
-    done, exact = 0, order == FAST
-    for surface in stream:
-        if not len(surface.triangles) + len(surface.quads):
-            continue
-        if about is None:
-            about = _middle_of([surface])
-        with np.errstate(over="ignore", invalid="ignore"):
-            found = solid_and_area(surface, threads, area, exact=exact, about=about)
-            found = [moments.truncated(order) for moments in found]
-            total = [one + other for one, other in zip(total, found)] if total else found
-        done += len(surface.triangles) + len(surface.quads)
-        if progress is not None:
-            progress(done)
-    total = total or [_nothing(order, of, about) for of in ("volume", "area")]
-    if not all(np.isfinite(moments.error).all() for moments in total):
-        raise MeasureError("moments_overflow", order=int(order))
-    return total[0], total[1] if area else None
-
-
-def _nothing(order: int, of: str, about: NDArray | None) -> Moments:
-    return Moments(np.zeros(monomial_count(order)), np.zeros(3) if about is None else about, of)
 
 
 @lru_cache
@@ -197,6 +103,19 @@ class _Total:
             self.pending = []
 
 
+def integrate(
+    stream: Iterable[Surface],
+    order: int,
+    area: bool,
+    threads: int,
+    progress: Callable[[int], None] | None,
+    about: NDArray | None,
+    reach: float | None,
+) -> tuple[Moments, Moments | None]:
+    """The volume's moments and, where wanted, the area's; arguments as for `polyhedron_moments`."""
+    return _Stream(order, area, threads, progress, about, reach).measured(stream)
+
+
 class _Stream:
     """One body being measured, piece by piece."""
 
@@ -226,9 +145,8 @@ class _Stream:
                 self.progress(total.faces)
         total.settle()
         if not total.faces:
-            empty = [_nothing(self.order, of, self.center) for of in ("volume", "area")]
-            return empty[0], empty[1] if self.area else None
-        return self._moments(total, "volume"), self._moments(total, "area") if self.area else None
+            return nothing(self.order, self.center)
+        return self._moments(total, Measure.VOLUME), self._moments(total, Measure.AREA) if self.area else None
 
     def _parts(self, tasks: Iterator[_Task]) -> Iterator[tuple[int, list[Sums]]]:
         """The results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
@@ -269,7 +187,7 @@ class _Stream:
         number of threads the blocks are the same, and so is their sum."""
         corners = faces.shape[1]
         ours = 2 if corners == 3 and pairs(faces[:2]) is not None else 1  # where two triangles make one face of ours
-        most = ours * max(NUMBERS // layout(corners + ours - 1, self.order, 1)[0], FEWEST)
+        most = ours * max(NUMBERS // row_count(corners + ours - 1, self.order, 1), FEWEST)
         blocks = -(-len(faces) // (4 * most)) * 4
         blocks = max(1, min(blocks, len(faces) // (ours * FEWEST)))
         return max(2, -(-len(faces) // (2 * blocks)) * 2)
@@ -312,14 +230,14 @@ class _Stream:
             halves = pairs(faces) if faces.shape[1] == 3 else None
             yield (faces.T, task.size) if halves is None else (halves, task.size // 2)
 
-    def _moments(self, total: _Total, of: str) -> Moments:
+    def _moments(self, total: _Total, of: Measure) -> Moments:
         """What the sums come to, in the body's own unit, with its bounds."""
         degree = monomials(self.order).sum(axis=1)
-        row, dimension = (0, 3) if of == "volume" else (1, 2)
-        factors = _factors(self.order) / ((degree + 3.0) if of == "volume" else 1.0)
+        row, dimension = (0, 3) if of == Measure.VOLUME else (1, 2)
+        factors = _factors(self.order) / ((degree + 3.0) if of == Measure.VOLUME else 1.0)
         sizes = total.sizes[3 * row : 3 * row + 3]
         raw = (total.high[row] + total.low[row]) * factors
-        mean = 2.0 * ((degree + 3.0) if of == "volume" else 1.0)  # ∫ |x^α| is at most weight reach^α / this
+        mean = 2.0 * ((degree + 3.0) if of == Measure.VOLUME else 1.0)  # ∫ |x^α| is at most weight reach^α / this
         rounding = U * (8.0 * degree + 228.0)
         error = (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean + 8.0 * U * np.abs(raw) + TINY * total.faces
         moved = self._moved(total, of) if self.half_ulp.any() else np.zeros(len(raw))
@@ -332,11 +250,11 @@ class _Stream:
             np.ldexp(moved, powers),
         )
 
-    def _moved(self, total: _Total, of: str) -> NDArray[np.float64]:
+    def _moved(self, total: _Total, of: Measure) -> NDArray[np.float64]:
         """What moving the vertices by their half ulps may change: over the volume that they sweep; of areas, over what
         is added, and by the change of the integrand."""
         swept = total.sizes[2] * (1.0 + 1e-9)
-        if of == "volume":
+        if of == Measure.VOLUME:
             return swept
         moved = total.sizes[5] * (1.0 + 1e-9)
         half_ulp = np.ldexp(self.half_ulp, -self.exponent)

@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 
 from ..moments.moments import U
 from ..moments.monomials import monomial_count, monomials, predecessors, rows_of
+from .workspace import Workspace, gather
 
 CHUNK = 32  # faces that share one bound of their coordinates
 SLICES = 16  # of a row, that einsum adds up: a divisor of CHUNK
@@ -66,29 +67,29 @@ class Sums:
 
 
 @lru_cache
-def layout(count: int, order: int, weights: int) -> tuple[int, dict[str, tuple[int, tuple[int, ...]]]]:
-    """How many rows a block of faces of `count` corners needs, and of each array of `_Block` its first row and shape.
-
-    A row is left free between arrays: numpy < 2 leaves its vector loop where output ends at input's start. What is
-    wanted while weighing only shares memory with what is wanted while summing.
-    """
+def layout(count: int, order: int, weights: int) -> tuple[dict[str, tuple[int, ...]], ...]:
+    """Of each array of `_Block` for faces of `count` corners the shape of its rows: of those that last, of those for
+    weighing, and of those for summing, which share memory with the second."""
     ends, fans, lower = count - 1, count - 2, rows_of(order - 1)
-    kept = {"heavy": (weights, 3, count), "tips": (weights, fans), "both": (weights,)}
-    weighing = {"index": (count,), "edges": (3, ends), "normals": (3, fans), "minus": (3, fans), "single": (3 * count,)}
-    summing = {"powers": (lower,), "levels": (ends, lower), "room": (2 * ends * (order - 1),)}
-    start, end, places = 0, 0, {}
-    for shapes in (kept, weighing, summing):
-        row = start
-        for name, shape in shapes.items():
-            places[name] = row, shape
-            row += prod(shape) + 1
-        start, end = start or row, max(end, row)
-    return end, places
+    return (
+        {"heavy": (weights, 3, count), "tips": (weights, fans), "both": (weights,)},
+        {"index": (count,), "edges": (3, ends), "normals": (3, fans), "minus": (3, fans), "single": (3 * count,)},
+        {"powers": (lower,), "levels": (ends, lower), "room": (2 * ends * (order - 1),)},
+    )
+
+
+@lru_cache
+def row_count(count: int, order: int, weights: int) -> int:
+    """How many rows a block needs, with one for the gap behind each array."""
+    kept, weighing, summing = (
+        sum(prod(shape) + 1 for shape in group.values()) for group in layout(count, order, weights)
+    )
+    return kept + max(weighing, summing)
 
 
 class _Block:
-    """The rows of a block of faces, k columns carved out of one buffer, and what is done with them once the corners'
-    coordinates and the edges from the first corner are there: `steps`, in their order.
+    """The rows of a block of faces, k columns, and what is done with them once the corners' coordinates and the edges
+    from the first corner are there: `steps`, in their order.
 
     corners: (3, c, k). edges: (3, c-1, k). tips: (w, c-2, k), the weights of the triangles a, b, c and a, c, d; both:
     (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree. heavy: (w, 3, c, k),
@@ -96,13 +97,11 @@ class _Block:
     total: (w, K), the sums. chunks: as in `Sums`; neighbours stand below each other in the (CHUNK, m) that a row is.
     """
 
-    def __init__(self, buffer: NDArray, count: int, k: int, order: int, weights: int):
-        rows, places = layout(count, order, weights)
-        start = -(buffer.ctypes.data // 8) % 8
-        table = buffer[start : start + rows * k].reshape(rows, k)
-        arrays = {
-            name: table[first : first + prod(shape)].reshape(*shape, k) for name, (first, shape) in places.items()
-        }
+    def __init__(self, workspace: Workspace, count: int, k: int, *, order: int, weights: int):
+        kept, *passing = ({name: (*rows, k) for name, rows in group.items()} for group in layout(count, order, weights))
+        arrays = {name: workspace.take(*shape) for name, shape in kept.items()}
+        for group, taken in zip(passing, workspace.overlay(*(list(group.values()) for group in passing))):
+            arrays |= dict(zip(group, taken))
         self.k, self.order = k, order
         self.heavy, self.edges, self.powers, self.levels = (
             arrays[name] for name in ("heavy", "edges", "powers", "levels")
@@ -233,8 +232,7 @@ class Levels:
 
     def __init__(self, order: int, area: bool):
         self.order, self.weights = order, 2 if area else 1
-        self.buffer: NDArray = np.empty(0)
-        self.block: _Block | None = None
+        self.workspace = Workspace(partial(_Block, order=order, weights=self.weights))
 
     def run(
         self, points: NDArray, center: NDArray, scale: float, half_ulp: NDArray, faces: Sequence[NDArray], size: int
@@ -246,35 +244,22 @@ class Levels:
         triangles a, b, c and a, c, d.
         """
         k = len(faces[0])
-        own = self._shaped(len(faces), size if k > 0.9 * size else k)
+        shape = len(faces), -(-(size if k > 0.9 * size else k) // CHUNK) * CHUNK
+        own = self.workspace.block(shape, row_count(shape[0], self.order, self.weights) * shape[1])
         self._gather(own, points, faces, center, scale)
         for step in own.steps:
             step()
         return Sums(own.total.copy(), own.chunks.copy(), half_ulp * scale)
 
-    def _shaped(self, count: int, k: int) -> _Block:
-        k, own = -(-k // CHUNK) * CHUNK, self.block
-        if own is None or own.corners.shape[1:] != (count, k):
-            needed = k * layout(count, self.order, self.weights)[0] + 8
-            if len(self.buffer) < needed:
-                self.buffer = np.empty(needed)
-            self.block = own = _Block(self.buffer, count, k, self.order, self.weights)
-        return own
-
     @staticmethod
     def _gather(own: _Block, points: NDArray, faces: Sequence[NDArray], center: NDArray, scale: float) -> None:
         """The corners' coordinates and the edges from the first corner."""
-        k, flat = len(faces[0]), points.reshape(-1)
+        k = len(faces[0])
         for row, corner in zip(own.index, faces):
             if k < own.k:  # filled up with faces that are a point
                 corner = np.concatenate([corner, np.full(own.k - k, faces[0][0])])
             row.reshape(CHUNK, -1)[...] = corner.reshape(-1, CHUNK).T
-        np.multiply(own.index, 3, out=own.index)
-        target = own.single if points.dtype == np.float32 else own.corners
-        for axis in range(3):  # the indices have been checked: "wrap" is the mode that costs least
-            flat[axis:].take(own.index, out=target[axis], mode="wrap")
-        if points.dtype == np.float32:
-            own.corners[...] = target
+        gather(points, own.index, own.single, own.corners)
         if scale != 1.0:
             np.multiply(own.corners, scale, out=own.corners)
         np.subtract(own.corners[:, 1:], own.corners[:, :1], out=own.edges)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
-from ..moments.moments import Moments, U
+from ..moments.moments import Measure, Moments, U
 
 BLOCK = 1 << 17  # products of a map with a normal at a time
 SUMMED = 128  # u: within a block numpy adds up in pairs of sums of at most 128 in 8 lanes
@@ -51,7 +51,7 @@ def area_of_images(surface: Surface, linear: NDArray) -> Moments:
     return Moments(
         np.array([total]),
         np.zeros(3),
-        "area",
+        Measure.AREA,
         np.array([U * (1.0 + 1e-9) * (rounded + (SUMMED + len(sums)) * total)]),
         np.array([np.abs(cofactors).sum(axis=(0, 1)) @ moved / 2.0]),
     )

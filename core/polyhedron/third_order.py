@@ -35,7 +35,8 @@ from numpy.typing import NDArray
 
 from ..mesh.planarity import Witness
 from ..mesh.surface import NO_QUADS, Surface, all_there
-from ..moments.moments import PAIRWISE, Moments, U, monomials
+from ..moments.moments import PAIRWISE, Measure, Moments, U
+from ..moments.monomials import monomial_count, monomials
 from .third_order_kernel import NO_VERTEX, TRIPLES, Faces, Found, Rows, numbers, rows
 from .third_order_small import few
 
@@ -60,38 +61,7 @@ TO_AREA = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this
 _Block = tuple[list[int], list[NDArray]]
 
 
-def solid_moments(surface: Surface, threads: int = 1) -> Moments:
-    """The volume moments to third order about the center of the bounding box.
-
-    Positive for outward faces, signed otherwise. An open surface is closed by the cone from that point.
-    Raises ValueError for coordinates that are not finite and indices that name no point.
-    """
-    return _measure(surface, threads, area=False, shell=False, exact=False)[0]
-
-
-def solid_and_area(
-    surface: Surface,
-    threads: int = 1,
-    shell: bool = False,
-    *,
-    exact: bool = False,
-    about: NDArray | None = None,
-    witness: Witness | None = None,
-) -> tuple[Moments, Moments]:
-    """The volume moments as `solid_moments`, and the area: its moments to third order where `shell`, else order 0.
-
-    exact: the third order to rounding whatever the size of the mesh. about: (3,) the reference point, if another.
-    witness: is shown the faces, where that costs little.
-    """
-    return _measure(surface, threads, area=True, shell=shell, exact=exact, about=about, witness=witness)
-
-
-def third_moments_exact(surface: Surface, threads: int = 1) -> Moments:
-    """As `solid_moments`, with the third order exact to rounding whatever the size of the mesh."""
-    return _measure(surface, threads, area=False, shell=False, exact=True)[0]
-
-
-def _measure(
+def integrate(
     surface: Surface,
     threads: int,
     *,
@@ -99,12 +69,16 @@ def _measure(
     shell: bool,
     exact: bool,
     about: NDArray | None = None,
-    witness: Witness | None = None,
+    planarity: Witness | None = None,
 ) -> tuple[Moments, Moments]:
+    """The volume's moments to third order; and the area where `area`, its moments to third order where `shell`.
+
+    exact: the third order to rounding whatever the size of the mesh. about: (3,), by default the center of the bounding
+    box. planarity: is shown the faces, where that costs little.
+    """
     count = len(surface.triangles) + 2 * len(surface.quads)
     if not count:
-        about = np.zeros(3) if about is None else about
-        return Moments(np.zeros(20), about, "volume"), Moments(np.zeros(20 if shell else 1), about, "area")
+        return nothing(3, about)
     points = np.ascontiguousarray(surface.points)
     if points.dtype != np.float32:
         points = points.astype(np.float64, copy=False)
@@ -119,13 +93,19 @@ def _measure(
     room, each = MEMORY[0] * count + MEMORY[1], 8 * numbers(3, area, exact)
     size = max(2, min(BLOCK, room // (2 * each), count) // 2 * 2)
     threads = max(1, min(threads, count // LEAST, room // (each * size)))
-    job = _Job(points, center, reach, surface.coordinate_error, count, area, shell, exact, witness, size, threads)
+    job = _Job(points, center, reach, surface.coordinate_error, count, area, shell, exact, planarity, size, threads)
     if count <= FEW:
         if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
             raise ValueError(NO_VERTEX)
         triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
         return job.moments(few(points, center, triangles, area=area, shell=shell))
     return job.moments(rows(job.sums(job.blocks(surface))))
+
+
+def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:
+    """The volume and the area of no faces."""
+    zeros, about = np.zeros(monomial_count(order)), np.zeros(3) if about is None else about
+    return Moments(zeros, about, Measure.VOLUME), Moments(zeros, about, Measure.AREA)
 
 
 def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -151,17 +131,18 @@ def _rescaled(
     small = Surface(points, triangles, triangle_faces=faces, moved=np.ldexp(surface.coordinate_error, -exponent))
     results = []
     about = None if about is None else np.ldexp(about, -exponent)
-    for moments in _measure(small, threads, about=about, **options):
-        powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.of == "volume" else 2))
-        results.append(
-            replace(
-                moments,
-                raw=np.ldexp(moments.raw, powers),
-                about=np.ldexp(moments.about, exponent),
-                error=np.ldexp(moments.error, powers) + np.finfo(float).tiny,
-                input=np.ldexp(moments.input, powers),
+    for moments in integrate(small, threads, about=about, **options):
+        powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.of == Measure.VOLUME else 2))
+        with np.errstate(over="ignore"):  # what becomes infinite is refused by who asked for it
+            results.append(
+                replace(
+                    moments,
+                    raw=np.ldexp(moments.raw, powers),
+                    about=np.ldexp(moments.about, exponent),
+                    error=np.ldexp(moments.error, powers) + np.finfo(float).tiny,
+                    input=np.ldexp(moments.input, powers),
+                )
             )
-        )
     return results[0], results[1]
 
 
@@ -178,7 +159,7 @@ class _Job:
     area: bool
     shell: bool
     exact: bool
-    witness: Witness | None
+    planarity: Witness | None
     size: int
     threads: int
 
@@ -225,31 +206,31 @@ class _Job:
         return parts
 
     def _add(self, faces: Faces, starts: list[int], arrays: list[NDArray]) -> None:
-        first, halves, witness = arrays[0], None, self.witness
+        first, halves, planarity = arrays[0], None, self.planarity
         if not starts:
             faces.block(first)
             return
         if first.shape[1] == 4:
-            faces.block(first.T, quads=True, see=witness and partial(witness.see_quads, *starts))
+            faces.block(first.T, quads=True, see=planarity and partial(planarity.see_quads, *starts))
             return
         if len(first) >= PAIRED:
             halves = pairs(first) if len(arrays) == 1 else _paired(*arrays)
         if halves:
             seen = (starts, 1) if len(arrays) == 2 else ([starts[0], starts[0] + 1], 2)
-            faces.block(halves, see=witness and partial(witness.see_triangles, *seen))
+            faces.block(halves, see=planarity and partial(planarity.see_triangles, *seen))
             return
         for start, part in zip(starts, arrays):
-            faces.block(part.T, see=witness and partial(witness.see_triangles, [start], 1))
+            faces.block(part.T, see=planarity and partial(planarity.see_triangles, [start], 1))
 
     def moments(self, rows: Rows) -> tuple[Moments, Moments]:
         """Volume and area, with their bounds."""
         bounds = _Bounds(self, rows)
         raw = rows.sums / DIVISORS
-        volume = Moments(raw, self.center, "volume", *bounds.volume(raw))
+        volume = Moments(raw, self.center, Measure.VOLUME, *bounds.volume(raw))
         if not self.area:
-            return volume, Moments(np.zeros(1), self.center, "area")
+            return volume, Moments(np.zeros(1), self.center, Measure.AREA)
         raw = rows.areas / (DIVISORS / TO_AREA) if self.shell else np.array([bounds.sizes[1] / 2.0])
-        return volume, Moments(raw, self.center, "area", *bounds.area(raw))
+        return volume, Moments(raw, self.center, Measure.AREA, *bounds.area(raw))
 
 
 class _Bounds:

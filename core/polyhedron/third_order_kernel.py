@@ -31,10 +31,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import flipped_quads
+from .workspace import Workspace, gather
 
 SLICES = 32  # of a row that einsum adds up
 CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES
-GAP = 8  # numbers between rows: numpy < 2 leaves its vector loop where output ends at input's start
 FLIP_MARGIN = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
 FLOAT32_UNDERFLOW = 1e-36  # the cosine up to which they do at its other end
@@ -76,8 +76,7 @@ class _Calls:
     """What numpy does with blocks of one shape: arrays, and the calls bound to them, as to make views in the loop would
     cost time.
 
-    The arrays are contiguous rows carved out of one buffer; some share memory when their times differ. Of faces with
-    c corners there are chunks times width, k columns:
+    Of faces with c corners there are chunks times width, k columns:
     corners: (3, c, k). weights: (2, c-2, k), the determinants and the doubled areas.
     First index: (c, k), and single: (3, c, k) in float32; then weighted: (3, c, k); at last heavy: (6, c-2, k).
     First edges: (3, c-1, k), b-a, c-a and a-d, with normals and spare: (3, f, k), where f is c-2, or 1 where not each
@@ -92,40 +91,28 @@ class _Calls:
 
     def __init__(
         self,
-        buffer: NDArray,
-        center: NDArray,
+        workspace: Workspace,
         count: int,
         chunks: int,
         width: int,
-        *,
         each: bool,
+        *,
+        center: NDArray,
         area: bool,
         shell: bool,
         exact: bool,
     ):
         fans, k = count - 2, chunks * width
-        position = -(buffer.ctypes.data // 8) % 8  # aligned to 64 bytes
-
-        def rows(number: float) -> NDArray[np.float64]:
-            nonlocal position
-            start, position = position, position + int(number * k) + GAP
-            return buffer[start : position - GAP]
-
-        self.corners, self.weights = rows(3 * count).reshape(3, count, k), rows(2 * fans).reshape(2, fans, k)
-        start = position
-        self.index = rows(count).view(np.intp).reshape(count, k)
-        self.unsigned = self.index.view(np.uintp)
-        self.single = rows(1.5 * count).view(np.float32).reshape(3, count, k)
-        position = start
-        room = rows(3 * count)
+        crosses = fans if each else 1
+        self.corners, self.weights = workspace.take(3, count, k), workspace.take(2, fans, k)
+        (index, single), (room,) = workspace.overlay([(count, k), (3 * count * k // 2,)], [(3 * count * k,)])
+        self.index, self.unsigned = index.view(np.intp), index.view(np.uintp)
+        self.single = single.view(np.float32).reshape(3, count, k)
         weighted, heavy = room.reshape(3, count, k), room[: 6 * fans * k].reshape(6, fans, k)
-        start = position
-        self.edges, crosses = rows(3 * count - 3).reshape(3, count - 1, k), fans if each else 1
-        self.normals, spare = (rows(3 * crosses).reshape(3, crosses, k) for _ in range(2))
-        end, position = position, start
-        table, middle = rows(13).reshape(13, k), rows(3).reshape(3, k)
-        position = max(position, end)
-        tips, local = (rows(size * fans).reshape(size, fans, k) for size in (3, 6)) if exact else (None, None)
+        (self.edges, self.normals, spare), (table, middle) = workspace.overlay(
+            [(3, count - 1, k), (3, crosses, k), (3, crosses, k)], [(13, k), (3, k)]
+        )
+        tips, local = (workspace.take(size, fans, k) for size in (3, 6)) if exact else (None, None)
 
         def chunked(array: NDArray) -> NDArray[np.float64]:
             return array.reshape(*array.shape[:-1], chunks, width)
@@ -179,10 +166,8 @@ class Faces:
     """
 
     def __init__(self, points: NDArray, center: NDArray, *, area: bool, shell: bool, exact: bool):
-        self.points, self.flat, self.center = points, points.reshape(-1), center
-        self.wanted = {"area": area, "shell": shell, "exact": exact}
-        self.buffer = np.empty(0)
-        self.calls: dict[tuple[int, int, int, bool], _Calls] = {}
+        self.points, self.area, self.exact = points, area, exact
+        self.workspace = Workspace(partial(_Calls, center=center, area=area, shell=shell, exact=exact))
         self.flipped: list[NDArray] = []
         self.found: list[Found] = []
 
@@ -196,7 +181,8 @@ class Faces:
         ValueError where an index names no point.
         """
         k = len(faces[0])
-        own = self._shaped(len(faces), k, self.wanted["area"] or quads)
+        shape = (len(faces), *_shape(k), self.area or quads)
+        own = self.workspace.block(shape, numbers(len(faces), shape[3], self.exact) * shape[1] * shape[2])
         if isinstance(faces, np.ndarray):
             own.index[:, :k] = faces
         else:
@@ -206,7 +192,7 @@ class Faces:
             own.index[:, k:] = faces[0][0]  # filled up with faces that are a point
         if own.unsigned.max() >= len(self.points):  # where a negative index is a large one
             raise ValueError(NO_VERTEX)
-        self._gather(own)
+        gather(self.points, own.index, own.single, own.corners)
         for call in own.start:
             call()
         largest, least = own.largest(), own.least()
@@ -225,28 +211,6 @@ class Faces:
                 call()
             sums.append([total() for total in totals])
         self.found.append((k, largest, least, sizes, sums))
-
-    def _shaped(self, count: int, k: int, each: bool) -> _Calls:
-        shape = (count, *_shape(k), each)
-        if shape not in self.calls:
-            chunks, width = shape[1:3]
-            needed = numbers(count, each, self.wanted["exact"]) * chunks * width + 12 * GAP
-            self.calls.clear()
-            if len(self.buffer) < needed:
-                self.buffer = np.empty(0)  # never two of them
-                self.buffer = np.empty(needed)
-            self.calls[shape] = _Calls(self.buffer, self.center, count, chunks, width, each=each, **self.wanted)
-        return self.calls[shape]
-
-    def _gather(self, own: _Calls) -> None:
-        """The corners' coordinates, in float64. `index` is multiplied by 3."""
-        single = self.points.dtype == np.float32
-        target = own.single if single else own.corners
-        np.multiply(own.index, 3, own.index)
-        for axis in range(3):  # the indices have been checked: "wrap" is the mode that costs least
-            self.flat[axis:].take(own.index, None, target[axis], "wrap")
-        if single:
-            own.corners[...] = target
 
     def _flipped(self, own: _Calls, largest: NDArray, k: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Those of the first k columns whose quads Blender may cut along their other diagonal, and those that it does,

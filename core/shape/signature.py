@@ -24,7 +24,7 @@ from math import hypot, log, pi, sqrt, tanh
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import Moments, monomials
+from ..moments.moments import Measure, Moments, monomials
 from ..moments.solid_harmonics import coupled, harmonic_moments
 from ..verdict.finding import FileError
 from .zernike import BY_MOMENTS, Multiplets, degrees, descriptors, loss, radial_power, zernike_moments
@@ -112,11 +112,11 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
     harmonic = harmonic_moments((moments.raw / size**degree / total)[:low] * sqrt(4.0 * pi), INVARIANT_ORDER)
     error = 0.0
     if zernike is None:
-        dimension = 3 if moments.of != "area" else 2
+        dimension = 3 if moments.of != Measure.AREA else 2
         scaled = moments.raw / radius ** (degree + dimension)
         zernike, error = zernike_moments(scaled, order), loss(scaled, order)
     power = np.empty(0)
-    if moments.of == "volume":
+    if moments.of == Measure.VOLUME:
         volume = zernike[0, 0].real[0] * 4.0 * pi / 3.0
         power = radial_power(zernike, FREQUENCIES)[0] / volume**2
     return Signature(size, _invariants(harmonic), descriptors(zernike), power, _chirality(harmonic), error)

@@ -26,7 +26,7 @@ from ..mesh.surface import Surface, all_there
 from ..moments.moments import SECOND, Moments, sum_moments
 from ..numerics.arrays import unique_pairs
 from ..numerics.graph import components
-from ..polyhedron import third_order as polyhedron
+from ..polyhedron import polyhedron_moments, third_order
 from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.health import NO_FACES, Faults, Health
 from ..verdict.tolerances import LARGEST, NEGLIGIBLE, NO_VOLUME, ROUNDING, SMALLEST, TOLERANCE
@@ -59,7 +59,7 @@ class SolidMeasure:
 
     def refined(self, threads: int = 1) -> Moments:
         """`volume` with its third order exact to rounding, for what its bounds leave undecided."""
-        return polyhedron.third_moments_exact(self.mended, threads)
+        return polyhedron_moments(self.mended, exact=True, threads=threads)[0]
 
 
 def measure_solid(
@@ -91,7 +91,7 @@ def measure_solid(
     if measured is not surface:
         caps = _caps_alone(surface, body, turn, measured)
         about = None if caps is None else volume.about
-        volume = polyhedron.solid_and_area(caps or measured, threads, about=about)[0]
+        volume = polyhedron_moments(caps or measured, area_order=0, about=about, threads=threads)[0]
         if caps is not None:
             volume = sum_moments([own[0], volume])
     if body.moved * area.total > COLLAPSED * abs(volume.total):
@@ -161,13 +161,13 @@ def _as_it_stands(
 ) -> tuple[tuple[Moments, Moments], Mended | None, Flatness]:
     """The moments of volume and area of the surface as it is given, the body where its own edges prove it closed, else
     None, and how flat its faces are. Sums and proof run side by side where that is worth a thread."""
-    witness = Witness(surface, error)
-    if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // polyhedron.LEAST) > 1:
+    witness, area_order = Witness(surface, error), 3 if shell else 0
+    if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // third_order.LEAST) > 1:
         with ThreadPoolExecutor(1) as pool:
             waiting = pool.submit(_proven, surface)
-            sums = polyhedron.solid_and_area(surface, threads, shell, witness=witness)
+            sums = polyhedron_moments(surface, area_order=area_order, threads=threads, planarity=witness)
         return sums, waiting.result(), witness.flatness()
-    sums = polyhedron.solid_and_area(surface, 1, shell, witness=witness)
+    sums = polyhedron_moments(surface, area_order=area_order, planarity=witness)
     return sums, _proven(surface), witness.flatness()
 
 

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
 from ..offset.walls import first_fold
-from ..polyhedron.third_order import solid_and_area
+from ..polyhedron import polyhedron_moments
 from ..verdict.finding import MeasureError
 from .gradient import Gradient, area_gradient, volume_gradient
 
@@ -161,7 +161,8 @@ class _Problem:
         self.sign = 1.0 if shell else float(np.sign(self._moments(self.start).total))
 
     def _moments(self, points: NDArray) -> Moments:
-        return solid_and_area(replace(self.surface, points=points), shell=self.shell)[self.shell]
+        volume, area = polyhedron_moments(replace(self.surface, points=points), area_order=3 if self.shell else 0)
+        return area if self.shell else volume
 
     def at(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
         """(3,) the center, (r,) how far it is from its target, and (r, n, 3) its derivatives; None where the body has
@@ -242,7 +243,7 @@ class _Fans:
         else:
             surface = Surface(self.points, self.fan)
             gradient = volume_gradient(surface, center, order=1).by_vertex[:, 1:4]
-            total = solid_and_area(surface)[0].total
+            total = polyhedron_moments(surface, area_order=0)[0].total
         gradient /= total
         own, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)
         for column, shared in zip(own.T, middle.T):

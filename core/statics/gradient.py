@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
-from ..moments.moments import SECOND, U, index, monomial_count, monomials
+from ..moments.moments import SECOND, Measure, U, index, monomial_count, monomials
 from ..numerics.vectors import cross
 
 BLOCK = 65536  # triangles at a time
@@ -34,14 +34,14 @@ PAIRS = [(i, j) for i in range(3) for j in range(i, 3)]
 @dataclass(frozen=True, eq=False)
 class Gradient:
     """by_vertex: (n, K, 3) ∂ raw[α] / ∂ vertex, in the order of `monomials`; unit of the moment per length.
-    about: (3,) the fixed point that the moments are about. of: "volume" or "area".
+    about: (3,) the fixed point that the moments are about. of: volume or area.
     scale: (n,) what the triangles at a vertex add up to at most, where the integrand is one. reach: (3,) of the points
         from `about`. valence: the most triangles at one vertex.
     """
 
     by_vertex: NDArray[np.float64]
     about: NDArray[np.float64]
-    of: str
+    of: Measure
     scale: NDArray[np.float64]
     reach: NDArray[np.float64]
     valence: int
@@ -50,7 +50,7 @@ class Gradient:
         """(n, K) what rounding may have changed each component by."""
         exponents = monomials(2)[: self.by_vertex.shape[1]]
         sizes = np.multiply.reduce(self.reach**exponents, axis=1)
-        if self.of == "area":  # |N| ∂m has one power of the reach less and one of the sides more
+        if self.of == Measure.AREA:  # |N| ∂m has one power of the reach less and one of the sides more
             for axis, step in enumerate(np.eye(3, dtype=int)):
                 lower = np.multiply.reduce(self.reach ** np.maximum(exponents - step, 0), axis=1)
                 sizes = sizes + exponents[:, axis] * lower * 2.0 * self.reach.max()
@@ -105,7 +105,7 @@ def _gradient(surface: Surface, about: NDArray, order: int, shares: Callable) ->
             scale[low : low + count] += np.bincount(own, bound, count)
     reach = np.abs(points - about).max(axis=0, initial=0.0)
     by_vertex = out.reshape(kinds, 3, -1).transpose(2, 0, 1)
-    return Gradient(by_vertex, about, "area" if area else "volume", scale, reach, valence)
+    return Gradient(by_vertex, about, Measure.AREA if area else Measure.VOLUME, scale, reach, valence)
 
 
 def _volume_shares(corners: NDArray, local: NDArray, normal: NDArray, kinds: int) -> Iterator[NDArray]:

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...core.moments.moments import HALF_ULP, Moments, monomial_count, monomials
+from ...core.moments.moments import HALF_ULP, Measure, Moments, monomial_count, monomials
 from ...core.nurbs.curve import Curve
 from ...core.nurbs.curve_moments import length_moments, plane_moments
 from ...core.nurbs.planar_region import plane_region
@@ -25,7 +25,7 @@ def wire_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
     length = length_moments(curves)
     if not length.total > 0.0:
         raise ReadError("no_length")
-    nothing = Moments(np.zeros(monomial_count(3)), length.about, "volume")
+    nothing = Moments(np.zeros(monomial_count(3)), length.about, Measure.VOLUME)
     # a length moves by as much as its ends, and by its turning as much again: an estimate for smooth curves
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
     moved = stored * (2.0 * len(curves) + 8.0 * length.total / max(reach, 1e-300)) * reach**DEGREE
@@ -33,11 +33,13 @@ def wire_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
     closed = all(np.allclose(*curve.samples(1)[[0, -1]]) for curve in curves)
 
     def to_order(order: int, _with_area: bool) -> tuple[Moments, Moments]:
-        return tuple(Moments(np.zeros(monomial_count(order)), length.about, of) for of in ("volume", "area"))
+        return tuple(
+            Moments(np.zeros(monomial_count(order)), length.about, of) for of in (Measure.VOLUME, Measure.AREA)
+        )
 
     return Body(
         nothing,
-        Moments(nothing.raw, length.about, "area"),
+        Moments(nothing.raw, length.about, Measure.AREA),
         Health(closed=closed, components=len(curves)),
         "wire",
         (),
@@ -58,10 +60,10 @@ def region_body(curves: list[Curve], matrix: np.ndarray, unit: float) -> Body:
     rim = length_moments(curves, 0).total
     reach = max(float(np.abs(curve.points - area.about).max()) for curve in curves)
     area = replace(area, input=2.0 * stored * rim * reach**DEGREE)
-    nothing = Moments(np.zeros_like(area.raw), area.about, "volume")
+    nothing = Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME)
 
     def to_order(order: int, _with_area: bool) -> tuple[Moments, Moments]:
-        volume = Moments(np.zeros(monomial_count(order)), area.about, "volume")
+        volume = Moments(np.zeros(monomial_count(order)), area.about, Measure.VOLUME)
         return volume, plane_moments(curves, normal, order, area.about)
 
     return Body(

@@ -15,6 +15,7 @@ from ...core.fourier.instances import TOLERANCE, BodyTransform
 from ...core.fourier.spectrum import APPROXIMATE, Spectrum
 from ...core.fourier.wave_vectors import Grid
 from ...core.mesh.surface import Surface
+from ...core.moments.moments import Measure
 from ...core.numerics.float32 import decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ..read import Reading, read_object, shows_flat_region
@@ -77,14 +78,14 @@ def object_transform(
             if shell and not area:
                 _require_thin(options)
             parts = [(part.surface, in_metres(part.matrices, unit)) for part in reading.parts]
-            of, total = "area", body.area.total
+            of, total = Measure.AREA, body.area.total
         else:
             if options.kind == "wire":
                 raise ReadError("fourier_of_wire")
             if body.method == "open":
                 raise ReadError("fourier_of_open_surface")
             parts = [(solid.mended, matrices) for solid, matrices in body.solids]
-            of, total = "volume", body.volume.total
+            of, total = Measure.VOLUME, body.volume.total
         if frame == "object":
             turn = _to_object(reading, unit)
             parts = [(surface, turn @ matrices) for surface, matrices in parts]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.density.spline_grid import Blocks, grid_moments
-from ...core.moments.moments import Moments
+from ...core.moments.moments import Measure, Moments
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import Health
 from ..read import Part, Reading
@@ -69,17 +69,17 @@ def density_body(
         moments = grid_moments(
             samples, shape, matrix, order=order, value=lambda block: (densities(block) != 0.0).astype(np.float64)
         )
-        return replace(moments, of="volume")
+        return replace(moments, of=Measure.VOLUME)
 
     def to_order(order: int, area: bool) -> tuple[Moments, Moments | None]:
         volume = held(order)
-        return volume, Moments(np.zeros_like(volume.raw), volume.about, "area") if area else None
+        return volume, Moments(np.zeros_like(volume.raw), volume.about, Measure.AREA) if area else None
 
     volume = held(3)
     findings += (*options.left_empty(background), finding("grid_without_surface"))
     return Body(
         volume,
-        Moments(np.zeros(1), volume.about, "area"),
+        Moments(np.zeros(1), volume.about, Measure.AREA),
         Health(closed=True),
         "grid exact",
         findings,

@@ -18,7 +18,7 @@ from ...core.density.piecewise_mass import as_mass, weighted_sheet, weighted_sol
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import distinct_linear
 from ...core.moments.moments import Moments, are_similarities, map_sum, sum_moments
-from ...core.polyhedron.third_order import solid_and_area
+from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidMeasure
 from ...core.solid.parts import Components
 from ...core.verdict.finding import Finding, ReadError, finding
@@ -254,7 +254,7 @@ def _sheets(
     def measured(surface: Surface) -> Moments:
         triangles, faces = surface.all_triangles()
         density = values[triangles] if by_vertex else values[faces]
-        area = solid_and_area(surface, threads, shell=True)[1]
+        area = polyhedron_moments(surface, area_order=3, threads=threads)[1]
         return weighted_sheet(surface.points, triangles, density, area, stored=by_vertex)
 
     return mapped_areas(part.surface, measured(part.surface), in_metres(part.matrices, unit), measured)

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface, joined
 from ...core.moments.moments import Moments, map_sum, sum_moments
-from ...core.polyhedron.any_order import moments_to_order
-from ...core.polyhedron.third_order import solid_and_area
+from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidMeasure, measure_solid
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import Faults, Health
@@ -63,7 +62,7 @@ def _summed(reading: Reading, unit: float, shell: bool, threads: int) -> Body:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
         matrices = in_metres(part.matrices, unit)
         volumes.append(map_sum(solid.volume, matrices))
-        measured = (lambda surface: solid_and_area(surface, threads, shell=True)[1]) if shell else None
+        measured = (lambda surface: polyhedron_moments(surface, area_order=3, threads=threads)[1]) if shell else None
         own = list(mapped_areas(part.surface, solid.area, matrices, measured))
         areas.extend(own)
         stretch = volumes[-1].total / solid.volume.total if solid.volume.total else 0.0  # Σ |det|
@@ -145,19 +144,28 @@ def _to_order(
     """The moments to an order of what was measured, each part once and mapped to its places: the volume of the repaired
     surface, in one pass with the area where the repair has neither added nor left out a face."""
     volumes, areas = [], []
+    alone = 0 if order <= 3 else None  # up to third order the area is found on the way, and makes bounds smaller
+
+    def measured(surface: Surface) -> Moments:
+        return polyhedron_moments(surface, order, area_order=order, exact=True, threads=threads)[1]
+
     for (solid, matrices), surface in zip(solids, surfaces):
         same = (
             solid.method in ("exact", "reoriented")
             and not solid.health.duplicate_faces
             and _triangles(solid.mended) == _triangles(surface)
         )  # else flat parts are left out
-        volume, faces = moments_to_order(
-            solid.mended, order, area=area and same, threads=threads, about=solid.volume.about
-        )  # of an open surface they depend on it
+        volume, faces = polyhedron_moments(
+            solid.mended,
+            order,
+            area_order=order if area and same else alone,
+            about=solid.volume.about,  # of an open surface they depend on it
+            exact=True,
+            threads=threads,
+        )
         volumes.append(map_sum(volume, matrices))
         if area:
-            measured = lambda other: moments_to_order(other, order, area=True, threads=threads)[1]  # noqa: E731
-            areas.extend(mapped_areas(surface, faces or measured(surface), matrices, measured))
+            areas.extend(mapped_areas(surface, faces if same else measured(surface), matrices, measured))
     return sum_moments(volumes), sum_moments(areas) if area else None
 
 

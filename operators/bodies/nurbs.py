@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import distinct_linear, translations
-from ...core.moments.moments import Moments, are_similarities, map_sum, monomial_count, sum_moments
+from ...core.moments.moments import Measure, Moments, are_similarities, map_sum, monomial_count, sum_moments
 from ...core.nurbs.creases import sharpest_crease
 from ...core.nurbs.patch import Patch
 from ...core.nurbs.patch_moments import area_moments, volume_moments
@@ -185,7 +185,11 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
         findings += body.findings
     area = sum_moments(areas)
     nothing = replace(
-        area, raw=np.zeros_like(area.raw), error=np.zeros_like(area.raw), input=np.zeros_like(area.raw), of="volume"
+        area,
+        raw=np.zeros_like(area.raw),
+        error=np.zeros_like(area.raw),
+        input=np.zeros_like(area.raw),
+        of=Measure.VOLUME,
     )
 
     def to_order(order: int, _with_area: bool) -> tuple[Moments, Moments]:
@@ -194,7 +198,7 @@ def _shell(reading: Reading, unit: float, wall: str, thickness: float, threads: 
             for part in own
             for moments in _areas(part, area_moments(part.splines.patches, order)[0], in_metres(part.matrices, unit))
         ]
-        volume = Moments(np.zeros(monomial_count(order)), area.about, "volume")
+        volume = Moments(np.zeros(monomial_count(order)), area.about, Measure.VOLUME)
         return volume, sum_moments(found + ([body.to_order(order, True)[1]] if meshes.parts else []))
 
     return Body(

@@ -20,7 +20,7 @@ from ...core.density.positivity import negative_place
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Moments
 from ...core.numerics.rotations import own_axes
-from ...core.polyhedron.any_order import moments_to_order
+from ...core.polyhedron import polyhedron_moments
 from ...core.verdict.finding import Finding, ReadError, finding
 from ..read import Reading
 from ..settings.density import DensityField
@@ -54,11 +54,13 @@ def weigh(
         findings.append(finding("sheared_density_axes"))
     findings += _negative(density, pieces, shell)
     parts = []
+    order = 3 + polynomial.degree
+    area_order = order if shell else 0 if order == 3 else None  # to third order it is found on the way
     for piece in pieces:
-        moments = moments_to_order(
-            piece.surface, 3 + polynomial.degree, area=shell, threads=threads, about=piece.about
-        )[int(shell)]
-        parts.append(graded_sum(moments, polynomial, piece.matrices, piece.fields))
+        volume, area = polyhedron_moments(
+            piece.surface, order, area_order=area_order, about=piece.about, exact=True, threads=threads
+        )
+        parts.append(graded_sum(area if shell else volume, polynomial, piece.matrices, piece.fields))
     return parts, findings
 
 

@@ -25,7 +25,7 @@ from ...core.measurement import Measurement
 from ...core.mesh.point_triangle import triangle_distances
 from ...core.mesh.surface import Surface, joined
 from ...core.moments.moments import Moments
-from ...core.polyhedron.any_order import moments_to_order
+from ...core.polyhedron import polyhedron_moments
 from ...core.shape.registration import Match, match
 from ...core.shape.signature import Signature, signature
 from ...core.shape.symmetry import symmetry
@@ -67,8 +67,12 @@ class Shape:
         """As `moments`, of the polygons alone: what has to be compared with them."""
         if not displayed(self.measurement):
             return self.moments
-        volume, area = moments_to_order(
-            self.pieces(), ORDER, area=self._sheets, threads=self.threads, about=self.center
+        volume, area = polyhedron_moments(
+            self.pieces(),
+            ORDER,
+            area_order=ORDER if self._sheets else None,
+            about=self.center,
+            threads=self.threads,
         )
         return (area if self._sheets else volume).about_center()
 
@@ -105,8 +109,14 @@ class Shape:
         def pieces() -> Iterator[Surface]:
             return (piece.mapped(np.eye(3) / scale, -self.center / scale) for piece in self.pieces())
 
-        volume, area = moments_to_order(
-            pieces(), min(order, BY_MOMENTS), area=sheets, threads=self.threads, about=np.zeros(3), reach=radius
+        known = min(order, BY_MOMENTS)
+        volume, area = polyhedron_moments(
+            pieces(),
+            known,
+            area_order=known if sheets else None,
+            about=np.zeros(3),
+            reach=radius,
+            threads=self.threads,
         )
         found = signature(area if sheets else volume, radius)
         if (order > BY_MOMENTS or found.error > ENOUGH) and not sheets:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...core.density.voxel_fill import LARGEST as MOST_VOXELS
 from ...core.density.voxel_fill import inside_moments
-from ...core.moments.moments import Moments
+from ...core.moments.moments import Measure, Moments
 from ...core.solid.measure_solid import SolidMeasure
 from ...core.verdict.finding import ReadError, finding
 from ...core.verdict.tolerances import NEGLIGIBLE
@@ -49,7 +49,7 @@ def inside_body(body: Body, reading: VolumeReading, options: GridOptions, unit: 
     volume *= abs(np.linalg.det(matrix[:3, :3]))
     first = np.eye(4)
     first[:3, 3] = low
-    mass = replace(replace(moments, of="volume").mapped(matrix @ first), of="mass")
+    mass = replace(replace(moments, of=Measure.VOLUME).mapped(matrix @ first), of=Measure.MASS)
     mass = replace(mass, input=_input(body, mass))
     if not np.abs(mass.raw).max() < LARGEST:
         raise ReadError("mass_overflow")

@@ -18,7 +18,7 @@ from ...core.mesh.boxes import boxes_meet
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Moments, map_sum, monomials, sum_moments
 from ...core.offset.walls import Sweep, share, sweep
-from ...core.polyhedron.third_order import solid_and_area
+from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidMeasure
 from ...core.verdict.finding import Finding, ReadError, finding, unique
 from ...core.verdict.tolerances import NEGLIGIBLE
@@ -169,7 +169,7 @@ def find_walls(reading: Reading, body: Body, side: str) -> Walls:
 def _oriented(surface: Surface, solid: SolidMeasure, findings: list[Finding]) -> Surface:
     """The surface with its faces outward where it is closed, else as it is."""
     if solid.method in {"exact", "reoriented"}:
-        area = solid_and_area(solid.mended)[1].total
+        area = polyhedron_moments(solid.mended, area_order=0)[1].total
         if abs(area - solid.area.total) <= SAME_AREA * solid.area.total:  # else the repair has left something out
             if solid.method == "reoriented":
                 findings.append(finding("wall_faces_reversed"))

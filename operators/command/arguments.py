@@ -14,7 +14,7 @@ from pathlib import Path
 import bpy
 
 from ...core.density.spline_tables import MAX_ORDER as MAX_SPLINE_ORDER
-from ...core.polyhedron.any_order import MAX_ORDER
+from ...core.polyhedron import MAX_ORDER
 from ...core.verdict.finding import finding
 from ..write.record import FORMATS, FRAMES
 from . import fourier, inputs, output, results

@@ -19,6 +19,7 @@ from bpy.types import Object, Scene
 from numpy.typing import NDArray
 
 from ...core.moments.moments import Moments, monomial_count, monomials
+from ...core.moments.normalized import normalize
 from ...core.verdict.finding import Finding, MeasureError, ReadError
 from ..read.fingerprint import matrix_hash, settings_hash
 from ..write.units import number
@@ -116,7 +117,7 @@ def _shown(computed: Computed, of: str, about: str, frame: str) -> tuple[tuple[D
 
 def placed(computed: Computed, of: str, about: str, frame: str, order: int) -> Moments:
     """The moments along the axes of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or
-    "NORMALIZED", as `Moments.normalized` by size. MeasureError where that cannot be, or leaves the range of numbers."""
+    "NORMALIZED", as `normalize` by size. MeasureError where that cannot be, or leaves the range of numbers."""
     with np.errstate(over="ignore", invalid="ignore"):
         moments = _placed(computed, of, about, frame, order)
     if not np.isfinite([moments.raw, moments.error, moments.input]).all():
@@ -131,7 +132,7 @@ def _placed(computed: Computed, of: str, about: str, frame: str, order: int) -> 
     if frame == "OBJECT":
         moments = moments.in_frame(rotation, origin)
     if about == "NORMALIZED":
-        return moments.normalized()
+        return normalize(moments)
     return moments if frame == "OBJECT" else moments.shifted(origin)
 
 

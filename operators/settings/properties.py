@@ -15,7 +15,7 @@ from bpy.types import Context, Material, Object, PropertyGroup, Scene
 from ...core.density.materials import BY_NAME
 from ...core.density.transfer_function import CT
 from ...core.numerics.float32 import decimal
-from ...core.polyhedron.any_order import MAX_ORDER
+from ...core.polyhedron import MAX_ORDER
 from .hooks import wall_changed
 
 TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Blender's own translations

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.polyhedron.third_order import solid_and_area
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.statics.balance import _Fans, balance
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
 from body_moments.core.verdict.finding import MeasureError
@@ -18,7 +18,7 @@ HORIZONTAL = np.eye(3)[:2]
 
 
 def center(points, triangles, shell=False):
-    return solid_and_area(bodies.surface((points, triangles)), shell=True)[shell].center
+    return polyhedron_moments(bodies.surface((points, triangles)), area_order=3)[shell].center
 
 
 def upper(part, share=0.6):
@@ -54,7 +54,7 @@ def test_the_center_comes_to_the_point_and_nothing_else_moves(shell, across, pla
 def test_no_other_move_is_smaller_to_first_order(shell):
     part = bodies.moved(bodies.sphere(1), SHEAR)
     movable = upper(part, 0.4)
-    moments = solid_and_area(bodies.surface(part), shell=True)[shell]
+    moments = polyhedron_moments(bodies.surface(part), area_order=3)[shell]
     derive = area_gradient if shell else volume_gradient
     slope = derive(bodies.surface(part), moments.center).center(moments.total)[movable, :2]
     root = np.sqrt(np.repeat(areas(part)[movable], 3))
@@ -203,4 +203,6 @@ def test_a_face_that_is_not_convex_pulls_as_it_is(shell):
     assert np.abs(total - np.eye(3)).max() < 1e-14  # moving everything moves the center as far
     turned = np.einsum("nik,nk->i", fans.center_gradient(middle), np.cross([0, 0, 1.0], points))
     assert np.abs(turned - np.cross([0, 0, 1.0], middle)).max() < 1e-14
-    assert abs(fans.areas.sum() - solid_and_area(bodies.surface((points, triangles)))[1].total) < 1e-14
+    assert (
+        abs(fans.areas.sum() - polyhedron_moments(bodies.surface((points, triangles)), area_order=0)[1].total) < 1e-14
+    )

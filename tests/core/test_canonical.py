@@ -16,7 +16,7 @@ from body_moments.core.inertia.principal_frame import (
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import Moments, monomials
 from body_moments.core.moments.symmetric_tensors import inverted
-from body_moments.core.polyhedron.any_order import moments_to_order
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.core import bodies, shapes
@@ -224,7 +224,10 @@ def test_noise_of_storage_never_flips_a_frame_that_nearly_equal_moments_hardly_f
         points, triangles = bodies.moved(part, turn)
         body = measure_solid(Surface(points.astype(np.float32), triangles))
         frame = principal_frame(
-            body.volume, turn, body.refined, (lambda body=body: moments_to_order(body.mended, 6)[0]) if higher else None
+            body.volume,
+            turn,
+            body.refined,
+            (lambda body=body: polyhedron_moments(body.mended, 6)[0]) if higher else None,
         )
         found.append(turn.T @ frame.axes)
     assert np.abs(np.array(found) - found[0]).max() < 0.2

@@ -10,7 +10,7 @@ from body_moments.core.density import voxel_fill as density_inside
 from body_moments.core.density.voxel_fill import inside_moments
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import monomials
-from body_moments.core.polyhedron.third_order import solid_moments
+from body_moments.core.polyhedron import polyhedron_moments
 
 from tests.core.findings import refused
 
@@ -105,7 +105,7 @@ def test_a_uniform_density_is_the_solid(monkeypatch, pieces):
     triangles = blob()
     found, volume = inside_moments(triangles, np.full((7, 7, 7), 2.5))
     points = triangles.reshape(-1, 3)
-    solid = solid_moments(Surface(points, np.arange(len(points), dtype=np.int32).reshape(-1, 3)))
+    solid = polyhedron_moments(Surface(points, np.arange(len(points), dtype=np.int32).reshape(-1, 3)))[0]
     expected = 2.5 * solid.shifted(found.about)
     assert volume == pytest.approx(solid.total, rel=1e-12)
     assert (np.abs(found.raw - expected.raw) <= found.error + 1e-12 * np.abs(expected.raw).max()).all()

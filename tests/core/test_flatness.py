@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.planarity import FLAT, NO_AREA, Witness
 from body_moments.core.mesh.surface import Surface
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.polyhedron import third_order as polyhedron
 from body_moments.core.solid.measure_solid import measure_solid
 
@@ -73,7 +74,7 @@ def told(surface, seen, threads=1):
     error = float(np.linalg.norm(surface.coordinate_error))
     witness = Witness(surface, error)
     if seen:
-        polyhedron.solid_and_area(surface, threads, witness=witness)
+        polyhedron_moments(surface, area_order=0, threads=threads, planarity=witness)
         assert sum(block.count for block in witness.quads.values()) == len(surface.quads)
         assert sum(block.count for block in witness.triangles.values()) == len(surface.triangles)
     found = witness.flatness()
@@ -134,7 +135,7 @@ def test_sizes_beyond_the_range_of_the_sums_do_not_matter(scale):
     surface = quads("some", np.float64)
     plain, scaled = (Witness(replace(surface, points=surface.points * s), 0.0) for s in (1.0, scale))
     for witness in (plain, scaled):
-        polyhedron.solid_and_area(witness.surface, witness=witness)
+        polyhedron_moments(witness.surface, area_order=0, planarity=witness)
     plain, scaled = plain.flatness(), scaled.flatness()
     assert scaled.not_flat == plain.not_flat > 200
     assert scaled.spread == pytest.approx(plain.spread * scale**3, rel=1e-12)

@@ -12,7 +12,7 @@ from body_moments.core.fourier.nufft import Spreading, aliasing
 from body_moments.core.fourier.transform import finished, solid_transform, surface_transform
 from body_moments.core.fourier.wave_vectors import Grid
 from body_moments.core.numerics.quadrature import triangle_rule
-from body_moments.core.polyhedron.third_order import solid_and_area
+from body_moments.core.polyhedron import polyhedron_moments
 
 from tests.core import bodies
 from tests.core.findings import refused
@@ -96,7 +96,7 @@ def test_the_share_that_is_done_grows_from_the_start_to_the_end_and_all_work_is_
 def test_the_area_and_an_open_surface_are_right_to_the_tolerance():
     surface = bodies.surface(bodies.without(LOPSIDED, *range(300)))
     exact = surface_transform(surface, Grid(15, 18.0))
-    total = solid_and_area(surface)[1].total
+    total = polyhedron_moments(surface, area_order=0)[1].total
     for tolerance in (1e-3, 1e-6):
         transform = GridTransform(surface, Grid(15, 18.0), "area", tolerance * total)
         found = finished(transform)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.moments.moments import index, monomials
-from body_moments.core.polyhedron.third_order import solid_and_area
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
 
 from tests.core import bodies, exact
@@ -26,7 +26,7 @@ KINDS = {"volume": volume_gradient, "area": area_gradient}
 
 
 def measured(part, kind):
-    return solid_and_area(bodies.surface(part), shell=True)[kind == "area"]
+    return polyhedron_moments(bodies.surface(part), area_order=3)[kind == "area"]
 
 
 def dyadic(part):

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moments add, scale and map exactly; their bounds hold. The oracle is rational arithmetic on boxes and simplices."""
 
+import json
 import math
 from fractions import Fraction
 
 import numpy as np
 import pytest
 from body_moments.core.moments.moments import (
+    Measure,
     Moments,
     are_similarities,
     index,
@@ -16,6 +18,7 @@ from body_moments.core.moments.moments import (
     monomials,
     sum_moments,
 )
+from body_moments.core.moments.normalized import normalize
 
 from tests.core.findings import refused
 
@@ -208,7 +211,7 @@ def test_normalized_moments_have_no_unit_and_know_no_place(by, size):
     sides, order = (1, 2, 3), 7
     body = floats(box_moments((5, -3, 2), (6, -1, 5), order)).mapped(np.diag([size, size, size, 1.0]))
     body = Moments(body.raw, body.about, input=1e-9 * np.abs(body.raw) * (body.raw > 0), error=body.error)
-    found = body.normalized(by)
+    found = normalize(body, by)
     n = monomials(order).sum(axis=1)
     central = np.array([float(x) for x in central_box(sides, order)])
     gyration = np.sqrt(14.0 / 12.0)
@@ -221,10 +224,18 @@ def test_normalized_moments_have_no_unit_and_know_no_place(by, size):
         assert found.raw[[4, 7, 9]].sum() == pytest.approx(1.0, rel=1e-10)
 
 
+def test_what_is_measured_is_one_of_four_and_reads_as_its_name():
+    assert Moments(np.ones(1), np.zeros(3)).of is Measure.VOLUME
+    area = Moments(np.ones(1), np.zeros(3), "area")
+    assert area.of is Measure.AREA and "{:s}".format(area.of) == "area" and json.dumps(area.of) == '"area"'
+    with pytest.raises(ValueError):
+        Moments(np.ones(1), np.zeros(3), "weight")
+
+
 def test_areas_are_normalized_to_an_area_of_one():
     body = Moments(np.array([4.0, 0, 0, 0, 8.0, 0, 0, 2.0, 0, 0]), np.zeros(3), "area")
-    assert body.normalized().raw[4] == pytest.approx(8.0 / 4.0**2)
-    assert body.normalized("gyration")[2, 0, 0] == pytest.approx(0.8)
+    assert normalize(body).raw[4] == pytest.approx(8.0 / 4.0**2)
+    assert normalize(body, "gyration")[2, 0, 0] == pytest.approx(0.8)
 
 
 @pytest.mark.parametrize("by", ["size", "gyration"])
@@ -233,20 +244,20 @@ def test_the_bounds_of_normalized_moments_hold_for_bodies_moved_within_theirs(by
     exact = np.array([float(x) for x in box_moments((0, 0, 0), (1, 2, 3), 6)])
     for _ in range(50):
         delta = 1e-6 * np.abs(exact) * rng.uniform(-1, 1, len(exact))
-        told = Moments(exact + delta, np.zeros(3), error=np.abs(delta) + 1e-20).normalized(by)
-        true = Moments(exact, np.zeros(3)).normalized(by)
+        told = normalize(Moments(exact + delta, np.zeros(3), error=np.abs(delta) + 1e-20), by)
+        true = normalize(Moments(exact, np.zeros(3)), by)
         assert (np.abs(told.raw - true.raw) <= told.error + true.error).all()
         assert told.error.max() < 1e-3
 
 
 def test_what_cannot_be_normalized_is_refused():
     with pytest.raises(ValueError, match="gyration"):
-        Moments(np.ones(10), np.zeros(3), "mass").normalized()
+        normalize(Moments(np.ones(10), np.zeros(3), "mass"))
     for body in (Moments(np.zeros(10), np.zeros(3)), Moments(np.ones(1), np.zeros(3))):
         with refused("normalization_undefined"):
-            body.normalized()
+            normalize(body)
     with refused("normalization_undefined"):
-        Moments(np.ones(4), np.zeros(3)).normalized("gyration")
+        normalize(Moments(np.ones(4), np.zeros(3)), "gyration")
 
 
 def test_scaling_by_a_density_scales_the_bounds():

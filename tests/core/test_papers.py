@@ -14,8 +14,7 @@ from body_moments.core.moments.moments import monomials
 from body_moments.core.papers import durso_2005 as durso
 from body_moments.core.papers import sheynin_tuzikov_2001 as sheynin_tuzikov
 from body_moments.core.papers import zhang_chen_2001 as zhang_chen
-from body_moments.core.polyhedron.any_order import moments_to_order
-from body_moments.core.polyhedron.third_order import solid_moments
+from body_moments.core.polyhedron import polyhedron_moments
 
 from tests.core import exact, rational
 
@@ -107,7 +106,7 @@ def test_the_add_ons_recursion_is_within_its_bounds_of_sheynin_tuzikov_to_sixth_
     points, faces = prism()
     floats = np.array(points, float)
     cut = triangles(points, faces)
-    found, _ = moments_to_order(Surface.from_triangles(floats, np.array(cut)), 6)
+    found, _ = polyhedron_moments(Surface.from_triangles(floats, np.array(cut)), 6)
     truth = sheynin_tuzikov.volume_moments(rational.fractions(floats), cut, 6, [F(x) for x in found.about])
     for value, bound, exactly in zip(found.raw, found.error, truth):
         assert abs(F(value) - exactly) <= F(bound)
@@ -165,7 +164,7 @@ def test_many_triangles_at_once_in_floats_agree_with_fractions_and_with_the_add_
     assert (np.abs(volume - np.array(truth, float)) <= 1e-14 * scale).all()
     areas = sheynin_tuzikov.surface_moments(exactly, cut, 5, [F(x) for x in about], root=lambda s: float(s) ** 0.5)
     assert (np.abs(surface - np.array(areas, float)) <= 1e-14 * surface[0] * reach ** monomials(5).sum(axis=1)).all()
-    measured = solid_moments(Surface.from_triangles(floats, np.array(cut))).shifted(about)
+    measured = polyhedron_moments(Surface.from_triangles(floats, np.array(cut)))[0].shifted(about)
     assert (np.abs(measured.raw - volume[:20]) <= measured.error + 1e-14 * scale[:20]).all()
 
 

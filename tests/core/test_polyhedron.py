@@ -8,6 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface, flipped_quads, joined
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.polyhedron import third_order as polyhedron
 from body_moments.core.polyhedron import third_order_kernel as blocks
 
@@ -56,16 +57,16 @@ def assert_within(moments, truth, error=None):
 def assert_bounds_hold(surface):
     """The moments of the volume, with and without areas, and of the area are as near to the truth as they say."""
     triangles = surface.all_triangles()[0]
-    volume, area = polyhedron.solid_and_area(surface, shell=True)
+    volume, area = polyhedron_moments(surface, area_order=3)
     truth = exact.volume_moments(surface.points, triangles, volume.about)
     assert_within(volume, truth)
-    assert_within(polyhedron.solid_moments(surface), truth)
+    assert_within(polyhedron_moments(surface)[0], truth)
     assert_within(area, exact.area_moments(surface.points, triangles, area.about))
 
 
 def assert_exact(surface, truth_at_origin, ulps=8):
     """The moments about the origin equal the closed form to rounding: `ulps` of the largest of their order."""
-    moments = polyhedron.solid_moments(surface).shifted(np.zeros(3))
+    moments = polyhedron_moments(surface)[0].shifted(np.zeros(3))
     truth = np.array([float(value) for value in truth_at_origin])
     for order in range(3):
         part = [i for i, m in enumerate(MONOMIALS) if sum(m) == order]
@@ -81,7 +82,7 @@ def test_box_is_its_closed_form(path):
 
 def test_box_about_its_centre_is_exact(path):
     surface = Surface(np.array(exact.box((0, 0, 0), (2, 3, 5)), float), quads=np.array(exact.BOX_QUADS))
-    volume, area = polyhedron.solid_and_area(surface)
+    volume, area = polyhedron_moments(surface, area_order=0)
     assert volume.total == 30.0 and area.total == 62.0
     assert volume.about.tolist() == [1.0, 1.5, 2.5]
     assert volume.raw[1:10].tolist() == [0.0, 0.0, 0.0, 10.0, 0.0, 0.0, 22.5, 0.0, 62.5]
@@ -100,14 +101,16 @@ def test_triangular_prism_is_its_rational_truth(path):
 
 def test_l_prism_has_the_published_inertia(path):
     points, faces = exact.prism(L_OUTLINE, 0, 1, L_CAPS)
-    moments = polyhedron.solid_moments(Surface(np.array(points, float), np.array(exact.fan(faces))))
+    moments = polyhedron_moments(Surface(np.array(points, float), np.array(exact.fan(faces))))[0]
     assert moments.total == pytest.approx(5.0, rel=1e-15)
     assert moments.center == pytest.approx([1.1, 1.1, 0.5], rel=1e-15)
     second = moments.about_center().second()
     inertia = np.trace(second) * np.eye(3) - second
     assert np.diag(inertia) == pytest.approx([121 / 30, 121 / 30, 217 / 30], rel=4e-15)
     assert inertia[0, 1] == pytest.approx(1.8, rel=4e-15)
-    third = polyhedron.third_moments_exact(Surface(np.array(points, float), np.array(exact.fan(faces)))).about_center()
+    third = polyhedron_moments(Surface(np.array(points, float), np.array(exact.fan(faces))), exact=True)[
+        0
+    ].about_center()
     assert [third[3, 0, 0], third[0, 3, 0], third[2, 1, 0], third[1, 2, 0], third[0, 0, 3]] == pytest.approx(
         [2.16, 2.16, -0.84, -0.84, 0.0], abs=2e-14
     )
@@ -146,7 +149,7 @@ def test_cavity_subtracts(path):
     outer, inner = exact.box((-2, -2, -2), (2, 2, 2)), exact.box((-1, -1, -1), (1, 1, 1))
     triangles = np.array(exact.fan(exact.BOX_QUADS))
     surface = Surface(np.array(outer + inner, float), np.concatenate([triangles, triangles[:, ::-1] + 8]))
-    moments = polyhedron.solid_moments(surface)
+    moments = polyhedron_moments(surface)[0]
     second = moments.about_center().second()
     assert moments.total == 56.0
     assert second[1, 1] + second[2, 2] == pytest.approx(496 / 3, rel=1e-15)
@@ -189,17 +192,17 @@ def test_exact_third_moments_are_right_to_their_rounding_bound(monkeypatch, seed
     monkeypatch.setattr(polyhedron, "EXACT", 0)
     points, quads = grid_torus(10, 6, noise=0.05, seed=seed)
     surface = Surface(points, Surface(points, quads=quads).all_triangles()[0])
-    moments = polyhedron.third_moments_exact(surface)
+    moments = polyhedron_moments(surface, exact=True)[0]
     assert_within(moments, exact.volume_moments(points, surface.triangles, moments.about))
     assert moments.error[10:].max() < 1e-12
-    coarse = polyhedron.solid_moments(surface)
+    coarse = polyhedron_moments(surface)[0]
     assert coarse.error[10:].max() > 1e-6  # the plain rule says what it leaves out
     assert_within(coarse, exact.volume_moments(points, surface.triangles, coarse.about))
 
 
 def test_the_bound_is_not_vacuous_for_a_clean_body():
     points, quads = grid_torus(250, 200)
-    moments = polyhedron.solid_moments(Surface(points, Surface(points, quads=quads).all_triangles()[0]))
+    moments = polyhedron_moments(Surface(points, Surface(points, quads=quads).all_triangles()[0]))[0]
     assert moments.error[0] < 1e-12 * moments.total
     assert moments.error[1:4].max() < 1e-12 * moments.total  # the body is about one unit in size
     assert moments.error[4:10].max() < 1e-12 * np.trace(moments.second())
@@ -211,7 +214,7 @@ def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
     points, quads = grid_torus(7, 5, noise=0.03, seed=seed)
     points = (points * 10.0 ** rng.uniform(-3, 2) + 10.0 ** rng.uniform(-2, 3)).astype(np.float32)
     surface = Surface(points, Surface(points, quads=quads).all_triangles()[0])
-    volume, area = polyhedron.solid_and_area(surface, shell=True)
+    volume, area = polyhedron_moments(surface, area_order=3)
     moved = points.astype(float) + surface.coordinate_error * rng.choice([-1.0, 1.0], points.shape)
     for moments, formula in ((volume, exact.volume_moments), (area, exact.area_moments)):
         assert_within(moments, formula(moved, surface.triangles, moments.about), moments.error + moments.input)
@@ -226,13 +229,13 @@ def test_the_half_ulp_of_the_largest_numbers_is_a_number():
 
 def test_float64_points_have_no_input_bound():
     points, quads = grid_torus()
-    assert not polyhedron.solid_moments(Surface(points, quads=quads)).input.any()
+    assert not polyhedron_moments(Surface(points, quads=quads))[0].input.any()
 
 
 def test_a_brick_one_kilometre_away_is_as_right_as_float32_lets_it_be():
     corners = np.array(exact.box((1000.0, 1000.0, 0.0), (1000.02, 1000.03, 0.05)), np.float32)
     surface = Surface(corners, quads=np.array(exact.BOX_QUADS))
-    volume, area = polyhedron.solid_and_area(surface)
+    volume, area = polyhedron_moments(surface, area_order=0)
     assert abs(volume.total - 3e-5) <= volume.input[0] + volume.error[0]
     assert abs(area.total - 0.0062) <= area.input[0] + area.error[0]
     step = np.linalg.norm(surface.coordinate_error)  # 4e-5, a tenth of a percent of the brick
@@ -244,7 +247,7 @@ def test_relative_errors_stay_below_1e_14_far_from_the_origin(factor):
     points, quads = grid_torus(40, 30, noise=1e-2)
     points = np.round((points + factor * np.array([1.0, -2.0, 3.0])) * 2.0**20) / 2.0**20
     triangles = Surface(points, quads=quads).all_triangles()[0]
-    moments = polyhedron.solid_moments(Surface(points, triangles))
+    moments = polyhedron_moments(Surface(points, triangles))[0]
     truth = exact.volume_moments(points, triangles, moments.about)
     assert abs(Fraction(moments.total) / truth[0] - 1) < 1e-14
     centre = [value / truth[0] for value in truth[1:4]]
@@ -257,8 +260,8 @@ def test_relative_errors_stay_below_1e_14_far_from_the_origin(factor):
 def test_moments_scale_exactly_with_powers_of_two(exponent):
     points, quads = grid_torus(noise=0.05)
     triangles = Surface(points, quads=quads).all_triangles()[0]
-    plain = polyhedron.solid_moments(Surface(points, triangles))
-    scaled = polyhedron.solid_moments(Surface(np.ldexp(points, exponent), triangles))
+    plain = polyhedron_moments(Surface(points, triangles))[0]
+    scaled = polyhedron_moments(Surface(np.ldexp(points, exponent), triangles))[0]
     powers = exponent * np.array([sum(m) + 3 for m in MONOMIALS])
     assert scaled.about.tolist() == np.ldexp(plain.about, exponent).tolist()
     difference = np.abs(scaled.raw - np.ldexp(plain.raw, powers))
@@ -269,9 +272,9 @@ def test_moments_scale_exactly_with_powers_of_two(exponent):
 def test_a_mirrored_surface_has_the_opposite_sign(path):
     points, quads = grid_torus(noise=0.05)
     triangles = Surface(points, quads=quads).all_triangles()[0]
-    plain = polyhedron.solid_moments(Surface(points, triangles))
-    inverted = polyhedron.solid_moments(Surface(points, triangles[:, ::-1]))
-    mirrored = polyhedron.solid_moments(Surface(points * [-1.0, 1.0, 1.0], triangles))
+    plain = polyhedron_moments(Surface(points, triangles))[0]
+    inverted = polyhedron_moments(Surface(points, triangles[:, ::-1]))[0]
+    mirrored = polyhedron_moments(Surface(points * [-1.0, 1.0, 1.0], triangles))[0]
     odd = np.array([(-1.0) ** m[0] for m in MONOMIALS])
     assert (np.abs(inverted.raw + plain.raw) <= inverted.error + plain.error).all()
     assert (np.abs(mirrored.raw + odd * plain.raw) <= mirrored.error + plain.error).all()
@@ -283,8 +286,8 @@ def test_a_sheared_surface_has_the_mapped_moments(path):
     matrix = np.eye(4)
     matrix[:3, :3] = [[2.0, 0.5, 0.25], [0.0, 1.0, -0.75], [0.0, 0.0, 0.5]]
     matrix[:3, 3] = [5.0, -7.0, 11.0]
-    sheared = polyhedron.third_moments_exact(Surface(points @ matrix[:3, :3].T + matrix[:3, 3], triangles))
-    mapped = polyhedron.third_moments_exact(Surface(points, triangles)).mapped(matrix).shifted(sheared.about)
+    sheared = polyhedron_moments(Surface(points @ matrix[:3, :3].T + matrix[:3, 3], triangles), exact=True)[0]
+    mapped = polyhedron_moments(Surface(points, triangles), exact=True)[0].mapped(matrix).shifted(sheared.about)
     assert np.abs(sheared.raw - mapped.raw).max() < 1e-13 * np.abs(mapped.raw).max()
 
 
@@ -292,30 +295,30 @@ def test_degenerate_faces_change_nothing(path):
     points, quads = grid_torus(noise=0.05)
     triangles = Surface(points, quads=quads).all_triangles()[0]
     zero = np.array([[3, 3, 3], [5, 5, 9], [7, 2, 7]])
-    plain = polyhedron.solid_moments(Surface(points, triangles))
-    more = polyhedron.solid_moments(Surface(points, np.concatenate([zero, triangles, zero])))
+    plain = polyhedron_moments(Surface(points, triangles))[0]
+    more = polyhedron_moments(Surface(points, np.concatenate([zero, triangles, zero])))[0]
     assert (np.abs(more.raw - plain.raw) <= plain.error).all()
 
 
 def test_open_surface_is_closed_from_the_middle_of_its_box(path):
     points = np.array(exact.box((0, 0, 0), (1, 1, 1)), float)
     triangles = np.array(exact.fan(exact.BOX_QUADS[:5]))  # without the face z = 1
-    moments = polyhedron.solid_moments(Surface(points, triangles))
+    moments = polyhedron_moments(Surface(points, triangles))[0]
     assert moments.total == pytest.approx(5 / 6, rel=1e-15)
 
 
 @pytest.mark.parametrize("shell", [False, True])
 def test_empty_surfaces_have_no_moments(shell):
     for points in (np.empty((0, 3)), np.ones((4, 3), np.float32)):
-        volume, area = polyhedron.solid_and_area(Surface(points), shell=shell)
+        volume, area = polyhedron_moments(Surface(points), area_order=3 if shell else 0)
         assert not volume.raw.any() and not area.raw.any()
         assert volume.order == 3 and area.order == (3 if shell else 0)
 
 
 def test_a_single_triangle_and_a_single_point_are_harmless():
-    flat = polyhedron.solid_moments(Surface(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float), np.array([[0, 1, 2]])))
+    flat = polyhedron_moments(Surface(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float), np.array([[0, 1, 2]])))[0]
     assert flat.total == 0.0
-    point = polyhedron.solid_moments(Surface(np.ones((3, 3)), np.array([[0, 1, 2]])))
+    point = polyhedron_moments(Surface(np.ones((3, 3)), np.array([[0, 1, 2]])))[0]
     assert point.total == 0.0 and point.about.tolist() == [1.0, 1.0, 1.0]
 
 
@@ -324,7 +327,7 @@ def test_coordinates_that_are_not_finite_are_refused(bad):
     points, quads = grid_torus()
     points[5, 1] = bad
     with pytest.raises(ValueError, match="finite"):
-        polyhedron.solid_moments(Surface(points, quads=quads))
+        polyhedron_moments(Surface(points, quads=quads))[0]
 
 
 @pytest.mark.parametrize("index", [-1, 96])
@@ -332,9 +335,9 @@ def test_indices_that_name_no_point_are_refused(index):
     points, quads = grid_torus()
     quads[17, 2] = index
     with pytest.raises(ValueError, match="vertex"):
-        polyhedron.solid_moments(Surface(points, quads=quads))
+        polyhedron_moments(Surface(points, quads=quads))[0]
     with pytest.raises(ValueError, match="vertex"):
-        polyhedron.solid_moments(Surface(points, quads[:, :3]))
+        polyhedron_moments(Surface(points, quads[:, :3]))[0]
 
 
 @pytest.mark.parametrize("other", [np.int32, np.uint8, np.uint64])
@@ -346,7 +349,7 @@ def test_triangles_and_quads_may_be_of_different_types(kind, other):
     body = Surface(points, triangles, quads)
     assert_exact(body, exact.box_moments((0, 0, 0), (2, 3, 5)))
     both = joined([body] * 40)  # 320 vertices, more than 8 bits can name
-    assert polyhedron.solid_moments(both).total == 40 * 30
+    assert polyhedron_moments(both)[0].total == 40 * 30
 
 
 @pytest.mark.parametrize("index_type", [np.int32, np.int64, np.uint32])
@@ -355,9 +358,9 @@ def test_every_array_type_gives_the_same_moments(path, point_type, index_type):
     points, quads = grid_torus(noise=0.05)
     points = points.astype(np.float32)
     triangles = Surface(points, quads=quads).all_triangles()[0]
-    plain = polyhedron.solid_moments(Surface(points, triangles))
+    plain = polyhedron_moments(Surface(points, triangles))[0]
     points = np.asfortranarray(points.astype(point_type))
-    other = polyhedron.solid_moments(Surface(points, triangles.astype(index_type)))
+    other = polyhedron_moments(Surface(points, triangles.astype(index_type)))[0]
     assert (np.abs(other.shifted(plain.about).raw - plain.raw) <= 2.0 * plain.error).all()
 
 
@@ -377,7 +380,7 @@ def test_pairs_of_triangles_are_found_however_their_corners_are_turned(path, fir
         [np.roll(quads[:, [0, 1, 2]], first, axis=1), np.roll(quads[:, [0, 2, 3]], second, axis=1)], axis=1
     ).reshape(-1, 3)
     assert polyhedron.pairs(triangles) is not None
-    paired = polyhedron.solid_moments(Surface(points, triangles))
+    paired = polyhedron_moments(Surface(points, triangles))[0]
     assert_within(paired, exact.volume_moments(points, triangles, paired.about))
     broken = triangles.copy()
     broken[-1] = np.roll(broken[-1], 1)
@@ -429,7 +432,7 @@ def test_threads_give_the_serial_result_to_the_bit(monkeypatch):
     mixed = Surface(points, quads[:200, [0, 1, 2]], quads=quads[200:])
     for threads in (2, 3, 8, 100):
         for serial, threaded in zip(
-            polyhedron.solid_and_area(mixed, 1, True), polyhedron.solid_and_area(mixed, threads, True)
+            polyhedron_moments(mixed, area_order=3, threads=1), polyhedron_moments(mixed, area_order=3, threads=threads)
         ):
             for key in ("raw", "error", "input"):
                 np.testing.assert_array_equal(getattr(serial, key), getattr(threaded, key))
@@ -441,7 +444,7 @@ def test_errors_in_threads_reach_the_caller(monkeypatch):
     points, quads = grid_torus(30, 20)
     quads[-1, -1] = 600
     with pytest.raises(ValueError, match="vertex"):
-        polyhedron.solid_moments(Surface(points, quads=quads), threads=2)
+        polyhedron_moments(Surface(points, quads=quads), threads=2)[0]
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e-12, 1e-3, 1e9, 1e12])
@@ -492,7 +495,7 @@ def test_quads_on_the_edge_of_the_rule_are_decided_in_float32(path):
 def test_area_alone_equals_the_zeroth_shell_moment(path):
     points, quads = grid_torus(noise=0.05)
     surface = Surface(points.astype(np.float32), quads=quads)
-    alone, shell = polyhedron.solid_and_area(surface)[1], polyhedron.solid_and_area(surface, shell=True)[1]
+    alone, shell = polyhedron_moments(surface, area_order=0)[1], polyhedron_moments(surface, area_order=3)[1]
     assert alone.order == 0 and shell.order == 3 and alone.of == shell.of == "area"
     assert abs(alone.total - shell.total) <= alone.error[0] + shell.error[0]
 
@@ -500,7 +503,7 @@ def test_area_alone_equals_the_zeroth_shell_moment(path):
 def test_area_of_slivers_keeps_its_digits():
     for height in (1e-6, 1e-8, 1e-12):
         points = np.array([(0, 0, 0), (1, 0, 0), (0.37, height, 0)])
-        assert polyhedron.solid_and_area(Surface(points, np.array([[0, 1, 2]])))[1].total == pytest.approx(
+        assert polyhedron_moments(Surface(points, np.array([[0, 1, 2]])), area_order=0)[1].total == pytest.approx(
             height / 2, rel=1e-15
         )
 
@@ -513,7 +516,7 @@ def test_memory_is_bounded_by_blocks():
     for surface in (Surface(points, loose), Surface(points.astype(np.float32), quads=quads)):
         for threads in (1, 2):
             tracemalloc.start()
-            polyhedron.solid_and_area(surface, threads, True)
+            polyhedron_moments(surface, area_order=3, threads=threads)
             peak = tracemalloc.get_traced_memory()[1]
             tracemalloc.stop()
             assert peak <= 16 * len(loose) + 8_000_000

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import monomials
-from body_moments.core.polyhedron.any_order import moments_to_order
+from body_moments.core.polyhedron import polyhedron_moments
 
 from tests.core import exact
 
@@ -138,7 +138,7 @@ BODIES = {
 @pytest.mark.parametrize("name", BODIES)
 def test_finer_meshes_come_to_the_closed_form_at_the_right_rate(name):
     body, *forms = BODIES[name]
-    meshes = [moments_to_order(body(n), ORDER, area=True, about=np.zeros(3)) for n in (48, 96, 192)]
+    meshes = [polyhedron_moments(body(n), ORDER, area_order=ORDER, about=np.zeros(3)) for n in (48, 96, 192)]
     for number, form in enumerate(forms):
         if form is None:
             continue
@@ -158,7 +158,7 @@ def test_finer_meshes_come_to_the_closed_form_at_the_right_rate(name):
 def test_a_box_off_the_origin_is_its_closed_form_to_order_12():
     low, high = (1, -2, 3), (3, 1, 8)
     points = np.array(exact.box(low, high), float)
-    volume, area = moments_to_order(Surface(points, quads=np.array(exact.BOX_QUADS)), ORDER, area=True)
+    volume, area = polyhedron_moments(Surface(points, quads=np.array(exact.BOX_QUADS)), ORDER, area_order=ORDER)
     about = volume.about.tolist()
     truth = exact.box_moments([a - c for a, c in zip(low, about)], [b - c for b, c in zip(high, about)], ORDER)
     for value, right, bound in zip(volume.raw, truth, volume.error):
@@ -182,6 +182,6 @@ def test_a_corner_tetrahedron_is_dirichlets_integral(seed):
     a, b, c = np.random.default_rng(seed).integers(1, 9, 3).tolist()
     points = np.array([(0, 0, 0), (a, 0, 0), (0, b, 0), (0, 0, c)], float)
     surface = Surface(points, np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]))
-    volume, _ = moments_to_order(surface, ORDER, about=np.zeros(3))
+    volume, _ = polyhedron_moments(surface, ORDER, about=np.zeros(3))
     truth = exact.corner_tetrahedron_moments(a, b, c, ORDER)
     assert max(abs(float(value) / float(right) - 1.0) for value, right in zip(volume.raw, truth)) < 4e-15

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import monomials
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.polyhedron.n_dimensions import enclosed_moments, facet_moments, multi_indices, place
-from body_moments.core.polyhedron.third_order import solid_and_area
 
 from tests.core import bodies, rational
 from tests.core.findings import refused
@@ -174,7 +174,7 @@ def test_a_reversed_boundary_encloses_the_negative():
 def test_triangle_meshes_agree_with_the_order_three_kernel_of_bodies():
     points, triangles = bodies.moved(bodies.torus(12, 9), bodies.rotation(3), (4, -2, 9))
     surface = Surface.from_triangles(points, triangles)
-    volume, area = solid_and_area(surface, shell=True)
+    volume, area = polyhedron_moments(surface, area_order=3)
     mine = enclosed_moments(points, triangles, 3, about=volume.about)
     assert (np.abs(mine.raw - volume.raw) <= mine.error + volume.error).all()
     mine = facet_moments(points, triangles, 3, about=area.about)

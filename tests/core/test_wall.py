@@ -11,7 +11,7 @@ from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.moments.moments import monomials
 from body_moments.core.offset.directions import offset_directions
 from body_moments.core.offset.walls import share, sweep
-from body_moments.core.polyhedron.third_order import solid_moments
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.verdict.finding import MeasureError
 
 from tests.core import bodies, exact
@@ -300,7 +300,7 @@ def test_the_inside_wall_up_to_the_limit_fills_a_regular_body():
     part = bodies.sphere(0)
     found = sweep(bodies.surface(part))
     assert abs(found.inward - 1 / sqrt(3)) < 1e-7
-    full = solid_moments(bodies.surface(part)).total
+    full = polyhedron_moments(bodies.surface(part))[0].total
     assert abs(found.moments(found.inward * (1 - 1e-12), 0.0).total - full) < 1e-9
 
 

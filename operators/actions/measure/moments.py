@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from bpy.types import Context, Object, Operator
 
+from ....core.moments.moments import Measure
 from ....core.verdict.finding import MeasureError, finding
 from ...bodies.measure_object import THREADS, measure_object
 from ...read import measurable
@@ -55,7 +56,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
             reports.report(self, finding("wire_without_moments", object=obj.name))
             return {"CANCELLED"}
         area = one.area_moments.truncated(options.order)
-        volume = (one.volume_moments or replace(area * one.thickness, of="volume")).truncated(options.order)
+        volume = (one.volume_moments or replace(area * one.thickness, of=Measure.VOLUME)).truncated(options.order)
         key = (matrix_hash(obj), settings_hash(obj, scene), staleness.geometry_changes(obj))
         keep(obj, Computed(obj.name, volume, area, one.rotation, one.location, key))
         done = finding("moments_computed", count=len(volume.raw), object=obj.name)

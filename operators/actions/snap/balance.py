@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from ....core.measurement import Measurement
 from ....core.mesh.surface import Surface
+from ....core.moments.moments import Measure
 from ....core.numerics.float32 import decimal
 from ....core.statics.balance import Balanced, balance
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
@@ -290,7 +291,7 @@ def _measured(context: Context, obj: Object) -> Measurement:
     """The object as it is always measured; EditRefusedError where its center cannot be differentiated by its
     vertices."""
     found = measure_object(obj, context.evaluated_depsgraph_get())
-    if found.mass_moments[0].of == "mass":
+    if found.mass_moments[0].of == Measure.MASS:
         raise EditRefusedError("balance_varying_density")
     if found.kind == "solid" and (found.method != "exact" or found.health.welded):
         raise EditRefusedError("balance_unclean")

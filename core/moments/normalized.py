@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments without unit: the same wherever a body is and however large."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..verdict.finding import MeasureError
+from .affine_maps import shift
+from .moments import Measure, Moments, U
+from .monomials import monomials
+
+
+def normalize(moments: Moments, by: str = "size") -> Moments:
+    """The central moments without unit, of degree n, about (0, 0, 0): the same wherever the body is and however
+    large.
+
+    by: "size", μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas: those of the body scaled to a volume, or area,
+    of 1. "gyration", μ / (m R^n) with R² = ∫ r² dm / m: those of the body scaled to a radius of gyration and a mass
+    of 1. `error` and `input` hold for the body's true center. MeasureError where there is too little to divide by.
+    """
+    dimension = {Measure.VOLUME: 3, Measure.AREA: 2}.get(moments.of)
+    if by == "size" and dimension is None:
+        raise ValueError("masses need 'gyration'")
+    uncertain = moments.error[0] + moments.input[0]
+    if moments.order < (2 if by == "gyration" else 1) or not moments.total > 2.0 * uncertain:
+        raise MeasureError("normalization_undefined")
+    body = moments.about_center()
+    n = monomials(moments.order).sum(axis=1)
+    trace = float(body.raw[[4, 7, 9]].sum()) if by == "gyration" else 1.0
+    if by == "gyration":
+        factor = (trace / body.total) ** (-n / 2.0) / body.total
+    else:
+        factor = body.total ** -(1.0 + n / dimension)
+    bounds = []
+    for delta in (body.error, body.error + body.input):  # of the total, the trace, and the center's place
+        total = body.total / (body.total - delta[0])
+        off = (np.abs(body.raw[1:4]) + delta[1:4]) / (body.total - delta[0]) + 2.0 * U * np.abs(body.about)
+        size = np.abs(body.raw) + delta
+        away = shift(size[None], moments.order, off[None])[0] - size + 8.0 * U * n * size
+        if by == "gyration":
+            spread = delta[[4, 7, 9]].sum() + away[[4, 7, 9]].sum()
+            if not trace > 2.0 * spread:
+                raise MeasureError("normalization_undefined")
+            stretch = total ** np.abs(n / 2.0 - 1.0) * (trace / (trace - spread)) ** (n / 2.0)
+        else:
+            stretch = total ** (1.0 + n / dimension)
+        bounds.append(factor * (stretch * (delta + away) + (stretch - 1.0 + (8.0 + 4.0 * n) * U) * size))
+    return Moments(
+        body.raw * factor,
+        np.zeros(3),
+        moments.of if by == "size" else Measure.MASS,
+        bounds[0],
+        (bounds[1] - bounds[0]) * bool(moments.input.any()),
+    )

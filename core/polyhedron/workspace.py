@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The scratch of a kernel: one buffer, and the arrays of the last block's shape carved out of it.
+
+Allocating arrays, and making views of them, costs as much as the arithmetic of a short block: both are done once for
+all blocks of one shape. A workspace is not to be shared by threads.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Sequence
+from math import prod
+from typing import Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+GAP = 8  # numbers between arrays: numpy < 2 leaves its vector loop where output ends at input's start
+MAX_ARRAYS = 16  # of one shape, at a time
+
+Block = TypeVar("Block")
+
+
+class Workspace(Generic[Block]):
+    """Makes what a kernel needs for blocks of one shape, and keeps it until another shape is asked for.
+
+    make: (workspace, *shape) → a block, whose arrays it gets from `take` and `overlay`.
+    """
+
+    def __init__(self, make: Callable[..., Block]):
+        self._make = make
+        self._buffer: NDArray = np.empty(0)
+        self._position = 0
+        self._shape: tuple[Hashable, ...] | None = None
+        self._block: Block | None = None
+
+    def block(self, shape: tuple[Hashable, ...], numbers: int) -> Block:
+        """The block of this shape. numbers: how many its arrays hold together, those that share memory once."""
+        if shape != self._shape:
+            self._shape = self._block = None
+            needed = numbers + MAX_ARRAYS * GAP
+            if len(self._buffer) < needed:
+                self._buffer = np.empty(0)  # never two of them
+                self._buffer = np.empty(needed)
+            self._position = -(self._buffer.ctypes.data // 8) % 8  # aligned to 64 bytes
+            self._block = self._make(self, *shape)
+            self._shape = shape
+        return self._block
+
+    def take(self, *shape: int) -> NDArray[np.float64]:
+        """The next contiguous array."""
+        start = self._position
+        end = start + prod(shape)
+        self._position = end + GAP
+        return self._buffer[start:end].reshape(shape)
+
+    def overlay(self, *groups: Sequence[tuple[int, ...]]) -> list[list[NDArray[np.float64]]]:
+        """Arrays of these shapes, group by group; the groups share memory, for their times differ."""
+        start, end, arrays = self._position, self._position, []
+        for group in groups:
+            self._position = start
+            arrays.append([self.take(*shape) for shape in group])
+            end = max(end, self._position)
+        self._position = end
+        return arrays
+
+
+def gather(points: NDArray, index: NDArray[np.intp], single: NDArray[np.float32], corners: NDArray[np.float64]) -> None:
+    """The coordinates of points, one row for each axis: `corners`, (3, ...), by way of `single` where they are float32.
+
+    points: (n, 3) contiguous. index: checked; it is multiplied by 3.
+    """
+    flat, target = points.reshape(-1), single if points.dtype == np.float32 else corners
+    np.multiply(index, 3, index)
+    for axis in range(3):  # the indices have been checked: "wrap" is the mode that costs least
+        flat[axis:].take(index, None, target[axis], "wrap")
+    if target is single:
+        corners[...] = single

@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which boxes meet, and pairs in pieces, against comparing each with each."""
+
+import numpy as np
+import pytest
+from body_moments.core.mesh import boxes
+from body_moments.core.numerics.arrays import batches, following_pairs
+
+
+@pytest.mark.parametrize("piece", [1, 1 << 17])
+@pytest.mark.parametrize("seed", range(40))
+def test_boxes_meet_where_comparing_all_says_so(seed, piece, monkeypatch):
+    monkeypatch.setattr(boxes, "PIECE", piece)
+    rng = np.random.default_rng(seed)
+    count = rng.integers(1, 25)
+    centers, extents = rng.uniform(0.0, 10.0, (count, 3)), rng.uniform(0.0, 1.2, (count, 3))
+    centers[::2] = np.round(centers[::2])
+    extents[1::3] = 0.5  # neighbours that touch
+    extents[::4, rng.integers(3)] = 0.0  # flat ones
+    shrunk = extents * (1.0 - 1e-6)
+    low, high = centers - shrunk, centers + shrunk
+    truth = any(
+        (low[i] < high[j]).all() and (low[j] < high[i]).all() for i in range(count) for j in range(i + 1, count)
+    )
+    assert boxes.boxes_meet(centers, extents) == truth
+
+
+def test_boxes_that_share_a_side_do_not_meet_and_a_flat_one_meets_what_it_cuts():
+    grid = np.stack(np.meshgrid(*[np.arange(4.0)] * 3), axis=-1).reshape(-1, 3)
+    half = np.full((64, 3), 0.5)
+    for unit in (1.0, 0.1, 0.7):  # rounded, some would overlap
+        assert not boxes.boxes_meet(unit * grid, unit * half)
+        assert boxes.boxes_meet(unit * grid, 1.001 * unit * half)
+    assert boxes.boxes_meet(np.array([[0.0, 0.0, 0.0], [0.3, 0.0, 0.1]]), np.array([[1.0, 1.0, 1.0], [2.0, 2.0, 0.0]]))
+
+
+@pytest.mark.parametrize("size", [1, 4, 1000])
+def test_following_pairs_are_all_of_them_in_pieces(size):
+    rng = np.random.default_rng(0)
+    order = rng.permutation(30)
+    counts = np.minimum(rng.integers(0, 6, 30), 29 - np.arange(30))
+    pieces = list(following_pairs(order, counts, size))
+    found = [pair for i, j in pieces for pair in zip(i.tolist(), j.tolist())]
+    assert found == [(order[a], order[a + 1 + b]) for a in range(30) for b in range(counts[a])]
+    assert max(len(i) for i, _ in pieces) <= max(size, counts.max())
+    assert not list(following_pairs(order[:0], counts[:0], size))
+
+
+def test_batches_cover_everything_in_turn():
+    weights = np.array([0.5, 3.0, 0.25, 0.25, 10.0, 1.0])
+    parts = [(part.start, part.stop) for part in batches(weights, 2.0)]
+    assert parts == [(0, 1), (1, 2), (2, 4), (4, 5), (5, 6)]
+    assert len(list(batches(np.ones(4), 2.0))) == 4  # less than the size
