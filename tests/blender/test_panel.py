@@ -657,3 +657,21 @@ def test_a_wire_shows_its_length_and_asks_for_its_linear_density():
     record = drawn()
     assert "Wire" in labels(record) and "Length" in labels(record)
     assert ("prop", "linear_density") in record
+
+
+def test_a_wall_of_real_thickness_is_called_so_whatever_the_setting_is_now():
+    obj = add(mesh_body())
+    obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
+    bpy.ops.object.body_moments_measure()
+    assert "Shell" in labels(drawn()) and "Wall" not in labels(drawn())
+    obj.body_moments.wall = "INWARD"
+    bpy.ops.object.body_moments_measure()
+    assert "Wall" in labels(drawn()) and shows(drawn(), "panel_wall_limit", length=largest(obj))
+    obj.body_moments.kind = "SOLID"
+    assert "Wall" in labels(drawn()) and outdated() == ["settings"]
+
+
+def largest(obj):
+    from body_moments.operators.session import walls
+
+    return walls.largest(obj)
