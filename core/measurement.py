@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from .inertia.mass_properties import MassProperties
 from .moments.moments import Moments
 from .verdict.finding import Finding, finding
-from .verdict.health import Health
+from .verdict.health import MeshReport
 
-ONE_DENSITY = ("density_from_value", "density_from_mass")
+UNIFORM_DENSITY_SOURCES = ("density_from_value", "density_from_mass")
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +51,7 @@ class Measurement:
     volume_moments: Moments | None
     area_moments: Moments
     mass_moments: tuple[Moments, float]
-    health: Health
+    health: MeshReport
     findings: tuple[Finding, ...]
     rotation: NDArray[np.float64]
     location: NDArray[np.float64]
@@ -63,9 +63,9 @@ class Measurement:
     display_volume: float | None = None
 
     @property
-    def one_density(self) -> bool:
+    def has_uniform_density(self) -> bool:
         """Whether the density is the same everywhere."""
-        return self.density_from.code in ONE_DENSITY
+        return self.density_from.code in UNIFORM_DENSITY_SOURCES
 
     def in_object_frame(self) -> MassProperties:
         """The mass properties in the object's own frame."""

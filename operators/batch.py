@@ -25,7 +25,7 @@ from contextlib import redirect_stdout, suppress
 from pathlib import Path
 
 PACKAGE = "body_moments"  # the add-on's name when this file is run as a script
-ALL_MEASURED, SOME_NOT, WRONG_USAGE, OUR_FAULT = 0, 1, 2, 70
+ALL_MEASURED, SOME_FAILED, WRONG_USAGE, INTERNAL_ERROR = 0, 1, 2, 70
 
 _command = None
 
@@ -48,7 +48,7 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
             options = arguments.parse(argv, file_needed)
     except SystemExit as ended:
         # the help, where it was asked for
-        return ended.code if _written(printed.getvalue(), None, channel) else OUR_FAULT
+        return ended.code if _write_result(printed.getvalue(), None, channel) else INTERNAL_ERROR
 
     from .command import results
     from .command.run import Run
@@ -60,11 +60,11 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
         text = FORMATS[options.format](run.documents)
     except Exception:
         traceback.print_exc()
-        return OUR_FAULT
+        return INTERNAL_ERROR
     check = results.guard("output", options.output in options.forced)
-    if not _written(text, options.output, channel, check) or run.faults:
-        return OUR_FAULT
-    return SOME_NOT if run.errors else ALL_MEASURED
+    if not _write_result(text, options.output, channel, check) or run.internal_errors:
+        return INTERNAL_ERROR
+    return SOME_FAILED if run.errors else ALL_MEASURED
 
 
 def _similar(options, channel: int) -> int:
@@ -73,19 +73,19 @@ def _similar(options, channel: int) -> int:
     from .command import similar
 
     try:
-        text, faults = similar.answer(options)
+        text, failures = similar.answer(options)
     except MeasureError as error:
         sys.stderr.write("body_moments: {}\n".format(error))
         return WRONG_USAGE
     except Exception:
         traceback.print_exc()
-        return OUR_FAULT
-    if not _written(text, None, channel):
-        return OUR_FAULT
-    return SOME_NOT if faults else ALL_MEASURED
+        return INTERNAL_ERROR
+    if not _write_result(text, None, channel):
+        return INTERNAL_ERROR
+    return SOME_FAILED if failures else ALL_MEASURED
 
 
-def _written(text: str, path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> bool:
+def _write_result(text: str, path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> bool:
     """Whether a result could be written; the reason goes to the standard error where it could not."""
     from ..core.verdict.finding import finding
     from .command import output
@@ -128,7 +128,7 @@ def _run_script() -> None:
         code = WRONG_USAGE
     except Exception:
         traceback.print_exc()
-        code = OUR_FAULT
+        code = INTERNAL_ERROR
     bpy = sys.modules.get("bpy")
     if bpy is None or not bpy.app.module:
         sys.exit(code)

@@ -27,9 +27,9 @@ def settings_rows(layout: UILayout, context: Context, obj: Object) -> None:
         if settings.mass_from == "MASS":
             column.prop(settings, "mass", text="Mass (kg)")
         else:
-            _one_density(column, settings, "Material")
+            _uniform_density(column, settings, "Material")
         return
-    row = _labelled(column, "Kind")
+    row = _labeled_row(column, "Kind")
     row.use_property_split = False
     for kind in ("SOLID", "SHELL", "WIRE") if obj.type == "CURVE" or settings.kind == "WIRE" else ("SOLID", "SHELL"):
         row.prop_enum(settings, "kind", kind)
@@ -38,7 +38,7 @@ def settings_rows(layout: UILayout, context: Context, obj: Object) -> None:
     if settings.kind == "SHELL":
         column.prop(settings, "wall")
         column.prop(settings, "thickness")
-        _largest(column, context, obj)
+        _max_thickness(column, context, obj)
     elif settings.kind == "SOLID":
         column.prop(settings, "overlap")
     column.row().prop(settings, "mass_from", expand=True)
@@ -62,15 +62,15 @@ def settings_rows(layout: UILayout, context: Context, obj: Object) -> None:
     elif settings.density_from == "MATERIALS":
         _materials(layout, context, obj)
     else:
-        _one_density(column, settings, "Material")
+        _uniform_density(column, settings, "Material")
 
 
-def _largest(layout: UILayout, context: Context, obj: Object) -> None:
+def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
     """How thick the wall may be, once that is known."""
-    limit = wall_slider.largest(obj)
+    limit = wall_slider.max_thickness(obj)
     if limit is None:
         return
-    folds = wall_slider.folds(obj)
+    folds = wall_slider.is_too_thick(obj)
     row = layout.row()
     row.alert = folds
     rows.message(row, context, finding("panel_wall_folds" if folds else "panel_wall_limit", length=limit))
@@ -87,10 +87,10 @@ def _materials(layout: UILayout, context: Context, obj: Object) -> None:
         rows.message(column, context, finding("panel_no_material_slots"))
     column = layout.column()
     column.use_property_split = True
-    _one_density(column, settings, "Others")
+    _uniform_density(column, settings, "Others")
 
 
-def _labelled(column: UILayout, label: str) -> UILayout:
+def _labeled_row(column: UILayout, label: str) -> UILayout:
     """A row beside a label, as Blender puts properties there."""
     split = column.row(align=True).split(factor=0.4, align=True)
     heading = split.row()
@@ -99,9 +99,9 @@ def _labelled(column: UILayout, label: str) -> UILayout:
     return split.row(align=True)
 
 
-def _one_density(column: UILayout, settings, heading: str) -> None:
+def _uniform_density(column: UILayout, settings, heading: str) -> None:
     """The object's own density, with the table and the user's presets."""
-    row = _labelled(column, heading)
+    row = _labeled_row(column, heading)
     row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
     column.prop(settings, "density", text="Density (kg/m³)")

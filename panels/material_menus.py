@@ -13,7 +13,7 @@ from bpy.types import Context, Material, Menu, Panel, UILayout
 from ..core.density.materials import CATEGORIES, MATERIALS
 from ..core.verdict.finding import finding
 from ..operators.actions.setup.presets import (
-    PRESETS,
+    PRESET_FOLDER,
     MATERIAL_OT_body_moments_set_density,
     OBJECT_OT_body_moments_preset_add,
     OBJECT_OT_body_moments_set_material,
@@ -93,12 +93,12 @@ class OBJECT_PT_body_moments_presets(PresetPanel, Panel):
     """Presets of the settings"""
 
     bl_label = "Body Moments Presets"
-    preset_subdir = PRESETS
+    preset_subdir = PRESET_FOLDER
     preset_operator = "script.execute_preset"
     preset_add_operator = OBJECT_OT_body_moments_preset_add.bl_idname
 
     def draw(self, context: Context) -> None:
-        if bpy.utils.preset_paths(PRESETS):
+        if bpy.utils.preset_paths(PRESET_FOLDER):
             super().draw(context)
             return
         # Without a folder of presets, Blender's own drawing complains about missing paths.

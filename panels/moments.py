@@ -27,11 +27,11 @@ class MomentsPanel:
         column.prop(settings, "moments_about")
         column.row().prop(settings, "frame", expand=True)
         layout.operator("object.body_moments_compute_moments", icon="PHYSICS")
-        computed = moments_table.found(obj)
+        computed = moments_table.computed_moments(obj)
         if computed is None:
             return
-        rows.outdated(layout, context, moments_table.outdated(obj, context.scene))
-        degrees, missing = moments_table.shown(obj, context.scene)
+        rows.stale_row(layout, context, moments_table.stale_reason(obj, context.scene))
+        degrees, missing = moments_table.current_numbers(obj, context.scene)
         if missing is not None:
             rows.message(layout, context, missing)
         for degree in degrees:
@@ -39,8 +39,8 @@ class MomentsPanel:
             rows.filled(column, "Order {:d} ({:s})" if degree.unit else "Order {:d}", degree.degree, degree.unit)
             for label, text, exact in degree.rows:
                 rows.texts(column, label, text, exact, degree.unit)
-        if computed.order > moments_table.SHOWN:
-            orders = finding("panel_orders_copied", first=moments_table.SHOWN + 1, last=computed.order)
+        if computed.order > moments_table.MAX_SHOWN_ORDER:
+            orders = finding("panel_orders_copied", first=moments_table.MAX_SHOWN_ORDER + 1, last=computed.order)
             rows.message(layout, context, orders)
         layout.operator("object.body_moments_copy_moments", icon="COPYDOWN")
 

@@ -13,13 +13,13 @@ from ..operators.write import properties
 from ..operators.write.units import SI_UNITS, Units
 from . import rows
 
-AXES = ("X", "Y", "Z")
+AXIS_LABELS = ("X", "Y", "Z")
 
 
-NUMBERS = ("1", "2", "3")
+PRINCIPAL_LABELS = ("1", "2", "3")
 
 
-EQUAL = 1e-6  # moments closer than this, relatively, are shown as equal
+EQUAL_MOMENTS_RTOL = 1e-6  # moments closer than this, relatively, are shown as equal
 
 
 EQUAL_MOMENTS = {  # by whether 1 and 2, and 2 and 3, are equal
@@ -35,7 +35,7 @@ BOUNDS = (("Rounding, at Most", None), ("Float32 Coordinates, at Most", "input")
 ESTIMATED = "Quadrature and Rounding, Estimated"
 
 
-BOUNDED = {
+BOUND_LABELS = {
     "volume": ("Volume", "volume"),
     "area": ("Area", "area"),
     "center_of_mass": ("Center", "length"),
@@ -43,7 +43,7 @@ BOUNDED = {
 }
 
 
-def numbers(layout: UILayout, context: Context, units: Units, shown: properties.Stored) -> None:
+def numbers(layout: UILayout, context: Context, units: Units, shown: properties.StoredProperties) -> None:
     scene = context.scene
     column = layout.column(align=True)
     rows.value(column, units, "Mass", "mass", shown.body.mass)
@@ -61,25 +61,25 @@ def numbers(layout: UILayout, context: Context, units: Units, shown: properties.
     layout.row().prop(scene.body_moments, "frame", expand=True)
     column = layout.column(align=True)
     rows.heading(column, "Center of Mass", "length", shown.body.center)
-    rows.values(column, units, AXES, "length", shown.body.center, shown.body.radii_of_gyration.max())
+    rows.values(column, units, AXIS_LABELS, "length", shown.body.center, shown.body.radii_of_gyration.max())
     column = layout.column(align=True)
     moments = shown.body.principal.moments
     rows.heading(column, "Principal Moments", "inertia", moments)
-    rows.values(column, units, NUMBERS, "inertia", moments)
+    rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
     column = layout.column(align=True)
     rows.heading(column, "Principal Axes", "", shown.body.principal.axes.T)
-    for label, axis in zip(NUMBERS, shown.body.principal.axes.T):
+    for label, axis in zip(PRINCIPAL_LABELS, shown.body.principal.axes.T):
         rows.direction(column, label, axis)
-    code = EQUAL_MOMENTS.get(tuple((np.diff(moments) <= EQUAL * moments[2]).tolist()))
+    code = EQUAL_MOMENTS.get(tuple((np.diff(moments) <= EQUAL_MOMENTS_RTOL * moments[2]).tolist()))
     if code:
         rows.message(column, context, finding(code))
 
 
-def more(layout: UILayout, obj: Object, units: Units, shown: properties.Stored) -> None:
+def more(layout: UILayout, obj: Object, units: Units, shown: properties.StoredProperties) -> None:
     header, body = layout.panel("body_moments_gyration", default_closed=True)
     header.label(text="Radii of Gyration")
     if body is not None:
-        rows.values(body.column(align=True), units, NUMBERS, "length", shown.body.radii_of_gyration)
+        rows.values(body.column(align=True), units, PRINCIPAL_LABELS, "length", shown.body.radii_of_gyration)
     header, body = layout.panel("body_moments_tensor", default_closed=True)
     header.label(text="Inertia Tensor")
     if body is not None:
@@ -87,7 +87,7 @@ def more(layout: UILayout, obj: Object, units: Units, shown: properties.Stored) 
         column.label(text="About the center of mass, Ixy = −∫xy dm")
         entries = properties.tensor_entries(shown.body.inertia)
         rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
-    if live.shown(obj) is not None:
+    if live.current_numbers(obj) is not None:
         return
     display = properties.optional(obj, "body_display_volume")
     if display is not None:
@@ -104,7 +104,7 @@ def more(layout: UILayout, obj: Object, units: Units, shown: properties.Stored) 
         _bounds(body, obj, units, shown)
 
 
-def _bounds(layout: UILayout, obj: Object, units: Units, shown: properties.Stored) -> None:
+def _bounds(layout: UILayout, obj: Object, units: Units, shown: properties.StoredProperties) -> None:
     sizes = {
         "volume": shown.volume,
         "area": shown.area,
@@ -115,7 +115,7 @@ def _bounds(layout: UILayout, obj: Object, units: Units, shown: properties.Store
         column = layout.column(align=True)
         column.label(text=ESTIMATED if bound is None and properties.is_estimated(obj) else heading)
         values = shown.error_bound if bound is None else shown.error_bound[bound]
-        for name, (label, quantity) in BOUNDED.items():
+        for name, (label, quantity) in BOUND_LABELS.items():
             if name in ("volume", "area") and not sizes[name]:
                 continue  # a wire has neither, a grid of densities no surface
             rows.texts(

@@ -22,9 +22,10 @@ from ..operators.write.messages import of_severity, severity
 from ..operators.write.translations import localized, localized_sentence
 from ..operators.write.units import SI_UNITS, Units
 
-LABEL, SHORT, INDEX = 0.36, 0.2, 0.1  # share of a row that its label takes, one of few letters, and of one
-MARGIN = 96  # what tabs, borders and an icon take of the region's width, in unscaled pixels
-NARROW = 80  # no line is made narrower: longer words would stand alone, and be cut off
+# share of a row that its label takes, one of few letters, and of one
+LABEL_SHARE, SHORT_LABEL_SHARE, INDEX_LABEL_SHARE = 0.36, 0.2, 0.1
+REGION_MARGIN = 96  # what tabs, borders and an icon take of the region's width, in unscaled pixels
+MIN_LINE_WIDTH = 80  # no line is made narrower: longer words would stand alone, and be cut off
 ICONS = {Severity.NOTE: "INFO", Severity.WARNING: "ERROR", Severity.ERROR: "CANCEL"}  # ERROR is Blender's warning sign
 
 
@@ -42,8 +43,8 @@ def values(
     size: float = 0.0,
 ) -> None:
     """A row for each value, all in the same unit. size: as for `Units.texts`."""
-    for label, text, one in zip(labels, units.texts(quantity, si, size), si):
-        texts(layout, label, text, repr(float(one)), SI_UNITS[quantity])
+    for label, text, number in zip(labels, units.texts(quantity, si, size), si):
+        texts(layout, label, text, repr(float(number)), SI_UNITS[quantity])
 
 
 def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) -> None:
@@ -56,12 +57,12 @@ def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) ->
 def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
     """A unit vector in one row, or in three where that is too narrow."""
     cosines = ["{:.4f}".format(component + 0.0).replace("-0.0000", "0.0000").replace("-", "−") for component in vector]
-    if not _fits(1.0 - INDEX, *cosines):
+    if not _fits(1.0 - INDEX_LABEL_SHARE, *cosines):
         for name, text, component in zip("xyz", cosines, vector):
             texts(layout, "{:s} {:s}".format(label, name).strip(), text, repr(float(component)), "")
         return
     row = layout.row(align=True)
-    split = row.split(factor=INDEX, align=True)
+    split = row.split(factor=INDEX_LABEL_SHARE, align=True)
     split.label(text=label)
     cells = split.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
     for text in cosines:
@@ -73,7 +74,7 @@ def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
 
 def texts(layout: UILayout, label: str, text: str, exact: str, unit: str) -> None:
     """Label, text to the right, copy button; the label above them where a row is too narrow for both."""
-    share = LABEL if len(label) > 3 else SHORT
+    share = LABEL_SHARE if len(label) > 3 else SHORT_LABEL_SHARE
     if _fits(1.0 - share, text):
         row = layout.row(align=True)
         cell = row.split(factor=share, align=True)
@@ -116,7 +117,7 @@ def message(layout: UILayout, context: Context, shown: Finding, icon: str = "") 
     sentence(layout, context, text, icon or ICONS[severity(shown)])
 
 
-def outdated(layout: UILayout, context: Context, code: str | None) -> None:
+def stale_row(layout: UILayout, context: Context, code: str | None) -> None:
     """Why numbers no longer hold, where they do not."""
     if code is not None:
         row = layout.row()
@@ -164,7 +165,7 @@ def _width(context: Context) -> tuple[int, float]:
     region = context.region
     width = region.width if region is not None else 0
     points = context.preferences.ui_styles[0].widget.points
-    return max(int(width - MARGIN * scale), int(NARROW * scale)), points * scale
+    return max(int(width - REGION_MARGIN * scale), int(MIN_LINE_WIDTH * scale)), points * scale
 
 
 @lru_cache(maxsize=256)

@@ -15,9 +15,9 @@ from ..operators.write.translations import localized
 from ..operators.write.units import SI_UNITS, Units, number
 from . import rows
 
-AXES = ("X", "Y", "Z")
-ABOUT = ("x", "y", "1", "2")
-BOUNDED = {
+AXIS_LABELS = ("X", "Y", "Z")
+ABOUT_LABELS = ("x", "y", "1", "2")
+BOUND_LABELS = {
     "area": ("Area", "area"),
     "perimeter": ("Perimeter", "length"),
     "centroid": ("Centroid", "length"),
@@ -45,10 +45,10 @@ class SectionPanel:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
         units = Units.of(context.scene.unit_settings)
-        _verdict(layout, context, stored, sections.outdated(obj, context.scene, stored))
+        _verdict(layout, context, stored, sections.stale_reason(obj, context.scene, stored))
         rows.warnings(layout, context, "body_moments_section_warnings", stored.findings)
         _numbers(layout, units, stored.section)
-        _more(layout, units, stored.section)
+        _more_numbers(layout, units, stored.section)
         rows.notes(layout, context, "body_moments_section_notes", stored.findings)
         layout.operator("object.body_moments_copy_section", icon="COPYDOWN")
 
@@ -57,9 +57,11 @@ def _verdict(layout: UILayout, context: Context, stored: record.StoredSection, o
     column = layout.column(align=True)
     outlines, holes = stored.section.outlines, stored.section.holes
     counts = ((outlines, "1 Outline", "{:d} Outlines"), (holes, "1 Hole", "{:d} Holes"))
-    parts = [localized(one if count == 1 else many).format(count) for count, one, many in counts if count]
-    rows.sentence(column, context, "{:s}: {:s}".format(localized(stored.what), ", ".join(parts)), icon="CHECKMARK")
-    rows.outdated(column, context, outdated)
+    parts = [localized(singular if count == 1 else plural).format(count) for count, singular, plural in counts if count]
+    rows.sentence(
+        column, context, "{:s}: {:s}".format(localized(stored.description), ", ".join(parts)), icon="CHECKMARK"
+    )
+    rows.stale_row(column, context, outdated)
 
 
 def _numbers(layout: UILayout, units: Units, section) -> None:
@@ -69,7 +71,7 @@ def _numbers(layout: UILayout, units: Units, section) -> None:
     size = section.area**0.5
     column = layout.column(align=True)
     rows.heading(column, "Centroid (World)", "length", section.center)
-    rows.values(column, units, AXES, "length", section.center, size)
+    rows.values(column, units, AXIS_LABELS, "length", section.center, size)
     column = layout.column(align=True)
     rows.heading(column, "Second Moments of Area", "area_moment", section.second)
     rows.values(column, units, ("Ix", "Iy", "Ixy"), "area_moment", section.second, section.polar)
@@ -77,34 +79,34 @@ def _numbers(layout: UILayout, units: Units, section) -> None:
     column = layout.column(align=True)
     rows.heading(column, "Principal", "area_moment", section.principal)
     rows.values(column, units, ("I1", "I2"), "area_moment", section.principal)
-    if section.free:
+    if section.axes_undetermined:
         column.label(text="Every Axis Is Principal", icon="INFO")
     else:
-        turned = degrees(section.angle)
+        angle = degrees(section.angle)
         rows.texts(
             column,
             "Angle from x to 1",
-            "{:s}°".format(number(0.0 if abs(turned) < 1e-6 else turned)),
+            "{:s}°".format(number(0.0 if abs(angle) < 1e-6 else angle)),
             repr(section.angle),
             "rad",
         )
 
 
-def _more(layout: UILayout, units: Units, section) -> None:
+def _more_numbers(layout: UILayout, units: Units, section) -> None:
     header, body = layout.panel("body_moments_section_moduli", default_closed=True)
     header.label(text="Section Moduli and Radii of Gyration")
     if body is not None:
         column = body.column(align=True)
         rows.heading(column, "Elastic, at the Outermost Corner", "volume", section.moduli)
-        rows.values(column, units, ["W" + name for name in ABOUT], "volume", section.moduli)
+        rows.values(column, units, ["W" + name for name in ABOUT_LABELS], "volume", section.moduli)
         column = body.column(align=True)
         rows.heading(column, "Radii of Gyration", "length", section.radii)
-        rows.values(column, units, ["i" + name for name in ABOUT], "length", section.radii)
+        rows.values(column, units, ["i" + name for name in ABOUT_LABELS], "length", section.radii)
     header, body = layout.panel("body_moments_section_plane", default_closed=True)
     header.label(text="Plane")
     if body is not None:
         column = body.column(align=True)
-        rows.filled(column, "x is nearest to the object's {:s} axis", section.plane.named)
+        rows.filled(column, "x is nearest to the object's {:s} axis", section.plane.x_axis_name)
         for label, axis in zip(("x", "y", "n"), section.plane.axes.T):
             rows.direction(column, label, axis)
         column = body.column(align=True)
@@ -122,12 +124,12 @@ def _more(layout: UILayout, units: Units, section) -> None:
             "second": section.polar,
         }
         for title, bounds in (
-            ("Rounding, at Most", section.error),
-            ("Float32 Coordinates, at Most", section.input),
+            ("Rounding, at Most", section.rounding_error),
+            ("Float32 Coordinates, at Most", section.input_error),
         ):
             column = body.column(align=True)
             column.label(text=title)
-            for name, (label, quantity) in BOUNDED.items():
+            for name, (label, quantity) in BOUND_LABELS.items():
                 rows.texts(
                     column,
                     label,

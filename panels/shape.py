@@ -12,7 +12,7 @@ from ..operators.write.messages import SIMILARITY
 from ..operators.write.translations import localized
 from . import rows
 
-SHOWN = 12  # elements of a symmetry, and similar shapes
+MAX_SHOWN = 12  # elements of a symmetry, and similar shapes
 KINDS = {"AXIS": "{:d}-Fold Axis", "PLANE": "Mirror Plane", "ROUND": "Axis of Revolution"}
 ICONS = {
     "copy": "CHECKMARK",
@@ -48,15 +48,15 @@ class ShapePanel:
 def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
     if not obj.is_property_set("body_moments_symmetry"):
         return
-    kept = obj.body_moments_symmetry
+    stored = obj.body_moments_symmetry
     column = layout.column(align=True)
-    rows.filled(column, "Symmetry {:s}", kept.group, icon="CHECKMARK")
-    rows.outdated(column, context, staleness.symmetry_reason(obj))
-    if kept.compatible != kept.group:
-        rows.message(column, context, finding("panel_symmetry_of_moments", group=kept.compatible), icon="BLANK1")
-    code = "panel_symmetry_tolerance_of_display_mesh" if kept.of_display_mesh else "panel_symmetry_tolerance"
-    rows.message(column, context, finding(code, share=kept.tolerance), icon="BLANK1")
-    if not kept.elements:
+    rows.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
+    rows.stale_row(column, context, staleness.symmetry_stale_reason(obj))
+    if stored.compatible != stored.group:
+        rows.message(column, context, finding("panel_symmetry_of_moments", group=stored.compatible), icon="BLANK1")
+    code = "panel_symmetry_tolerance_of_display_mesh" if stored.of_display_mesh else "panel_symmetry_tolerance"
+    rows.message(column, context, finding(code, share=stored.tolerance), icon="BLANK1")
+    if not stored.elements:
         return
     header, body = layout.panel("body_moments_symmetry", default_closed=True)
     header.label(text="Axes and Mirror Planes")
@@ -64,11 +64,11 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
         return
     column = body.column(align=True)
     column.label(text="Directions and normals along the object's axes")
-    for element in kept.elements[:SHOWN]:
+    for element in stored.elements[:MAX_SHOWN]:
         rows.filled(column, KINDS[element.kind], element.order)
         rows.direction(column, "", element.direction)
-    if len(kept.elements) > SHOWN:
-        rows.message(column, context, finding("and_more", count=len(kept.elements) - SHOWN), icon="BLANK1")
+    if len(stored.elements) > MAX_SHOWN:
+        rows.message(column, context, finding("and_more", count=len(stored.elements) - MAX_SHOWN), icon="BLANK1")
 
 
 def _similar(layout: UILayout, context: Context) -> None:
@@ -88,7 +88,7 @@ def _similar(layout: UILayout, context: Context) -> None:
         row = column.row()
         row.alignment = "RIGHT"
         row.label(text="Similarity, Distance")
-    for shape in search.found[:SHOWN]:
+    for shape in search.found[:MAX_SHOWN]:
         row = column.row(align=True)
         icon = ICONS.get(shape.verdict, "QUESTION")
         if search.looked_at:

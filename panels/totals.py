@@ -8,11 +8,11 @@ from bpy.types import Context, UILayout
 
 from ..core.verdict.finding import finding
 from ..operators.session import results
-from ..operators.write.messages import listed
+from ..operators.write.messages import truncate_list
 from ..operators.write.translations import localized
 from ..operators.write.units import Units
 from . import rows
-from .numbers import AXES, NUMBERS
+from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
 
 
 def totals(layout: UILayout, context: Context, units: Units) -> None:
@@ -26,11 +26,11 @@ def totals(layout: UILayout, context: Context, units: Units) -> None:
         rows.message(column, context, finding("panel_nothing_measured"))
         return
     rows.filled(column, "1 Object" if total.count == 1 else "{:d} Objects", total.count, icon="GROUP")
-    for names, text in ((total.missing, "Not measured: {:s}"), (total.outdated, "Out of date: {:s}")):
+    for names, text in ((total.missing, "Not measured: {:s}"), (total.stale, "Out of date: {:s}")):
         if names:
             row = column.row()
             row.alert = True
-            rows.sentence(row, context, localized(text).format(listed(names)), icon="ERROR")
+            rows.sentence(row, context, localized(text).format(truncate_list(names)), icon="ERROR")
     for caveat in total.findings:
         rows.message(column, context, caveat)
     column = body.column(align=True)
@@ -44,8 +44,8 @@ def totals(layout: UILayout, context: Context, units: Units) -> None:
         return
     column = body.column(align=True)
     rows.heading(column, "Center of Mass (World)", "length", total.body.center)
-    rows.values(column, units, AXES, "length", total.body.center, total.body.radii_of_gyration.max())
+    rows.values(column, units, AXIS_LABELS, "length", total.body.center, total.body.radii_of_gyration.max())
     column = body.column(align=True)
     moments = total.body.principal.moments
     rows.heading(column, "Principal Moments", "inertia", moments)
-    rows.values(column, units, NUMBERS, "inertia", moments)
+    rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)

@@ -29,7 +29,7 @@ SOURCES = {"NURBS": "NURBS: {:s}", "grid": "Grid: {:s}"}  # of what was measured
 
 def method_and_findings(obj: Object) -> tuple[str, Sequence[Finding]]:
     """Of the numbers that are shown: live or stored."""
-    now = live.shown(obj)
+    now = live.current_numbers(obj)
     if now is not None and now.measurement is not None:
         return str(now.measurement.method), now.measurement.findings
     return properties.method(obj), properties.findings(obj)
@@ -37,7 +37,7 @@ def method_and_findings(obj: Object) -> tuple[str, Sequence[Finding]]:
 
 def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> None:
     column = layout.column(align=True)
-    refusal = results.refusal(obj)
+    refusal = results.failure(obj)
     if refusal is not None or not measured:
         text = "Not Measured Again" if measured else "Not Measured"
         column.label(text=text, icon="RADIOBUT_OFF" if refusal is None else "CANCEL")
@@ -46,16 +46,16 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
     if not measured:
         return
     _headline(column, context, *method_and_findings(obj))
-    now = live.shown(obj)
+    now = live.current_numbers(obj)
     if now is not None and now.measurement is not None:
-        if live.is_outdated(obj, context.scene):
-            rows.outdated(column, context, "stale_settings")
+        if live.is_stale(obj, context.scene):
+            rows.stale_row(column, context, "stale_settings")
             return
         rows.message(column, context, finding("panel_live", milliseconds=1e3 * now.seconds), icon="REC")
         return
     if now is not None:
         rows.message(column, context, now.refusal)
-    rows.outdated(column, context, staleness.reason(obj, context.scene))
+    rows.stale_row(column, context, staleness.stale_reason(obj, context.scene))
 
 
 def _headline(column: UILayout, context: Context, method: str, findings: Sequence[Finding]) -> None:

@@ -44,11 +44,11 @@ def load_package() -> None:
 load_package()
 
 from body_moments.core.fourier.grid import GridTransform
-from body_moments.core.fourier.transform import finished, solid_transform
-from body_moments.core.fourier.wave_vectors import Grid
+from body_moments.core.fourier.transform import run_to_completion, solid_transform
+from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.offset.walls import sweep
+from body_moments.core.offset.walls import offset_solid
 from body_moments.core.papers.sheynin_tuzikov_2001 import triangle_moments as explicit_moments
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
@@ -179,10 +179,10 @@ def walls_and_derivatives(side: int, rounds: int) -> None:
     """What a wall and the derivatives cost beside a solid, and a new thickness beside measuring again."""
     points, quads = torus(side, side, 0.0, lopsided=True)
     surface = Surface(points, halves(quads, paired=False))
-    swept, center = sweep(surface), np.zeros(3)
+    swept, center = offset_solid(surface), np.zeros(3)
     rows = {
         "solid to third order": lambda: polyhedron_moments(surface, area_order=0),
-        "wall as polynomials": lambda: sweep(surface),
+        "wall as polynomials": lambda: offset_solid(surface),
         "another thickness": lambda: swept.moments(1e-3, 0.0),
         "derivatives of volume moments": lambda: volume_gradient(surface, center),
         "derivatives of area moments": lambda: area_gradient(surface, center),
@@ -328,7 +328,7 @@ def stream(millions: float, order: int = 4) -> None:
     )
     print(
         "    volume / that of the torus - 1 = {:.2e} (of its polygons {:.2e}), error bound {:.1e}".format(
-            volume.total / (2 * np.pi**2 * 0.16) - 1.0, polygons - 1.0, volume.error[0]
+            volume.total / (2 * np.pi**2 * 0.16) - 1.0, polygons - 1.0, volume.rounding_error[0]
         )
     )
 
@@ -374,7 +374,7 @@ def blender(side: int, rounds: int) -> None:
 
     def moments_only(threads: int) -> None:
         (part,) = read_object(body, depsgraph, edges=False).parts
-        volume = polyhedron_moments(part.surface, threads=threads)[0].mapped(part.matrices[0])
+        volume = polyhedron_moments(part.surface, threads=threads)[0].transform(part.matrices[0])
         MassProperties.from_moments(
             volume, refine=lambda: polyhedron_moments(part.surface, exact=True, threads=threads)[0]
         )
@@ -457,12 +457,12 @@ def instances(count: int, rounds: int) -> None:
 
 def spline_bodies() -> dict[str, tuple[list, float | None]]:
     """Closed bodies of clamped B-spline patches, each with its volume where that is known in closed form."""
-    from body_moments.core.numerics.bspline import Space, clamped
+    from body_moments.core.numerics.bspline import SplineSpace, clamped_space
     from body_moments.core.nurbs.patch import Patch
     from body_moments.core.nurbs.solid import measure_patches
 
     half = np.sqrt(0.5)
-    around = Space((0.0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4), 3, 9)
+    around = SplineSpace((0.0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4), 3, 9)
     circle = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)], float)
     weights = np.array([1.0, half] * 4 + [1.0])
 
@@ -470,17 +470,17 @@ def spline_bodies() -> dict[str, tuple[list, float | None]]:
         points = [[(x * out, y * out, z) for out, z in profile] for x, y in circle]
         return Patch((around, space), np.array(points), np.outer(weights, profile_weights))
 
-    arch = Space((0.0, 0, 0, 1, 1, 2, 2, 2), 3, 5)
+    arch = SplineSpace((0.0, 0, 0, 1, 1, 2, 2, 2), 3, 5)
     ball = turned([(0, -1), (1, -1), (1, 0), (1, 1), (0, 1)], arch, [1, half, 1, half, 1])
     ring = turned([(0.75 + 0.25 * x, 0.25 * y) for x, y in circle], around, weights)
-    tube = turned([(1, -1), (1, 1)], clamped(2), [1, 1])
+    tube = turned([(1, -1), (1, 1)], clamped_space(2), [1, 1])
     rng = np.random.default_rng(0)
     u, v = np.linspace(0, 2 * np.pi, 8), np.linspace(-1, 1, 7)
     out = np.sqrt(1.0 - v**2) * 1.2
     blob = np.stack([np.outer(np.cos(u), out), np.outer(np.sin(u), out), np.outer(np.ones(8), v)], axis=-1)
     blob *= 1.0 + 0.2 * rng.random((8, 7, 1))
     blob[-1], blob[:, 0], blob[:, -1] = blob[0], blob[0, 0], blob[0, -1]
-    spaces = clamped(4, (1, 2, 3, 4), 0, 5), clamped(4, (1, 2, 3), 0, 4)
+    spaces = clamped_space(4, (1, 2, 3, 4), 0, 5), clamped_space(4, (1, 2, 3), 0, 4)
     random = 10.0 ** rng.uniform(-0.5, 0.5, (8, 7))
     random[-1] = random[0]
     return {
@@ -532,16 +532,16 @@ def splines(rounds: int) -> None:
     Errors are the larger one of both numbers. At equal error means: against OpenCascade's fastest way whose error is at
     most ours, or rounding; where none is, ours to the tolerance at which its error is at most OpenCascade's least.
     """
-    from body_moments.core.numerics.bspline import clamped
+    from body_moments.core.numerics.bspline import clamped_space
     from body_moments.core.nurbs import patch_moments
-    from body_moments.core.nurbs.incremental import Evaluator
+    from body_moments.core.nurbs.incremental import IncrementalPatchMoments
     from body_moments.core.nurbs.patch import Patch
 
     print("\nB-spline bodies: relative error of V and of the second moment about z, and time of one call")
     for name, (patches, volume) in spline_bodies().items():
         rules = patch_moments.RULES
         patch_moments.RULES = tuple(2 * points for points in rules)
-        truth = patch_moments.volume_moments(patches, 2)[0].shifted(np.zeros(3))
+        truth = patch_moments.volume_moments(patches, 2)[0].about_point(np.zeros(3))
         patch_moments.RULES = rules
         truth = np.array([volume or truth.total, truth[2, 0, 0] + truth[0, 2, 0]])
 
@@ -568,7 +568,7 @@ def splines(rounds: int) -> None:
                 "ours" if tolerance < 1e-14 else "ours, to {:.0e}".format(tolerance),
                 lambda patches=patches, tolerance=tolerance: _ours(patches, tolerance),
             )
-            for tolerance in (patch_moments.TOLERANCE, 1e-6)
+            for tolerance in (patch_moments.VOLUME_RTOL, 1e-6)
         ]
         if not optional("OCP"):
             continue
@@ -589,14 +589,14 @@ def splines(rounds: int) -> None:
         )
     rng = np.random.default_rng(0)
     for count in (8, 40):
-        space = clamped(4, tuple(range(1, count - 3)), 0, count - 3)
+        space = clamped_space(4, tuple(range(1, count - 3)), 0, count - 3)
         points = rng.random((count, count, 3))
-        evaluator = Evaluator(Patch((space, space), points))
+        evaluator = IncrementalPatchMoments(Patch((space, space), points))
         evaluator.moments(points)
         times = interleaved(
             {
                 "all ten moments": lambda e=evaluator, p=points: e.moments(p),
-                "after one point": lambda e=evaluator, i=count // 2: e.move(i, i, np.zeros(3)),
+                "after one point": lambda e=evaluator, i=count // 2: e.move_control_point(i, i, np.zeros(3)),
             },
             20 * rounds,
         )
@@ -610,9 +610,9 @@ def _anew(patches) -> list:
 
 
 def _ours(patches, tolerance: float = 0.0) -> np.ndarray:
-    from body_moments.core.nurbs.patch_moments import TOLERANCE, volume_moments
+    from body_moments.core.nurbs.patch_moments import VOLUME_RTOL, volume_moments
 
-    moments = volume_moments(patches, 2, np.zeros(3), tolerance or TOLERANCE)[0]
+    moments = volume_moments(patches, 2, np.zeros(3), tolerance or VOLUME_RTOL)[0]
     return np.array([moments.total, moments[2, 0, 0] + moments[0, 2, 0]])
 
 
@@ -648,7 +648,7 @@ def fourier(quick: bool) -> None:
     for size in (1.0, 10.0, 100.0, 1000.0):
         q = rng.normal(size=(500, 3))
         q *= size / 2.8 / np.linalg.norm(q, axis=1)[:, None]
-        grid = Grid(count, size / 2.8)
+        grid = FrequencyGrid(count, size / 2.8)
         times = interleaved(
             {"list": lambda q=q: solid_transform(surface, q), "grid": lambda grid=grid: solid_transform(surface, grid)},
             1 if quick else 3,
@@ -661,9 +661,9 @@ def fourier(quick: bool) -> None:
         )
     points, quads = torus(160, 64, 0.0)
     surface = Surface(points, halves(quads, paired=False))
-    volume, grid = polyhedron_moments(surface)[0].total, Grid(64, 16.0 * np.pi / 1.4)
+    volume, grid = polyhedron_moments(surface)[0].total, FrequencyGrid(64, 16.0 * np.pi / 1.4)
     start = time.perf_counter()
-    found = finished(GridTransform(surface, grid, "volume", 1e-7 * volume))
+    found = run_to_completion(GridTransform(surface, grid, "volume", 1e-7 * volume))
     seconds, some = time.perf_counter() - start, rng.integers(0, 64**3, 100)
     error = np.abs(found.values[some] - solid_transform(surface, found.q[some]).values).max()
     print(
@@ -684,12 +684,12 @@ def fourier(quick: bool) -> None:
 
 def densities(rounds: int) -> None:
     """The volumetric scheme: all moments to order 2 of 128 x 128 x 256 coefficients, and one coefficient changed."""
-    from body_moments.core.density.spline_grid import Trivariate, density_moments
-    from body_moments.core.density.spline_tables import Axis
+    from body_moments.core.density.spline_grid import TrivariateSpline, density_moments
+    from body_moments.core.density.spline_tables import SplineAxis
 
     rng = np.random.default_rng(0)
     coefficients = rng.random((128, 128, 256))
-    axes = [Axis.uniform(count, 4) for count in coefficients.shape]
+    axes = [SplineAxis.uniform(count, 4) for count in coefficients.shape]
     x, y, z = (np.arange(n) - n / 2.0 for n in coefficients.shape)
 
     def voxel_sum() -> None:
@@ -706,7 +706,7 @@ def densities(rounds: int) -> None:
     single = coefficients.astype(np.float32)
     times = interleaved(rows, rounds)
     table("128 x 128 x 256 coefficients, moments to order 2 (the paper: 21,100 ms)", times, [list(rows)[-1]])
-    live = Trivariate(coefficients, axes, 2)
+    live = TrivariateSpline(coefficients, axes, 2)
     places = rng.integers(0, coefficients.shape, (1000, 3)).tolist()
     start = time.perf_counter()
     for i, j, k in places:

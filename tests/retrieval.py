@@ -41,9 +41,9 @@ def load_package() -> None:
 load_package()
 
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.numerics.graph import components
+from body_moments.core.numerics.graph import connected_components
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.shape.signature import Signature, compared, signature
+from body_moments.core.shape.signature import Signature, signature, similarity
 from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.core import bodies, shapes
@@ -70,7 +70,7 @@ def read_stl(path: Path) -> Part:
 def shells(part: Part) -> Iterator[Part]:
     points, triangles = part
     ends = np.concatenate([triangles[:, :2], triangles[:, 1:]])
-    which, number = components(len(points), ends[:, 0], ends[:, 1])
+    which, number = connected_components(len(points), ends[:, 0], ends[:, 1])
     for i in range(number):
         faces = triangles[which[triangles[:, 0]] == i]
         if len(faces):
@@ -108,9 +108,9 @@ def library(folder: Path) -> list[tuple[str, Part, Signature]]:
             continue
         if solid.method == "open" or not solid.volume.total > 0.0:
             continue
-        part = solid.mended.points.astype(float), solid.mended.all_triangles()[0]
+        part = solid.repaired_surface.points.astype(float), solid.repaired_surface.all_triangles()[0]
         found = signed(part)
-        if all(compared(other, found).distance() >= DISTINCT for _, _, other in kept):
+        if all(similarity(other, found).distance() >= DISTINCT for _, _, other in kept):
             kept.append((name, part, found))
     return kept
 
@@ -139,7 +139,7 @@ def main() -> None:
         missed = []
         for i, (name, part, _) in enumerate(kept):
             found = signed(altered(part, i, noise))
-            nearest = min(kept, key=lambda row: compared(row[2], found).distance())
+            nearest = min(kept, key=lambda row: similarity(row[2], found).distance())
             if nearest[0] != name:
                 missed.append("{:s} -> {:s}".format(name, nearest[0]))
         print(

@@ -29,12 +29,12 @@ class Material:
     source: str
 
 
-def _of(category: str, template: str, *rows: tuple[str, float, str]) -> tuple[Material, ...]:
-    return tuple(Material(name, category, density, template.format(entry)) for name, density, entry in rows)
+def _materials_of(category: str, template: str, *entries: tuple[str, float, str]) -> tuple[Material, ...]:
+    return tuple(Material(name, category, density, template.format(entry)) for name, density, entry in entries)
 
 
 MATERIALS: tuple[Material, ...] = (
-    *_of(
+    *_materials_of(
         "Metals",
         PNNL,
         ("Aluminum", 2698.9, "Aluminum"),
@@ -61,7 +61,7 @@ MATERIALS: tuple[Material, ...] = (
         ("Titanium Ti-6Al-4V", 4430.0, "Titanium Alloy, Grade 5"),
         ("Tungsten", 19300.0, "Tungsten"),
     ),
-    *_of(
+    *_materials_of(
         "Plastics",
         PNNL,
         ("Acrylic (PMMA)", 1190.0, "Lucite"),
@@ -78,7 +78,7 @@ MATERIALS: tuple[Material, ...] = (
         ("PVDF (Kynar)", 1790.0, "Kynar"),
     ),
     Material("PLA", "Plastics", 1240.0, INGEO),
-    *_of(
+    *_materials_of(
         "Plastics",
         CURA,
         ("ABS", 1100.0, "Generic ABS"),
@@ -86,7 +86,7 @@ MATERIALS: tuple[Material, ...] = (
         ("PETG", 1270.0, "Generic PETG"),
         ("TPU 95A", 1220.0, "Generic TPU 95A"),
     ),
-    *_of(
+    *_materials_of(
         "Rubber and Foam",
         PNNL,
         ("Polyurethane Foam", 21.0, "Polyurethane Foam (PUR)"),
@@ -95,7 +95,7 @@ MATERIALS: tuple[Material, ...] = (
         ("Rubber, Neoprene", 1230.0, "Rubber, Neoprene"),
         ("Rubber, Silicone", 1018.5, "Rubber, Silicon"),
     ),
-    *_of(
+    *_materials_of(
         "Wood",
         PNNL,
         ("Ash, White", 670.0, "Wood, Ash (white)"),
@@ -114,7 +114,7 @@ MATERIALS: tuple[Material, ...] = (
         ("Pine, White", 430.0, "Wood, Pine (white)"),
         ("Pine, Yellow", 710.0, "Wood, Pine (yellow)"),
     ),
-    *_of(
+    *_materials_of(
         "Stone and Building",
         PNNL,
         ("Asphalt Pavement", 2578.4, "Asphalt Pavement"),
@@ -129,7 +129,7 @@ MATERIALS: tuple[Material, ...] = (
         ("Sand", 1700.0, "Sand"),
         ("Sandstone", 2320.0, "Rock, Sandstone"),
     ),
-    *_of(
+    *_materials_of(
         "Glass and Ceramics",
         PNNL,
         ("Alumina", 3970.0, "Aluminum Oxide"),
@@ -141,8 +141,8 @@ MATERIALS: tuple[Material, ...] = (
         ("Silicon", 2330.0, "Silicon"),
         ("Silicon Carbide", 3210.0, "Silicon Carbide (Hexagonal)"),
     ),
-    *_of("Glass and Ceramics", NIST, ("Glass, Borosilicate", 2230.0, "Glass, Borosilicate (Pyrex)")),
-    *_of(
+    *_materials_of("Glass and Ceramics", NIST, ("Glass, Borosilicate", 2230.0, "Glass, Borosilicate (Pyrex)")),
+    *_materials_of(
         "Liquids",
         PNNL,
         ("Ethanol", 789.3, "Ethyl Alcohol"),
@@ -154,7 +154,7 @@ MATERIALS: tuple[Material, ...] = (
         ("Sea Water", 1023.343, "Sea Water, Standard"),
         ("Water", 998.207, "Water, Liquid"),
     ),
-    *_of(
+    *_materials_of(
         "Body and Nature",
         PNNL,
         ("Blood", 1060.0, "Blood (ICRP)"),
@@ -166,7 +166,7 @@ MATERIALS: tuple[Material, ...] = (
         ("Skin", 1100.0, "Skin (ICRP)"),
         ("Soft Tissue", 1000.0, "Tissue, Soft (ICRP)"),
     ),
-    *_of("Body and Nature", CRC, ("Ice", 917.0, "Ice")),
+    *_materials_of("Body and Nature", CRC, ("Ice", 917.0, "Ice")),
 )
 
 CATEGORIES: tuple[str, ...] = tuple(dict.fromkeys(material.category for material in MATERIALS))

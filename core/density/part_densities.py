@@ -13,25 +13,26 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..solid.parts import Components
+from ..solid.parts import ClosedParts
 
 
 @dataclass(frozen=True, eq=False)
 class PartDensities:
-    """density: (number,) of each part. mixed: (number,) whether its own faces differ; painted: (number,) cavities with
-    faces of other densities than what they are cut from. first: (number,) a part's first mesh face, -1 for none."""
+    """density: (number,) of each part. has_several_materials: (number,) whether its own faces differ;
+    has_foreign_cavity_material: (number,) cavities with faces of other densities than what they are cut from.
+    first_face: (number,) a part's first mesh face, -1 for none."""
 
     density: NDArray[np.float64]
-    mixed: NDArray[np.bool_]
-    painted: NDArray[np.bool_]
-    first: NDArray[np.integer]
+    has_several_materials: NDArray[np.bool_]
+    has_foreign_cavity_material: NDArray[np.bool_]
+    first_face: NDArray[np.integer]
 
 
-def part_densities(parts: Components, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
+def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
     """One density for each part. faces: (f,) that of every mesh face. linear: (3, 3) the map under which areas
     count."""
-    own = parts.face >= 0
-    part, face, area = parts.part[own], parts.face[own], parts.areas(linear)[own]
+    of_mesh = parts.face >= 0
+    part, face, area = parts.part[of_mesh], parts.face[of_mesh], parts.areas(linear)[of_mesh]
     first = np.full(parts.number, np.iinfo(np.int64).max)
     least, most = np.full(parts.number, np.inf), np.full(parts.number, -np.inf)
     np.minimum.at(first, part, face)
@@ -42,10 +43,10 @@ def part_densities(parts: Components, faces: NDArray[np.float64], linear: NDArra
     with np.errstate(invalid="ignore"):
         mean = np.divide(sums, total, out=(least + most) / 2.0, where=total > 0.0)
     there = first < np.iinfo(np.int64).max
-    mixed = there & (most > least)
-    own = np.where(there, np.where(mixed, np.clip(mean, least, most), least), 0.0)
-    cavity = parts.within != np.arange(parts.number)
-    density = own[parts.within]
+    differs = there & (most > least)
+    of_mesh = np.where(there, np.where(differs, np.clip(mean, least, most), least), 0.0)
+    cavity = parts.host_part != np.arange(parts.number)
+    density = of_mesh[parts.host_part]
     return PartDensities(
-        density, mixed & ~cavity, cavity & there & (mixed | (own != density)), np.where(there, first, -1)
+        density, differs & ~cavity, cavity & there & (differs | (of_mesh != density)), np.where(there, first, -1)
     )

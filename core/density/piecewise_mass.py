@@ -24,129 +24,137 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import HALF_ULP, PAIRWISE, Measure, Moments, U, index, monomials
+from ..moments.moments import FLOAT32_HALF_ULP, PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, monomial_index, monomials
 
-BLOCK = 4096  # triangles whose table stays in the cache
+TRIANGLES_PER_BLOCK = 4096  # triangles whose table stays in the cache
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
 FACTORIALS = np.array([factorial(p) * factorial(q) * factorial(r) for p, q, r in EXPONENTS.tolist()], float)
 
 
-def weighted_solid(points: NDArray, triangles: NDArray, density: NDArray, like: Moments) -> Moments:
+def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, like: Moments) -> Moments:
     """∫ ρ x^p y^q z^r dV to third order of the parts that triangles bound, each part of one density.
 
     points: (n, 3); triangles: (t, 3); density: (t,) that of the part which the triangle bounds, not negative.
     like: the same parts' volume moments, whose point and coordinate error are taken. The result maps as a volume does.
     """
-    sums, sizes, tau = _added(points, triangles, density, like.about, solid=True)
+    sums, sizes, tau = _accumulate(points, triangles, density, like.about, solid=True)
     reach = _reach(points, triangles, like.about)
     norm = np.array([factorial(n + 3) for n in DEGREE], float)
     raw = sums * FACTORIALS / norm
-    error = (9.0 * U * (reach @ tau) + _rounding(len(triangles)) * sizes) / (2.0 * DEGREE + 6.0) * _powers(reach)
+    error = (
+        (9.0 * U * (reach @ tau) + _relative_rounding(len(triangles)) * sizes)
+        / (2.0 * DEGREE + 6.0)
+        * _monomial_bounds(reach)
+    )
     return Moments(
         raw,
         like.about,
         Measure.VOLUME,
         error + 8.0 * U * np.abs(raw),
-        like.input[:20] * float(density.max(initial=0.0)),
+        like.input_error[:20] * float(density.max(initial=0.0)),
     )
 
 
-def weighted_sheet(
+def sheet_mass_moments(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, stored: bool = False
 ) -> Moments:
     """∫ ρ x^p y^q z^r dA to third order, with a density for each triangle, (t,), or, linear between them, for each of
     its corners, (t, 3); none negative.
 
-    like: the area moments to third order. stored: the densities were float32, which goes into `input`. The result maps
-    as an area does.
+    like: the area moments to third order. stored: the densities were float32, which goes into `input_error`. The result
+    maps as an area does.
     """
-    sums, sizes, tau = _added(points, triangles, density, like.about, solid=False)
+    sums, sizes, tau = _accumulate(points, triangles, density, like.about, solid=False)
     reach = _reach(points, triangles, like.about)
     more = density.ndim - 1
     norm = np.array([factorial(n + 2 + more) for n in DEGREE], float)
     raw = sums * FACTORIALS / norm
-    size = sizes / 2.0 * _powers(reach)
-    error = 9.0 * U * tau.sum() / 2.0 * _powers(reach) + _rounding(len(triangles)) * size
-    inputs = like.input[:20] * float(density.max(initial=0.0)) + (HALF_ULP * size if stored else 0.0)
+    size = sizes / 2.0 * _monomial_bounds(reach)
+    error = 9.0 * U * tau.sum() / 2.0 * _monomial_bounds(reach) + _relative_rounding(len(triangles)) * size
+    inputs = like.input_error[:20] * float(density.max(initial=0.0)) + (FLOAT32_HALF_ULP * size if stored else 0.0)
     return Moments(raw, like.about, Measure.AREA, error + 8.0 * U * np.abs(raw), inputs)
 
 
-def _added(
+def _accumulate(
     points: NDArray, triangles: NDArray, density: NDArray, center: NDArray, solid: bool
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
     """(20,) Σ weight h; Σ |weight| ρ; and (3,) Σ ρ τ, where weights are ρ det or, of sheets, ρ times doubled areas."""
-    rows, sizes, tau = [np.zeros(20)], 0.0, np.zeros(3)
+    block_sums, sizes, tau = [np.zeros(20)], 0.0, np.zeros(3)
     columns = [np.ascontiguousarray(column, np.float64) for column in points.T]
-    for start in range(0, len(triangles), BLOCK):
-        index_of = np.ascontiguousarray(triangles[start : start + BLOCK].T, np.intp)
-        own = density[start : start + BLOCK]
+    for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
+        index_of = np.ascontiguousarray(triangles[start : start + TRIANGLES_PER_BLOCK].T, np.intp)
+        block_density = density[start : start + TRIANGLES_PER_BLOCK]
         place = np.array([column.take(index_of) for column in columns])  # (3 axes, 3 corners, k)
         (ax, bx, cx), (ay, by, cy), (az, bz, cz) = place
         ux, uy, uz, vx, vy, vz = bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az
         products = ((uy * vz, uz * vy), (uz * vx, ux * vz), (ux * vy, uy * vx))
         normal = np.array([plus - minus for plus, minus in products])
         place -= center[:, None, None]
-        mean = own if own.ndim == 1 else own.sum(axis=1) / 3.0
+        mean = block_density if block_density.ndim == 1 else block_density.sum(axis=1) / 3.0
         weight = (normal * place[:, 0]).sum(axis=0) if solid else np.sqrt((normal * normal).sum(axis=0))
         sizes += float(np.abs(weight) @ mean)
         tau += [float((np.abs(plus) + np.abs(minus)) @ mean) for plus, minus in products]
-        if own.ndim == 1:
-            rows.append(np.array([np.add.reduce(row * weight) for row in _table(place, own)]))
+        if block_density.ndim == 1:
+            block_sums.append(
+                np.array([np.add.reduce(row * weight) for row in _complete_homogeneous(place, block_density)])
+            )
         else:
-            rows.append(np.array([np.add.reduce(row * weight) for row in _linear(place, own.T)]))
-    return np.add.reduce(np.array(rows)), sizes, tau
+            block_sums.append(
+                np.array([np.add.reduce(row * weight) for row in _with_linear_density(place, block_density.T)])
+            )
+    return np.add.reduce(np.array(block_sums)), sizes, tau
 
 
-def _table(corners: NDArray, density: NDArray) -> Iterator[NDArray]:
+def _complete_homogeneous(corners: NDArray, density: NDArray) -> Iterator[NDArray]:
     """ρ h_α of each triangle, one α after the other. corners: (3 axes, 3 corners, k)."""
     table = np.zeros((20, corners.shape[2]))
     table[0] = density
     for corner in range(3):
-        _multiplied(table, corners[:, corner])
+        _multiply_by_geometric_series(table, corners[:, corner])
     yield from table
 
 
-def _linear(corners: NDArray, density: NDArray) -> Iterator[NDArray]:
+def _with_linear_density(corners: NDArray, density: NDArray) -> Iterator[NDArray]:
     """h_(α,1) of each triangle, one α after the other. density: (3 corners, k)."""
     table, linear = np.zeros((2, 20, corners.shape[2]))
     table[0] = 1.0
     for corner in range(3):
-        _multiplied(table, corners[:, corner])
+        _multiply_by_geometric_series(table, corners[:, corner])
         linear += table * density[corner]
         # 1/(1 - v·t - ρ s): the part linear in s is that of before plus ρ times the whole, then divided by (1 - v·t).
-        _multiplied(linear, corners[:, corner])
+        _multiply_by_geometric_series(linear, corners[:, corner])
     yield from linear
 
 
-def _multiplied(table: NDArray, vertex: NDArray) -> None:
+def _multiply_by_geometric_series(table: NDArray, vertex: NDArray) -> None:
     """The series in `table`, (20, k), times 1 / (1 - v·t), in place; (3, k) vertices."""
     for at, (p, q, r) in enumerate(EXPONENTS.tolist()):
         for axis, lower in enumerate(((p - 1, q, r), (p, q - 1, r), (p, q, r - 1))):
             if lower[axis] >= 0:
-                table[at] += vertex[axis] * table[index(*lower)]
+                table[at] += vertex[axis] * table[monomial_index(*lower)]
 
 
 def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.float64]:
     """(3,) how far any corner is from the reference point, along each axis."""
     reach = np.zeros(3)
-    for start in range(0, len(triangles), 16 * BLOCK):
+    for start in range(0, len(triangles), 16 * TRIANGLES_PER_BLOCK):
         for axis in range(3):
-            part = points[:, axis].take(triangles[start : start + 16 * BLOCK].ravel())
+            part = points[:, axis].take(triangles[start : start + 16 * TRIANGLES_PER_BLOCK].ravel())
             reach[axis] = max(reach[axis], np.abs(part.astype(np.float64) - center[axis]).max())
     return reach * (1.0 + 4.0 * U)
 
 
-def _rounding(count: int) -> NDArray[np.float64]:
+def _relative_rounding(count: int) -> NDArray[np.float64]:
     """(20,) what rounding adds, relatively to the sum of the terms' sizes."""
-    return U * (27.0 * (DEGREE + 1) + PAIRWISE + count / BLOCK + 2.0)
+    return U * (27.0 * (DEGREE + 1) + PAIRWISE_SUM_ROUNDINGS + count / TRIANGLES_PER_BLOCK + 2.0)
 
 
-def _powers(reach: NDArray) -> NDArray[np.float64]:
+def _monomial_bounds(reach: NDArray) -> NDArray[np.float64]:
     """(20,) the largest value of each monomial within reach."""
     return np.multiply.reduce(reach**EXPONENTS, axis=1)
 
 
-def as_mass(moments: Moments, factor: float = 1.0) -> Moments:
+def to_mass_moments(moments: Moments, factor: float = 1.0) -> Moments:
     """Weighted moments, mapped to where they belong, as mass moments; factor: a sheet's thickness."""
-    return replace(moments, of=Measure.MASS) * factor
+    return replace(moments, measure=Measure.MASS) * factor

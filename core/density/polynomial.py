@@ -23,16 +23,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import U
-from ..moments.monomials import index, monomial_count, monomials, order_of
+from ..moments.monomials import monomial_count, monomial_index, monomials, order_from_count
 from ..verdict.finding import MeasureError
 
-HIGHEST = 17  # mass moments to order 3 then need those of the body to order 20
-LONGEST = 4096  # bits of a number, and characters of a text
-LARGEST = 664  # powers of two to which numbers may be large, or small: 1e200
-BLOCK = 1 << 15  # points that are evaluated together
-HALVINGS = 600  # boxes that are looked at for a bound
+MAX_DEGREE = 17  # mass moments to order 3 then need those of the body to order 20
+MAX_LENGTH = 4096  # bits of a number, and characters of a text
+MAX_EXPONENT = 664  # powers of two to which numbers may be large, or small: 1e200
+POINTS_PER_BLOCK = 1 << 15  # points that are evaluated together
+MAX_BOXES = 600  # boxes that are looked at for a bound
 Exponents = tuple[int, int, int]
-AXES: dict[str, Exponents] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
+VARIABLES: dict[str, Exponents] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 CORNERS = tuple(product((0, -1), repeat=3))
 
 
@@ -59,38 +59,38 @@ class Polynomial:
     def coefficients(self) -> NDArray[np.float64]:
         """(K,) in the order of `moments.monomials`, each rounded once."""
         values = np.zeros(monomial_count(self.degree))
-        for powers, value in self.rounded().items():
-            values[index(*powers)] = value
+        for powers, value in self.float_terms().items():
+            values[monomial_index(*powers)] = value
         return values
 
-    def rounded(self) -> dict[Exponents, float]:
+    def float_terms(self) -> dict[Exponents, float]:
         """The terms, each rounded once. MeasureError where one is beyond the range of numbers."""
         try:
             return {powers: float(value) for powers, value in self.terms.items()}
         except OverflowError as error:
             raise MeasureError("polynomial_beyond_numbers") from error
 
-    def shifted(self, point: ArrayLike) -> Polynomial:
+    def translate(self, point: ArrayLike) -> Polynomial:
         """The polynomial q with q(u) = p(point + u), exactly."""
         terms = self.terms
         for axis, value in enumerate(np.asarray(point, float).tolist()):
             if value:
-                terms = _shifted(terms, axis, Fraction(value))
+                terms = _translate(terms, axis, Fraction(value))
         return Polynomial(terms)
 
     def __call__(self, points: NDArray) -> NDArray[np.float64]:
         """(n,) the values at (n, 3) points."""
         points = np.asarray(points, np.float64)
         coefficients, result = self.coefficients(), np.zeros(len(points))
-        for start in range(0, len(points), BLOCK):
-            part = points[start : start + BLOCK].T
+        for start in range(0, len(points), POINTS_PER_BLOCK):
+            part = points[start : start + POINTS_PER_BLOCK].T
             powers = [[np.ones(part.shape[1])] for _ in range(3)]
             for axis, row in zip(powers, part):
                 for _ in range(self.degree):
                     axis.append(axis[-1] * row)
             for (p, q, r), value in zip(monomials(self.degree), coefficients):
                 if value:
-                    result[start : start + BLOCK] += value * powers[0][p] * powers[1][q] * powers[2][r]
+                    result[start : start + POINTS_PER_BLOCK] += value * powers[0][p] * powers[1][q] * powers[2][r]
         return result
 
     def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
@@ -100,22 +100,22 @@ class Polynomial:
         of the sum of the terms' sizes, is taken off.
         """
         low, high = np.asarray(low, float), np.asarray(high, float)
-        local = self.shifted(low).coefficients()
+        local = self.translate(low).coefficients()
         top = monomials(self.degree)
         net = np.zeros((self.degree + 1,) * 3)
         net[tuple(top.T)] = local * np.multiply.reduce((high - low) ** top, axis=1)
-        slack = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
+        tolerance = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
         for axis in range(3):
             net = np.moveaxis(np.tensordot(_to_bernstein(self.degree), net, (1, axis)), 0, axis)
         boxes = [(float(net.min()), 0, net)]  # a heap: the least bound first; the number settles ties
-        for number in range(1, 2 * HALVINGS, 2):
+        for number in range(1, 2 * MAX_BOXES, 2):
             least, _, net = boxes[0]
-            if least >= -slack or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values
+            if least >= -tolerance or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values
                 break
             heapq.heappop(boxes)
-            for i, half in enumerate(_halves(net, _most_bent(net))):
+            for i, half in enumerate(_halves(net, _most_curved_axis(net))):
                 heapq.heappush(boxes, (float(half.min()), number + i, half))
-        return boxes[0][0] - slack
+        return boxes[0][0] - tolerance
 
 
 def parse(text: str) -> Polynomial:
@@ -127,8 +127,8 @@ def parse(text: str) -> Polynomial:
     text = text.strip()
     if not text:
         raise MeasureError("polynomial_empty")
-    if len(text) > LONGEST:
-        raise MeasureError("polynomial_too_long", limit=LONGEST)
+    if len(text) > MAX_LENGTH:
+        raise MeasureError("polynomial_too_long", limit=MAX_LENGTH)
     try:
         tree = ast.parse(text, mode="eval").body
     except SyntaxError as error:
@@ -147,9 +147,9 @@ def parse(text: str) -> Polynomial:
 
 
 def _from_list(values: list[Fraction]) -> dict[Exponents, Fraction]:
-    degree = order_of(len(values))
-    if degree > HIGHEST:
-        raise MeasureError("polynomial_coefficients", limit=HIGHEST)
+    degree = order_from_count(len(values))
+    if degree > MAX_DEGREE:
+        raise MeasureError("polynomial_coefficients", limit=MAX_DEGREE)
     return {tuple(row): value for row, value in zip(monomials(degree).tolist(), values) if value}
 
 
@@ -157,94 +157,98 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
     """The terms of a part of an expression."""
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         if isinstance(node.value, float) and not math.isfinite(node.value):
-            raise MeasureError("polynomial_number_too_large", part=_part(node, text))
+            raise MeasureError("polynomial_number_too_large", part=_source_text(node, text))
         number = Fraction(node.value if isinstance(node.value, int) else str(node.value))  # the decimal that was typed
-        return _checked(_only({(0, 0, 0): number}), node, text)
-    if isinstance(node, ast.Name) and node.id in AXES:
-        return {AXES[node.id]: Fraction(1)}
+        return _validated(_nonzero({(0, 0, 0): number}), node, text)
+    if isinstance(node, ast.Name) and node.id in VARIABLES:
+        return {VARIABLES[node.id]: Fraction(1)}
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.UAdd, ast.USub)):
         sign = -1 if isinstance(node.op, ast.USub) else 1
         return {powers: sign * value for powers, value in _terms(node.operand, text).items()}
     if isinstance(node, ast.BinOp):
-        return _checked(_operation(node, text), node, text)
+        return _validated(_operation(node, text), node, text)
     if isinstance(node, ast.Name):
         raise MeasureError("polynomial_unknown_name", part=node.id)
-    raise MeasureError("polynomial_not_allowed", part=_part(node, text))
+    raise MeasureError("polynomial_not_allowed", part=_source_text(node, text))
 
 
 def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
     left, right = _terms(node.left, text), _terms(node.right, text)
     if isinstance(node.op, (ast.Add, ast.Sub)):
         sign = 1 if isinstance(node.op, ast.Add) else -1
-        return _only(
+        return _nonzero(
             {
                 powers: left.get(powers, Fraction(0)) + sign * right.get(powers, Fraction(0))
                 for powers in (*left, *right)
             }
         )
     if isinstance(node.op, ast.Mult):
-        return _times(left, right, node, text)
+        return _multiply(left, right, node, text)
     if isinstance(node.op, ast.Div):
         divisor = _constant(right, node.right, text)
         if not divisor:
-            raise MeasureError("polynomial_division_by_zero", part=_part(node, text))
+            raise MeasureError("polynomial_division_by_zero", part=_source_text(node, text))
         return {powers: value / divisor for powers, value in left.items()}
     if isinstance(node.op, ast.Pow):
         return _power(left, _constant(right, node.right, text), node, text)
     caret = isinstance(node.op, ast.BitXor)
-    raise MeasureError("polynomial_caret" if caret else "polynomial_not_allowed", part=_part(node, text))
+    raise MeasureError("polynomial_caret" if caret else "polynomial_not_allowed", part=_source_text(node, text))
 
 
 def _power(
     base: dict[Exponents, Fraction], exponent: Fraction, node: ast.BinOp, text: str
 ) -> dict[Exponents, Fraction]:
-    if exponent.denominator != 1 or not 0 <= exponent <= HIGHEST:
-        raise MeasureError("polynomial_exponent", part=_part(node, text), limit=HIGHEST)
+    if exponent.denominator != 1 or not 0 <= exponent <= MAX_DEGREE:
+        raise MeasureError("polynomial_exponent", part=_source_text(node, text), limit=MAX_DEGREE)
     result = {(0, 0, 0): Fraction(1)}
     for _ in range(int(exponent)):
-        result = _checked(_times(result, base, node, text), node, text)
+        result = _validated(_multiply(result, base, node, text), node, text)
     return result
 
 
-def _times(
+def _multiply(
     left: dict[Exponents, Fraction], right: dict[Exponents, Fraction], node: ast.expr, text: str
 ) -> dict[Exponents, Fraction]:
     degrees = [max((sum(powers) for powers in terms), default=0) for terms in (left, right)]
-    if sum(degrees) > HIGHEST:
-        raise MeasureError("polynomial_degree", part=_part(node, text), limit=HIGHEST)
+    if sum(degrees) > MAX_DEGREE:
+        raise MeasureError("polynomial_degree", part=_source_text(node, text), limit=MAX_DEGREE)
     result: dict[Exponents, Fraction] = {}
-    for one, factor in left.items():
-        for other, value in right.items():
-            powers = (one[0] + other[0], one[1] + other[1], one[2] + other[2])
+    for left_powers, factor in left.items():
+        for right_powers, value in right.items():
+            powers = (
+                left_powers[0] + right_powers[0],
+                left_powers[1] + right_powers[1],
+                left_powers[2] + right_powers[2],
+            )
             result[powers] = result.get(powers, 0) + factor * value
-    return _only(result)
+    return _nonzero(result)
 
 
-def _only(terms: dict[Exponents, Fraction]) -> dict[Exponents, Fraction]:
+def _nonzero(terms: dict[Exponents, Fraction]) -> dict[Exponents, Fraction]:
     """The terms that are not zero."""
     return {powers: value for powers, value in terms.items() if value}
 
 
 def _constant(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> Fraction:
     if set(terms) - {(0, 0, 0)}:
-        raise MeasureError("polynomial_not_constant", part=_part(node, text))
+        raise MeasureError("polynomial_not_constant", part=_source_text(node, text))
     return terms.get((0, 0, 0), Fraction(0))
 
 
-def _checked(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> dict[Exponents, Fraction]:
+def _validated(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> dict[Exponents, Fraction]:
     for value in terms.values():
         above, below = value.numerator.bit_length(), value.denominator.bit_length()
-        if max(above, below) > LONGEST or abs(above - below) > LARGEST:
-            raise MeasureError("polynomial_overflow", part=_part(node, text))
+        if max(above, below) > MAX_LENGTH or abs(above - below) > MAX_EXPONENT:
+            raise MeasureError("polynomial_overflow", part=_source_text(node, text))
     return terms
 
 
-def _part(node: ast.expr, text: str) -> str:
+def _source_text(node: ast.expr, text: str) -> str:
     part = ast.get_source_segment(text, node) or text
     return part if len(part) <= 40 else part[:39] + "…"
 
 
-def _shifted(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dict[Exponents, Fraction]:
+def _translate(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dict[Exponents, Fraction]:
     """The terms with (t + by)^n for t^n along one axis."""
     result: dict[Exponents, Fraction] = {}
     for powers, value in terms.items():
@@ -252,7 +256,7 @@ def _shifted(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dict[
             lower = (*powers[:axis], k, *powers[axis + 1 :])
             factor = math.comb(powers[axis], k) * by ** (powers[axis] - k)
             result[lower] = result.get(lower, 0) + value * factor
-    return _only(result)
+    return _nonzero(result)
 
 
 def _to_bernstein(degree: int) -> NDArray[np.float64]:
@@ -260,17 +264,17 @@ def _to_bernstein(degree: int) -> NDArray[np.float64]:
     return np.array([[math.comb(i, j) / math.comb(degree, j) for j in range(degree + 1)] for i in range(degree + 1)])
 
 
-def _most_bent(net: NDArray) -> int:
+def _most_curved_axis(net: NDArray) -> int:
     """The axis along which the second differences are largest: it is they by which the net is off the polynomial."""
     return int(np.argmax([np.abs(np.diff(net, 2, axis)).max(initial=0.0) for axis in range(3)]))
 
 
 def _halves(net: NDArray, axis: int) -> tuple[NDArray, NDArray]:
     """The Bernstein coefficients on both halves of a box, by de Casteljau's scheme."""
-    rows = np.moveaxis(net, axis, 0).copy()
-    last = len(rows) - 1
-    left, right = np.empty_like(rows), np.empty_like(rows)
+    coefficients = np.moveaxis(net, axis, 0).copy()
+    last = len(coefficients) - 1
+    left, right = np.empty_like(coefficients), np.empty_like(coefficients)
     for step in range(last + 1):
-        left[step], right[last - step] = rows[0], rows[last - step]
-        rows[: last - step] = (rows[: last - step] + rows[1 : last - step + 1]) / 2.0
+        left[step], right[last - step] = coefficients[0], coefficients[last - step]
+        coefficients[: last - step] = (coefficients[: last - step] + coefficients[1 : last - step + 1]) / 2.0
     return np.moveaxis(left, 0, axis), np.moveaxis(right, 0, axis)

@@ -13,16 +13,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.affine_maps import horner, maps_last, times
-from ..moments.moments import BLOCK, Measure, Moments, U, measure_factors
-from ..moments.monomials import monomial_count, monomials, order_of, raised_places
-from ..numerics.rotations import own_axes
+from ..moments.affine_maps import multiply_by_linear_form, to_trailing_axis, transform_by_horner
+from ..moments.moments import MAPS_PER_BLOCK, Measure, Moments, U, measure_scale_factors
+from ..moments.monomials import monomial_count, monomials, order_from_count, product_indices
+from ..numerics.rotations import polar_rotation
 from .polynomial import Polynomial
 
 Terms = dict[tuple[int, int, int], float]
 
 
-def graded_sum(
+def polynomial_mass_of_images(
     moments: Moments,
     density: Polynomial,
     matrices: NDArray,
@@ -42,52 +42,54 @@ def graded_sum(
     if order < 0:
         raise ValueError("moments below density's degree")
     fields = matrices if fields is None else fields
-    linear, places = maps_last(matrices)
-    turn, shift = maps_last(fields)
+    linear, offsets = to_trailing_axis(matrices)
+    turn, shift = to_trailing_axis(fields)
     point, extent = moments.about[:, None], np.abs(moments.about)[:, None]
-    origins = (linear * point).sum(axis=1) + places
+    origins = (linear * point).sum(axis=1) + offsets
     about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
-    homes = (turn * point).sum(axis=1) + shift
-    home = homes.mean(axis=1)
-    terms = density.shifted(home).rounded()
+    origins_local = (turn * point).sum(axis=1) + shift
+    origin = origins_local.mean(axis=1)
+    terms = density.translate(origin).float_terms()
     raw, error, inputs = np.zeros((3, monomial_count(order)))
-    for start in range(0, len(matrices), BLOCK):
-        part = slice(start, start + BLOCK)
-        forms = turn[:, :, part], homes[:, part] - home[:, None]
-        astray = (
-            8.0 * U * ((np.abs(turn[:, :, part]) * extent).sum(axis=1) + np.abs(shift[:, part]) + np.abs(home)[:, None])
+    for start in range(0, len(matrices), MAPS_PER_BLOCK):
+        part = slice(start, start + MAPS_PER_BLOCK)
+        forms = turn[:, :, part], origins_local[:, part] - origin[:, None]
+        misplacement = (
+            8.0
+            * U
+            * ((np.abs(turn[:, :, part]) * extent).sum(axis=1) + np.abs(shift[:, part]) + np.abs(origin)[:, None])
         )
-        weighed, weighed_error, weighed_input = _weighed(moments, order, terms, forms, astray)
+        weighed, weighed_error, weighed_input = _mass_functional(moments, order, terms, forms, misplacement)
         maps, offset = linear[:, :, part], origins[:, part] - about[:, None]
-        weight, weight_error, deviation = measure_factors(moments.of, maps)
+        weight, weight_error, anisotropy = measure_scale_factors(moments.measure, maps)
         weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
-        raw += (horner(weighed, order, maps, offset) * weight).sum(axis=1)
-        slack = 6.0 * U * ((np.abs(maps) * extent).sum(axis=1) + np.abs(places[:, part]) + np.abs(about)[:, None])
+        raw += (transform_by_horner(weighed, order, maps, offset) * weight).sum(axis=1)
+        tolerance = 6.0 * U * ((np.abs(maps) * extent).sum(axis=1) + np.abs(offsets[:, part]) + np.abs(about)[:, None])
         reach = np.abs(maps), np.abs(offset)
-        size = horner(np.abs(weighed) + weighed_error, order, reach[0], reach[1] + slack)
-        rounding = weight * horner(weighed_error, order, *reach) + weight_error * size
-        for axis, raised in enumerate(raised_places(order) if order else ()):
-            rounding[raised] += monomials(order)[raised, axis, None] * slack[axis] * weight * size[: len(raised)]
-        moved = horner(weighed_input, order, *reach)
+        size = transform_by_horner(np.abs(weighed) + weighed_error, order, reach[0], reach[1] + tolerance)
+        rounding = weight * transform_by_horner(weighed_error, order, *reach) + weight_error * size
+        for axis, raised in enumerate(product_indices(order) if order else ()):
+            rounding[raised] += monomials(order)[raised, axis, None] * tolerance[axis] * weight * size[: len(raised)]
+        moved = transform_by_horner(weighed_input, order, *reach)
         error += rounding.sum(axis=1)
-        inputs += (weight * (moved + deviation * (size + moved))).sum(axis=1)
+        inputs += (weight * (moved + anisotropy * (size + moved))).sum(axis=1)
     return Moments(raw, about, Measure.MASS, error, inputs)
 
 
-def _weighed(
-    moments: Moments, order: int, terms: Terms, forms: tuple[NDArray, NDArray], astray: NDArray
+def _mass_functional(
+    moments: Moments, order: int, terms: Terms, forms: tuple[NDArray, NDArray], misplacement: NDArray
 ) -> tuple[NDArray, NDArray, NDArray]:
     """(K, k) each: G, the bound of its rounding, and what becomes of `moments.input`.
 
-    forms: (3, 3, k) and (3, k), the density's coordinates; astray: (3, k) what their constants may be off by.
+    forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) what their constants may be off by.
     """
     degree = max((sum(powers) for powers in terms), default=0)
     absolute = {powers: abs(value) for powers, value in terms.items()}
-    value = _product(moments.raw, order, terms, forms)
-    reach = np.abs(forms[0]), np.abs(forms[1]) + astray
-    size = np.abs(moments.raw) + moments.error
-    error = _product(moments.error, order, absolute, reach)
-    error += U * (6 * degree + len(terms) + 4) * _product(size, order, absolute, reach)
+    value = _apply_polynomial(moments.raw, order, terms, forms)
+    reach = np.abs(forms[0]), np.abs(forms[1]) + misplacement
+    size = np.abs(moments.raw) + moments.rounding_error
+    error = _apply_polynomial(moments.rounding_error, order, absolute, reach)
+    error += U * (6 * degree + len(terms) + 4) * _apply_polynomial(size, order, absolute, reach)
     for axis in range(3):  # the density's slope along the axis times how far its coordinate is off
         slope = {
             tuple(np.subtract(powers, np.eye(3, dtype=int)[axis]).tolist()): factor * powers[axis]
@@ -95,15 +97,15 @@ def _weighed(
             if powers[axis]
         }
         if slope:
-            error += astray[axis] * _product(size, order, slope, reach)
-    return value, error, _product(moments.input, order, absolute, reach)
+            error += misplacement[axis] * _apply_polynomial(size, order, slope, reach)
+    return value, error, _apply_polynomial(moments.input_error, order, absolute, reach)
 
 
-def _product(values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, NDArray]) -> NDArray[np.float64]:
+def _apply_polynomial(values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, NDArray]) -> NDArray[np.float64]:
     """(K, k) the functional with (K',) values times Σ c l0^p l1^q l2^r, l the linear forms of the k columns."""
     linear, offset = forms
     count = monomial_count(order)
-    top = order_of(len(values))
+    top = order_from_count(len(values))
     l0, l1, l2 = ((offset[i], *linear[i]) for i in range(3))
     out = np.zeros((count, offset.shape[1]))
     by_p = np.broadcast_to(values[:, None], (len(values), offset.shape[1]))
@@ -116,18 +118,18 @@ def _product(values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, ND
                 if (p, q, r) in terms:
                     out += terms[p, q, r] * by_r[:count]
                 if r < last:
-                    by_r = times(l2, by_r, top - p - q - r)
+                    by_r = multiply_by_linear_form(l2, by_r, top - p - q - r)
             if top > p + q:
-                by_q = times(l1, by_q, top - p - q)
+                by_q = multiply_by_linear_form(l1, by_q, top - p - q)
         if top > p:
-            by_p = times(l0, by_p, top - p)
+            by_p = multiply_by_linear_form(l0, by_p, top - p)
     return out
 
 
-def own_fields(matrices: NDArray) -> NDArray[np.float64]:
+def local_coordinates(matrices: NDArray) -> NDArray[np.float64]:
     """(k, 4, 4) the maps from a body's coordinates to lengths along its own axes from its own origin, where `matrices`
     put it."""
-    axes, _ = own_axes(matrices)
+    axes, _ = polar_rotation(matrices)
     fields = np.zeros((len(matrices), 4, 4))
     fields[:, :3, :3] = axes.transpose(0, 2, 1) @ np.asarray(matrices, np.float64)[:, :3, :3]
     fields[:, 3, 3] = 1.0

@@ -13,16 +13,16 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.winding import winding
+from ..mesh.winding import winding_number
 from .polynomial import Polynomial
 
-NEGLIGIBLE = 1e-6  # of the largest density: float32 coordinates make as much
-GRID = 9  # points along each side of the box that are tried
-STEPS = np.array(list(product((np.arange(GRID) + 0.5) / GRID, repeat=3)))
-TRIED = 24  # points that are located in the body
+NEGLIGIBLE_RTOL = 1e-6  # of the largest density: float32 coordinates make as much
+GRID_POINTS = 9  # points along each side of the box that are tried
+GRID_STEPS = np.array(list(product((np.arange(GRID_POINTS) + 0.5) / GRID_POINTS, repeat=3)))
+MAX_LOCATED_POINTS = 24  # points that are located in the body
 
 
-def negative_place(
+def find_negative_point(
     density: Polynomial, points: NDArray, triangles: NDArray, solid: bool
 ) -> tuple[tuple[float, NDArray] | None, bool]:
     """A value below zero and its place, (3,), in the body or on its surface, None where none was found; and whether
@@ -36,23 +36,23 @@ def negative_place(
         tried = np.concatenate([tried, points[triangles].mean(axis=1)])
     values = density(tried)
     low, high = points[used].min(axis=0), points[used].max(axis=0)
-    grid = low + STEPS * (high - low) if solid and density.degree > 1 else tried[:0]
+    grid = low + GRID_STEPS * (high - low) if solid and density.degree > 1 else tried[:0]
     inner = density(grid)
 
     def inside(i: int) -> bool:
-        return abs(winding(points, triangles, grid[i])) > 0.5
+        return abs(winding_number(points, triangles, grid[i])) > 0.5
 
     largest = float(np.abs(values).max())
     least = int(np.argmin(values))
     if values[least] < 0.0:  # at the surface, where the density of all of it may be next to nothing
-        most = next(filter(inside, np.argsort(-inner)[:TRIED].tolist()), None)
+        most = next(filter(inside, np.argsort(-inner)[:MAX_LOCATED_POINTS].tolist()), None)
         largest = largest if most is None else max(largest, inner[most])
-    if values[least] < -NEGLIGIBLE * largest:
+    if values[least] < -NEGLIGIBLE_RTOL * largest:
         return (values[least], tried[least]), False
     if density.degree <= 1:
         return None, False
-    if density.lower_bound(low, high) >= -NEGLIGIBLE * largest:
+    if density.lower_bound(low, high) >= -NEGLIGIBLE_RTOL * largest:
         return None, False
-    worst = np.argsort(inner)[:TRIED]
-    found = next(filter(inside, worst[inner[worst] < -NEGLIGIBLE * largest].tolist()), None)
-    return (None, True) if found is None else ((inner[found], grid[found]), False)
+    worst = np.argsort(inner)[:MAX_LOCATED_POINTS]
+    negative_index = next(filter(inside, worst[inner[worst] < -NEGLIGIBLE_RTOL * largest].tolist()), None)
+    return (None, True) if negative_index is None else ((inner[negative_index], grid[negative_index]), False)

@@ -29,17 +29,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..verdict.finding import MeasureError
-from .spline_tables import Axis
+from .spline_tables import SplineAxis
 
-BLOCK = 1 << 17  # coefficients at a time: 1 MB of float64
-FAR = 64.0  # |offset|² over variance from which the moments are taken anew, about a point nearer to the mass
+COEFFICIENTS_PER_BLOCK = 1 << 17  # coefficients at a time: 1 MB of float64
+# |offset|² over variance from which the moments are taken anew, about a point nearer to the mass
+MAX_OFFSET_RATIO = 64.0
 
 Blocks = Callable[[], Iterable[tuple[tuple[int, int, int], NDArray]]]
 
 
 def density_moments(
     coefficients: NDArray | Blocks,
-    axes: Sequence[Axis],
+    axes: Sequence[SplineAxis],
     order: int = 3,
     value: Callable[[NDArray], NDArray] | None = None,
 ) -> Moments:
@@ -54,16 +55,16 @@ def density_moments(
     axes = tuple(axes)
     if not callable(coefficients) and coefficients.shape != tuple(axis.count for axis in axes):
         raise ValueError("{}, knots for {}".format(coefficients.shape, tuple(axis.count for axis in axes)))
-    about = np.array([axis.middle for axis in axes])
-    moments = _about(coefficients, axes, order, value, about)
+    about = np.array([axis.center for axis in axes])
+    moments = _moments_about(coefficients, axes, order, value, about)
     if order < 2 or not moments.total > 0.0:
         return moments
     shift = moments.raw[1:4] / moments.total
     variance = moments.raw[[4, 7, 9]] / moments.total - shift * shift
-    if not (shift * shift > FAR * np.maximum(variance, 0.0)).any():
+    if not (shift * shift > MAX_OFFSET_RATIO * np.maximum(variance, 0.0)).any():
         return moments
     nearest = [axis.knots[np.abs(axis.knots - center).argmin()] for axis, center in zip(axes, about + shift)]
-    return _about(coefficients, axes, order, value, np.array(nearest))
+    return _moments_about(coefficients, axes, order, value, np.array(nearest))
 
 
 def grid_moments(
@@ -84,18 +85,18 @@ def grid_moments(
     matrix = np.asarray(matrix, np.float64)
     if not np.isfinite(matrix).all() or not np.linalg.det(matrix[:3, :3]):
         raise MeasureError("grid_transform_singular")
-    axes = [Axis.uniform(count, spline_order) for count in shape]
+    axes = [SplineAxis.uniform(count, spline_order) for count in shape]
     inside = density_moments(samples, axes, order, value)
-    return replace(replace(inside, of=Measure.VOLUME).mapped(matrix), of=Measure.MASS)
+    return replace(replace(inside, measure=Measure.VOLUME).transform(matrix), measure=Measure.MASS)
 
 
-class Trivariate:
+class TrivariateSpline:
     """A trivariate spline whose coefficients change: its moments follow at the cost of what changed.
 
     moments: at any time those of the coefficients as they are; every change adds its rounding to their bounds.
     """
 
-    def __init__(self, coefficients: ArrayLike, axes: Sequence[Axis], order: int = 2) -> None:
+    def __init__(self, coefficients: ArrayLike, axes: Sequence[SplineAxis], order: int = 2) -> None:
         self.coefficients = np.array(coefficients, np.float64)
         self.axes = tuple(axes)
         self.moments = density_moments(self.coefficients, self.axes, order)
@@ -105,10 +106,10 @@ class Trivariate:
             for axis, center, powers in zip(self.axes, self.moments.about, self._powers.T)
         ]  # (K, n) each: a column is a factor
         self._sizes = [
-            _reaches(axis, order, center)[powers]
+            _absolute_moments(axis, order, center)[powers]
             for axis, center, powers in zip(self.axes, self.moments.about, self._powers.T)
         ]
-        self._units = (sum(axis.roundings(order) for axis in self.axes) + 6) * U
+        self._units = (sum(axis.rounding_counts(order) for axis in self.axes) + 6) * U
 
     def set_coefficient(self, i: int, j: int, k: int, value: float) -> Moments:
         """Change one coefficient; the moments after it."""
@@ -119,7 +120,7 @@ class Trivariate:
         x, y, z = self._tables
         added = change * x[:, i] * y[:, j] * z[:, k]
         x, y, z = self._sizes
-        return self._changed(added, self._units * abs(change) * x[:, i] * y[:, j] * z[:, k])
+        return self._add_change(added, self._units * abs(change) * x[:, i] * y[:, j] * z[:, k])
 
     def set_block(self, start: Sequence[int], values: ArrayLike) -> Moments:
         """Change the block of coefficients that starts at `start`; the moments after it."""
@@ -135,28 +136,30 @@ class Trivariate:
 
         def contracted(factors: list[NDArray], block: NDArray) -> NDArray[np.float64]:
             x, y, z = (factor[:, part] for factor, part in zip(factors, place))
-            rows = np.einsum("ijk,mk->mij", block, z)
-            return np.einsum("mi,mi->m", np.einsum("mij,mj->mi", rows, y), x)
+            partial = np.einsum("ijk,mk->mij", block, z)
+            return np.einsum("mi,mi->m", np.einsum("mij,mj->mi", partial, y), x)
 
         units = self._units + sum(values.shape) * U
-        return self._changed(contracted(self._tables, change), units * contracted(self._sizes, np.abs(change)))
+        return self._add_change(contracted(self._tables, change), units * contracted(self._sizes, np.abs(change)))
 
-    def _changed(self, added: NDArray, error: NDArray) -> Moments:
+    def _add_change(self, added: NDArray, error: NDArray) -> Moments:
         old = self.moments
         raw = old.raw + added
-        self.moments = Moments(raw, old.about, old.of, old.error + error + U * np.abs(raw), old.input)
+        self.moments = Moments(
+            raw, old.about, old.measure, old.rounding_error + error + U * np.abs(raw), old.input_error
+        )
         return self.moments
 
 
-def _reaches(axis: Axis, order: int, center: float) -> NDArray[np.float64]:
+def _absolute_moments(axis: SplineAxis, order: int, center: float) -> NDArray[np.float64]:
     """(order + 1, n) ∫ B_i times the powers of the largest |t - center| in its support."""
     knots = np.abs(axis.knots - center)
     far = np.maximum(knots[: -axis.order], knots[axis.order :])
     return axis.table(0, center)[0] * far ** np.arange(order + 1)[:, None]
 
 
-def _about(
-    coefficients: NDArray | Blocks, axes: tuple[Axis, ...], order: int, value: Callable | None, about: NDArray
+def _moments_about(
+    coefficients: NDArray | Blocks, axes: tuple[SplineAxis, ...], order: int, value: Callable | None, about: NDArray
 ) -> Moments:
     """The moments about a point, with their bounds."""
     turn = np.arange(3)
@@ -179,9 +182,9 @@ def _about(
     if not np.isfinite(total).all():
         raise MeasureError("density_non_finite")
     p, q, r = monomials(order)[:, turn].T
-    bounds = [_bounding(axes[i], order, about[i]) for i in turn]
+    bounds = [_absolute_from_even(axes[i], order, about[i]) for i in turn]
     size = np.einsum("ax,by,cz,xyz->abc", *bounds, size)
-    units = sum(axis.roundings(order) for axis in axes) + longest + blocks + 8
+    units = sum(axis.rounding_counts(order) for axis in axes) + longest + blocks + 8
     return Moments(total[p, q, r], about, Measure.MASS, 1.01 * units * U * size[p, q, r])
 
 
@@ -193,8 +196,8 @@ def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, in
                 yield (x + i, y + j, z + k), piece
         return
     nx, ny, nz = coefficients.shape
-    columns = max(1, min(ny, BLOCK // max(nz, 1)))
-    planes = max(1, BLOCK // max(ny * nz, 1))
+    columns = max(1, min(ny, COEFFICIENTS_PER_BLOCK // max(nz, 1)))
+    planes = max(1, COEFFICIENTS_PER_BLOCK // max(ny * nz, 1))
     for i in range(0, nx, planes):
         for j in range(0, ny, columns):
             yield (i, j, 0), coefficients[i : i + planes, j : j + columns]
@@ -202,11 +205,11 @@ def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, in
 
 def _contract(block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
     """(n, n, n) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
-    rows = np.stack([np.einsum("ijk,k->ij", block, row) for row in factors[2]])
-    return np.einsum("rqi,pi->pqr", np.einsum("rij,qj->rqi", rows, factors[1]), factors[0])
+    partial = np.stack([np.einsum("ijk,k->ij", block, row) for row in factors[2]])
+    return np.einsum("rqi,pi->pqr", np.einsum("rij,qj->rqi", partial, factors[1]), factors[0])
 
 
-def _bounding(axis: Axis, order: int, center: float) -> NDArray[np.float64]:
+def _absolute_from_even(axis: SplineAxis, order: int, center: float) -> NDArray[np.float64]:
     """(n, n) what takes the moments of even order to bounds of the absolute ones of every order, (|t| + w)^l."""
     reach, width = axis.reach(center), axis.width
     matrix = np.zeros((order + 1, order + 1))

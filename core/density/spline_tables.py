@@ -20,14 +20,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.bspline import Space
-from ..numerics.quadrature import gauss
+from ..numerics.bspline import SplineSpace
+from ..numerics.quadrature import gauss_legendre
 
 MAX_ORDER = 16  # of the splines: far above any use
 
 
 @dataclass(frozen=True, eq=False)
-class Axis:
+class SplineAxis:
     """The spline space of one direction.
 
     knots: (n + k,) ascending. order: k, the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic.
@@ -51,13 +51,13 @@ class Axis:
             raise ValueError("empty domain")
 
     @classmethod
-    def uniform(cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0) -> Axis:
+    def uniform(cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0) -> SplineAxis:
         """`count` functions, the i-th centered at origin + i spacing: samples as coefficients, full supports."""
         return cls(origin + spacing * (np.arange(count + order) - order / 2.0), order)
 
-    def clipped(self) -> Axis:
+    def clip(self) -> SplineAxis:
         """The same functions cut off where they stop to sum to one: the domain [t_{k-1}, t_n]."""
-        return Axis(self.knots, self.order, (float(self.knots[self.order - 1]), float(self.knots[self.count])))
+        return SplineAxis(self.knots, self.order, (float(self.knots[self.order - 1]), float(self.knots[self.count])))
 
     @property
     def count(self) -> int:
@@ -65,7 +65,7 @@ class Axis:
         return len(self.knots) - self.order
 
     @property
-    def middle(self) -> float:
+    def center(self) -> float:
         """The middle of the knots."""
         return float((self.knots[0] + self.knots[-1]) / 2.0)
 
@@ -81,20 +81,20 @@ class Axis:
     def table(self, degree: int, center: float = 0.0) -> NDArray[np.float64]:
         """(degree + 1, count) ∫ (t - center)^l B_i(t) dt.
 
-        Each entry is off by at most `roundings` units of ∫ B_i times the l-th power of the largest |t - center| in
-        the support.
+        Each entry is off by at most `rounding_counts` units of ∫ B_i times the l-th power of the largest |t - center|
+        in the support.
         """
         knots = self.knots - center
         if self.domain is None:
-            return full_supports(knots, self.order, degree)
-        return cut_supports(knots, self.order, degree, self.domain[0] - center, self.domain[1] - center)
+            return full_support_integrals(knots, self.order, degree)
+        return clipped_integrals(knots, self.order, degree, self.domain[0] - center, self.domain[1] - center)
 
-    def roundings(self, degree: int) -> int:
+    def rounding_counts(self, degree: int) -> int:
         """How many units of rounding an entry of the table may be off, see `table`."""
         return 2 * (self.order + 1) + 3 * degree + 6 if self.domain is None else 16 * self.order + 3 * degree + 64
 
 
-def full_supports(knots: ArrayLike, order: int, degree: int) -> NDArray[np.float64]:
+def full_support_integrals(knots: ArrayLike, order: int, degree: int) -> NDArray[np.float64]:
     """(degree + 1, n) ∫ t^l B_i over full supports, by the closed form. Repeated knots are fine."""
     knots = np.asarray(knots, np.float64)
     count = len(knots) - order
@@ -109,24 +109,24 @@ def full_supports(knots: ArrayLike, order: int, degree: int) -> NDArray[np.float
     return h
 
 
-def cut_supports(knots: ArrayLike, order: int, degree: int, low: float, high: float) -> NDArray[np.float64]:
+def clipped_integrals(knots: ArrayLike, order: int, degree: int, low: float, high: float) -> NDArray[np.float64]:
     """(degree + 1, n) ∫ t^l B_i over [low, high], span by span."""
     knots = np.asarray(knots, np.float64)
     table = np.zeros((degree + 1, len(knots) - order))
     # With more knots on both sides as many functions act in each interval; those that they add are left out again.
     far = np.arange(1, order)
     longer = np.concatenate([knots[0] - far[::-1], knots, knots[-1] + far])
-    space = Space(tuple(longer.tolist()), order, len(longer) - order)
+    space = SplineSpace(tuple(longer.tolist()), order, len(longer) - order)
     edges = np.clip(space.intervals, low, high)
     spans, edges = space.spans[edges[:, 0] < edges[:, 1]], edges[edges[:, 0] < edges[:, 1]]
-    nodes, weights = gauss(-(-(order + degree) // 2))
+    nodes, weights = gauss_legendre(-(-(order + degree) // 2))
     length = edges[:, 1:] - edges[:, :1]
     t = edges[:, :1] + length * nodes
     basis = space.derivatives(spans[:, None], t, 0)[0]
-    functions = space.controls(spans) - (order - 1)
-    own = (functions >= 0) & (functions < table.shape[1])
+    functions = space.controls_of_spans(spans) - (order - 1)
+    in_range = (functions >= 0) & (functions < table.shape[1])
     weight = length * weights
     for row in table:
-        np.add.at(row, functions[own], (basis * weight[..., None]).sum(axis=1)[own])
+        np.add.at(row, functions[in_range], (basis * weight[..., None]).sum(axis=1)[in_range])
         weight = weight * t
     return table

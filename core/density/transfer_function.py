@@ -17,12 +17,12 @@ from ..verdict.finding import MeasureError
 
 # CT numbers in Hounsfield units to kg/m³: air, fat, water and soft tissue, bone, after Schneider, Bortfeld and Schlegel
 # (Phys. Med. Biol. 45, 2000), as the table of densities that comes with GATE has them.
-CT = "-1000 1.21, -98 930, -97 930.486, 14 1030, 23 1031, 100 1119.9, 101 1076.2, 1600 1964.2, 3000 2800"
+CT_DENSITIES = "-1000 1.21, -98 930, -97 930.486, 14 1030, 23 1031, 100 1119.9, 101 1076.2, 1600 1964.2, 3000 2800"
 
 
 def parse_table(text: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(n,) values, ascending, and (n,) densities in kg/m³. MeasureError where the text is no such table."""
-    rows = []
+    entries = []
     for pair in re.split(r"[,;\n]", text):
         words = pair.split()
         if not words:
@@ -31,8 +31,8 @@ def parse_table(text: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
             value, density = map(float, words)
         except ValueError:
             raise MeasureError("transfer_table_syntax", part=pair.strip()) from None
-        rows.append((value, density))
-    table = np.array(rows, np.float64).reshape(-1, 2)
+        entries.append((value, density))
+    table = np.array(entries, np.float64).reshape(-1, 2)
     if len(table) < 2:
         raise MeasureError("transfer_table_too_short")
     if not np.isfinite(table).all() or (table[:, 1] < 0.0).any():

@@ -23,8 +23,8 @@ from ..numerics.arrays import batches
 from ..numerics.quadrature import triangle_rule
 from ..verdict.finding import MeasureError
 
-PIECES = 1 << 17  # that are expected of the triangles taken at a time
-LARGEST = 1 << 27  # voxels of the box around the surface
+PIECES_PER_BATCH = 1 << 17  # that are expected of the triangles taken at a time
+MAX_VOXELS = 1 << 27  # voxels of the box around the surface
 
 
 def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> tuple[Moments, float]:
@@ -45,10 +45,10 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
     exponents = monomials(order)
     total, size = np.zeros((2, len(exponents)))
     below = _sums_below(densities, about[2], order)
-    places, weights = triangle_rule((order + 3) // 2)  # exact to order + 1
+    nodes, weights = triangle_rule((order + 3) // 2)  # exact to order + 1
     volume, terms = 0.0, 0
     for part in _batches(triangles, shape):
-        pieces = _cut(triangles[part], shape)
+        pieces = _cut_at_voxels(triangles[part], shape)
         centers = pieces.mean(axis=1)
         inside = ((centers[:, :2] > 0) & (centers[:, :2] < shape[:2])).all(axis=1) & (centers[:, 2] > 0)
         pieces, centers = pieces[inside], centers[inside]
@@ -57,15 +57,17 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
         a, b, c = pieces.transpose(1, 2, 0)
         double = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         i, j, k = np.minimum(centers.astype(np.int64), shape - 1).T
-        own = densities[i, j, k]
+        voxel_density = densities[i, j, k]
         corner = k - about[2]
         filled = [sums[i, j, k] for sums in below]
-        for (u, v, w), weight in zip(places.T, weights):
+        for (u, v, w), weight in zip(nodes.T, weights):
             x, y, z = u * a + v * b + w * c
             z = np.clip(z, k, k + 1.0)  # above the grid its whole column is filled
             volume += float((double * weight) @ z)
             x, y, z = x - about[0], y - about[1], z - about[2]
-            columns = [sums + own * (z ** (r + 1) - corner ** (r + 1)) / (r + 1) for r, sums in enumerate(filled)]
+            columns = [
+                sums + voxel_density * (z ** (r + 1) - corner ** (r + 1)) / (r + 1) for r, sums in enumerate(filled)
+            ]
             xs, ys = _powers(x, order), _powers(y, order)
             for n, (p, q, r) in enumerate(exponents.tolist()):
                 term = double * weight * xs[p] * ys[q] * columns[r]
@@ -77,10 +79,10 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
 
 
 def _powers(x: NDArray, order: int) -> list[NDArray]:
-    rows = [np.ones_like(x)]
+    powers = [np.ones_like(x)]
     for _ in range(order):
-        rows.append(rows[-1] * x)
-    return rows
+        powers.append(powers[-1] * x)
+    return powers
 
 
 def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[np.float64]]:
@@ -88,11 +90,11 @@ def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[n
     z = np.arange(densities.shape[2] + 1) - center
     sums = []
     for r in range(order + 1):
-        rows = densities * (np.diff(z ** (r + 1)) / (r + 1))
-        np.cumsum(rows, axis=2, out=rows)
-        rows[:, :, 1:] = rows[:, :, :-1].copy()
-        rows[:, :, 0] = 0.0
-        sums.append(rows)
+        integrals = densities * (np.diff(z ** (r + 1)) / (r + 1))
+        np.cumsum(integrals, axis=2, out=integrals)
+        integrals[:, :, 1:] = integrals[:, :, :-1].copy()
+        integrals[:, :, 0] = 0.0
+        sums.append(integrals)
     return sums
 
 
@@ -100,10 +102,10 @@ def _batches(triangles: NDArray, shape: NDArray) -> Iterator[slice]:
     """Slices of the triangles that are expected to give about PIECES pieces each."""
     spans = np.minimum(np.ptp(triangles, axis=1), shape) + 1.0
     expected = spans[:, 0] * spans[:, 1] + spans[:, 1] * spans[:, 2] + spans[:, 2] * spans[:, 0]
-    return batches(expected, PIECES)
+    return batches(expected, PIECES_PER_BATCH)
 
 
-def _cut(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
+def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
     """(m, 3, 3) the triangles cut along every plane between voxels, and along the sides of the grid."""
     for axis in range(3):
         done = []
@@ -114,23 +116,23 @@ def _cut(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
             across = first <= last
             done.append(triangles[~across])
             plane = np.floor((first + last) / 2.0)[across]
-            triangles = _halves(triangles[across], axis, plane)
+            triangles = _split_triangles(triangles[across], axis, plane)
         triangles = np.concatenate(done) if done else triangles
     return triangles
 
 
-def _halves(triangles: NDArray, axis: int, plane: NDArray) -> NDArray[np.float64]:
+def _split_triangles(triangles: NDArray, axis: int, plane: NDArray) -> NDArray[np.float64]:
     """Each triangle, which its plane passes through, as the three that it is cut into; less where a corner is on it."""
     if not len(triangles):
         return triangles
     side = triangles[:, :, axis] > plane[:, None]
     alone = np.where(side.sum(axis=1) == 1, side.argmax(axis=1), (~side).argmax(axis=1))
-    rows = np.arange(len(triangles))
-    a, b, c = (triangles[rows, (alone + turn) % 3] for turn in range(3))
+    index = np.arange(len(triangles))
+    a, b, c = (triangles[index, (alone + turn) % 3] for turn in range(3))
 
-    def crossing(other: NDArray) -> NDArray:
-        share = (plane - a[:, axis]) / (other[:, axis] - a[:, axis])
-        point = a + share[:, None] * (other - a)
+    def crossing(end: NDArray) -> NDArray:
+        share = (plane - a[:, axis]) / (end[:, axis] - a[:, axis])
+        point = a + share[:, None] * (end - a)
         point[:, axis] = plane
         return point
 

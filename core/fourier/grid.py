@@ -27,22 +27,24 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..moments.moments import Measure
-from ..numerics.compensated import normals
+from ..numerics.compensated import compensated_normals
 from ..numerics.quadrature import triangle_rule
 from .nufft import WIDTHS, Spreading, aliasing
 from .spectrum import APPROXIMATE, Spectrum
 from .transform import Transform
-from .triangle_kernel import PAIRS, Means
-from .wave_vectors import Grid, ListWaves
+from .triangle_kernel import PAIRS_PER_BLOCK, PhaseMeans
+from .wave_vectors import FrequencyGrid, ListWaves
 
-CHUNK = 1 << 14  # points that are spread between two steps
-MOST = 24  # Gauss points along a side at most
+POINTS_PER_CHUNK = 1 << 14  # points that are spread between two steps
+MAX_POINTS_PER_SIDE = 24  # Gauss points along a side at most
 DIRECT_COST = 6.0  # of a frequency in closed form, in cells spread
-SAMPLES = 24  # frequencies that are compared with the closed form
-SAFETY = 3.0  # the error that is reported or allowed, by the largest difference found
-SHARING, CHECKING = 0.3, 0.1  # of the time, roughly: what `_share` takes, and what the comparison does
-SHELLS = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)  # of the largest frequency along an axis, where they are found
-CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)  # how much larger than in their sum the errors of single triangles may be
+SAMPLE_FREQUENCIES = 24  # frequencies that are compared with the closed form
+ERROR_SAFETY_FACTOR = 3.0  # the error that is reported or allowed, by the largest difference found
+# of the time, roughly: what `_assign_triangles` takes, and what the comparison does
+SHARING_TIME, CHECKING_TIME = 0.3, 0.1
+TRIAL_RADII = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)  # of the largest frequency along an axis, where they are found
+# how much larger than in their sum the errors of single triangles may be
+ERROR_CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)
 
 
 class GridTransform(Transform):
@@ -52,7 +54,7 @@ class GridTransform(Transform):
     reach the tolerance.
     """
 
-    def __init__(self, surface: Surface, grid: Grid, of: Measure, tolerance: float, threads: int = 1):
+    def __init__(self, surface: Surface, grid: FrequencyGrid, of: Measure, tolerance: float, threads: int = 1):
         super().__init__(surface, grid, of, threads)
         self.surface, faces = surface, self.faces
         # what a mean over the area may be off by: half of the tolerance each for the points and for the kernel
@@ -61,31 +63,32 @@ class GridTransform(Transform):
             step, largest = grid.step * faces.scale, np.sqrt(3.0) * grid.largest * faces.scale
         else:
             allowed, step, largest = tolerance / faces.scale**2 / (2.0 * faces.area), 1.0, 1.0
-        self.width = _width(grid.half, allowed * step, of == Measure.VOLUME)
-        self.each, self.together = allowed * largest / 2.0, allowed * faces.area / SAFETY  # of a D, of the transform
+        self.width = _kernel_width(grid.half, allowed * step, of == Measure.VOLUME)
+        # of a D, of the transform
+        self.each, self.joint_count = allowed * largest / 2.0, allowed * faces.area / ERROR_SAFETY_FACTOR
         self.fine: list[tuple[int, NDArray[np.intp]]] = []
 
-    def _share(self) -> Iterator[float]:
+    def _assign_triangles(self) -> Iterator[float]:
         """Decide which triangles take how many points, `fine`, and which keep their closed form, `direct`."""
         counts = yield from self._counts()
-        most = min(MOST, int(np.sqrt(DIRECT_COST * len(self.sums) / self.width**3)))
-        self.direct = self.faces.only(np.flatnonzero(counts > most))
+        most = min(MAX_POINTS_PER_SIDE, int(np.sqrt(DIRECT_COST * len(self.sums) / self.width**3)))
+        self.direct = self.faces.select(np.flatnonzero(counts > most))
         self.fine = [(n, np.flatnonzero(counts == n)) for n in np.unique(counts[counts <= most]).tolist()]
         self.spreading = (
-            Spreading(self.q.half, self.width, 3 if self.of == Measure.VOLUME else 1) if self.fine else None
+            Spreading(self.q.half, self.width, 3 if self.measure == Measure.VOLUME else 1) if self.fine else None
         )
 
     def _counts(self) -> Generator[float, None, NDArray[np.int64]]:
         """(m,) Gauss points along a side of each triangle."""
         largest = np.sqrt(3.0) * self.q.largest * self.faces.scale
         spans, regular = largest * self.faces.diameters, largest * self.faces.heights >= 2.0 * np.pi
-        bound = _points(spans, self.each)
-        q = _trial(self.q) * self.faces.scale
-        size = np.sqrt((q**2).sum(axis=1)) if self.of == Measure.VOLUME else 1.0
+        bound = _points_per_side(spans, self.each)
+        q = _trial_vectors(self.q) * self.faces.scale
+        size = np.sqrt((q**2).sum(axis=1)) if self.measure == Measure.VOLUME else 1.0
         exact, before = None, None
-        for credit in CREDITS:
-            fewer = np.where(regular, bound, _points(spans, self.each * credit))
-            tried = np.flatnonzero((fewer < bound) & (fewer <= MOST))
+        for credit in ERROR_CREDITS:
+            fewer = np.where(regular, bound, _points_per_side(spans, self.each * credit))
+            tried = np.flatnonzero((fewer < bound) & (fewer <= MAX_POINTS_PER_SIDE))
             if not len(tried) or np.array_equal(fewer, before):
                 continue
             before = fewer
@@ -94,17 +97,17 @@ class GridTransform(Transform):
             points = np.zeros(len(q), np.complex128)
             for n in np.unique(fewer[tried]).tolist():
                 points += yield from self._points_over(tried[fewer[tried] == n], n, q)
-            if (np.abs(points - exact[1]) / size).max() <= self.together:
+            if (np.abs(points - exact[1]) / size).max() <= self.joint_count:
                 return fewer
         return bound
 
-    def _sum_over(self, rows: NDArray[np.intp], q: NDArray) -> Generator[float, None, NDArray[np.complex128]]:
+    def _sum_over(self, triangle_rows: NDArray[np.intp], q: NDArray) -> Generator[float, None, NDArray[np.complex128]]:
         """(k,) Σ (q·N) D / |q|, or Σ |N| D, over some triangles at wave vectors (k, 3), in closed form."""
-        faces, waves, total = self.faces.only(rows), ListWaves(q), np.zeros(len(q), np.complex128)
-        rows = slice(0, len(q))
-        for run in faces.blocks(PAIRS // len(q)):
+        faces, waves, total = self.faces.select(triangle_rows), ListWaves(q), np.zeros(len(q), np.complex128)
+        triangle_rows = slice(0, len(q))
+        for run in faces.blocks(PAIRS_PER_BLOCK // len(q)):
             block = faces.block(run)
-            real, imaginary = Means(block, waves, rows)(rows)
+            real, imaginary = PhaseMeans(block, waves, triangle_rows)(triangle_rows)
             weights = self._weights(block.normals, waves.q)
             total += (weights * (real + 0.5)).sum(axis=1) + 1j * (weights * imaginary).sum(axis=1)
             yield 0.0
@@ -113,12 +116,12 @@ class GridTransform(Transform):
         return result
 
     def _points_over(
-        self, rows: NDArray[np.intp], n: int, q: NDArray
+        self, triangle_rows: NDArray[np.intp], n: int, q: NDArray
     ) -> Generator[float, None, NDArray[np.complex128]]:
         """The same by points in each triangle."""
-        total, size = np.zeros(len(q), np.complex128), max(1, PAIRS // (len(q) * n * n))
-        for start in range(0, len(rows), size):
-            points, vectors, weights = self._nodes(self.faces.triangles[rows[start : start + size]], n)
+        total, size = np.zeros(len(q), np.complex128), max(1, PAIRS_PER_BLOCK // (len(q) * n * n))
+        for start in range(0, len(triangle_rows), size):
+            points, vectors, weights = self._nodes(self.faces.triangles[triangle_rows[start : start + size]], n)
             phases = sum(np.multiply.outer(q[:, axis], points[axis]) for axis in range(3))
             sources = self._weights(vectors, q.T)[..., None] * weights
             total += ((np.cos(phases) - 1j * np.sin(phases)) * sources).sum(axis=(1, 2))
@@ -127,7 +130,7 @@ class GridTransform(Transform):
 
     def _weights(self, vectors: NDArray, q: NDArray) -> NDArray[np.float64]:
         """(k, m) (q·N) / |q|, or (1, m) |N|, for normals (3, m) and wave vectors (3, k)."""
-        if self.of == Measure.AREA:
+        if self.measure == Measure.AREA:
             return np.sqrt((vectors**2).sum(axis=0))[None]
         return sum(np.multiply.outer(a, b) for a, b in zip(q, vectors)) / np.sqrt((q**2).sum(axis=0))[:, None]
 
@@ -135,46 +138,52 @@ class GridTransform(Transform):
         """(3, m, k) points in triangles, (3, m) the normals and (k,) weights."""
         corners = [self.faces.points[corner].T for corner in triangles.T]
         shares, weights = triangle_rule(n)
-        return sum(corner[..., None] * share for corner, share in zip(corners, shares)), normals(*corners), weights
+        return (
+            sum(corner[..., None] * share for corner, share in zip(corners, shares)),
+            compensated_normals(*corners),
+            weights,
+        )
 
     def steps(self) -> Iterator[float]:
         """Do the work. Yields after each part of it the fraction done, from 0 to 1, roughly."""
-        expected = len(self.faces.triangles) * len(_trial(self.q)) / PAIRS
-        for tried, _ in enumerate(self._share()):
-            yield SHARING * tried / (tried + expected)
-        checked = CHECKING if self.fine else 0.0
+        expected = len(self.faces.triangles) * len(_trial_vectors(self.q)) / PAIRS_PER_BLOCK
+        for tried, _ in enumerate(self._assign_triangles()):
+            yield SHARING_TIME * tried / (tried + expected)
+        checked = CHECKING_TIME if self.fine else 0.0
         direct = len(self.direct.triangles) * len(self.sums) * DIRECT_COST
-        total = direct + self.width**3 * sum(len(rows) * len(triangle_rule(n)[1]) for n, rows in self.fine)
+        total = direct + self.width**3 * sum(
+            len(triangle_rows) * len(triangle_rule(n)[1]) for n, triangle_rows in self.fine
+        )
         done = 0.0
         for share in super().steps():
             done = share * direct
-            yield SHARING + (1.0 - SHARING - checked) * done / total
-        for n, rows in self.fine:
+            yield SHARING_TIME + (1.0 - SHARING_TIME - checked) * done / total
+        for n, triangle_rows in self.fine:
             count = len(triangle_rule(n)[1])
-            size = max(1, CHUNK // count)
-            for start in range(0, len(rows), size):
-                some = rows[start : start + size]
+            size = max(1, POINTS_PER_CHUNK // count)
+            for start in range(0, len(triangle_rows), size):
+                some = triangle_rows[start : start + size]
                 self._spread(self.faces.triangles[some], n)
                 done += len(some) * count * self.width**3
-                yield SHARING + (1.0 - SHARING - checked) * done / total
+                yield SHARING_TIME + (1.0 - SHARING_TIME - checked) * done / total
         if self.fine:
-            yield from (1.0 - checked for _ in self._gather())
-            self.exact = Transform(self.surface, self.q.vectors()[_samples(self.q)], self.of, self.threads)
+            yield from (1.0 - checked for _ in self._collect_spread())
+            self.exact = Transform(self.surface, self.q.vectors()[_sample_indices(self.q)], self.measure, self.threads)
             yield from (1.0 - checked * (1.0 - share) for share in self.exact.steps())
 
     def _spread(self, triangles: NDArray, n: int) -> None:
         """Put the points of some triangles on the fine grid."""
         points, strengths, weights = self._nodes(triangles, n)
-        if self.of == Measure.AREA:
+        if self.measure == Measure.AREA:
             strengths = np.sqrt((strengths**2).sum(axis=0))[None]
         strengths = (strengths[..., None] * weights).reshape(len(strengths), -1)
         self.spreading.add(points.reshape(3, -1) * (self.q.step * self.faces.scale), strengths)
 
-    def _gather(self) -> Iterator[None]:
+    def _collect_spread(self) -> Iterator[None]:
         """Add to the sums what was spread, less the halves that `Transform` takes off."""
         vectors = self.waves.vectors(slice(0, self.waves.rows))
         for axis, waves in enumerate(self.spreading.sums()):
-            if self.of == Measure.VOLUME:
+            if self.measure == Measure.VOLUME:
                 self.sums += vectors[axis] * (waves.reshape(-1) - waves[self.q.half, self.q.half, 0].real)
             else:
                 self.sums += waves.reshape(-1) - waves[self.q.half, self.q.half, 0].real
@@ -182,14 +191,16 @@ class GridTransform(Transform):
 
     def result(self) -> Spectrum:
         """The spectrum, when all steps are done, and how far it is from the closed form at some frequencies."""
-        found = super().result()
+        spectrum = super().result()
         if not self.fine:
-            return found
-        error = SAFETY * np.abs(found.values[_samples(self.q)] - self.exact.result().values).max()
-        return replace(found, error=found.error + error, method=APPROXIMATE)
+            return spectrum
+        error = (
+            ERROR_SAFETY_FACTOR * np.abs(spectrum.values[_sample_indices(self.q)] - self.exact.result().values).max()
+        )
+        return replace(spectrum, error=spectrum.error + error, method=APPROXIMATE)
 
 
-def _width(half: int, tolerance: float, divided: bool) -> int:
+def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
     """The least width of the kernel for an error of tolerance Σ |c|, divided by |k| at each wave vector k or not."""
     k = np.arange(1, half + 1) if divided else np.ones(half)
     for width in WIDTHS:
@@ -198,31 +209,31 @@ def _width(half: int, tolerance: float, divided: bool) -> int:
     raise ValueError("tolerance out of reach")
 
 
-def _points(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
+def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
     """(m,) how many points along a side keep each D within tolerance, for |q| times the diameters; MOST + 1 where MOST
     do not."""
-    span, limits = np.append(0.0, np.geomspace(1e-6, 4.0 * MOST, 4000)), []
-    for n in range(1, MOST + 1):
+    span, limits = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000)), []
+    for n in range(1, MAX_POINTS_PER_SIDE + 1):
         ratio = span / 4.0 / (2 * n + 1)
         bound = 2.0 * (span / 4.0) ** (2 * n) / factorial(2 * n) / np.maximum(1.0 - ratio, 0.1)
         limits.append(span[(bound <= tolerance) & (ratio < 0.9)].max())
     return np.searchsorted(np.maximum.accumulate(limits), spans) + 1
 
 
-def _trial(grid: Grid) -> NDArray[np.float64]:
+def _trial_vectors(grid: FrequencyGrid) -> NDArray[np.float64]:
     """(k, 3) wave vectors of all sizes in a grid, along its axes and diagonals and between them."""
     along = np.concatenate([np.eye(3), [[1.0, 1.0, 1.0], [0.9, -0.7, 0.4]]])
-    shells = [grid.largest * share for share in SHELLS if share * grid.half >= 1.0]
+    shells = [grid.largest * share for share in TRIAL_RADII if share * grid.half >= 1.0]
     return np.concatenate([size * along for size in shells])
 
 
-def _samples(grid: Grid) -> NDArray[np.intp]:
+def _sample_indices(grid: FrequencyGrid) -> NDArray[np.intp]:
     """Places on a grid: the ends and beginnings of its axes and diagonals, where faces across them show most, and some
     anywhere."""
     h, n = grid.half, grid.count
     steps = np.concatenate([np.eye(3, dtype=int), np.ones((1, 3), int), 1 - np.eye(3, dtype=int)])
-    places = np.concatenate(
-        [h + steps * s for s in (-h, -1, 1)] + [np.random.default_rng(0).integers(0, n, (SAMPLES, 3))]
+    positions = np.concatenate(
+        [h + steps * s for s in (-h, -1, 1)] + [np.random.default_rng(0).integers(0, n, (SAMPLE_FREQUENCIES, 3))]
     )
-    places = np.unique(np.clip(places, 0, n - 1), axis=0)
-    return (places[:, 0] * n + places[:, 1]) * n + places[:, 2]
+    positions = np.unique(np.clip(positions, 0, n - 1), axis=0)
+    return (positions[:, 0] * n + positions[:, 1]) * n + positions[:, 2]

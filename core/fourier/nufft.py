@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 OVERSAMPLING = 2.0
 BETA = 2.30  # per unit of width, for that oversampling
-BLOCK = 1 << 19  # cells that a block of points is spread over: it stays near the cache
+CELLS_PER_BLOCK = 1 << 19  # cells that a block of points is spread over: it stays near the cache
 WIDTHS = range(4, 16)
-FOLDS = 4  # of the fine grid's frequencies that are looked at; further ones are less by far
+ALIASED_ORDERS = 4  # of the fine grid's frequencies that are looked at; further ones are less by far
 ROUNDING = 1e-15
 
 
@@ -28,9 +28,11 @@ def aliasing(half: int, width: int) -> NDArray[np.float64]:
 
     The fine grid takes k for k + m side, for any m, as far as the kernel's transform lets those through.
     """
-    side, k = _side(half, width), np.arange(half + 1)
-    others = sum(np.abs(_kernel_transform(k / side + m, width)) for m in range(-FOLDS, FOLDS + 1) if m)
-    return others / _kernel_transform(k / side, width) + ROUNDING
+    side, k = _grid_side(half, width), np.arange(half + 1)
+    aliased = sum(
+        np.abs(_kernel_transform(k / side + m, width)) for m in range(-ALIASED_ORDERS, ALIASED_ORDERS + 1) if m
+    )
+    return aliased / _kernel_transform(k / side, width) + ROUNDING
 
 
 class Spreading:
@@ -41,25 +43,25 @@ class Spreading:
 
     def __init__(self, half: int, width: int, count: int):
         self.half, self.width = half, width
-        self.side = _side(half, width)
+        self.side = _grid_side(half, width)
         # along x some more cells, so that a block of neighbours covers one run of them
         self.cells = [np.zeros((self.side + width) * self.side**2) for _ in range(count)]
 
     def add(self, angles: NDArray[np.float64], strengths: NDArray[np.float64]) -> None:
         """Spread points at angles (3, p), in rad, with strengths (count, p)."""
-        places = angles * (self.side / (2.0 * np.pi)) % self.side
-        places[places >= self.side] = 0.0  # which is what rounding makes of tiny negative angles
-        order = np.argsort(places[0])
-        size = max(1, BLOCK // self.width**3)
+        positions = angles * (self.side / (2.0 * np.pi)) % self.side
+        positions[positions >= self.side] = 0.0  # which is what rounding makes of tiny negative angles
+        order = np.argsort(positions[0])
+        size = max(1, CELLS_PER_BLOCK // self.width**3)
         for start in range(0, len(order), size):
             some = order[start : start + size]
-            self._spread(places[:, some], strengths[:, some])
+            self._spread(positions[:, some], strengths[:, some])
 
-    def _spread(self, places: NDArray, strengths: NDArray) -> None:
-        n, w, p = self.side, self.width, places.shape[1]
+    def _spread(self, positions: NDArray, strengths: NDArray) -> None:
+        n, w, p = self.side, self.width, positions.shape[1]
         steps = np.arange(w)
-        first = np.floor(places - w / 2.0) + 1.0
-        kernel = _kernel(((first - places)[..., None] + steps) * (2.0 / w), w)
+        first = np.floor(positions - w / 2.0) + 1.0
+        kernel = _kernel(((first - positions)[..., None] + steps) * (2.0 / w), w)
         x, y, z = first.astype(np.int64)[..., None] + (steps + w // 2)
         y, z, low, high = y % n, z % n, int(x.min()), int(x.max()) + 1
         plane = (y[:, :, None] * n + z[:, None, :]).reshape(p, 1, w * w)
@@ -102,17 +104,17 @@ def _gauss(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return np.polynomial.legendre.leggauss(count)
 
 
-def _side(half: int, width: int) -> int:
+def _grid_side(half: int, width: int) -> int:
     """The cells along a side of the fine grid: an even number with small prime factors only, for which a fast Fourier
     transform is fast."""
     n = int(OVERSAMPLING * (2 * half + 1)) + width
     n += n % 2
-    while _rough(n):
+    while _has_large_prime(n):
         n += 2
     return n
 
 
-def _rough(n: int) -> bool:
+def _has_large_prime(n: int) -> bool:
     """Whether a prime above 7 divides n."""
     for prime in (2, 3, 5, 7):
         while n % prime == 0:

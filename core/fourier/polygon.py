@@ -17,13 +17,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import U
-from ..numerics.compensated import wave
+from ..numerics.compensated import phase_factors
 from .spectrum import Spectrum
-from .transform import ERROR, NOTHING
-from .triangle_kernel import PAIRS
+from .transform import ROUNDING_FACTOR, ZERO_WAVE_NUMBER
+from .triangle_kernel import PAIRS_PER_BLOCK
 from .wave_vectors import wave_vectors
 
-TERMS = 10  # of sinc(t) - 1 for t up to 1
+SERIES_TERMS = 10  # of sinc(t) - 1 for t up to 1
 
 
 def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
@@ -45,38 +45,38 @@ def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
     start = np.concatenate([(loop - center) / scale for loop in corners])
     end = np.concatenate([(np.roll(loop, -1, axis=0) - center) / scale for loop in corners])
     edge = end - start
-    values = _transformed((start + end).T / 2.0, edge.T / 2.0, np.stack([edge[:, 1], -edge[:, 0]]), q * scale)
-    near = np.sqrt((q**2).sum(axis=1)) * scale <= NOTHING
+    values = _edge_sum((start + end).T / 2.0, edge.T / 2.0, np.stack([edge[:, 1], -edge[:, 0]]), q * scale)
+    near = np.sqrt((q**2).sum(axis=1)) * scale <= ZERO_WAVE_NUMBER
     if near.any():
         cross = start[:, 0] * edge[:, 1] - start[:, 1] * edge[:, 0]
         first = (cross[:, None] * (start + end)).sum(axis=0) / 6.0
         values[near] = cross.sum() / 2.0 - 1j * (q[near] @ first * scale)
     values *= scale**2
     perimeter = np.sqrt((edge**2).sum(axis=1)).sum()
-    error = U * ERROR * perimeter * scale**2 + 8.0 * U * np.abs(values)
-    return Spectrum(q, values * wave(q, center), error)
+    error = U * ROUNDING_FACTOR * perimeter * scale**2 + 8.0 * U * np.abs(values)
+    return Spectrum(q, values * phase_factors(q, center), error)
 
 
-def _transformed(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> NDArray[np.complex128]:
+def _edge_sum(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> NDArray[np.complex128]:
     """(M,) the sum over edges, by columns (2, k)."""
-    values, size = np.empty(len(q), np.complex128), max(1, PAIRS // middle.shape[1])
+    values, size = np.empty(len(q), np.complex128), max(1, PAIRS_PER_BLOCK // middle.shape[1])
     for begin in range(0, len(q), size):
         block = q[begin : begin + size].T
         m, t, across = (
             sum(np.multiply.outer(a, b) for a, b in zip(block, vectors)) for vectors in (middle / 2.0, half, normal)
         )
         v = -2.0 * np.sin(m) * (np.sin(m) + 1j * np.cos(m))  # exp(-i q·x) - 1
-        less = _sinc_less(t)
-        square = np.maximum((block**2).sum(axis=0), NOTHING**2)
+        less = _sinc_minus_one(t)
+        square = np.maximum((block**2).sum(axis=0), ZERO_WAVE_NUMBER**2)
         values[begin : begin + size] = 1j * (across * (v + (1.0 + v) * less)).sum(axis=1) / square
     return values
 
 
-def _sinc_less(t: NDArray) -> NDArray[np.float64]:
+def _sinc_minus_one(t: NDArray) -> NDArray[np.float64]:
     """sin(t) / t - 1, accurate to its last digits."""
     square = np.minimum(t * t, 1.0)
     total = np.zeros_like(t)
-    for k in range(TERMS, 0, -1):
+    for k in range(SERIES_TERMS, 0, -1):
         total = square * (total + (-1.0) ** k / factorial(2 * k + 1))
     large = np.abs(t) > 1.0
     return np.where(large, np.sin(t) / np.where(large, t, 1.0) - 1.0, total)

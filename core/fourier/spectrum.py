@@ -20,25 +20,32 @@ class Spectrum:
 
     q: (M, 3) rad per unit length; (M, 2) of a polygon. values: (M,) complex, unit³ of a body, unit² of a surface or a
     polygon. error: (M,) what the values may be off by: of an "exact" spectrum a bound of the rounding, of an
-    "approximate" one an estimate. input: a bound of what storing coordinates as float32 may have changed, whatever q.
+    "approximate" one an estimate. input_error: a bound of what storing coordinates as float32 may have changed,
+    whatever q.
     """
 
     q: NDArray[np.float64]
     values: NDArray[np.complex128]
     error: NDArray[np.float64]
-    input: float = 0.0
+    input_error: float = 0.0
     method: str = EXACT
 
     def __add__(self, other: Spectrum) -> Spectrum:
         """Of two bodies together, at the same wave vectors."""
         method = EXACT if self.method == other.method == EXACT else APPROXIMATE
-        return Spectrum(self.q, self.values + other.values, self.error + other.error, self.input + other.input, method)
+        return Spectrum(
+            self.q, self.values + other.values, self.error + other.error, self.input_error + other.input_error, method
+        )
 
-    def scaled(self, factor: float) -> Spectrum:
+    def scale(self, factor: float) -> Spectrum:
         """Times a positive factor, as the thickness of a sheet."""
-        return replace(self, values=self.values * factor, error=self.error * factor, input=self.input * factor)
+        return replace(
+            self, values=self.values * factor, error=self.error * factor, input_error=self.input_error * factor
+        )
 
-    def times(self, waves: NDArray[np.complex128], count: int) -> Spectrum:
+    def multiply_by_phases(self, waves: NDArray[np.complex128], count: int) -> Spectrum:
         """Of `count` copies together, from the sums (M,) of exp(-i q·t) over where they stand."""
         rounding = (8.0 + count) * count * U * np.abs(self.values)
-        return replace(self, values=self.values * waves, error=count * self.error + rounding, input=count * self.input)
+        return replace(
+            self, values=self.values * waves, error=count * self.error + rounding, input_error=count * self.input_error
+        )

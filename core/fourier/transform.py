@@ -25,36 +25,36 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.surface import Surface
 from ..moments.moments import Measure, U
-from ..numerics.compensated import two_sum, wave
+from ..numerics.compensated import phase_factors, two_sum
 from ..polyhedron import polyhedron_moments
 from ..verdict.finding import MeasureError
 from .spectrum import Spectrum
-from .triangle_kernel import BLOCK, PAIRS, Faces, Means
-from .wave_vectors import Grid, GridWaves, ListWaves, wave_vectors
+from .triangle_kernel import PAIRS_PER_BLOCK, TRIANGLES_PER_BLOCK, PhaseMeans, SortedTriangles
+from .wave_vectors import FrequencyGrid, GridWaves, ListWaves, wave_vectors
 
-SHARE = 1 << 20  # pairs of triangles and frequencies that are handed out at a time: about a tenth of a second
-NOTHING = 1e-20  # |q| R below which F is V - i q·∫x dV, to all digits
-OPEN = 1e-6  # of the area: from here on the rims of a surface gape
-ASKEW = np.array([[0.72, 0.9, 0.96]])  # a wave vector that is special to no body, of length 1.5
-ERROR = 64.0
+PAIRS_PER_TASK = 1 << 20  # pairs of triangles and frequencies that are handed out at a time: about a tenth of a second
+ZERO_WAVE_NUMBER = 1e-20  # |q| R below which F is V - i q·∫x dV, to all digits
+OPEN_AREA_RTOL = 1e-6  # of the area: from here on the rims of a surface gape
+GENERIC_WAVE_VECTOR = np.array([[0.72, 0.9, 0.96]])  # a wave vector that is special to no body, of length 1.5
+ROUNDING_FACTOR = 64.0
 
 
-def solid_transform(surface: Surface, q: ArrayLike | Grid, threads: int = 1) -> Spectrum:
+def solid_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int = 1) -> Spectrum:
     """F(q) = ∫ exp(-i q·x) dV of the body in a closed surface, at wave vectors (M, 3) or on a grid.
 
     Signed as a volume is: positive for outward faces. MeasureError for an open surface, for none, for wave vectors
     that are not finite and for sizes beyond the range of numbers; ValueError for coordinates that are not finite and
     for indices that name no point.
     """
-    return finished(Transform(surface, q, Measure.VOLUME, threads))
+    return run_to_completion(Transform(surface, q, Measure.VOLUME, threads))
 
 
-def surface_transform(surface: Surface, q: ArrayLike | Grid, threads: int = 1) -> Spectrum:
+def surface_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int = 1) -> Spectrum:
     """∫ exp(-i q·x) dA over a surface, closed or not, at wave vectors (M, 3) or on a grid."""
-    return finished(Transform(surface, q, Measure.AREA, threads))
+    return run_to_completion(Transform(surface, q, Measure.AREA, threads))
 
 
-def finished(transform: Transform) -> Spectrum:
+def run_to_completion(transform: Transform) -> Spectrum:
     """The outcome of a transform, once all its steps are done here."""
     for _ in transform.steps():
         pass
@@ -62,36 +62,36 @@ def finished(transform: Transform) -> Spectrum:
 
 
 class Transform:
-    """A transform under way: `steps` does the work, `result` tells the outcome. of: volume or area."""
+    """A transform under way: `steps` does the work, `result` tells the outcome. measure: volume or area."""
 
-    def __init__(self, surface: Surface, q: ArrayLike | Grid, of: Measure, threads: int = 1):
-        self.q = q if isinstance(q, Grid) else wave_vectors(q, 3)
-        self.of, self.threads = of, threads
-        self.faces = self.direct = Faces(surface)
+    def __init__(self, surface: Surface, q: ArrayLike | FrequencyGrid, of: Measure, threads: int = 1):
+        self.q = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
+        self.measure, self.threads = of, threads
+        self.faces = self.direct = SortedTriangles(surface)
         self.volume, self.area = polyhedron_moments(surface, area_order=0, threads=threads)
         self.gap = 0.0
         if of == Measure.VOLUME:
-            self.gap = float(np.linalg.norm(np.cross(ASKEW[0], self._vector_sum()))) / 1.5
-            if self.gap > OPEN * self.faces.area:
+            self.gap = float(np.linalg.norm(np.cross(GENERIC_WAVE_VECTOR[0], self._vector_sum()))) / 1.5
+            if self.gap > OPEN_AREA_RTOL * self.faces.area:
                 raise MeasureError("fourier_of_open_surface")
         scale = self.faces.scale
-        self.waves = GridWaves(q, scale) if isinstance(q, Grid) else ListWaves(self.q * scale)
+        self.waves = GridWaves(q, scale) if isinstance(q, FrequencyGrid) else ListWaves(self.q * scale)
         self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)
 
     def _vector_sum(self) -> NDArray[np.complex128]:
         """(3,) ∫ n exp(-i q·x) dA at ASKEW, parallel to it for a closed surface."""
-        waves, total = ListWaves(ASKEW), np.zeros(3, np.complex128)
-        for run in self.faces.blocks(PAIRS):
+        waves, total = ListWaves(GENERIC_WAVE_VECTOR), np.zeros(3, np.complex128)
+        for run in self.faces.blocks(PAIRS_PER_BLOCK):
             block = self.faces.block(run)
-            real, imaginary = Means(block, waves, slice(0, 1))(slice(0, 1))
+            real, imaginary = PhaseMeans(block, waves, slice(0, 1))(slice(0, 1))
             total += (block.normals * real).sum(axis=1) + 1j * (block.normals * imaginary).sum(axis=1)
         return total
 
     def steps(self) -> Iterator[float]:
         """Do the work, and tell after each share of it how much is done, from 0 to 1."""
-        shares = self._shares()
+        shares = self._tasks()
         if self.threads == 1:
-            results = map(self._sum, shares)
+            results = map(self._run_task, shares)
             for done, (part, values) in enumerate(results, 1):
                 self._add(part, values)
                 yield done / len(shares)
@@ -100,7 +100,7 @@ class Transform:
             waiting: list[Future] = []
             try:
                 for done, share in enumerate(shares):
-                    waiting.append(pool.submit(self._sum, share))
+                    waiting.append(pool.submit(self._run_task, share))
                     if len(waiting) > 2 * self.threads:
                         self._add(*waiting.pop(0).result())
                         yield (done - len(waiting)) / len(shares)
@@ -116,29 +116,31 @@ class Transform:
         self.sums[part], rest = two_sum(self.sums[part], values)
         self.rest[part] += rest
 
-    def _shares(self) -> list[tuple[slice, slice]]:
+    def _tasks(self) -> list[tuple[slice, slice]]:
         """Runs of triangles and runs of rows of wave vectors: every pair of them once."""
         runs = self.direct.blocks()
-        size = max(1, SHARE // (min(BLOCK, max(len(self.direct.triangles), 1)) * self.waves.columns))
-        rows = self.waves.rows
-        return [(run, slice(i, min(i + size, rows))) for run in runs for i in range(0, rows, size)]
+        size = max(
+            1, PAIRS_PER_TASK // (min(TRIANGLES_PER_BLOCK, max(len(self.direct.triangles), 1)) * self.waves.columns)
+        )
+        row_count = self.waves.rows
+        return [(run, slice(i, min(i + size, row_count))) for run in runs for i in range(0, row_count, size)]
 
-    def _sum(self, share: tuple[slice, slice]) -> tuple[slice, NDArray[np.complex128]]:
+    def _run_task(self, share: tuple[slice, slice]) -> tuple[slice, NDArray[np.complex128]]:
         """Where a share's results stand, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there."""
         run, part = share
         block, columns = self.direct.block(run), self.waves.columns
-        means = Means(block, self.waves, part)
+        means = PhaseMeans(block, self.waves, part)
         across = self.waves.dot(part, block.normals)
-        size = max(1, PAIRS // (len(block.lengths) * columns))
+        size = max(1, PAIRS_PER_BLOCK // (len(block.lengths) * columns))
         sums = np.empty((part.stop - part.start) * columns, np.complex128)
         for i in range(part.start, part.stop, size):
-            rows = slice(i, min(i + size, part.stop))
-            real, imaginary = means(rows)
+            wave_rows = slice(i, min(i + size, part.stop))
+            real, imaginary = means(wave_rows)
             weight = block.lengths
-            if self.of == Measure.VOLUME:
+            if self.measure == Measure.VOLUME:
                 weight, spare = np.empty_like(real), np.empty_like(real)
-                across(rows, weight, spare)
-            here = slice((rows.start - part.start) * columns, (rows.stop - part.start) * columns)
+                across(wave_rows, weight, spare)
+            here = slice((wave_rows.start - part.start) * columns, (wave_rows.stop - part.start) * columns)
             sums.real[here] = np.add.reduce(np.multiply(real, weight, out=real), axis=1)
             sums.imag[here] = np.add.reduce(np.multiply(imaginary, weight, out=imaginary), axis=1)
         return slice(part.start * columns, part.stop * columns), sums
@@ -146,28 +148,28 @@ class Transform:
     def result(self) -> Spectrum:
         """The spectrum, when all steps are done."""
         faces, values = self.faces, self.sums + self.rest
-        if self.of == Measure.AREA:
+        if self.measure == Measure.AREA:
             values, unit, moments = values + faces.area, 2, self.area
         else:
-            values, unit, moments = self._divided(values), 3, self.volume
-        if isinstance(self.q, Grid):
-            q, values = self.q.vectors(), self.q.whole(values)
+            values, unit, moments = self._to_transform(values), 3, self.volume
+        if isinstance(self.q, FrequencyGrid):
+            q, values = self.q.vectors(), self.q.expand(values)
         else:
             q, ordered = self.q, values
             values = np.empty_like(ordered)
             values[self.waves.order] = ordered
         values *= faces.scale**unit
-        turn = wave(q, faces.center)
-        error = faces.scale**unit * (U * ERROR * faces.area + self.gap)
-        return Spectrum(q, values * turn, error + 8.0 * U * np.abs(values), float(moments.input[0]))
+        turn = phase_factors(q, faces.center)
+        error = faces.scale**unit * (U * ROUNDING_FACTOR * faces.area + self.gap)
+        return Spectrum(q, values * turn, error + 8.0 * U * np.abs(values), float(moments.input_error[0]))
 
-    def _divided(self, sums: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def _to_transform(self, sums: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """F in units of the scale: i/q² times the sums, and the moments where q is nothing."""
         q = self.waves.vectors(slice(0, self.waves.rows))
         square = (q * q).sum(axis=0)
-        nothing = square <= NOTHING**2
+        nothing = square <= ZERO_WAVE_NUMBER**2
         values = 1j * sums / np.where(nothing, 1.0, square)
-        volume = self.volume.truncated(1).mapped(
+        volume = self.volume.truncate(1).transform(
             np.block([[np.eye(3), -self.faces.center[:, None]], [np.zeros(3), 1.0]])
         )
         raw = volume.raw / self.faces.scale ** np.array([3, 4, 4, 4])

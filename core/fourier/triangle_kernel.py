@@ -23,23 +23,23 @@ from math import factorial, hypot
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface, all_there
+from ..mesh.surface import Surface, indices_in_range
 from ..numerics.arrays import spread_bits
-from ..numerics.compensated import normals
+from ..numerics.compensated import compensated_normals
 from ..verdict.finding import MeasureError
 from .wave_vectors import GridWaves, ListWaves
 
-BLOCK = 128  # triangles
-PAIRS = 16384  # of triangles and frequencies at a time: their arrays stay in the cache
-LARGE = 1 << 16  # triangles that are prepared at a time
-SERIES = 3.0  # the largest |q| diameter for which all of a block is left to the series
-SPLIT = 1.0  # Σ d² below which a pair is
-CELLS = 1023  # along an axis, to sort triangles in space
+TRIANGLES_PER_BLOCK = 128  # triangles
+PAIRS_PER_BLOCK = 16384  # of triangles and frequencies at a time: their arrays stay in the cache
+TRIANGLES_PER_BATCH = 1 << 16  # triangles that are prepared at a time
+MAX_SERIES_DIAMETER = 3.0  # the largest |q| diameter for which all of a block is left to the series
+MAX_SERIES_SQUARE = 1.0  # Σ d² below which a pair is
+MORTON_CELLS = 1023  # along an axis, to sort triangles in space
 TINY = 1e-300
-LARGEST, SMALLEST = 1e50, 1e-60  # lengths as of a solid that can be measured
+MAX_COORDINATE, MIN_SIZE = 1e50, 1e-60  # lengths as of a solid that can be measured
 
 
-class Faces:
+class SortedTriangles:
     """The triangles of a surface about its center and at unit size, sorted so that blocks of them are alike.
 
     center: (3,). scale: a power of two; points: (n, 3), (x - center) / scale, of length 1 at most. triangles: (m, 3);
@@ -49,7 +49,7 @@ class Faces:
 
     def __init__(self, surface: Surface):
         points = np.asarray(surface.points)
-        if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
+        if not all(indices_in_range(faces, len(points)) for faces in (surface.triangles, surface.quads)):
             raise ValueError("no such vertex")
         triangles = surface.all_triangles()[0]
         if not len(triangles):
@@ -65,9 +65,9 @@ class Faces:
             center = center.astype(np.float32).astype(np.float64)  # then subtracting it is exact
         self.center = center
         reach = hypot(*np.maximum(high - center, center - low).tolist())
-        if not reach < LARGEST:
+        if not reach < MAX_COORDINATE:
             raise MeasureError("fourier_too_large")
-        if 0.0 < reach < SMALLEST:
+        if 0.0 < reach < MIN_SIZE:
             raise MeasureError("fourier_too_small")
         exponent = int(np.ceil(np.log2(reach))) if reach > 0.0 else 0
         self.scale = float(np.ldexp(1.0, exponent))
@@ -77,42 +77,46 @@ class Faces:
     def _sort(self, triangles: NDArray) -> None:
         """By diameter to a factor of two, then along a space-filling curve, so that a block's triangles share edges."""
         keys, diameters, heights, self.area = [], [], [], 0.0
-        for start in range(0, len(triangles), LARGE):
-            a, b, c = (self.points[corner].T for corner in triangles[start : start + LARGE].T)
+        for start in range(0, len(triangles), TRIANGLES_PER_BATCH):
+            a, b, c = (self.points[corner].T for corner in triangles[start : start + TRIANGLES_PER_BATCH].T)
             sides = np.sqrt([((a - b) ** 2).sum(axis=0), ((b - c) ** 2).sum(axis=0), ((c - a) ** 2).sum(axis=0)])
             diameter, shortest = sides.max(axis=0), sides.min(axis=0)
-            double = np.sqrt((normals(a, b, c) ** 2).sum(axis=0))
+            double = np.sqrt((compensated_normals(a, b, c) ** 2).sum(axis=0))
             self.area += float(double.sum()) / 2.0
             heights.append(double / np.maximum(shortest, TINY))
-            cell = np.clip(((a + b + c) / 3.0 + 1.0) * (CELLS / 2.0), 0, CELLS).astype(np.int64)
+            cell = np.clip(((a + b + c) / 3.0 + 1.0) * (MORTON_CELLS / 2.0), 0, MORTON_CELLS).astype(np.int64)
             octave = np.clip(np.frexp(diameter)[1] + 1100, 0, 2000).astype(np.int64)
-            keys.append(octave << 30 | _interleaved(cell))
+            keys.append(octave << 30 | _morton_code(cell))
             diameters.append(diameter)
         order = np.argsort(np.concatenate(keys), kind="stable")
         self.triangles = triangles[order]
         self.diameters, self.heights = np.concatenate(diameters)[order], np.concatenate(heights)[order]
 
-    def blocks(self, size: int = BLOCK) -> list[slice]:
+    def blocks(self, size: int = TRIANGLES_PER_BLOCK) -> list[slice]:
         """Runs of triangles."""
         return [slice(i, min(i + size, len(self.triangles))) for i in range(0, len(self.triangles), size)]
 
-    def only(self, rows: NDArray[np.intp]) -> Faces:
+    def select(self, selection: NDArray[np.intp]) -> SortedTriangles:
         """Some of the triangles, at the same scale."""
         some = copy(self)
-        some.triangles, some.diameters, some.heights = self.triangles[rows], self.diameters[rows], self.heights[rows]
+        some.triangles, some.diameters, some.heights = (
+            self.triangles[selection],
+            self.diameters[selection],
+            self.heights[selection],
+        )
         return some
 
-    def block(self, run: slice) -> Block:
-        return Block(self.points, self.triangles[run], float(self.diameters[run].max()))
+    def block(self, run: slice) -> TriangleBlock:
+        return TriangleBlock(self.points, self.triangles[run], float(self.diameters[run].max()))
 
 
-def _interleaved(cells: NDArray) -> NDArray[np.int64]:
+def _morton_code(cells: NDArray) -> NDArray[np.int64]:
     """The bits of three numbers below 1024, (3, k), in turn: where a Z-shaped curve passes a place."""
     spread = spread_bits(cells)
     return spread[0] | spread[1] << 1 | spread[2] << 2
 
 
-class Block:
+class TriangleBlock:
     """Some triangles.
 
     diameter: the largest. normals, centers: (3, k), (b-a) x (c-a) and the means of the corners; from_center: twice
@@ -122,7 +126,7 @@ class Block:
 
     def __init__(self, points: NDArray, triangles: NDArray, diameter: float):
         a, b, c = (points[corner].T for corner in triangles.T)
-        self.diameter, self.normals, self.centers = diameter, normals(a, b, c), (a + b + c) / 3.0
+        self.diameter, self.normals, self.centers = diameter, compensated_normals(a, b, c), (a + b + c) / 3.0
         self.from_center = ((a - b) + (a - c)) / 3.0, ((b - a) + (b - c)) / 3.0
         ends = np.sort(np.stack([triangles[:, [1, 2]], triangles[:, [2, 0]], triangles[:, [0, 1]]]).astype(np.int64))
         unique, edges = np.unique(ends[..., 0] * len(points) + ends[..., 1], return_inverse=True)
@@ -132,84 +136,88 @@ class Block:
         self.lengths = np.sqrt((self.normals**2).sum(axis=0))
 
 
-class Means:
+class PhaseMeans:
     """D - 1/2 of a block's triangles for a part of the wave vectors."""
 
-    def __init__(self, block: Block, waves: ListWaves | GridWaves, part: slice):
+    def __init__(self, block: TriangleBlock, waves: ListWaves | GridWaves, part: slice):
         self.block, self.waves = block, waves
         self.first, self.second = (waves.dot(part, vectors) for vectors in block.from_center)
-        self.half = waves.wave(part, block.centers / 2.0)
+        self.half = waves.phase_factors(part, block.centers / 2.0)
         self.largest = np.sqrt((waves.vectors(part) ** 2).sum(axis=0).max()) * block.diameter
-        self.terms = _terms(min(self.largest, SERIES) * 2.0 / 3.0)
-        if self.largest > SERIES:
-            self.middle, self.along = waves.wave(part, block.middles), waves.dot(part, block.halves)
+        self.terms = _series_terms(min(self.largest, MAX_SERIES_DIAMETER) * 2.0 / 3.0)
+        if self.largest > MAX_SERIES_DIAMETER:
+            self.middle, self.along = waves.phase_factors(part, block.middles), waves.dot(part, block.halves)
 
-    def __call__(self, rows: slice) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def __call__(self, wave_rows: slice) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(m, k) its real part and its imaginary part for some rows of the part, a block's worth of them."""
-        vectors = self.waves.vectors(rows)
+        vectors = self.waves.vectors(wave_rows)
         a, b, c, spare = (np.empty((vectors.shape[1], len(self.block.lengths))) for _ in range(4))
-        self.first(rows, a, spare)
-        self.second(rows, b, spare)
+        self.first(wave_rows, a, spare)
+        self.second(wave_rows, b, spare)
         np.add(a, b, out=c)
         np.negative(c, out=c)
-        if self.largest <= SERIES:
-            return self._by_series(rows, a, b, c, spare)
-        return self._by_edges(rows, vectors, a, b, c, spare)
+        if self.largest <= MAX_SERIES_DIAMETER:
+            return self._by_series(wave_rows, a, b, c, spare)
+        return self._by_edges(wave_rows, vectors, a, b, c, spare)
 
-    def _by_series(self, rows: slice, a: NDArray, b: NDArray, c: NDArray, spare: NDArray) -> tuple[NDArray, NDArray]:
+    def _by_series(
+        self, wave_rows: slice, a: NDArray, b: NDArray, c: NDArray, spare: NDArray
+    ) -> tuple[NDArray, NDArray]:
         square, cube = a * a, np.multiply(a, b, out=spare)
         np.add(square, cube, out=square)
         np.multiply(cube, c, out=cube)
         np.multiply(b, b, out=c)
         np.add(square, c, out=square)
         real, imaginary = _series(square, cube, self.terms)
-        self.half(rows, a, b, c)
-        return _turned(a, b, real, imaginary)
+        self.half(wave_rows, a, b, c)
+        return _apply_phase(a, b, real, imaginary)
 
     def _by_edges(
-        self, rows: slice, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray, spare: NDArray
+        self, wave_rows: slice, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray, spare: NDArray
     ) -> tuple[NDArray, NDArray]:
         block, d = self.block, (a, b, c)
         square = a * a
-        for other in (b, c):
-            np.multiply(other, other, out=spare)
+        for scratch in (b, c):
+            np.multiply(scratch, scratch, out=spare)
             np.add(square, spare, out=square)
-        cosine, sine, phase, other = (np.empty((len(a), block.middles.shape[1])) for _ in range(4))
-        self.middle(rows, cosine, sine, other)
-        self.along(rows, phase, other)
+        cosine, sine, phase, scratch = (np.empty((len(a), block.middles.shape[1])) for _ in range(4))
+        self.middle(wave_rows, cosine, sine, scratch)
+        self.along(wave_rows, phase, scratch)
         np.abs(phase, out=phase)
         np.maximum(phase, TINY, out=phase)
-        np.sin(phase, out=other)
-        np.divide(other, phase, out=phase)
+        np.sin(phase, out=scratch)
+        np.divide(scratch, phase, out=phase)
         np.multiply(cosine, phase, out=cosine)
         np.multiply(sine, phase, out=sine)
-        small = np.flatnonzero(square < SPLIT)
-        series = self._few(small, vectors, a, b, c) if len(small) else None
+        small = np.flatnonzero(square < MAX_SERIES_SQUARE)
+        series = self._series_of_pairs(small, vectors, a, b, c) if len(small) else None
         results = []
         for wave in (sine, cosine):
             total = np.zeros_like(a)
-            for edge, deviation in zip(block.edges, d):
+            for edge, edge_difference in zip(block.edges, d):
                 np.take(wave, edge, axis=1, out=spare, mode="clip")
-                np.multiply(spare, deviation, out=spare)
+                np.multiply(spare, edge_difference, out=spare)
                 np.subtract(total, spare, out=total)
             results.append(total)
-        np.maximum(square, SPLIT / 2.0, out=square)
+        np.maximum(square, MAX_SERIES_SQUARE / 2.0, out=square)
         real, imaginary = (np.divide(total, square, out=total) for total in results)
         np.subtract(real, 0.5, out=real)
         if series is not None:
             real.reshape(-1)[small], imaginary.reshape(-1)[small] = series
         return real, imaginary
 
-    def _few(self, pairs: NDArray, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray) -> tuple[NDArray, NDArray]:
+    def _series_of_pairs(
+        self, pairs: NDArray, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray
+    ) -> tuple[NDArray, NDArray]:
         """The series where it is needed in a block of the other kind."""
         row, column = np.divmod(pairs, len(self.block.lengths))
         a, b, c = (d.reshape(-1)[pairs] for d in (a, b, c))
-        real, imaginary = _series(a * a + a * b + b * b, a * b * c, FEW)
+        real, imaginary = _series(a * a + a * b + b * b, a * b * c, SPLIT_SERIES_TERMS)
         phase = sum(q[row] * x[column] for q, x in zip(vectors, self.block.centers / 2.0))
-        return _turned(np.cos(phase), np.sin(phase), real, imaginary)
+        return _apply_phase(np.cos(phase), np.sin(phase), real, imaginary)
 
 
-def _turned(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArray) -> tuple[NDArray, NDArray]:
+def _apply_phase(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArray) -> tuple[NDArray, NDArray]:
     """D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g: v / 2 + (1 + v) g, with v = exp(-i s0) - 1, which is small
     where s0 is. All are overwritten."""
     np.multiply(cosine, sine, out=cosine)
@@ -217,14 +225,14 @@ def _turned(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArray) -
     np.multiply(sine, sine, out=sine)
     np.multiply(sine, -2.0, out=sine)  # and the real part
     whole = real + 0.5
-    other = cosine * imaginary
-    np.subtract(real, other, out=real)
-    np.multiply(sine, whole, out=other)
-    np.add(real, other, out=real)
-    np.multiply(sine, imaginary, out=other)
-    np.add(imaginary, other, out=imaginary)
-    np.multiply(cosine, whole, out=other)
-    np.add(imaginary, other, out=imaginary)
+    scratch = cosine * imaginary
+    np.subtract(real, scratch, out=real)
+    np.multiply(sine, whole, out=scratch)
+    np.add(real, scratch, out=real)
+    np.multiply(sine, imaginary, out=scratch)
+    np.add(imaginary, scratch, out=imaginary)
+    np.multiply(cosine, whole, out=scratch)
+    np.add(imaginary, scratch, out=imaginary)
     return real, imaginary
 
 
@@ -235,25 +243,25 @@ def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArra
     """
     even, odd, before = -square, cube.copy(), np.zeros_like(square)  # n = 2, 3 and 1
     real, imaginary = even / 24.0, odd / 120.0
-    product, other = np.empty_like(square), np.empty_like(square)
+    product, scratch = np.empty_like(square), np.empty_like(square)
     for n in range(4, terms, 2):
         # h_n from h_(n-2) and h_(n-3), h_(n+1) from h_(n-1) and h_(n-2)
         np.multiply(square, even, out=product)
         np.multiply(cube, before, out=before)
         np.add(product, before, out=product)
         np.negative(product, out=product)
-        np.multiply(square, odd, out=other)
+        np.multiply(square, odd, out=scratch)
         np.multiply(cube, even, out=even)
-        np.subtract(even, other, out=even)
+        np.subtract(even, scratch, out=even)
         even, odd, before, product = product, even, odd, before
-        np.multiply(even, 1.0 / factorial(n + 2), out=other)
-        np.add(real, other, out=real)
-        np.multiply(odd, 1.0 / factorial(n + 3), out=other)
-        np.add(imaginary, other, out=imaginary)
+        np.multiply(even, 1.0 / factorial(n + 2), out=scratch)
+        np.add(real, scratch, out=real)
+        np.multiply(odd, 1.0 / factorial(n + 3), out=scratch)
+        np.add(imaginary, scratch, out=imaginary)
     return real, imaginary
 
 
-def _terms(radius: float) -> int:
+def _series_terms(radius: float) -> int:
     """How many terms are needed for |d| up to radius: h_n / (n+2)! is at most radius^n / (2 n!)."""
     n = 4
     while radius**n / (2.0 * factorial(n)) > 2e-17:
@@ -261,4 +269,4 @@ def _terms(radius: float) -> int:
     return n
 
 
-FEW = _terms(np.sqrt(SPLIT * 2.0 / 3.0))  # where Σ d² is below SPLIT
+SPLIT_SERIES_TERMS = _series_terms(np.sqrt(MAX_SERIES_SQUARE * 2.0 / 3.0))  # where Σ d² is below SPLIT

@@ -16,15 +16,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..verdict.finding import MeasureError
 
-LARGEST = 1e100  # frequency, whose square is still a number whatever the body's size
+MAX_FREQUENCY = 1e100  # frequency, whose square is still a number whatever the body's size
 
 # Both fill arrays of shape (wave vectors of some rows, k); the last argument is overwritten.
-Dot = Callable[[slice, NDArray, NDArray], None]  # with q·v
-Wave = Callable[[slice, NDArray, NDArray, NDArray], None]  # with cos(q·x) and sin(q·x)
+DotFiller = Callable[[slice, NDArray, NDArray], None]  # with q·v
+PhaseFiller = Callable[[slice, NDArray, NDArray, NDArray], None]  # with cos(q·x) and sin(q·x)
 
 
 @dataclass(frozen=True)
-class Grid:
+class FrequencyGrid:
     """A regular grid of wave vectors around 0, in the order of `numpy.fft.fftshift`.
 
     count: frequencies along each axis. largest: rad/m, the largest |q| along each axis. With h = count // 2 the j-th
@@ -38,7 +38,7 @@ class Grid:
     def __post_init__(self) -> None:
         if self.count < 2:
             raise MeasureError("frequency_count")
-        if not 0.0 < self.largest <= LARGEST:
+        if not 0.0 < self.largest <= MAX_FREQUENCY:
             raise MeasureError("frequency_range")
 
     @property
@@ -59,7 +59,7 @@ class Grid:
         axis = self.axis()
         return np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
 
-    def whole(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def expand(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """(count³,) the values everywhere from those of `GridWaves`, which are at half of the places."""
         side, n, h = 2 * self.half + 1, self.count, self.half
         values = values.reshape(side, side, h + 1)
@@ -78,7 +78,7 @@ def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
     q = q.astype(np.float64)
     if not np.isfinite(q).all():
         raise MeasureError("wave_vectors_non_finite")
-    if np.abs(q).max(initial=0.0) > LARGEST:
+    if np.abs(q).max(initial=0.0) > MAX_FREQUENCY:
         raise MeasureError("wave_vectors_too_large")
     return q
 
@@ -93,15 +93,15 @@ class ListWaves:
         self.q = np.ascontiguousarray(q[self.order].T)
         self.rows = len(q)
 
-    def vectors(self, rows: slice) -> NDArray[np.float64]:
+    def vectors(self, wave_rows: slice) -> NDArray[np.float64]:
         """(3, m) the wave vectors of some rows."""
-        return self.q[:, rows]
+        return self.q[:, wave_rows]
 
-    def dot(self, part: slice, vectors: NDArray) -> Dot:
+    def dot(self, part: slice, vectors: NDArray) -> DotFiller:
         """q·v for the rows of a part and vectors (3, k)."""
 
-        def fill(rows: slice, out: NDArray, spare: NDArray) -> None:
-            q = self.q[:, rows]
+        def fill(wave_rows: slice, out: NDArray, spare: NDArray) -> None:
+            q = self.q[:, wave_rows]
             np.multiply(q[0][:, None], vectors[0], out=out)
             for axis in (1, 2):
                 np.multiply(q[axis][:, None], vectors[axis], out=spare)
@@ -109,12 +109,12 @@ class ListWaves:
 
         return fill
 
-    def wave(self, part: slice, points: NDArray) -> Wave:
+    def phase_factors(self, part: slice, points: NDArray) -> PhaseFiller:
         """exp(-i q·x) for the rows of a part and points (3, k)."""
         dot = self.dot(part, points)
 
-        def fill(rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
-            dot(rows, cosine, spare)
+        def fill(wave_rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
+            dot(wave_rows, cosine, spare)
             np.sin(cosine, out=sine)
             np.cos(cosine, out=cosine)
 
@@ -127,45 +127,45 @@ class GridWaves:
     Along x and y both ends are taken, so that every vector of the grid is there or its opposite is. A row is all of z.
     """
 
-    def __init__(self, grid: Grid, scale: float):
+    def __init__(self, grid: FrequencyGrid, scale: float):
         self.side = np.arange(-grid.half, grid.half + 1) * grid.step * scale
         self.depth = self.side[grid.half :]
         self.rows, self.columns = len(self.side) ** 2, len(self.depth)
 
-    def vectors(self, rows: slice) -> NDArray[np.float64]:
+    def vectors(self, wave_rows: slice) -> NDArray[np.float64]:
         """(3, m) the wave vectors of some rows."""
-        x, y = self.side[np.stack(np.divmod(np.arange(rows.start, rows.stop), len(self.side)))]
+        x, y = self.side[np.stack(np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side)))]
         n = self.columns
         return np.stack([np.repeat(x, n), np.repeat(y, n), np.tile(self.depth, len(x))])
 
-    def dot(self, part: slice, vectors: NDArray) -> Dot:
+    def dot(self, part: slice, vectors: NDArray) -> DotFiller:
         """q·v for the rows of a part and vectors (3, k)."""
         first, x, y = self._tables(part, vectors)
         z = self.depth[:, None] * vectors[2]
 
-        def fill(rows: slice, out: NDArray, spare: NDArray) -> None:
-            i, j = np.divmod(np.arange(rows.start, rows.stop), len(self.side))
+        def fill(wave_rows: slice, out: NDArray, spare: NDArray) -> None:
+            i, j = np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side))
             np.add((x[i - first] + y[j])[:, None], z, out=out.reshape(len(i), *z.shape))
 
         return fill
 
-    def wave(self, part: slice, points: NDArray) -> Wave:
+    def phase_factors(self, part: slice, points: NDArray) -> PhaseFiller:
         """exp(-i q·x) for the rows of a part and points (3, k)."""
         first, x, y = self._tables(part, points)
         z = self.depth[:, None] * points[2]
         x, y, z = ((np.cos(phase), np.sin(phase)) for phase in (x, y, z))
 
-        def fill(rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
-            i, j = np.divmod(np.arange(rows.start, rows.stop), len(self.side))
-            c, s, other = (a.reshape(len(i), *z[0].shape) for a in (cosine, sine, spare))
+        def fill(wave_rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
+            i, j = np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side))
+            c, s, scratch = (a.reshape(len(i), *z[0].shape) for a in (cosine, sine, spare))
             a, b, p, q = x[0][i - first], x[1][i - first], y[0][j], y[1][j]
             real, imaginary = (a * p - b * q)[:, None], (a * q + b * p)[:, None]
             np.multiply(real, z[0], out=c)
-            np.multiply(imaginary, z[1], out=other)
-            np.subtract(c, other, out=c)
+            np.multiply(imaginary, z[1], out=scratch)
+            np.subtract(c, scratch, out=c)
             np.multiply(real, z[1], out=s)
-            np.multiply(imaginary, z[0], out=other)
-            np.add(s, other, out=s)
+            np.multiply(imaginary, z[0], out=scratch)
+            np.add(s, scratch, out=s)
 
         return fill
 

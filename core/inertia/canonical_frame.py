@@ -20,86 +20,89 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import Measure, Moments, index, monomials
-from ..moments.symmetric_tensors import _contracted, _places, _rotated, distinct, tensor_index
+from ..moments.moments import Measure, Moments, monomial_index, monomials
+from ..moments.symmetric_tensors import _contract, _rotate_tensor, _tensor_positions, distinct_arrays, tensor_index
 from ..verdict.finding import MeasureError
 
-ORDER = 6  # by which the axes of every prism to a hexagon's, of a cube and of an icosahedron are found
-NOISE = 1e-5  # a normalized third moment below this is noise: ten times what float32 coordinates make
-GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)  # of it with the degree: as the moments of a normal distribution grow
-CLEAR = 1e-2  # a harmonic above this fixes a direction well; weaker ones only where there is no other
-FLAT = 1e-6  # of the largest extent: along an axis of less, a body is a lamina and has no skewness
-SHARE = 0.25  # of what tells directions apart: at most that much is taken for equal
-SPREAD = 240  # directions from which extreme ones are looked for
-GAP = 0.18  # from any direction to the nearest of them
-STEPS = 16  # from there to a maximum, most of them for those that are hardly curved
-RING = 40  # more directions than these are a circle of them, or all
+MAX_ORDER = 6  # by which the axes of every prism to a hexagon's, of a cube and of an icosahedron are found
+NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times what float32 coordinates make
+# of it with the degree: as the moments of a normal distribution grow
+NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
+CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones only where there is no other
+FLAT_EXTENT_RTOL = 1e-6  # of the largest extent: along an axis of less, a body is a lamina and has no skewness
+MAX_EQUAL_SHARE = 0.25  # of what tells directions apart: at most that much is taken for equal
+START_DIRECTIONS = 240  # directions from which extreme ones are looked for
+MAX_START_GAP = 0.18  # from any direction to the nearest of them
+ASCENT_STEPS = 16  # from there to a maximum, most of them for those that are hardly curved
+MAX_ISOLATED_DIRECTIONS = 40  # more directions than these are a circle of them, or all
 
 
 @dataclass(frozen=True, eq=False)
-class Spread:
+class SecondMomentAxes:
     """What second moments say. axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents
-    (standard deviations) along them. free: the axes that equal moments leave free. step: how far float32 has moved
-    the points, as a length. tilt: the angle by which that and rounding may have turned the other axes. noise:
+    (standard deviations) along them. undetermined_axes: the axes that equal moments leave free. step: how far float32
+    has moved the points, as a length. tilt: the angle by which that and rounding may have turned the other axes. noise:
     normalized third moments that differ by less are equal."""
 
     axes: NDArray[np.float64]
     size: NDArray[np.float64]
-    free: tuple[int, ...]
+    undetermined_axes: tuple[int, ...]
     step: float
     tilt: float = 0.0
-    noise: float = NOISE
+    noise: float = NOISE_LEVEL
 
 
 @dataclass(frozen=True, eq=False)
-class Frames:
+class EquivalentFrames:
     """frames: (k, 3, 3) rotations whose columns are the axes, all of them alike to the body. values, noise: (n,) the
     normalized central moments of third to the highest order in each of them, and what of them is noise.
-    round_about: the directions that no moment fixes: none (), those around one axis of the frames (that axis,), or
+    revolution_axes: the directions that no moment fixes: none (), those around one axis of the frames (that axis,), or
     all (0, 1, 2). tilt: an estimate of the angle by which noise may have turned them."""
 
     frames: NDArray[np.float64]
     values: NDArray[np.float64]
     noise: NDArray[np.float64]
-    round_about: tuple[int, ...]
+    revolution_axes: tuple[int, ...]
     tilt: float
 
 
-def canonical_frames(moments: Moments, spread: Spread, starts: NDArray) -> Frames:
+def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray) -> EquivalentFrames:
     """moments: to some order from 3 to ORDER, about any point. starts: (k, 3, 3) the frames along the spread's axes
     that third moments allow. MeasureError where their size is beyond the range of numbers."""
     central = moments.about_center()
     total = central.raw[0]
     if not np.finfo(float).tiny < total * spread.size.max() ** central.order < np.inf:
         raise MeasureError("moments_overflow", order=central.order)
-    central = replace(central, raw=central.raw / total, error=central.error / total, of=Measure.MASS)
+    central = replace(
+        central, raw=central.raw / total, rounding_error=central.rounding_error / total, measure=Measure.MASS
+    )
     frames, round_about, tilt = _candidates(central, spread, starts)
-    values, noise = _written(central, spread, frames)
-    return Frames(*_largest(frames, values, noise), round_about, tilt)
+    values, noise = _normalized_moments(central, spread, frames)
+    return EquivalentFrames(*_lexicographic_maximum(frames, values, noise), round_about, tilt)
 
 
-def _candidates(central: Moments, spread: Spread, starts: NDArray) -> tuple[NDArray, tuple[int, ...], float]:
-    """The frames, and `round_about` and `tilt` of them."""
-    if not spread.free:
+def _candidates(central: Moments, spread: SecondMomentAxes, starts: NDArray) -> tuple[NDArray, tuple[int, ...], float]:
+    """The frames, and `revolution_axes` and `tilt` of them."""
+    if not spread.undetermined_axes:
         return starts, (), spread.tilt
-    if len(spread.free) == 2:
-        axis = 3 - sum(spread.free)
+    if len(spread.undetermined_axes) == 2:
+        axis = 3 - sum(spread.undetermined_axes)
         starts = starts[np.unique(starts[:, :, axis] @ spread.axes[:, axis] > 0.0, return_index=True)[1]]
-        frames, found, turn = _around(central, spread, starts, axis)
-        return frames, () if found else (axis,), spread.tilt + turn
-    for clear in (CLEAR, 0.0):
+        frames, is_fixed, turn = _fix_rotation_about_axis(central, spread, starts, axis)
+        return frames, () if is_fixed else (axis,), spread.tilt + turn
+    for clear in (CLEAR_HARMONIC, 0.0):
         for degree in range(3, central.order + 1):
             directions, sign, tilt = _extreme_directions(central, spread, degree, clear)
             if not len(directions):
                 continue
-            bases = np.array([_completed(direction) for direction in directions])
-            frames, found, turn = _around(central, spread, bases, 2, sign if degree == 4 else -1.0)
-            return frames, () if found else (2,), tilt + turn
+            bases = np.array([_frame_from_axis(direction) for direction in directions])
+            frames, is_fixed, turn = _fix_rotation_about_axis(central, spread, bases, 2, sign if degree == 4 else -1.0)
+            return frames, () if is_fixed else (2,), tilt + turn
     return spread.axes[None], (0, 1, 2), 0.0
 
 
-def _around(
-    central: Moments, spread: Spread, bases: NDArray, axis: int, fourfold: float = -1.0
+def _fix_rotation_about_axis(
+    central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int, fourfold: float = -1.0
 ) -> tuple[NDArray, bool, float]:
     """The bases turned about that axis of theirs as the first clear harmonic asks, whether there is one, and the angle
     by which noise may have turned it.
@@ -107,10 +110,10 @@ def _around(
     fourfold: the sign that a harmonic with m = 4 gets; others get a positive one. E[cos 4φ] is negative for a square
     whose sides lie along the axes.
     """
-    found = _clear_harmonic(central, spread, bases, axis)
-    if found is None:
+    harmonic = _clear_harmonic(central, spread, bases, axis)
+    if harmonic is None:
         return bases, False, 0.0
-    m, c, least = found
+    m, c, least = harmonic
     c = fourfold * c if m == 4 else c
     angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
     cos, sin = np.cos(angles)[..., None], np.sin(angles)[..., None]
@@ -119,30 +122,30 @@ def _around(
     frames = np.repeat(bases[:, None], m, axis=1)
     frames[..., first], frames[..., second] = cos * a + sin * b, cos * b - sin * a
     # Of several directions, those about which it is the same.
-    noise, largest = spread.noise / NOISE * least, np.abs(c).max()
-    alike = np.abs(c) > largest - min(2.0 * noise, SHARE * largest)
+    noise, largest = spread.noise / NOISE_LEVEL * least, np.abs(c).max()
+    alike = np.abs(c) > largest - min(2.0 * noise, MAX_EQUAL_SHARE * largest)
     return frames[alike].reshape(-1, 3, 3), True, noise / (m * largest)
 
 
 def _clear_harmonic(
-    central: Moments, spread: Spread, bases: NDArray, axis: int
+    central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, NDArray[np.complex128], float] | None:
     """The first harmonic about that axis of the bases that is above noise, CLEAR ones before weaker ones: its m, (n,)
     its value in each basis, and what of it is noise."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
-    order, size = [first, second, axis], _sizes(spread)
+    order, size = [first, second, axis], _extents(spread)
     harmonics = {}
     for degree in range(3, central.order + 1):
-        tensor = _rotated(central.raw[tensor_index(degree)], bases[:, :, order])
-        noise = _units(central, replace(spread, noise=NOISE), degree)[1]
+        tensor = _rotate_tensor(central.raw[tensor_index(degree)], bases[:, :, order])
+        noise = _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1]
         for m in range(1, degree + 1):
             for k in range((degree - m) % 2, degree - m + 1, 2):
                 c = _harmonic(tensor, degree, m, k) / (size[first] ** (degree - k) * size[axis] ** k)
                 weight = 2.0 ** (degree - k)  # of the sum of moments that a harmonic is
                 powers = np.zeros(3, int)
                 powers[[first, axis]] = degree - k, k
-                harmonics[degree, m, k] = c, weight * noise[index(*powers) - index(degree, 0, 0)]
-    for clear in (CLEAR, 0.0):
+                harmonics[degree, m, k] = c, weight * noise[monomial_index(*powers) - monomial_index(degree, 0, 0)]
+    for clear in (CLEAR_HARMONIC, 0.0):
         for (_, m, _), (c, least) in harmonics.items():
             if np.abs(c).max() > max(least, clear):
                 return m, c, least
@@ -158,35 +161,37 @@ def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.comple
     return tensor
 
 
-def _extreme_directions(central: Moments, spread: Spread, degree: int, clear: float) -> tuple[NDArray, float, float]:
+def _extreme_directions(
+    central: Moments, spread: SecondMomentAxes, degree: int, clear: float
+) -> tuple[NDArray, float, float]:
     """(k, 3) the directions u of the largest E[(u·x)^degree], or of the least if they are fewer, 1 or -1 for which it
     is, and the angle by which noise may have turned them; of a circle of them its poles. None (0, 3) where the moment
     is the same in all directions."""
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
-    noise = 2.0 * _units(central, spread, degree)[1].max()
-    least = max(2.0 * _units(central, replace(spread, noise=NOISE), degree)[1].max(), clear)
-    span = np.ptp(_contracted(tensor, degree, _sphere()))
+    noise = 2.0 * _normalization(central, spread, degree)[1].max()
+    least = max(2.0 * _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1].max(), clear)
+    span = np.ptp(_contract(tensor, degree, _sphere_directions()))
     if span <= least / 2.0:
         return np.empty((0, 3)), 1.0, 0.0
-    found = []
+    extremes = []
     for sign in (1.0, -1.0) if degree % 2 == 0 else (1.0,):
-        within = min(noise, SHARE * span)
-        points = _climbed(sign * tensor, degree, span, within)
-        height = _contracted(sign * tensor, degree, points)
-        if height.max() - _contracted(sign * tensor, degree, _sphere()).min() <= least:
+        within = min(noise, MAX_EQUAL_SHARE * span)
+        points = _maximize_on_sphere(sign * tensor, degree, span, within)
+        height = _contract(sign * tensor, degree, points)
+        if height.max() - _contract(sign * tensor, degree, _sphere_directions()).min() <= least:
             return np.empty((0, 3)), sign, 0.0
         top = points[height > height.max() - within]
-        found.append((distinct(top, 1e-2), sign))
-    directions, sign = min(found, key=lambda pair: len(pair[0]))
+        extremes.append((distinct_arrays(top, 1e-2), sign))
+    directions, sign = min(extremes, key=lambda pair: len(pair[0]))
     tilt = noise / span
-    if len(directions) <= RING:
+    if len(directions) <= MAX_ISOLATED_DIRECTIONS:
         return directions, sign, tilt
     values, vectors = np.linalg.eigh(directions.T @ directions / len(directions))
     pole = vectors[:, 0] if values[1] - values[0] > values[2] - values[1] else vectors[:, 2]
     return (np.array([pole, -pole]) if values[2] - values[0] > 0.1 else np.empty((0, 3))), sign, tilt
 
 
-def _climbed(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:
+def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:
     """The maxima on the sphere, the best approached first, that are no more than `within` below the largest; each
     several times. span: between the largest and the least value.
 
@@ -194,18 +199,20 @@ def _climbed(tensor: NDArray, degree: int, span: float, within: float) -> NDArra
     Bernstein's inequality it loses at most (degree GAP)² span / 4 on the way from a maximum to the nearest of them.
     Steps are Newton's in the directions that are curved, and always uphill.
     """
-    points, scale = _sphere(), degree**2 * span
-    height = _contracted(tensor, degree, points)
-    points = points[height >= height.max() - within - (degree * GAP) ** 2 / 4.0 * span]
-    for _ in range(STEPS):
-        twice = _contracted(tensor, degree - 2, points)
-        once = degree * np.einsum("nij,nj->ni", twice, points)
-        along = (once * points).sum(axis=1)[:, None]
-        uphill = once - along * points
+    points, scale = _sphere_directions(), degree**2 * span
+    height = _contract(tensor, degree, points)
+    points = points[height >= height.max() - within - (degree * MAX_START_GAP) ** 2 / 4.0 * span]
+    for _ in range(ASCENT_STEPS):
+        contracted_twice = _contract(tensor, degree - 2, points)
+        contracted_once = degree * np.einsum("nij,nj->ni", contracted_twice, points)
+        along = (contracted_once * points).sum(axis=1)[:, None]
+        uphill = contracted_once - along * points
         flat = np.eye(3) - points[:, :, None] * points[:, None, :]
-        values, vectors = np.linalg.eigh(flat @ (degree * (degree - 1) * twice) @ flat - along[:, None] * flat)
+        values, vectors = np.linalg.eigh(
+            flat @ (degree * (degree - 1) * contracted_twice) @ flat - along[:, None] * flat
+        )
         move = np.einsum("nji,nj->ni", vectors, uphill) / np.maximum(np.abs(values), 1e-3 * scale)
-        move /= np.maximum(np.linalg.norm(move, axis=1) / GAP, 1.0)[:, None]
+        move /= np.maximum(np.linalg.norm(move, axis=1) / MAX_START_GAP, 1.0)[:, None]
         points = points + np.einsum("nij,nj->ni", vectors, move)
         points /= np.linalg.norm(points, axis=1)[:, None]
     steep = np.linalg.norm(uphill, axis=1)
@@ -214,55 +221,55 @@ def _climbed(tensor: NDArray, degree: int, span: float, within: float) -> NDArra
 
 
 @lru_cache
-def _sphere() -> NDArray[np.float64]:
+def _sphere_directions() -> NDArray[np.float64]:
     """(SPREAD, 3) directions spread evenly: Fibonacci's lattice."""
-    i = np.arange(SPREAD) + 0.5
-    z, turn = 1.0 - 2.0 * i / SPREAD, np.pi * (1.0 + 5.0**0.5) * i
+    i = np.arange(START_DIRECTIONS) + 0.5
+    z, turn = 1.0 - 2.0 * i / START_DIRECTIONS, np.pi * (1.0 + 5.0**0.5) * i
     r = np.sqrt(1.0 - z * z)
     return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
 
 
-def _completed(axis: NDArray) -> NDArray[np.float64]:
+def _frame_from_axis(axis: NDArray) -> NDArray[np.float64]:
     """A right-handed frame whose third axis this is."""
-    other = np.eye(3)[np.argmin(np.abs(axis))]
-    first = other - axis * (axis @ other)
+    helper = np.eye(3)[np.argmin(np.abs(axis))]
+    first = helper - axis * (axis @ helper)
     first /= np.linalg.norm(first)
     return np.stack([first, np.cross(axis, first), axis], axis=1)
 
 
-def _written(central: Moments, spread: Spread, frames: NDArray) -> tuple[NDArray, NDArray]:
+def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDArray) -> tuple[NDArray, NDArray]:
     """(k, n) the normalized moments in the frames, and (n,) what of them is noise."""
     values, noises = [], []
     for degree in range(3, central.order + 1):
-        unit, noise = _units(central, spread, degree)
-        tensors = _rotated(central.raw[tensor_index(degree)], frames).reshape(len(frames), -1)
-        values.append(tensors[:, _places(degree)] / unit)
+        unit, noise = _normalization(central, spread, degree)
+        tensors = _rotate_tensor(central.raw[tensor_index(degree)], frames).reshape(len(frames), -1)
+        values.append(tensors[:, _tensor_positions(degree)] / unit)
         noises.append(noise)
     return np.concatenate(values, axis=1), np.concatenate(noises)
 
 
-def _units(central: Moments, spread: Spread, degree: int) -> tuple[NDArray, NDArray]:
+def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> tuple[NDArray, NDArray]:
     """For each monomial of a degree the product of the extents along its axes, and what of its normalized moment is
     noise: of float32 coordinates, and of rounding."""
-    powers = monomials(degree)[index(degree, 0, 0) :]
-    size = _sizes(spread)
+    powers = monomials(degree)[monomial_index(degree, 0, 0) :]
+    size = _extents(spread)
     unit = np.prod(size**powers, axis=1)
     thin = np.min(np.where(powers > 0, size, np.inf), axis=1)
-    error = np.abs(_rotated(central.error[tensor_index(degree)], np.abs(spread.axes)[None]))
-    if len(spread.free) == 3:  # the frames are none of the spread's axes
+    error = np.abs(_rotate_tensor(central.rounding_error[tensor_index(degree)], np.abs(spread.axes)[None]))
+    if len(spread.undetermined_axes) == 3:  # the frames are none of the spread's axes
         error = np.full_like(error, 3.0 ** (degree / 2.0) * error.max())
     noise = spread.noise + 4.0 * spread.step / thin + degree * spread.tilt
-    return unit, GROWTH[degree] * noise + error.ravel()[_places(degree)] / unit
+    return unit, NOISE_GROWTH[degree] * noise + error.ravel()[_tensor_positions(degree)] / unit
 
 
-def _sizes(spread: Spread) -> NDArray[np.float64]:
+def _extents(spread: SecondMomentAxes) -> NDArray[np.float64]:
     """(3,) the extents; infinite along an axis that has hardly any, so that no noise is divided by next to nothing."""
-    return np.where(spread.size > FLAT * spread.size.max(), spread.size, np.inf)
+    return np.where(spread.size > FLAT_EXTENT_RTOL * spread.size.max(), spread.size, np.inf)
 
 
-def _largest(frames: NDArray, values: NDArray, noise: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+def _lexicographic_maximum(frames: NDArray, values: NDArray, noise: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     """The frames with the largest values, one entry after the other; what differs by noise is equal."""
-    kept = np.arange(len(frames))
+    best = np.arange(len(frames))
     for column, least in zip(values.T, noise):
-        kept = kept[column[kept] >= column[kept].max() - least]
-    return frames[kept], values[kept[0]], noise
+        best = best[column[best] >= column[best].max() - least]
+    return frames[best], values[best[0]], noise

@@ -15,11 +15,11 @@ from math import hypot
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import SECOND, Measure, Moments, U, monomial_count, sum_moments
+from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count, sum_moments
 from ..verdict.finding import MeasureError
 from .principal_frame import PrincipalFrame, principal_frame
 
-IDENTITY = np.eye(3)
+IDENTITY_3 = np.eye(3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,42 +27,42 @@ class MassProperties:
     """One body, or several as one.
 
     mass; center (3,); inertia (3, 3) about the center; principal: the principal frame. All in one frame and unit.
-    error, input: {"mass", "center", "inertia"} absolute bounds, Euclidean for the center and Frobenius for the tensor
-        (so they hold for each entry and each principal moment): of rounding, and of float32 coordinates.
+    rounding_error, input_error: {"mass", "center", "inertia"} absolute bounds, Euclidean for the center and Frobenius
+        for the tensor (so they hold for each entry and each principal moment): of rounding, and of float32 coordinates.
     """
 
     mass: float
     center: NDArray[np.float64]
     inertia: NDArray[np.float64]
     principal: PrincipalFrame
-    error: dict[str, float]
-    input: dict[str, float]
+    rounding_error: dict[str, float]
+    input_error: dict[str, float]
 
     @classmethod
     def from_moments(
         cls,
         moments: Moments,
         density: float = 1.0,
-        prefer: NDArray | None = None,
+        preferred_axes: NDArray | None = None,
         refine: Callable[[], Moments] | None = None,
         higher: Callable[[], Moments] | None = None,
     ) -> MassProperties:
         """From moments to order 3 of a body with constant density.
 
-        prefer, refine, higher: as for `principal_frame`. MeasureError where the body has no certain volume; ValueError
-        for lower orders and for a density that is none.
+        preferred_axes, refine, higher: as for `principal_frame`. MeasureError where the body has no certain volume;
+        ValueError for lower orders and for a density that is none.
         """
         if moments.order < 3:
             raise ValueError("moments below third order")
         if not 0.0 <= density < np.inf:
             raise ValueError("impossible density: {!r}".format(density))
         total = moments.raw[0]
-        if not total > moments.error[0]:
+        if not total > moments.rounding_error[0]:
             raise MeasureError("no_certain_volume")
-        frame = principal_frame(moments, prefer, refine, higher)
+        frame = principal_frame(moments, preferred_axes, refine, higher)
         shift = moments.raw[1:4] / total
-        second = density * (moments.raw[SECOND] - total * (shift[:, None] * shift))
-        inertia = second.trace() * IDENTITY - second
+        second = density * (moments.raw[SECOND_MOMENT_INDEX] - total * (shift[:, None] * shift))
+        inertia = second.trace() * IDENTITY_3 - second
         principal = density * frame.moments
         principal[2] = min(principal[2], principal[0] + principal[1])  # of a flat body rounding may set them apart
         return cls(
@@ -70,20 +70,20 @@ class MassProperties:
             center=moments.about + shift,
             inertia=inertia,
             principal=replace(frame, moments=principal),
-            error=_bounds(moments, density, moments.error, rounded=True),
-            input=_bounds(moments, density, moments.input, rounded=False),
+            rounding_error=_propagate_error(moments, density, moments.rounding_error, rounded=True),
+            input_error=_propagate_error(moments, density, moments.input_error, rounded=False),
         )
 
     def inertia_about(self, point: ArrayLike) -> NDArray[np.float64]:
         """(3, 3) the tensor about another point, by the parallel-axis theorem."""
         arm = np.asarray(point, np.float64) - self.center
-        return self.inertia + self.mass * (arm @ arm * IDENTITY - np.outer(arm, arm))
+        return self.inertia + self.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
 
     def as_moments(self) -> Moments:
         """Its mass moments about the center; the third ones are not known any more and left zero."""
         raw = np.zeros(monomial_count(3))
         raw[0] = self.mass
-        raw[SECOND] = np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia
+        raw[SECOND_MOMENT_INDEX] = np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia
         return Moments(raw, self.center, Measure.MASS)
 
     @property
@@ -98,17 +98,17 @@ class MassProperties:
             self,
             center=rotation.T @ (self.center - origin),
             inertia=(inertia + inertia.T) / 2.0,
-            principal=self.principal.turned(rotation.T),
+            principal=self.principal.rotate(rotation.T),
         )
 
 
-def combined(bodies: Sequence[tuple[Moments, float]], prefer: NDArray | None = None) -> MassProperties:
+def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: NDArray | None = None) -> MassProperties:
     """Several bodies, (moments, density) each, as one."""
-    weighed = [replace(moments, of=Measure.MASS) * density for moments, density in bodies]
-    return MassProperties.from_moments(sum_moments(weighed), prefer=prefer)
+    weighed = [replace(moments, measure=Measure.MASS) * density for moments, density in bodies]
+    return MassProperties.from_moments(sum_moments(weighed), preferred_axes=preferred_axes)
 
 
-def _bounds(moments: Moments, density: float, delta: NDArray, rounded: bool) -> dict[str, float]:
+def _propagate_error(moments: Moments, density: float, delta: NDArray, rounded: bool) -> dict[str, float]:
     """Bounds of the change when the moments are off by `delta`: propagated to first order, with the divisor at its
     smallest."""
     total = moments.raw[0]
@@ -118,12 +118,12 @@ def _bounds(moments: Moments, density: float, delta: NDArray, rounded: bool) -> 
     first, shift = np.abs(moments.raw[1:4]), np.abs(moments.raw[1:4]) / total
     center = hypot(*((delta[1:4] + shift * delta[0]) / least).tolist())
     cross = delta[1:4, None] * shift
-    second = delta[SECOND] + (cross + cross.T) * (total / least) + shift[:, None] * shift * delta[0]
+    second = delta[SECOND_MOMENT_INDEX] + (cross + cross.T) * (total / least) + shift[:, None] * shift * delta[0]
     second = second + delta[1:4, None] * (delta[1:4] / least)
     if rounded:
         center += 2.0 * U * hypot(*(np.abs(moments.about) + 2.0 * shift).tolist())
-        second = second + 6.0 * U * (np.abs(moments.raw[SECOND]) + first[:, None] * shift)
-    inertia = hypot(*(second.trace() * IDENTITY + second).ravel().tolist())  # squares of tiny ones would vanish
+        second = second + 6.0 * U * (np.abs(moments.raw[SECOND_MOMENT_INDEX]) + first[:, None] * shift)
+    inertia = hypot(*(second.trace() * IDENTITY_3 + second).ravel().tolist())  # squares of tiny ones would vanish
     return {
         "mass": float(abs(density) * (delta[0] + (U * total if rounded else 0.0))),
         "center": float(center),

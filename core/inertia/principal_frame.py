@@ -23,17 +23,19 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import SECOND, THIRD, Moments
+from ..moments.moments import SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX, Moments
 from ..verdict.finding import Finding, MeasureError, finding
-from .canonical_frame import NOISE, Frames, Spread, canonical_frames
+from .canonical_frame import NOISE_LEVEL, EquivalentFrames, SecondMomentAxes, canonical_frames
 
-EQUAL = 1e-6  # moments closer than this, relatively, are equal
-RANKED = 1e-4  # scores closer than this, relatively, are equally clear
-AS_NEAR, LEAST_CLEAR = 1e-6, 0.1  # traces closer than the one are equal whatever the noise, than the other never
+EQUAL_MOMENTS_RTOL = 1e-6  # moments closer than this, relatively, are equal
+EQUAL_SCORES_RTOL = 1e-4  # scores closer than this, relatively, are equally clear
+# traces closer than the one are equal whatever the noise, than the other never
+EQUAL_TRACE_ATOL, MAX_TRACE_AMBIGUITY = 1e-6, 0.1
 # For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.
-PARTNERS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
-ITSELF = np.arange(3)[:, None]
-TURNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])  # keep the frame's hand
+PARTNER_AXES = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
+OWN_AXIS = np.arange(3)[:, None]
+# keep the frame's hand
+HALF_TURN_SIGNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])
 
 # by symmetry, the axes whose moments are equal
 EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
@@ -56,81 +58,90 @@ FREE_BY_SHAPE = {
 class PrincipalFrame:
     """moments: (3,) principal moments of inertia, ascending. axes: (3, 3), the axes as columns, det +1.
     symmetry: "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1 and 2 equal) or "isotropic".
-    unique: whether the body alone fixes the frame; otherwise `finding` says what was chosen. free: the axes of which
-    nothing that was looked at fixes the directions; the symmetry tells them where only second moments were."""
+    is_unique: whether the body alone fixes the frame; otherwise `finding` says what was chosen. undetermined_axes: the
+    axes of which nothing that was looked at fixes the directions; the symmetry tells them where only second moments
+    were."""
 
     moments: NDArray[np.float64]
     axes: NDArray[np.float64]
     symmetry: str
-    unique: bool
+    is_unique: bool
     finding: Finding | None
-    free: tuple[int, ...] = ()
+    undetermined_axes: tuple[int, ...] = ()
 
-    def turned(self, rotation: NDArray) -> PrincipalFrame:
+    def rotate(self, rotation: NDArray) -> PrincipalFrame:
         """The same frame in coordinates new = rotation @ old."""
         return replace(self, axes=rotation @ self.axes)
 
 
 def principal_frame(
     moments: Moments,
-    prefer: NDArray | None = None,
+    preferred_axes: NDArray | None = None,
     refine: Callable[[], Moments] | None = None,
     higher: Callable[[], Moments] | None = None,
 ) -> PrincipalFrame:
     """The principal frame of a body with positive total. MeasureError where its second moments are those of no body.
 
-    moments: to order 3. prefer: (3, 3) rotation whose columns are the axes to stay near to, by default the
+    moments: to order 3. preferred_axes: (3, 3) rotation whose columns are the axes to stay near to, by default the
     coordinate axes. refine: gives the moments with exact third order; called where their bounds do not decide.
     higher: gives them to `canonical.ORDER`; called where third order leaves a choice.
     """
-    prefer = np.eye(3) if prefer is None else np.asarray(prefer, np.float64)
-    fixed = _fixed(moments, refine)
-    free, symmetry, chosen = fixed.spread.free, fixed.symmetry, None
+    preferred_axes = np.eye(3) if preferred_axes is None else np.asarray(preferred_axes, np.float64)
+    fixed = _second_order_frame(moments, refine)
+    free, symmetry, chosen = fixed.spread.undetermined_axes, fixed.symmetry, None
     if not free and len(fixed.frames) == 1:
         axes = fixed.frames[0]
     elif higher is None:
-        settled_frames = [settled(frame, free, prefer) for frame in fixed.frames]
-        axes, chosen = _nearest(settled_frames, prefer, fixed.spread.tilt), FREE[symmetry]
+        settled_frames = [complete_free_axes(frame, free, preferred_axes) for frame in fixed.frames]
+        axes, chosen = _nearest(settled_frames, preferred_axes, fixed.spread.tilt), FREE[symmetry]
     else:
         alike = canonical_frames(higher(), fixed.spread, fixed.frames)
-        axes, free = chosen_frame(alike, prefer), free_axes(alike)
-        if alike.round_about or len(alike.frames) > 1:
-            chosen = (FREE if alike.round_about else FREE_BY_SHAPE)[symmetry]
+        axes, free = nearest_frame(alike, preferred_axes), undetermined_axes(alike)
+        if alike.revolution_axes or len(alike.frames) > 1:
+            chosen = (FREE if alike.revolution_axes else FREE_BY_SHAPE)[symmetry]
     return PrincipalFrame(fixed.moments, axes, symmetry, chosen is None, chosen, free)
 
 
-def frames_alike(moments: Moments, noise: float = NOISE) -> Frames:
+def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> EquivalentFrames:
     """The principal frames, to some order of at least 3, in which the body is the same. noise: the normalized third
     moment that is taken for none; what else counts as equal grows with it."""
-    fixed = _fixed(moments, None, noise / NOISE)
+    fixed = _second_order_frame(moments, None, noise / NOISE_LEVEL)
     return canonical_frames(moments, fixed.spread, fixed.frames)
 
 
-def chosen_frame(alike: Frames, prefer: NDArray) -> NDArray[np.float64]:
+def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDArray[np.float64]:
     """Of the frames in which a body is the same, the one nearest to the axes that are preferred."""
-    return _nearest([settled(frame, free_axes(alike), prefer) for frame in alike.frames], prefer, alike.tilt)
+    return _nearest(
+        [complete_free_axes(frame, undetermined_axes(equivalent), preferred_axes) for frame in equivalent.frames],
+        preferred_axes,
+        equivalent.tilt,
+    )
 
 
-def free_axes(alike: Frames) -> tuple[int, ...]:
+def undetermined_axes(equivalent: EquivalentFrames) -> tuple[int, ...]:
     """The axes whose directions no moment fixes."""
-    return (tuple(i for i in range(3) if i not in alike.round_about) or (0, 1, 2)) if alike.round_about else ()
+    return (
+        (tuple(i for i in range(3) if i not in equivalent.revolution_axes) or (0, 1, 2))
+        if equivalent.revolution_axes
+        else ()
+    )
 
 
-def strict_frame(moments: Moments, refine: Callable[[], Moments] | None = None) -> PrincipalFrame:
+def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = None) -> PrincipalFrame:
     """Zhang and Chen's own rule (eq. 11): axes 1 and 2 in the direction of positive M_300 and M_030, axis 3 completing
     a right-handed frame. MeasureError where one of these is noise, or second moments are equal: there it has no answer.
 
     refine: as for `principal_frame`.
     """
-    fixed = _fixed(moments, None)
-    if refine is not None and not (np.abs(fixed.skew[:2]) > 2.0 * fixed.doubt[:2]).all():
-        fixed = _fixed(refine(), None)
-    if fixed.spread.free:
+    fixed = _second_order_frame(moments, None)
+    if refine is not None and not (np.abs(fixed.skewness[:2]) > 2.0 * fixed.skewness_error[:2]).all():
+        fixed = _second_order_frame(refine(), None)
+    if fixed.spread.undetermined_axes:
         raise MeasureError("strict_rule_equal_moments")
-    if not (np.abs(fixed.skew[:2]) > fixed.doubt[:2]).all():
+    if not (np.abs(fixed.skewness[:2]) > fixed.skewness_error[:2]).all():
         raise MeasureError("strict_rule_no_skewness")
     axes = fixed.spread.axes.copy()
-    axes[:, :2] *= np.sign(fixed.skew[:2])
+    axes[:, :2] *= np.sign(fixed.skewness[:2])
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
     return PrincipalFrame(fixed.moments, axes, fixed.symmetry, True, None)
 
@@ -143,131 +154,145 @@ def pose_matrix(center: NDArray, axes: NDArray) -> NDArray[np.float64]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Fixed:
+class _SecondOrderFrame:
     """What second and third moments fix. moments: (3,) principal. frames: (k, 3, 3) those they allow: signs of axes
-    only. skew, doubt: (3,) the skewness along the spread's axes and what of it is noise."""
+    only. skewness, skewness_error: (3,) the skewness along the spread's axes and what of it is noise."""
 
     moments: NDArray[np.float64]
-    spread: Spread
+    spread: SecondMomentAxes
     symmetry: str
     frames: NDArray[np.float64]
-    skew: NDArray[np.float64]
-    doubt: NDArray[np.float64]
+    skewness: NDArray[np.float64]
+    skewness_error: NDArray[np.float64]
 
 
-def _fixed(moments: Moments, refine: Callable[[], Moments] | None, looser: float = 1.0) -> _Fixed:
+def _second_order_frame(
+    moments: Moments, refine: Callable[[], Moments] | None, noise_factor: float = 1.0
+) -> _SecondOrderFrame:
     total = moments.raw[0]
     shift = moments.raw[1:4] / total
-    second = moments.raw[SECOND] / total - np.outer(shift, shift)
+    second = moments.raw[SECOND_MOMENT_INDEX] / total - np.outer(shift, shift)
     scale = abs(np.trace(second)) or 1.0  # keeps eigh clear of overflow and denormals
     spread, vectors = np.linalg.eigh(second / scale)
     spread, axes = spread[::-1], vectors[:, ::-1]
     axes = axes * [1.0, 1.0, np.sign(np.linalg.det(axes))]
-    rounding = 4.0 * moments.error[SECOND].max() / (total * scale) + 8.0 * np.finfo(float).eps
+    rounding = 4.0 * moments.rounding_error[SECOND_MOMENT_INDEX].max() / (total * scale) + 8.0 * np.finfo(float).eps
     if spread[2] < -rounding:
         raise MeasureError("negative_inertia")
     spread = np.maximum(spread, 0.0)
 
     size = np.sqrt(np.maximum(spread, 1e-30 * spread[0]))  # a lamina has no extent along an axis, and no skewness
     # How far float32 has moved the points: the share of the volume that this moves, times the thinnest extent.
-    step = moments.input[0] / total * size[2]
+    step = moments.input_error[0] / total * size[2]
     gaps = np.array([spread[0] - spread[1], spread[1] - spread[2]])
     doubtful = 2.0 * step * size[:2] + rounding
-    equal = gaps <= looser * EQUAL * spread[:2] + doubtful
+    equal = gaps <= noise_factor * EQUAL_MOMENTS_RTOL * spread[:2] + doubtful
     tilts = np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))  # of axes 1 and 2, and of 2 and 3
     symmetry = "isotropic" if equal.all() else "oblate" if equal[0] else "prolate" if equal[1] else "asymmetric"
 
     free = EQUAL_AXES[symmetry]
-    noise = looser * NOISE + 4.0 * step / np.minimum(size[:, None], size[PARTNERS])
+    noise = noise_factor * NOISE_LEVEL + 4.0 * step / np.minimum(size[:, None], size[PARTNER_AXES])
     real = size * np.sqrt(scale)
-    skew, doubt = _third_scores(moments, shift, real, axes)
+    skewness, skewness_error = _third_scores(moments, shift, real, axes)
     # Two axes that noise may have turned about the third one mix what the body has along them.
-    (one, two), both = tilts, 0.0 if equal.all() else float(doubtful.max() / gaps.sum())
-    turned = np.array([[0.0, one, both], [one, 0.0, two], [both, two, 0.0]])
-    noise += 3.0 * (turned * (np.abs(skew) + doubt).max(axis=1)).sum(axis=1)[:, None]
+    (first_tilt, second_tilt), both = tilts, 0.0 if equal.all() else float(doubtful.max() / gaps.sum())
+    tilts_matrix = np.array([[0.0, first_tilt, both], [first_tilt, 0.0, second_tilt], [both, second_tilt, 0.0]])
+    noise += 3.0 * (tilts_matrix * (np.abs(skewness) + skewness_error).max(axis=1)).sum(axis=1)[:, None]
     scores, fixed = np.zeros(3), [i for i in range(3) if i not in free]
     if fixed:
-        third = skew, doubt
-        if refine is not None and not _decided(np.abs(skew[fixed]), doubt[fixed], noise[fixed]):
+        third = skewness, skewness_error
+        if refine is not None and not _is_decided(np.abs(skewness[fixed]), skewness_error[fixed], noise[fixed]):
             third = _third_scores(refine(), shift, real, axes)
-        scores[fixed] = [_score(*rows) for rows in zip(*(rows[fixed].tolist() for rows in (*third, noise)))]
+        scores[fixed] = [
+            _signed_skewness(*arrays) for arrays in zip(*(arrays[fixed].tolist() for arrays in (*third, noise)))
+        ]
     inertia = (spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total)
-    extents = Spread(axes, real, free, step * np.sqrt(scale), float(tilts.max()), looser * NOISE)
-    return _Fixed(inertia, extents, symmetry, _allowed(axes, scores), skew[:, 0], noise[:, 0] + doubt[:, 0])
+    extents = SecondMomentAxes(axes, real, free, step * np.sqrt(scale), float(tilts.max()), noise_factor * NOISE_LEVEL)
+    return _SecondOrderFrame(
+        inertia,
+        extents,
+        symmetry,
+        _sign_consistent_frames(axes, scores),
+        skewness[:, 0],
+        noise[:, 0] + skewness_error[:, 0],
+    )
 
 
-def _score(scores: list[float], doubts: list[float], noises: list[float]) -> float:
+def _signed_skewness(scores: list[float], errors: list[float], noises: list[float]) -> float:
     """How clearly third moments point along an axis, signed; zero where they do not. noises: below which a score is
     none."""
-    return next((value for value, doubt, noise in zip(scores, doubts, noises) if abs(value) > noise + doubt), 0.0)
+    return next((value for value, error, noise in zip(scores, errors, noises) if abs(value) > noise + error), 0.0)
 
 
-def _decided(size: NDArray, doubt: NDArray, noise: NDArray) -> bool:
+def _is_decided(size: NDArray, error: NDArray, noise: NDArray) -> bool:
     """Whether better third moments could neither change which scores count, nor their signs, nor their order."""
-    clear = size - doubt > noise
-    below = size + doubt <= noise
+    clear = size - error > noise
+    below = size + error <= noise
     if not (clear[:, 0] | (clear | below).all(axis=1)).all():
         return False
     if len(size) < 3 or not clear.any(axis=1).all():
         return True
-    rows, first = np.arange(3), clear.argmax(axis=1)
-    size, doubt = size[rows, first], doubt[rows, first]
+    axis_index, first = np.arange(3), clear.argmax(axis=1)
+    size, error = size[axis_index, first], error[axis_index, first]
     last = np.argsort(size)[:2]  # of three scores, which one is the last
-    return size[last[1]] - size[last[0]] > 2.0 * doubt[last].sum()
+    return size[last[1]] - size[last[0]] > 2.0 * error[last].sum()
 
 
 def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
     """(3, 3) for each axis i its skewness and the two normalized third moments odd in i and even in another axis,
     M_iii, M_ijj and M_ikk; and the bounds of their errors."""
     total = moments.raw[0]
-    second, third = moments.raw[SECOND] / total, moments.raw[THIRD] / total
+    second, third = moments.raw[SECOND_MOMENT_INDEX] / total, moments.raw[THIRD_MOMENT_INDEX] / total
     outer = np.outer(shift, shift)
     cross = shift[:, None, None] * second
     third = third - cross - cross.transpose(1, 0, 2) - cross.transpose(1, 2, 0) + 2.0 * shift[:, None, None] * outer
-    error = (moments.error[THIRD] + 3.0 * np.abs(shift).max() * moments.error[SECOND].max()) / total
+    error = (
+        moments.rounding_error[THIRD_MOMENT_INDEX]
+        + 3.0 * np.abs(shift).max() * moments.rounding_error[SECOND_MOMENT_INDEX].max()
+    ) / total
     squares = (axes[:, None] * axes).reshape(9, 3)
-    unit = size[:, None] * size[PARTNERS] ** 2
-    scores, doubt = axes.T @ third.reshape(3, 9) @ squares, np.abs(axes.T) @ error.reshape(3, 9) @ np.abs(squares)
-    return scores[ITSELF, PARTNERS] / unit, doubt[ITSELF, PARTNERS] / unit
+    unit = size[:, None] * size[PARTNER_AXES] ** 2
+    scores, score_error = axes.T @ third.reshape(3, 9) @ squares, np.abs(axes.T) @ error.reshape(3, 9) @ np.abs(squares)
+    return scores[OWN_AXIS, PARTNER_AXES] / unit, score_error[OWN_AXIS, PARTNER_AXES] / unit
 
 
-def _allowed(axes: NDArray, scores: NDArray) -> NDArray[np.float64]:
+def _sign_consistent_frames(axes: NDArray, scores: NDArray) -> NDArray[np.float64]:
     """(k, 3, 3) the right-handed frames along the axes that agree with the scores."""
     size = np.abs(scores)
     fixed = [i for i in range(3) if scores[i]]
     if len(fixed) == 3:  # the weakest gives way; of equal ones the last
-        fixed.remove(max(i for i in fixed if size[i] <= size.min() * (1.0 + RANKED)))
-    return axes * TURNS[(TURNS[:, fixed] * scores[fixed] > 0.0).all(axis=1), None]
+        fixed.remove(max(i for i in fixed if size[i] <= size.min() * (1.0 + EQUAL_SCORES_RTOL)))
+    return axes * HALF_TURN_SIGNS[(HALF_TURN_SIGNS[:, fixed] * scores[fixed] > 0.0).all(axis=1), None]
 
 
-def settled(frame: NDArray, free: tuple[int, ...], prefer: NDArray) -> NDArray[np.float64]:
+def complete_free_axes(frame: NDArray, free: tuple[int, ...], preferred_axes: NDArray) -> NDArray[np.float64]:
     """The frame with its free axes, if any, turned nearest to the preferred ones."""
     if not free:
         return frame
     if len(free) == 3:
-        return prefer.copy()
+        return preferred_axes.copy()
     first, second = free
     fixed = frame[:, 3 - first - second]
     # (first, second, fixed) is right-handed for both pairs: maximise first·p1 + (fixed x first)·p2 over the plane.
-    wish = prefer[:, first] + np.cross(prefer[:, second], fixed)
+    wish = preferred_axes[:, first] + np.cross(preferred_axes[:, second], fixed)
     wish = wish - fixed * (fixed @ wish)
     if np.linalg.norm(wish) < 1e-6:  # half a turn away: any direction is as near; take the one along a preferred axis
-        wish = prefer[:, np.argmin(np.abs(fixed @ prefer))]
+        wish = preferred_axes[:, np.argmin(np.abs(fixed @ preferred_axes))]
         wish = wish - fixed * (fixed @ wish)
-    turned = frame.copy()
-    turned[:, first] = wish / np.linalg.norm(wish)
-    turned[:, second] = np.cross(fixed, turned[:, first])
-    return turned
+    completed = frame.copy()
+    completed[:, first] = wish / np.linalg.norm(wish)
+    completed[:, second] = np.cross(fixed, completed[:, first])
+    return completed
 
 
-def _nearest(candidates: Sequence[NDArray], prefer: NDArray, tilt: float) -> NDArray[np.float64]:
+def _nearest(candidates: Sequence[NDArray], preferred_axes: NDArray, tilt: float) -> NDArray[np.float64]:
     """The frame with the smallest turn from the preferred one. Where several are as near, the one whose axes, in
     order, point along rather than against their preferred axes, so that noise cannot flip it.
 
     tilt: the angle by which noise may have turned the candidates.
     """
-    local = prefer.T @ np.array(candidates)
-    equal = AS_NEAR + min(4.0 * tilt, LEAST_CLEAR)
+    local = preferred_axes.T @ np.array(candidates)
+    equal = EQUAL_TRACE_ATOL + min(4.0 * tilt, MAX_TRACE_AMBIGUITY)
     turns = np.trace(local, axis1=1, axis2=2)
     near = np.flatnonzero(turns > turns.max() - equal)
 

@@ -26,23 +26,23 @@ def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp]
     return best
 
 
-def overlapping_boxes(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
+def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
     """Pairs of boxes that overlap by more than `margin` along every axis, at most about `most`, and the number of
     candidates that were left out."""
     order, count = _sweep(low, high, margin)
-    left, right, found, looked = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0
+    left, right, pair_count, tested_count = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0
     for i, j in following_pairs(order, count, PIECE):
-        if found >= most or looked >= 100 * most:
+        if pair_count >= most or tested_count >= 100 * most:
             break
-        looked += len(i)
+        tested_count += len(i)
         both = np.all(np.minimum(high[i], high[j]) - np.maximum(low[i], low[j]) > margin, axis=1)
         left.append(i[both])
         right.append(j[both])
-        found += int(both.sum())
-    return np.concatenate(left), np.concatenate(right), int(count.sum()) - looked
+        pair_count += int(both.sum())
+    return np.concatenate(left), np.concatenate(right), int(count.sum()) - tested_count
 
 
-def boxes_meet(centers: NDArray, extents: NDArray) -> bool:
+def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
     """Whether any two of k boxes share more than a rim of rounding. centers, extents: (k, 3), half the sides.
 
     A flat box inside another one meets it, though it overlaps it by nothing.

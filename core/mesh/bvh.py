@@ -15,25 +15,25 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import ramp, spread_bits
+from ..numerics.arrays import segment_ranges, spread_bits
 
-RAY = (0.08173, 0.05311)  # the ray is (0.08173, 0.05311, 1)
-LEAF = 4  # triangles
-PIECE = 1 << 17  # pairs looked at together
-BLOCK = 1 << 14  # triangles whose scratch stays in the cache
-MOST_WORK = 10_000_000  # pairs of boxes looked at
+RAY_SLOPES = (0.08173, 0.05311)  # the ray is (0.08173, 0.05311, 1)
+TRIANGLES_PER_LEAF = 4  # triangles
+PAIRS_PER_BATCH = 1 << 17  # pairs looked at together
+TRIANGLES_PER_BLOCK = 1 << 14  # triangles whose scratch stays in the cache
+MAX_BOX_PAIRS = 10_000_000  # pairs of boxes looked at
 
 
 @dataclass(frozen=True, eq=False)
-class Shells:
+class SortedComponents:
     """Triangles sorted by shell, and the measures of each shell.
 
-    triangles: (m, 3); shell: (m,) ascending; start: (c + 1,) where each shell begins.
+    triangles: (m, 3); component: (m,) ascending; start: (c + 1,) where each shell begins.
     low, high: (c, 3) boxes; volume: (c,) signed; area: (c,).
     """
 
     triangles: NDArray[np.integer]
-    shell: NDArray[np.intp]
+    component: NDArray[np.intp]
     start: NDArray[np.intp]
     low: NDArray[np.float64]
     high: NDArray[np.float64]
@@ -41,36 +41,36 @@ class Shells:
     area: NDArray[np.float64]
 
 
-def sort_shells(
-    points: NDArray[np.floating], triangles: NDArray[np.integer], shell: NDArray[np.intp], number: int
-) -> Shells:
+def sort_components(
+    points: NDArray[np.floating], triangles: NDArray[np.integer], component: NDArray[np.intp], number: int
+) -> SortedComponents:
     """Sort triangles by shell and measure each shell about a point of its own."""
-    if np.any(shell[1:] < shell[:-1]):
-        order = _radix_order(shell)
-        triangles, shell = triangles[order], shell[order]
-    start = np.searchsorted(shell, np.arange(number + 1))
+    if np.any(component[1:] < component[:-1]):
+        order = radix_argsort(component)
+        triangles, component = triangles[order], component[order]
+    start = np.searchsorted(component, np.arange(number + 1))
     columns = np.ascontiguousarray(points.T, np.float64)
-    home = columns[:, triangles[start[:-1], 0]]
+    origin = columns[:, triangles[start[:-1], 0]]
     low, high = np.full((3, number), np.inf), np.full((3, number), -np.inf)
     volume, area = np.zeros((2, number))
-    for begin in range(0, len(triangles), BLOCK):
-        own = shell[begin : begin + BLOCK]
-        first = np.flatnonzero(np.concatenate([[True], own[1:] != own[:-1]]))
-        at = own[first]
-        index = triangles[begin : begin + BLOCK].T.astype(np.intp, order="C")
+    for begin in range(0, len(triangles), TRIANGLES_PER_BLOCK):
+        block_component = component[begin : begin + TRIANGLES_PER_BLOCK]
+        first = np.flatnonzero(np.concatenate([[True], block_component[1:] != block_component[:-1]]))
+        at = block_component[first]
+        index = triangles[begin : begin + TRIANGLES_PER_BLOCK].T.astype(np.intp, order="C")
         corner = [column.take(index) for column in columns]
         for k, (a, b, c) in enumerate(corner):
             low[k, at] = np.minimum(low[k, at], np.minimum.reduceat(np.minimum(np.minimum(a, b), c), first))
             high[k, at] = np.maximum(high[k, at], np.maximum.reduceat(np.maximum(np.maximum(a, b), c), first))
         b, c = ([x[k] - x[0] for x in corner] for k in (1, 2))
         normal = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]]
-        height = sum(n * (x[0] - h[own]) for n, x, h in zip(normal, corner, home))
+        height = sum(n * (x[0] - h[block_component]) for n, x, h in zip(normal, corner, origin))
         volume[at] += np.add.reduceat(height, first)
         area[at] += np.add.reduceat(np.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2), first)
-    return Shells(triangles, shell, start, low.T, high.T, volume / 6.0, area / 2.0)
+    return SortedComponents(triangles, component, start, low.T, high.T, volume / 6.0, area / 2.0)
 
 
-def _radix_order(values: NDArray[np.integer]) -> NDArray[np.intp]:
+def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
     """The stable order of integers from 0 to 2^32 - 1, 16 bits at a time: numpy sorts such short ones by counting."""
     order = np.argsort(values.astype(np.uint16), kind="stable")
     if values.max() > 0xFFFF:
@@ -78,57 +78,59 @@ def _radix_order(values: NDArray[np.integer]) -> NDArray[np.intp]:
     return order
 
 
-class Tree:
+class Bvh:
     """One bounding-volume tree for each wanted shell: perfect binary trees over triangles in Morton order.
 
-    columns: (3, n) the vertices about `origin`; ids: (m, 3) the vertices of the sorted triangles; bottom, top: (3, m)
-    their boxes.
+    vertex_columns: (3, n) the vertices about `origin`; ids: (m, 3) the vertices of the sorted triangles; bottom, top:
+    (3, m) their boxes.
     root: (c,) the root of each shell's tree. A node's first child is `child`, -1 for leaves; the second one follows.
     A leaf holds triangles `first` to `last`. low, high: (n, 3) boxes; of an empty node they are inverted.
     """
 
-    def __init__(self, points: NDArray[np.floating], shells: Shells, wanted: NDArray[np.bool_]) -> None:
-        self.origin = (shells.low[wanted].min(axis=0) + shells.high[wanted].max(axis=0)) / 2.0
-        self.columns = np.ascontiguousarray(points.T, np.float64) - self.origin[:, None]
-        self._grow(self._sort(shells, wanted), wanted)
+    def __init__(self, points: NDArray[np.floating], components: SortedComponents, selected: NDArray[np.bool_]) -> None:
+        self.origin = (components.low[selected].min(axis=0) + components.high[selected].max(axis=0)) / 2.0
+        self.vertex_columns = np.ascontiguousarray(points.T, np.float64) - self.origin[:, None]
+        self._build_nodes(self._sort(components, selected), selected)
 
-    def _sort(self, shells: Shells, wanted: NDArray[np.bool_]) -> NDArray[np.intp]:
+    def _sort(self, components: SortedComponents, selected: NDArray[np.bool_]) -> NDArray[np.intp]:
         """`ids`, `bottom` and `top`: the triangles of the wanted shells, shell by shell, each in Morton order. Returns
         (m,) the shell of each."""
-        ids, shell = shells.triangles, shells.shell
-        if not wanted.all():
-            rows = np.flatnonzero(wanted[shell])
-            ids, shell = ids[rows], shell[rows]
+        ids, component = components.triangles, components.component
+        if not selected.all():
+            triangle_rows = np.flatnonzero(selected[component])
+            ids, component = ids[triangle_rows], component[triangle_rows]
         low, high = np.empty((2, 3, len(ids)))
         code = np.zeros(len(ids), np.int64)
-        corner = (shells.low - self.origin).T
-        scale = 1023.0 / np.maximum((shells.high - shells.low).max(axis=1), 1023.0 * np.finfo(float).tiny)
-        for begin in range(0, len(ids), BLOCK):
-            rows = slice(begin, begin + BLOCK)
-            index = ids[rows].T.astype(np.intp, order="C")
-            for k, column in enumerate(self.columns):
+        corner = (components.low - self.origin).T
+        scale = 1023.0 / np.maximum((components.high - components.low).max(axis=1), 1023.0 * np.finfo(float).tiny)
+        for begin in range(0, len(ids), TRIANGLES_PER_BLOCK):
+            triangle_rows = slice(begin, begin + TRIANGLES_PER_BLOCK)
+            index = ids[triangle_rows].T.astype(np.intp, order="C")
+            for k, column in enumerate(self.vertex_columns):
                 a, b, c = column.take(index)
-                np.minimum(np.minimum(a, b), c, out=low[k, rows])
-                np.maximum(np.maximum(a, b), c, out=high[k, rows])
-                cell = (0.5 * (low[k, rows] + high[k, rows]) - corner[k, shell[rows]]) * scale[shell[rows]]
-                code[rows] |= spread_bits(cell.astype(np.int64)) << k
-        order = _radix_order(code)
-        order = order[_radix_order(shell[order])]
-        self.ids, shell = ids[order], shell[order]
+                np.minimum(np.minimum(a, b), c, out=low[k, triangle_rows])
+                np.maximum(np.maximum(a, b), c, out=high[k, triangle_rows])
+                cell = (
+                    0.5 * (low[k, triangle_rows] + high[k, triangle_rows]) - corner[k, component[triangle_rows]]
+                ) * scale[component[triangle_rows]]
+                code[triangle_rows] |= spread_bits(cell.astype(np.int64)) << k
+        order = radix_argsort(code)
+        order = order[radix_argsort(component[order])]
+        self.ids, component = ids[order], component[order]
         self.bottom, self.top = low[:, order], high[:, order]
-        return shell
+        return component
 
-    def _grow(self, shell: NDArray[np.intp], wanted: NDArray[np.bool_]) -> None:
-        """The nodes over the sorted triangles. shell: (m,) of each triangle."""
-        present = np.flatnonzero(wanted)
-        begin = np.searchsorted(shell, present)
-        size = np.searchsorted(shell, present, side="right") - begin
-        leaves = -(-size // LEAF)
+    def _build_nodes(self, component: NDArray[np.intp], selected: NDArray[np.bool_]) -> None:
+        """The nodes over the sorted triangles. component: (m,) of each triangle."""
+        present = np.flatnonzero(selected)
+        begin = np.searchsorted(component, present)
+        size = np.searchsorted(component, present, side="right") - begin
+        leaves = -(-size // TRIANGLES_PER_LEAF)
         depth = np.ceil(np.log2(leaves)).astype(np.intp)
         width = 1 << depth
         offset = np.concatenate([[0], np.cumsum(2 * width - 1)])
         count = int(offset[-1])
-        self.root = np.full(len(wanted), -1)
+        self.root = np.full(len(selected), -1)
         self.root[present] = offset[:-1]
         self.low, self.high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
         self.first, self.last = np.zeros((2, count), np.intp)
@@ -136,11 +138,11 @@ class Tree:
         self.child = 2 * np.arange(count) - offset[tree] + 1
         self.child[np.arange(count) - offset[tree] >= width[tree] - 1] = -1
 
-        k = ramp(leaves)
+        k = segment_ranges(leaves)
         tree = np.repeat(np.arange(len(present)), leaves)
         leaf = offset[tree] + width[tree] - 1 + k
-        self.first[leaf] = begin[tree] + LEAF * k
-        self.last[leaf] = np.minimum(self.first[leaf] + LEAF, (begin + size)[tree])
+        self.first[leaf] = begin[tree] + TRIANGLES_PER_LEAF * k
+        self.last[leaf] = np.minimum(self.first[leaf] + TRIANGLES_PER_LEAF, (begin + size)[tree])
         for k in range(3):
             self.low[leaf, k] = np.minimum.reduceat(self.bottom[k], self.first[leaf])
             self.high[leaf, k] = np.maximum.reduceat(self.top[k], self.first[leaf])
@@ -153,49 +155,52 @@ class Tree:
 
     def corners(self, triangle: NDArray[np.intp]) -> NDArray[np.float64]:
         """(3, k, 3) the corners of sorted triangles, about `origin`."""
-        return np.stack([column[self.ids[triangle].T] for column in self.columns], axis=-1)
+        return np.stack([column[self.ids[triangle].T] for column in self.vertex_columns], axis=-1)
 
-    def inside(
-        self, places: NDArray[np.float64], shell: NDArray[np.intp], tolerance: float
+    def winding_numbers(
+        self, query_points: NDArray[np.float64], component: NDArray[np.intp], tolerance: float
     ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
         """(k,) the winding number of a shell around each place (about `origin`), and whether it is sure: not where
         the place is nearer than `tolerance` to the surface along the ray, or where the work ran out."""
-        winding = np.zeros(len(places), np.intp)
-        sure = np.ones(len(places), bool)
-        u, v = places[:, 0] - RAY[0] * places[:, 2], places[:, 1] - RAY[1] * places[:, 2]
-        pieces = _split(np.arange(len(places)), self.root[shell])
+        winding = np.zeros(len(query_points), np.intp)
+        sure = np.ones(len(query_points), bool)
+        u, v = (
+            query_points[:, 0] - RAY_SLOPES[0] * query_points[:, 2],
+            query_points[:, 1] - RAY_SLOPES[1] * query_points[:, 2],
+        )
+        pieces = _batches(np.arange(len(query_points)), self.root[component])
         work = 0
         while pieces:
             place, node = pieces.pop()
             work += len(place)
-            if work > MOST_WORK:
+            if work > MAX_BOX_PAIRS:
                 for rest, _ in [*pieces, (place, node)]:
                     sure[rest] = False
                 break
             low, high = self.low[node], self.high[node]
-            hit = high[:, 2] >= places[place, 2] - tolerance
-            for k, (at, slope) in enumerate(((u, RAY[0]), (v, RAY[1]))):
+            hit = high[:, 2] >= query_points[place, 2] - tolerance
+            for k, (at, slope) in enumerate(((u, RAY_SLOPES[0]), (v, RAY_SLOPES[1]))):
                 hit &= (low[:, k] - slope * high[:, 2] <= at[place]) & (high[:, k] - slope * low[:, 2] >= at[place])
             place, node = place[hit], node[hit]
             child = self.child[node]
             leaf = child < 0
             if leaf.any():
-                for leaves in _split(place[leaf], node[leaf], size=PIECE // LEAF):
-                    self._count(places, *leaves, tolerance, winding, sure)
+                for leaves in _batches(place[leaf], node[leaf], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF):
+                    self._count_crossings(query_points, *leaves, tolerance, winding, sure)
             place, child = place[~leaf], child[~leaf]
-            pieces += _split(np.concatenate([place, place]), np.concatenate([child, child + 1]))
+            pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
         return winding, sure
 
-    def _count(
-        self, places: NDArray, place: NDArray, leaf: NDArray, tolerance: float, winding: NDArray, sure: NDArray
+    def _count_crossings(
+        self, query_points: NDArray, place: NDArray, leaf: NDArray, tolerance: float, winding: NDArray, sure: NDArray
     ) -> None:
         """Add the crossings of the rays with the triangles of leaves."""
         size = self.last[leaf] - self.first[leaf]
-        triangle = np.repeat(self.first[leaf], size) + ramp(size)
+        triangle = np.repeat(self.first[leaf], size) + segment_ranges(size)
         place = np.repeat(place, size)
-        corner = self.corners(triangle) - places[place]
-        u = corner[..., 0] - RAY[0] * corner[..., 2]
-        v = corner[..., 1] - RAY[1] * corner[..., 2]
+        corner = self.corners(triangle) - query_points[place]
+        u = corner[..., 0] - RAY_SLOPES[0] * corner[..., 2]
+        v = corner[..., 1] - RAY_SLOPES[1] * corner[..., 2]
         ids = self.ids[triangle]
         edge, positive = np.empty((3, len(triangle))), np.empty((3, len(triangle)), bool)
         for k in range(3):
@@ -215,24 +220,24 @@ class Tree:
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
 
 
-def pierced_pairs(
-    tree: Tree, one: NDArray, other: NDArray, tolerance: float, vertex: NDArray | None = None
+def intersecting_pairs(
+    tree: Bvh, first: NDArray, second: NDArray, tolerance: float, vertex: NDArray | None = None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """For each pair of shells whether an edge of one goes through a triangle of the other by more than the tolerance,
     and whether the work ran out before that was known.
 
-    one, other: (k,) shells. vertex: (n,) which vertex a point is; triangles that share one are not held against each
+    first, second: (k,) shells. vertex: (n,) which vertex a point is; triangles that share one are not held against each
     other.
     """
-    found, unfinished = np.zeros((2, len(one)), bool)
-    pieces = _split(np.arange(len(one)), tree.root[one], tree.root[other])
+    intersects, unfinished = np.zeros((2, len(first)), bool)
+    pieces = _batches(np.arange(len(first)), tree.root[first], tree.root[second])
     work = 0
     while pieces:
         pair, a, b = pieces.pop()
-        going = ~found[pair]
+        going = ~intersects[pair]
         pair, a, b = pair[going], a[going], b[going]
         work += len(pair)
-        if work > MOST_WORK:
+        if work > MAX_BOX_PAIRS:
             for rest, *_ in [*pieces, (pair,)]:
                 unfinished[rest] = True
             break
@@ -241,26 +246,26 @@ def pierced_pairs(
         child_a, child_b = tree.child[a], tree.child[b]
         both = (child_a < 0) & (child_b < 0)
         if both.any():
-            for leaves in _split(pair[both], a[both], b[both], size=PIECE // LEAF**2):
-                _pierce_leaves(tree, *leaves, tolerance, found, vertex)
+            for leaves in _batches(pair[both], a[both], b[both], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF**2):
+                _intersect_leaves(tree, *leaves, tolerance, intersects, vertex)
             pair, a, b, child_a, child_b = (x[~both] for x in (pair, a, b, child_a, child_b))
         # The larger box is opened; a leaf never is.
         extent = (tree.high[a] - tree.low[a]).max(axis=1) >= (tree.high[b] - tree.low[b]).max(axis=1)
         left = (child_b < 0) | (extent & (child_a >= 0))
-        pieces += _split(
+        pieces += _batches(
             np.concatenate([pair[left], pair[left], pair[~left], pair[~left]]),
             np.concatenate([child_a[left], child_a[left] + 1, a[~left], a[~left]]),
             np.concatenate([b[left], b[left], child_b[~left], child_b[~left] + 1]),
         )
-    return found, unfinished
+    return intersects, unfinished
 
 
-def _pierce_leaves(
-    tree: Tree, pair: NDArray, a: NDArray, b: NDArray, tolerance: float, found: NDArray, vertex: NDArray | None
+def _intersect_leaves(
+    tree: Bvh, pair: NDArray, a: NDArray, b: NDArray, tolerance: float, intersects: NDArray, vertex: NDArray | None
 ) -> None:
     """Mark the pairs of which a triangle in one leaf is pierced by an edge in the other."""
     size_a, size_b = tree.last[a] - tree.first[a], tree.last[b] - tree.first[b]
-    k = ramp(size_a * size_b)
+    k = segment_ranges(size_a * size_b)
     row = np.repeat(np.arange(len(a)), size_a * size_b)
     first, second, pair = tree.first[a][row] + k // size_b[row], tree.first[b][row] + k % size_b[row], pair[row]
     meet = np.ones(len(pair), bool)
@@ -273,11 +278,13 @@ def _pierce_leaves(
         first, second, pair = first[apart], second[apart], pair[apart]
     corner, plane = tree.corners(first), tree.corners(second)
     for _ in range(2):
-        found[pair[_piercing(corner, plane, tolerance)]] = True
+        intersects[pair[_edges_cross_triangles(corner, plane, tolerance)]] = True
         corner, plane = plane, corner
 
 
-def _piercing(corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance: float) -> NDArray[np.intp]:
+def _edges_cross_triangles(
+    corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance: float
+) -> NDArray[np.intp]:
     """Which of the triangles `corner` have an edge that goes through their partner in `plane`, both (3, k, 3), passing
     more than the tolerance away from its edges, and further than that to both sides while it is over the partner. (The
     plane of a sliver is not known far from it.)"""
@@ -306,6 +313,6 @@ def _piercing(corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance
     return at[depth > tolerance]
 
 
-def _split(*arrays: NDArray, size: int = PIECE) -> list[tuple[NDArray, ...]]:
+def _batches(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArray, ...]]:
     """The arrays in parallel pieces of bounded length."""
     return [tuple(array[k : k + size] for array in arrays) for k in range(0, len(arrays[0]), size)]

@@ -25,12 +25,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import first_equal
-from ..numerics.graph import BLOCK, components
+from ..numerics.arrays import first_occurrence
+from ..numerics.graph import EDGES_PER_BLOCK, connected_components
 from .surface import Surface
 
 
-def closed_sides(surface: Surface) -> NDArray[np.int32] | None:
+def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     """(2, e) the mesh faces on the two sides of each used edge, where the mesh's own corners prove that every edge that
     has faces has two, which run along it in opposite directions; None where they do not, or where there are none.
 
@@ -46,11 +46,11 @@ def closed_sides(surface: Surface) -> NDArray[np.int32] | None:
     if count > 2 * len(corners) or 2 * count > np.iinfo(edges.dtype).max:
         return None  # most of them without faces, or too many for their type: the table would cost more than a search
     sides = np.full(2 * count, -1, np.int32)
-    for start in range(0, len(corners), BLOCK):
+    for start in range(0, len(corners), EDGES_PER_BLOCK):
         faces, upward = sides_at(start)
         slot = upward.astype(edges.dtype)
         slot *= count
-        slot += edges[start : start + BLOCK]
+        slot += edges[start : start + EDGES_PER_BLOCK]
         sides[slot.astype(np.intp)] = faces
     sides = sides.reshape(2, count)
     if len(corners) != 2 * count:  # edges without faces
@@ -67,7 +67,7 @@ def _sides_at(surface: Surface) -> Callable[[int], tuple[NDArray[np.int32], NDAr
     elif not quads and surface.triangle_faces is None:
         size = 3
     else:
-        quad_faces, triangle_faces = mesh_faces(surface)
+        quad_faces, triangle_faces = face_of_each(surface)
         pieces = np.bincount(triangle_faces, minlength=quad_faces.max(initial=-1) + 1)
         sizes = np.where(pieces > 0, pieces + 2, 0)
         sizes[quad_faces] = 4
@@ -78,15 +78,15 @@ def _sides_at(surface: Surface) -> Callable[[int], tuple[NDArray[np.int32], NDAr
         following = np.roll(corners, -1)
         following[ends - 1] = corners[ends - sizes]
         return lambda start: (
-            owner[start : start + BLOCK],
-            corners[start : start + BLOCK] < following[start : start + BLOCK],
+            owner[start : start + EDGES_PER_BLOCK],
+            corners[start : start + EDGES_PER_BLOCK] < following[start : start + EDGES_PER_BLOCK],
         )
     if len(corners) != size * (quads + triangles):
         return None
-    faces = np.repeat(np.arange(BLOCK // size, dtype=np.int32), size)
+    faces = np.repeat(np.arange(EDGES_PER_BLOCK // size, dtype=np.int32), size)
 
     def sides_at(start: int) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
-        vertices = corners[start : start + BLOCK]
+        vertices = corners[start : start + EDGES_PER_BLOCK]
         upward = np.empty(len(vertices), bool)
         np.less(vertices[:-1], vertices[1:], out=upward[:-1])
         np.less(vertices[size - 1 :: size], vertices[::size], out=upward[size - 1 :: size])
@@ -95,7 +95,7 @@ def _sides_at(surface: Surface) -> Callable[[int], tuple[NDArray[np.int32], NDAr
     return sides_at
 
 
-def mesh_faces(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
     """The mesh face of each quad and of each triangle."""
     return (
         np.arange(len(surface.quads)) if surface.quad_faces is None else surface.quad_faces,
@@ -116,25 +116,25 @@ class Edges:
     first: NDArray[np.intp]
     count: NDArray[np.intp]
 
-    def balance(self, turned: NDArray[np.bool_]) -> NDArray[np.float64]:
-        """(e,) sides that run upward minus sides that run downward, once the `turned` triangles are reversed."""
-        return np.bincount(self.of_side, np.where(self.upward ^ np.repeat(turned, 3), 1.0, -1.0))
+    def signed_use_count(self, flipped: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """(e,) sides that run upward minus sides that run downward, once the `flipped` triangles are reversed."""
+        return np.bincount(self.of_side, np.where(self.upward ^ np.repeat(flipped, 3), 1.0, -1.0))
 
-    def pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def manifold_side_pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """The two sides of every edge that has exactly two."""
         two = self.count == 2
         last = np.empty(len(two), np.intp)
         last[self.of_side] = np.arange(len(self.of_side))  # of equal indices the last is kept
         return self.first[two], last[two]
 
-    def links(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def adjacency(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Links between triangles that make all the sides of an edge connected, however many there are."""
         side = np.arange(len(self.of_side))
         first = self.first[self.of_side]
         later = first != side
         return first[later] // 3, side[later] // 3
 
-    def rims(self) -> NDArray[np.intp]:
+    def boundary_sides(self) -> NDArray[np.intp]:
         """The sides of edges that have only one, ascending."""
         return self.first[self.count == 1]
 
@@ -143,7 +143,7 @@ def find_edges(triangles: NDArray[np.integer]) -> Edges:
     """The edges of (m, 3) triangles with three different vertices each, m at least 1."""
     start, stop = _ends(triangles.astype(np.int64, copy=False))
     low, high = np.minimum(start, stop), np.maximum(start, stop)
-    first = first_equal(low * (int(high.max()) + 1) + high)
+    first = first_occurrence(low * (int(high.max()) + 1) + high)
     begins = first == np.arange(len(first))
     of_side = (np.cumsum(begins) - 1)[first]
     return Edges(of_side=of_side, upward=start < stop, first=np.flatnonzero(begins), count=np.bincount(of_side))
@@ -156,21 +156,21 @@ def _ends(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[
     return triangles.ravel(), stop.ravel()
 
 
-def named_edges(surface: Surface, triangles: NDArray[np.integer]) -> Edges | None:
+def edges_from_mesh(surface: Surface, triangles: NDArray[np.integer]) -> Edges | None:
     """As `find_edges`, without a search, from the edges that a mesh names at its corners; each quad's diagonal is one
     more. None where there are none or not of all triangles, or they do not fit the vertices.
 
     triangles: all of the surface, as `all_triangles` cuts them, with three different vertices each.
     """
-    own, quads = len(surface.triangles), surface.quads
+    triangle_count, quads = len(surface.triangles), surface.quads
     corners, edges = surface.corner_vertices, surface.corner_edges
-    if corners is None or edges is None or not len(corners) == len(edges) == 3 * own + 4 * len(quads):
+    if corners is None or edges is None or not len(corners) == len(edges) == 3 * triangle_count + 4 * len(quads):
         return None
-    if own and len(quads) and (surface.triangle_faces is None or surface.quad_faces is None):
+    if triangle_count and len(quads) and (surface.triangle_faces is None or surface.quad_faces is None):
         return None
     edges = edges.astype(np.intp, copy=False)
-    quad_faces, triangle_faces = mesh_faces(surface)
-    sizes = np.zeros(own + len(quads), np.intp)
+    quad_faces, triangle_faces = face_of_each(surface)
+    sizes = np.zeros(triangle_count + len(quads), np.intp)
     if not len(sizes) > max(quad_faces.max(initial=0), triangle_faces.max(initial=0)):
         return None
     sizes[quad_faces], sizes[triangle_faces] = 4, 3
@@ -179,7 +179,7 @@ def named_edges(surface: Surface, triangles: NDArray[np.integer]) -> Edges | Non
         return None
     begins = np.cumsum(sizes) - sizes
     diagonal = count + np.arange(len(quads))
-    flipped = triangles[own::2, 0] != quads[:, 0]
+    flipped = triangles[triangle_count::2, 0] != quads[:, 0]
     around = edges[begins[quad_faces][:, None] + (np.arange(4) + flipped[:, None]) % 4]
     named = (
         edges
@@ -198,61 +198,67 @@ def named_edges(surface: Surface, triangles: NDArray[np.integer]) -> Edges | Non
     begins[first[first >= 0]] = True
     of_side = (np.cumsum(begins) - 1)[first[named]]
     first = np.flatnonzero(begins)
-    found = Edges(of_side=of_side, upward=start < stop, first=first, count=np.bincount(of_side))
+    mesh_edges = Edges(of_side=of_side, upward=start < stop, first=first, count=np.bincount(of_side))
     width = int(triangles.max()) + 1
     ends = np.minimum(start, stop).astype(np.int64) * width + np.maximum(start, stop)
     if not np.array_equal(ends[first][of_side], ends):
         return None
     # A mesh may name an edge twice, and each would pass for a rim.
     at_rim = np.zeros(width, bool)
-    at_rim[start[found.rims()]] = at_rim[stop[found.rims()]] = True
+    at_rim[start[mesh_edges.boundary_sides()]] = at_rim[stop[mesh_edges.boundary_sides()]] = True
     doubtful = ends[first[at_rim[start[first]] & at_rim[stop[first]]]]
-    return found if len(np.unique(doubtful)) == len(doubtful) else None
+    return mesh_edges if len(np.unique(doubtful)) == len(doubtful) else None
 
 
-def orientation(
-    count: int, a: NDArray[np.integer], b: NDArray[np.integer], against: NDArray[np.bool_], weight: NDArray[np.float64]
+def consistent_orientation(
+    count: int,
+    a: NDArray[np.integer],
+    b: NDArray[np.integer],
+    misoriented: NDArray[np.bool_],
+    weight: NDArray[np.float64],
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Which of `count` faces to turn so that linked ones agree, and which cannot be made to.
 
-    a, b: the linked faces; against: whether the two now disagree; weight: (count,) the area of each face: in each part
-    the orientation with less of it is turned. Returns (turned, nonorientable), both (count,); a part that is not
+    a, b: the linked faces; misoriented: whether the two now disagree; weight: (count,) the area of each face: in each
+    part the orientation with less of it is turned. Returns (turned, nonorientable), both (count,); a part that is not
     orientable (a Möbius strip, a Klein bottle) is left as it is.
     """
-    turned, twisted = np.zeros((2, count), bool)
-    if not against.any():
-        return turned, twisted
+    flipped, twisted = np.zeros((2, count), bool)
+    if not misoriented.any():
+        return flipped, twisted
     # Nodes f and f + count: the face as it is and turned.
-    cover, _ = components(
-        2 * count, np.concatenate([a, a + count]), np.concatenate([b + count * against, b + count * ~against])
+    cover, _ = connected_components(
+        2 * count, np.concatenate([a, a + count]), np.concatenate([b + count * misoriented, b + count * ~misoriented])
     )
     plain, reverse = cover[:count], cover[count:]
     twisted = plain == reverse
-    turned = plain > reverse
+    flipped = plain > reverse
     part = np.minimum(plain, reverse)
-    moved = np.bincount(part, weight * turned)
+    moved = np.bincount(part, weight * flipped)
     whole = np.bincount(part, weight)
-    turned ^= (2.0 * moved > whole)[part]
-    return turned & ~twisted, twisted
+    flipped ^= (2.0 * moved > whole)[part]
+    return flipped & ~twisted, twisted
 
 
-def shells(edges: Edges, part: NDArray[np.intp], parts: int, even: NDArray[np.bool_]) -> tuple[NDArray[np.intp], int]:
+def group_components(
+    edges: Edges, part: NDArray[np.intp], parts: int, even: NDArray[np.bool_]
+) -> tuple[NDArray[np.intp], int]:
     """The shells that parts make: (m,) the shell of each triangle, and how many.
 
     part: (m,) the part of each triangle, connected across edges with exactly two sides. even: (e,) edges with one side
     that close otherwise. A part that closes by itself is a shell of its own, though it may share edges with others
     (two boxes that meet in an edge); the rest belong together where they share an edge (a box with an inner wall).
     """
-    crowded = edges.count > 2
-    if not crowded.any():
+    non_manifold = edges.count > 2
+    if not non_manifold.any():
         return part, parts
     key = edges.of_side * parts + part.repeat(3)
     used, uses = np.unique(key, return_counts=True)
     odd = (uses % 2 == 1) & ~even[used // parts]
     unfinished = np.zeros(parts, bool)
     unfinished[used[odd] % parts] = True
-    side = np.flatnonzero(crowded[edges.of_side] & unfinished[part].repeat(3))
-    meet = np.empty(len(crowded), np.intp)
+    side = np.flatnonzero(non_manifold[edges.of_side] & unfinished[part].repeat(3))
+    meet = np.empty(len(non_manifold), np.intp)
     meet[edges.of_side[side]] = part[side // 3]  # any of them
-    shell, number = components(parts, part[side // 3], meet[edges.of_side[side]])
+    shell, number = connected_components(parts, part[side // 3], meet[edges.of_side[side]])
     return shell[part], number

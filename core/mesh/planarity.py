@@ -7,7 +7,8 @@ by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6; for a polygon the 
 the fan from its second by the tetrahedra on their common edge and each further one. A face counts as not flat where
 its diagonals pass each other by more than its coordinates' own errors and a millionth of its size, and it has an area.
 
-The sums over the faces have most of that at hand, and show it to a `Witness`, a block at a time. The normal of a quad
+The sums over the faces have most of that at hand, and show it to a `PlanarityAccumulator`, a block at a time. The
+normal of a quad
 is the sum of those of its two triangles: with their lengths p and q at most p + q, and at least 0.7 of that unless they
 face away from each other. Mostly that is enough to decide; the other faces are looked at one by one.
 """
@@ -21,38 +22,39 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics.vectors import cross, dot
-from .edges import mesh_faces
+from .edges import face_of_each
 from .surface import Surface
 
-BLOCK = 1 << 14
-FLAT = 1e-6  # of the square root of a face's area
-NO_AREA = 1e-12  # of a face's size, for float64 points
-NONE = np.empty(0, np.intp)
+FACES_PER_BLOCK = 1 << 14
+PLANAR_RTOL = 1e-6  # of the square root of a face's area
+ZERO_AREA_RTOL = 1e-12  # of a face's size, for float64 points
+NO_FACES = np.empty(0, np.intp)
 QUAD, TRIANGLE = ((2, 0), (3, 1), (1, 0)), ((1, 0), (2, 0))  # corners (i, j) whose differences i - j are taken
 
 
 @dataclass(frozen=True, eq=False)
-class Flatness:
-    """not_flat: how many faces are not; spread: the volume that the choice of their diagonals can change;
-    without_area: (k,) the faces that have none."""
+class Planarity:
+    """non_planar_count: how many faces are not; volume_ambiguity: the volume that the choice of their diagonals can
+    change;
+    degenerate_faces: (k,) the faces that have none."""
 
-    not_flat: int
-    spread: float
-    without_area: NDArray[np.integer]
+    non_planar_count: int
+    volume_ambiguity: float
+    degenerate_faces: NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)
-class _Seen:
+class _PlanarityPartial:
     """Of some quads or triangles: how many; how many of them are surely not flat, and 6 times their spread; and the
     rows of those that have to be looked at."""
 
     count: int
-    bent: int
-    spread: float
-    unsure: NDArray[np.intp]
+    non_planar_count: int
+    volume_ambiguity: float
+    undecided: NDArray[np.intp]
 
 
-class Witness:
+class PlanarityAccumulator:
     """Quads, and polygons where the surface has the mesh's corners to tell their rings from; other faces are made of
     triangles and have no choice.
 
@@ -63,13 +65,14 @@ class Witness:
         self.surface, self.error = surface, error
         low, high = surface.box
         size = float((high - low).max())
-        self.narrow = 2.0 * np.sqrt(_narrow(3.0 * size * size, error))  # no face is longer than √3 times that
-        self.quads: dict[int, _Seen] = {}
-        self.triangles: dict[int, _Seen] = {}
+        # no face is longer than √3 times that
+        self.degenerate_limit = 2.0 * np.sqrt(_degenerate_limit(3.0 * size * size, error))
+        self.quads: dict[int, _PlanarityPartial] = {}
+        self.triangles: dict[int, _PlanarityPartial] = {}
         # What is looked at one by one is brought to about size 1, lest sixth powers of small lengths underflow.
         self.exponent = int(np.frexp(max(size, float(np.finfo(np.float32).tiny)))[1])
 
-    def see_quads(self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray) -> None:
+    def add_quads(self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray) -> None:
         """Those from row `start` on.
 
         lengths: (2, k) of the normals of both triangles, or 0. volume: (k,) 6 times that of the tetrahedron of the
@@ -78,76 +81,84 @@ class Witness:
         """
         volume, normal = np.abs(volume, out=volume), np.add(lengths[0], lengths[1], out=room[0])
         least, most = normal.min(), normal.max()
-        bent = volume > np.multiply(normal, 8.0 * self.error + FLAT * np.sqrt(most), out=room[1])
-        narrow = NONE
-        if least <= self.narrow or len(folded):
+        bent = volume > np.multiply(normal, 8.0 * self.error + PLANAR_RTOL * np.sqrt(most), out=room[1])
+        narrow = NO_FACES
+        if least <= self.degenerate_limit or len(folded):
             normal[folded] = 0.0
-            narrow = np.flatnonzero(normal <= self.narrow)
+            narrow = np.flatnonzero(normal <= self.degenerate_limit)
             bent[narrow] = False
-        count, unsure = np.count_nonzero(bent), NONE
+        count, unsure = np.count_nonzero(bent), NO_FACES
         if count < len(bent):
-            limit = 0.7 * (8.0 * self.error + FLAT * np.sqrt(0.7 * least))
+            limit = 0.7 * (8.0 * self.error + PLANAR_RTOL * np.sqrt(0.7 * least))
             maybe = volume > np.multiply(normal, limit, out=room[1])
             maybe[narrow] = True
             unsure = start + np.flatnonzero(maybe > bent)
             volume[np.flatnonzero(~bent)] = 0.0
-        self.quads[start] = _Seen(len(bent), count, float(np.add.reduce(volume)), unsure)
+        self.quads[start] = _PlanarityPartial(len(bent), count, float(np.add.reduce(volume)), unsure)
 
-    def see_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
+    def add_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
         """Every `step`-th from each of these rows on. lengths: (len(starts), k) of their normals."""
         for start, normal in zip(starts, lengths):
-            self.triangles[start] = _Seen(len(normal), 0, 0.0, start + step * np.flatnonzero(normal <= self.narrow))
+            self.triangles[start] = _PlanarityPartial(
+                len(normal), 0, 0.0, start + step * np.flatnonzero(normal <= self.degenerate_limit)
+            )
 
-    def flatness(self) -> Flatness:
+    def planarity(self) -> Planarity:
         """What was seen, and where that does not tell or nothing was seen, what is found by looking."""
         surface, triangle_faces = self.surface, self.surface.triangle_faces
-        seen = _together(self.quads, len(surface.quads))
-        volumes, bare = self._look(surface.quads[seen.unsure], QUAD)
-        bare = seen.unsure[bare] if surface.quad_faces is None else surface.quad_faces[seen.unsure[bare]]
-        not_flat, looked = seen.bent + np.count_nonzero(volumes), np.add.reduce(volumes)
+        merged = _merge_blocks(self.quads, len(surface.quads))
+        volumes, degenerate = self._classify_rows(surface.quads[merged.undecided], QUAD)
+        degenerate = (
+            merged.undecided[degenerate]
+            if surface.quad_faces is None
+            else surface.quad_faces[merged.undecided[degenerate]]
+        )
+        non_planar_count, total_volume = merged.non_planar_count + np.count_nonzero(volumes), np.add.reduce(volumes)
         if len(surface.triangles):
-            rows = _together(self.triangles, len(surface.triangles)).unsure
-            rows = rows[self._look(surface.triangles[rows], TRIANGLE)[1]]
+            undecided_rows = _merge_blocks(self.triangles, len(surface.triangles)).undecided
+            undecided_rows = undecided_rows[self._classify_rows(surface.triangles[undecided_rows], TRIANGLE)[1]]
             if triangle_faces is not None:
-                pieces, found = np.bincount(triangle_faces), np.bincount(triangle_faces[rows])
-                rows = np.flatnonzero((found == pieces[: len(found)]) & (found > 0))
-                polygon, corners = self._polygons(pieces)
-                volumes, _ = self._look(corners, QUAD)
-                not_flat += len(np.unique(polygon[volumes > 0.0]))
-                looked += np.add.reduce(volumes)
-            bare = np.concatenate([bare, rows])
-        spread = (seen.spread + float(np.ldexp(looked, 3 * self.exponent))) / 6.0
-        return Flatness(int(not_flat), spread, np.sort(bare))
+                pieces, degenerate_pieces = np.bincount(triangle_faces), np.bincount(triangle_faces[undecided_rows])
+                undecided_rows = np.flatnonzero(
+                    (degenerate_pieces == pieces[: len(degenerate_pieces)]) & (degenerate_pieces > 0)
+                )
+                polygon, corners = self._polygon_tetrahedra(pieces)
+                volumes, _ = self._classify_rows(corners, QUAD)
+                non_planar_count += len(np.unique(polygon[volumes > 0.0]))
+                total_volume += np.add.reduce(volumes)
+            degenerate = np.concatenate([degenerate, undecided_rows])
+        volume_ambiguity = (merged.volume_ambiguity + float(np.ldexp(total_volume, 3 * self.exponent))) / 6.0
+        return Planarity(int(non_planar_count), volume_ambiguity, np.sort(degenerate))
 
-    def _look(self, corners: NDArray, pairs: tuple) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    def _classify_rows(self, corners: NDArray, pairs: tuple) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """(m,) 6 times the volume of the tetrahedron on the corners of each face, of what is brought to size 1, zero
         where the face is flat; and (m,) whether it has no area. pairs: of corners, QUAD or TRIANGLE."""
         error, volumes, bare = np.ldexp(self.error, -self.exponent), [np.empty(0)], [np.empty(0, bool)]
-        for start in range(0, len(corners), BLOCK):
-            points = self.surface.points[corners[start : start + BLOCK].astype(np.intp)].T
+        for start in range(0, len(corners), FACES_PER_BLOCK):
+            points = self.surface.points[corners[start : start + FACES_PER_BLOCK].astype(np.intp)].T
             points = np.ldexp(points.astype(np.float64, order="C"), -self.exponent)
             first, second, *third = ((points[:, i] - points[:, j]) for i, j in pairs)
             across = cross(first, second)
             square = dot(across, across)
-            bare.append(square <= _narrow(np.maximum(dot(first, first), dot(second, second)), error))
+            bare.append(square <= _degenerate_limit(np.maximum(dot(first, first), dot(second, second)), error))
             if third:
                 volume, normal = np.abs(dot(third[0], across)), np.sqrt(square)
-                volume[(volume <= normal * (8.0 * error + FLAT * np.sqrt(normal))) | bare[-1]] = 0.0
+                volume[(volume <= normal * (8.0 * error + PLANAR_RTOL * np.sqrt(normal))) | bare[-1]] = 0.0
                 volumes.append(volume)
         return np.concatenate(volumes), np.concatenate(bare)
 
-    def _polygons(self, pieces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
+    def _polygon_tetrahedra(self, pieces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
         """The tetrahedra of the faces of more than one triangle: (m,) which face each is of, and (m, 4) corners.
 
         pieces: how many triangles each mesh face has.
         """
-        ring, quad_faces = self.surface.corner_vertices, mesh_faces(self.surface)[0]
+        ring, quad_faces = self.surface.corner_vertices, face_of_each(self.surface)[0]
         polygon = np.flatnonzero(pieces > 1)
         sizes = np.zeros(max(len(pieces), int(quad_faces.max(initial=-1)) + 1), np.intp)
         sizes[: len(pieces)] = np.where(pieces > 0, pieces + 2, 0)
         sizes[quad_faces] = 4
         if ring is None or sizes.sum() != len(ring):
-            return NONE, np.empty((0, 4), np.intp)
+            return NO_FACES, np.empty((0, 4), np.intp)
         begin = (np.cumsum(sizes) - sizes)[polygon]
         steps = sizes[polygon] - 3
         row = np.repeat(np.arange(len(polygon)), steps)
@@ -155,19 +166,19 @@ class Witness:
         return row, np.stack([ring[begin[row]], ring[begin[row] + 1], ring[at], ring[at + 1]], axis=1)
 
 
-def _together(blocks: dict[int, _Seen], count: int) -> _Seen:
+def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _PlanarityPartial:
     """What was seen of so many rows, in their order, whoever was first; if not of all, then of none."""
-    seen = [blocks[start] for start in sorted(blocks)]
-    if sum(block.count for block in seen) != count:
-        return _Seen(count, 0, 0.0, np.arange(count))
-    return _Seen(
+    partials = [blocks[start] for start in sorted(blocks)]
+    if sum(block.count for block in partials) != count:
+        return _PlanarityPartial(count, 0, 0.0, np.arange(count))
+    return _PlanarityPartial(
         count,
-        sum(block.bent for block in seen),
-        sum(block.spread for block in seen),
-        np.concatenate([NONE, *(block.unsure for block in seen)]),
+        sum(block.non_planar_count for block in partials),
+        sum(block.volume_ambiguity for block in partials),
+        np.concatenate([NO_FACES, *(block.undecided for block in partials)]),
     )
 
 
-def _narrow(longest: NDArray | float, error: float) -> NDArray | float:
+def _degenerate_limit(longest: NDArray | float, error: float) -> NDArray | float:
     """The largest square of the normal of a face without area, from the square of its longest edge or diagonal."""
-    return longest * (error * error + NO_AREA * NO_AREA * longest)
+    return longest * (error * error + ZERO_AREA_RTOL * ZERO_AREA_RTOL * longest)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.vectors import cross, dot, minus
+from ..numerics.vectors import cross, dot, subtract
 
 
 def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float64]:
@@ -20,8 +20,8 @@ def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float6
     point, ends = np.asarray(points, np.float64).T, np.ascontiguousarray(corners.transpose(1, 2, 0))
     if point.ndim == 1:
         point = point[:, None]
-    to = [minus(point, end) for end in ends]
-    edges = [minus(ends[(i + 1) % 3], ends[i]) for i in range(3)]
+    to = [subtract(point, end) for end in ends]
+    edges = [subtract(ends[(i + 1) % 3], ends[i]) for i in range(3)]
     normal = cross(edges[0], edges[1])
     size = np.sqrt(dot(normal, normal))
     real = size > 0.0
@@ -29,7 +29,7 @@ def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float6
     for away, edge in zip(to, edges):
         length = dot(edge, edge)
         share = np.clip(dot(away, edge) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
-        left = minus(away, [share * component for component in edge])
+        left = subtract(away, [share * component for component in edge])
         nearest = np.minimum(nearest, dot(left, left))
         inside = inside & (dot(normal, cross(edge, away)) >= 0.0)
     nearest = np.sqrt(nearest)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.vectors import cross, dot
 
-ROW = 512  # points whose coordinates are compared as one row
+POINTS_PER_ROW = 512  # points whose coordinates are compared as one row
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
 
@@ -32,7 +32,7 @@ class Surface:
     triangle_faces, quad_faces: the mesh face each one belongs to; None where face i is simply row i.
     corner_vertices, corner_edges: (c,), the mesh's own corners, and the edge from each one to the next. They prove
         closedness without sorting; None where the source has none.
-    moved: (3,) see `coordinate_error`.
+    displacement: (3,) see `coordinate_error`.
     """
 
     points: NDArray[np.floating]
@@ -42,7 +42,7 @@ class Surface:
     quad_faces: NDArray[np.integer] | None = None
     corner_vertices: NDArray[np.integer] | None = None
     corner_edges: NDArray[np.integer] | None = None
-    moved: NDArray[np.float64] | None = None
+    displacement: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         for name in ("triangles", "quads", "triangle_faces", "quad_faces", "corner_vertices", "corner_edges"):
@@ -57,9 +57,9 @@ class Surface:
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(3,) and (3,) the least and the largest coordinates of the points, used or not; NaN where one of them is."""
         low = high = self.points
-        if len(low) > ROW:  # along rows of three numpy is twenty times as slow
-            whole = len(low) // ROW * ROW
-            wide, rest = self.points[:whole].reshape(-1, 3 * ROW), self.points[whole:]
+        if len(low) > POINTS_PER_ROW:  # along rows of three numpy is twenty times as slow
+            whole = len(low) // POINTS_PER_ROW * POINTS_PER_ROW
+            wide, rest = self.points[:whole].reshape(-1, 3 * POINTS_PER_ROW), self.points[whole:]
             low = np.concatenate([rest, np.minimum.reduce(wide).reshape(-1, 3)])
             high = np.concatenate([rest, np.maximum.reduce(wide).reshape(-1, 3)])
         low, high = (np.ascontiguousarray(points.T) for points in (low, high))
@@ -68,9 +68,9 @@ class Surface:
     @property
     def coordinate_error(self) -> NDArray[np.float64]:
         """(3,) half an ulp of the largest float32 coordinate on each axis: what storing the points may have moved
-        them by. `moved` says it for points that were float32 once; else it is zero for float64 points."""
-        if self.moved is not None:
-            return self.moved
+        them by. `displacement` says it for points that were float32 once; else it is zero for float64 points."""
+        if self.displacement is not None:
+            return self.displacement
         if self.points.dtype != np.float32 or not len(self.points):
             return np.zeros(3)
         low, high = self.box
@@ -78,7 +78,7 @@ class Surface:
         largest = np.minimum(np.maximum(high, -low), 2.0**127)
         return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
 
-    def mapped(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
+    def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
         """The surface with points `linear @ x + offset` in float64. A mirroring map turns the faces' winding, so
         that outward stays outward; the diagonals stay where Blender drew them."""
         linear = np.asarray(linear, np.float64)
@@ -94,7 +94,7 @@ class Surface:
             triangle_faces=faces,
             quads=NO_QUADS,
             quad_faces=None,
-            moved=np.abs(linear) @ self.coordinate_error,
+            displacement=np.abs(linear) @ self.coordinate_error,
         )
 
     @classmethod
@@ -110,7 +110,7 @@ class Surface:
             raise ValueError("coordinates must be real")
         if points.dtype.newbyteorder("=") not in (np.float32, np.float64):
             points = points.astype(np.float64)
-        if not all_there(triangles, len(points)):
+        if not indices_in_range(triangles, len(points)):
             raise ValueError("no such point")
         return cls(points, triangles if triangles.dtype in (np.int32, np.int64) else triangles.astype(np.int64))
 
@@ -125,7 +125,7 @@ class Surface:
         return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
 
 
-def all_there(indices: NDArray[np.integer], count: int) -> bool:
+def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
     """Whether all indices are in 0 to count - 1."""
     unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # in which a negative index is a large one
     return not indices.size or bool(unsigned.max() < count)
@@ -137,21 +137,21 @@ def normals(points: NDArray, triangles: NDArray[np.integer]) -> NDArray[np.float
     return np.cross(b - a, c - a)
 
 
-def joined(surfaces: Sequence[Surface]) -> Surface:
+def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
     """Several surfaces, in the same coordinates, as one of triangles in float64. Faces are numbered one surface after
     the other."""
     points, triangles, faces, start, face = [], [], [], 0, 0
     for surface in surfaces:
-        cut, own = surface.all_triangles()
+        cut, source_face = surface.all_triangles()
         points.append(surface.points.astype(np.float64))
         triangles.append(cut + start)
-        faces.append(own + face)
-        start, face = start + len(surface.points), face + int(own.max(initial=-1)) + 1
+        faces.append(source_face + face)
+        start, face = start + len(surface.points), face + int(source_face.max(initial=-1)) + 1
     return Surface(
         np.concatenate(points),
         np.concatenate(triangles),
         triangle_faces=np.concatenate(faces),
-        moved=np.max([surface.coordinate_error for surface in surfaces], axis=0),
+        displacement=np.max([surface.coordinate_error for surface in surfaces], axis=0),
     )
 
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Generalized winding numbers of triangle surfaces about points.
 
-By solid angles, which an open surface has too: it is not the count of `bvh.Tree.inside`, whose rays need closed shells
-and answer for thousands of points at once.
+By solid angles, which an open surface has too: it is not the count of `bvh.Tree.winding_numbers`, whose rays need
+closed shells and answer for thousands of points at once.
 """
 
 from __future__ import annotations
@@ -13,15 +13,17 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-BLOCK = 1 << 15  # triangles at a time
+TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 
-def winding(points: NDArray, triangles: NDArray, place: ArrayLike) -> float:
+def winding_number(points: NDArray, triangles: NDArray, point: ArrayLike) -> float:
     """How often triangles surround a place: the sum of their solid angles by 4 π (A. van Oosterom and
     J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983)."""
     total = 0.0
-    for start in range(0, len(triangles), BLOCK):
-        a, b, c = (points[triangles[start : start + BLOCK, k]] - np.asarray(place, float) for k in range(3))
+    for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
+        a, b, c = (
+            points[triangles[start : start + TRIANGLES_PER_BLOCK, k]] - np.asarray(point, float) for k in range(3)
+        )
         la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
         volume = (a * np.cross(b, c)).sum(axis=1)
         below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb

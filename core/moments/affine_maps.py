@@ -16,30 +16,30 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from .monomials import index, monomial_count, monomials, predecessors, raised_places, rows_of
+from .monomials import count_of_degree, monomial_count, monomial_index, monomials, product_indices, quotient_indices
 
 
-def maps_last(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(3, 3, k) and (3, k): the linear parts and the offsets of (k, 4, 4) maps."""
-    rows = np.ascontiguousarray(np.asarray(matrices, np.float64)[:, :3].transpose(1, 2, 0))
-    return rows[:, :3], rows[:, 3]
+    affine = np.ascontiguousarray(np.asarray(matrices, np.float64)[:, :3].transpose(1, 2, 0))
+    return affine[:, :3], affine[:, 3]
 
 
-def distinct_linear(matrices: NDArray) -> Iterator[tuple[NDArray[np.float64], NDArray[np.intp]]]:
+def distinct_linear_parts(matrices: NDArray) -> Iterator[tuple[NDArray[np.float64], NDArray[np.intp]]]:
     """The different linear parts of (k, 4, 4) maps: each of them, (3, 3), and which of the maps have it, (j,)."""
     linear, which = np.unique(matrices[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
     for i, row in enumerate(linear):
         yield row.reshape(3, 3), np.flatnonzero(which.ravel() == i)
 
 
-def translations(offsets: NDArray) -> NDArray[np.float64]:
+def translation_matrices(offsets: NDArray) -> NDArray[np.float64]:
     """(k, 4, 4) the maps that move by (k, 3) offsets and do nothing else."""
     matrices = np.tile(np.eye(4), (len(offsets), 1, 1))
     matrices[:, :3, 3] = offsets
     return matrices
 
 
-def horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
+def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
     """(K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the functional, (K, 1) or (K, k), l_i the linear forms
     of the k maps, linear (3, 3, k) and offset (3, k)."""
     forms = [(offset[i], *linear[i]) for i in range(3)]
@@ -50,19 +50,19 @@ def horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDA
         for q in range(order - p + 1):
             by_r = by_q
             for r in range(order - p - q + 1):
-                out[index(p, q, r)] = by_r[0]
-                by_r = times(forms[2], by_r, order - p - q - r)
-            by_q = times(forms[1], by_q, order - p - q)
-        by_p = times(forms[0], by_p, order - p)
+                out[monomial_index(p, q, r)] = by_r[0]
+                by_r = multiply_by_linear_form(forms[2], by_r, order - p - q - r)
+            by_q = multiply_by_linear_form(forms[1], by_q, order - p - q)
+        by_p = multiply_by_linear_form(forms[0], by_p, order - p)
     return out
 
 
-def times(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.float64]:
+def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.float64]:
     """The functional multiplied by a linear form, one order shorter; nothing is left below order 0."""
     if not order:
         return values[:0]
     t, a, b, c = form
-    x, y, z = raised_places(order)
+    x, y, z = product_indices(order)
     image = t * values[: monomial_count(order - 1)]
     for factor, raised in ((a, x), (b, y), (c, z)):
         term = values.take(raised, axis=0)
@@ -71,7 +71,7 @@ def times(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.
     return image
 
 
-def turn(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
+def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
     """(m, K): m functionals F, (m, K), under a linear map (3, 3), the first as it is, the others under |map|.
 
     Degree by degree: the image's monomials as polynomials of the old ones are those of one degree less times a form.
@@ -79,14 +79,14 @@ def turn(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
     forms, out = np.array([linear, np.abs(linear)]), np.array(values)
     table = np.ones((2, 1, 1))
     for degree in range(1, order + 1):
-        rows, below = rows_of(degree), rows_of(degree - 1)
+        count, below = count_of_degree(degree), count_of_degree(degree - 1)
         padded = np.concatenate([table, np.zeros((2, below, 1))], axis=2)
-        raised = padded[:, :, predecessors(degree, below)]  # times x, y, z: (2, below, 3, rows)
-        table = np.empty((2, rows, rows))
+        raised = padded[:, :, quotient_indices(degree, below)]  # times x, y, z: (2, below, 3, rows)
+        table = np.empty((2, count, count))
         for axis, old, new in (
             (0, slice(0, below), slice(0, below)),
-            (1, slice(below - degree, below), slice(below, rows - 1)),
-            (2, slice(below - 1, below), slice(rows - 1, rows)),
+            (1, slice(below - degree, below), slice(below, count - 1)),
+            (2, slice(below - 1, below), slice(count - 1, count)),
         ):
             np.einsum("mrjc,mj->mrc", raised[:, old], forms[:, axis], out=table[:, new])
         part = slice(monomial_count(degree - 1), monomial_count(degree))
@@ -96,16 +96,16 @@ def turn(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
 
 
 @lru_cache
-def _cube(order: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+def _cube_layout(order: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     """(K,) where each monomial stands in a flat table of all exponents up to `order`, and (n, n) the binomials."""
     p, q, r = monomials(order).T
     n = order + 1
     return (p * n + q) * n + r, np.array([[float(math.comb(i, j)) for j in range(n)] for i in range(n)])
 
 
-def shift(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
+def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
     """(m, K): each of m functionals F, (m, K), with its own offset, (m, 3): F[(x+t)^α], one axis after the other."""
-    places, binomials = _cube(order)
+    positions, binomials = _cube_layout(order)
     n = order + 1
     lag = np.subtract.outer(np.arange(n), np.arange(n))
     for axis in range(3):
@@ -115,9 +115,9 @@ def shift(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
         )
         table = binomials * powers[:, np.maximum(lag, 0)]
         cube = np.zeros((len(values), n**3))
-        cube[:, places] = values  # what stands above `order` is no moment, and must not come back
+        cube[:, positions] = values  # what stands above `order` is no moment, and must not come back
         cube = np.moveaxis(cube.reshape(-1, n, n, n), axis + 1, 1)
         with np.errstate(over="ignore", invalid="ignore"):
             cube = np.einsum("mpi,miqr->mpqr", table, cube)
-        values = np.moveaxis(cube, 1, axis + 1).reshape(len(values), -1)[:, places]
+        values = np.moveaxis(cube, 1, axis + 1).reshape(len(values), -1)[:, positions]
     return values

@@ -4,8 +4,8 @@
 
 raw[p,q,r] = ∫ (x-ox)^p (y-oy)^q (z-oz)^r d(of), positive integrals, p+q+r ≤ order. They add, they scale by a density
 and they map linearly under an affine map, so a sum of objects is a sum and an instance is a map. Two bounds go with
-every number and add and map as it does: `error`, what rounding (or a stated truncation) may have changed, and `input`,
-what storing coordinates as float32 may have changed.
+every number and add and map as it does: `error`, what rounding (or a stated truncation) may have changed, and
+`input_error`, what storing coordinates as float32 may have changed.
 
 What affine maps do to them is in `affine`.
 """
@@ -20,19 +20,25 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .affine_maps import horner, maps_last, shift, turn
-from .monomials import index, monomial_count, monomials, order_of, raised_places
+from .affine_maps import apply_linear, apply_translation, to_trailing_axis, transform_by_horner
+from .monomials import monomial_count, monomial_index, monomials, order_from_count, product_indices
 
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
-HALF_ULP = 2.0**-24  # of float32, relatively
-PAIRWISE = 64  # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
-BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
-SIMILARITY = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
+FLOAT32_HALF_ULP = 2.0**-24  # of float32, relatively
+# u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
+PAIRWISE_SUM_ROUNDINGS = 64
+MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
+SIMILARITY_RTOL = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
 
 
-SECOND = np.array([[index(*(np.eye(3, dtype=int)[[i, j]].sum(axis=0))) for j in range(3)] for i in range(3)])
-THIRD = np.array(
-    [[[index(*(np.eye(3, dtype=int)[[i, j, k]].sum(axis=0))) for k in range(3)] for j in range(3)] for i in range(3)]
+SECOND_MOMENT_INDEX = np.array(
+    [[monomial_index(*(np.eye(3, dtype=int)[[i, j]].sum(axis=0))) for j in range(3)] for i in range(3)]
+)
+THIRD_MOMENT_INDEX = np.array(
+    [
+        [[monomial_index(*(np.eye(3, dtype=int)[[i, j, k]].sum(axis=0))) for k in range(3)] for j in range(3)]
+        for i in range(3)
+    ]
 )
 
 
@@ -49,33 +55,34 @@ class Measure(StrEnum):
 class Moments:
     """Moments of one body to some order.
 
-    raw: (K,) float64 in the order of `monomials`, unit^(dimension of `of` + degree).
+    raw: (K,) float64 in the order of `monomials`, unit^(dimension of `measure` + degree).
     about: (3,) the point they are taken about, in the same coordinates.
-    of: what they measure.
-    error: (K,) bound of |raw - exact| for the coordinates as given: rounding, and truncation where a source says so.
-    input: (K,) bound of the change when every coordinate moves by its float32 half ulp; zero for float64 sources.
+    measure: what they measure.
+    rounding_error: (K,) bound of |raw - exact| for the coordinates as given: rounding, and truncation where a source
+    says so.
+    input_error: (K,) bound of the change when every coordinate moves by its float32 half ulp; zero for float64 sources.
     """
 
     raw: NDArray[np.float64]
     about: NDArray[np.float64]
-    of: Measure = Measure.VOLUME
-    error: NDArray[np.float64] = field(default=None)
-    input: NDArray[np.float64] = field(default=None)
+    measure: Measure = Measure.VOLUME
+    rounding_error: NDArray[np.float64] = field(default=None)
+    input_error: NDArray[np.float64] = field(default=None)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "of", Measure(self.of))
-        if self.error is None:
-            object.__setattr__(self, "error", np.zeros_like(self.raw))
-        if self.input is None:
-            object.__setattr__(self, "input", np.zeros_like(self.raw))
+        object.__setattr__(self, "measure", Measure(self.measure))
+        if self.rounding_error is None:
+            object.__setattr__(self, "rounding_error", np.zeros_like(self.raw))
+        if self.input_error is None:
+            object.__setattr__(self, "input_error", np.zeros_like(self.raw))
 
     @property
     def order(self) -> int:
         """The largest p+q+r."""
-        return order_of(len(self.raw))
+        return order_from_count(len(self.raw))
 
     def __getitem__(self, exponents: tuple[int, int, int]) -> float:
-        return float(self.raw[index(*exponents)])
+        return float(self.raw[monomial_index(*exponents)])
 
     @property
     def total(self) -> float:
@@ -89,16 +96,16 @@ class Moments:
 
     def second(self) -> NDArray[np.float64]:
         """(3, 3) the second moments about `about`."""
-        return self.raw[SECOND]
+        return self.raw[SECOND_MOMENT_INDEX]
 
     def third(self) -> NDArray[np.float64]:
         """(3, 3, 3) the third moments about `about`."""
-        return self.raw[THIRD]
+        return self.raw[THIRD_MOMENT_INDEX]
 
-    def truncated(self, order: int) -> Moments:
+    def truncate(self, order: int) -> Moments:
         """The same moments to a lower order."""
         k = monomial_count(order)
-        return replace(self, raw=self.raw[:k], error=self.error[:k], input=self.input[:k])
+        return replace(self, raw=self.raw[:k], rounding_error=self.rounding_error[:k], input_error=self.input_error[:k])
 
     def __mul__(self, factor: float) -> Moments:
         """Scaled by a constant: a density, a thickness, a sign."""
@@ -106,17 +113,17 @@ class Moments:
         return replace(
             self,
             raw=self.raw * factor,
-            error=self.error * size + 2 * U * np.abs(self.raw) * size,
-            input=self.input * size,
+            rounding_error=self.rounding_error * size + 2 * U * np.abs(self.raw) * size,
+            input_error=self.input_error * size,
         )
 
     __rmul__ = __mul__
 
     def __add__(self, other: Moments) -> Moments:
         """Both bodies together, about the first one's point, to the lower of the two orders."""
-        return sum_moments([self, other.shifted(self.about)])
+        return sum_moments([self, other.about_point(self.about)])
 
-    def shifted(self, point: ArrayLike) -> Moments:
+    def about_point(self, point: ArrayLike) -> Moments:
         """The same body about another point, by the binomial theorem."""
         point = np.asarray(point, np.float64)
         if np.array_equal(point, self.about):
@@ -125,17 +132,17 @@ class Moments:
             raise ValueError("about must be finite (3,)")
         offset = self.about - point
         away = np.abs(offset)
-        raw, error, moved, size = shift(
-            np.array([self.raw, self.error, self.input, np.abs(self.raw) + self.error]),
+        raw, error, moved, size = apply_translation(
+            np.array([self.raw, self.rounding_error, self.input_error, np.abs(self.raw) + self.rounding_error]),
             self.order,
             np.array([offset, away, away, away]),
         )
         rounding = (4.0 * monomials(self.order).sum(axis=1) + 16.0) * U
-        return replace(self, raw=raw, about=point, error=error + rounding * size, input=moved)
+        return replace(self, raw=raw, about=point, rounding_error=error + rounding * size, input_error=moved)
 
     def about_center(self) -> Moments:
         """The central moments."""
-        return self.shifted(self.center)
+        return self.about_point(self.center)
 
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> Moments:
         """The moments in another frame, about its origin. rotation: (3, 3), its axes as columns; origin: (3,)."""
@@ -143,124 +150,135 @@ class Moments:
         matrix[:3, :3] = np.asarray(rotation, np.float64).T
         matrix[:3, 3] = -matrix[:3, :3] @ np.asarray(origin, np.float64)
         # A change of axes stretches nothing, whatever is measured and however the rotation was rounded.
-        return replace(map_sum(replace(self, of=Measure.MASS), matrix[None], np.zeros(3)), of=self.of)
+        return replace(
+            sum_of_images(replace(self, measure=Measure.MASS), matrix[None], np.zeros(3)), measure=self.measure
+        )
 
-    def mapped(self, matrix: ArrayLike) -> Moments:
+    def transform(self, matrix: ArrayLike) -> Moments:
         """The moments of the body's image under an affine map.
 
         matrix: (4, 4), new = matrix[:3, :3] @ old + matrix[:3, 3]. The new `about` is the image of the old one.
         Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity
-        only: ValueError otherwise; what a float32 rotation lacks of a similarity goes into `input`.
+        only: ValueError otherwise; what a float32 rotation lacks of a similarity goes into `input_error`.
         """
-        matrix = _checked(np.asarray(matrix, np.float64)[None])[0]
-        return map_sum(self, matrix[None], matrix[:3, :3] @ self.about + matrix[:3, 3])
+        matrix = _validated_matrices(np.asarray(matrix, np.float64)[None])[0]
+        return sum_of_images(self, matrix[None], matrix[:3, :3] @ self.about + matrix[:3, 3])
 
 
 def sum_moments(parts: Sequence[Moments]) -> Moments:
     """Several bodies as one, about the first one's point and to the lowest of their orders. What they measure must
     be the same."""
     first = parts[0]
-    if any(part.of != first.of for part in parts):
+    if any(part.measure != first.measure for part in parts):
         raise ValueError("different measures")
     order = min(part.order for part in parts)
-    parts = [part.truncated(order).shifted(first.about) for part in parts]
+    parts = [part.truncate(order).about_point(first.about) for part in parts]
     raws = np.array([part.raw for part in parts])
     return Moments(
         raw=raws.sum(axis=0),
         about=first.about,
-        of=first.of,
-        error=sum(part.error for part in parts) + len(parts) * U * np.abs(raws).sum(axis=0),
-        input=sum(part.input for part in parts),
+        measure=first.measure,
+        rounding_error=sum(part.rounding_error for part in parts) + len(parts) * U * np.abs(raws).sum(axis=0),
+        input_error=sum(part.input_error for part in parts),
     )
 
 
 def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
     """(k,) whether each of the (k, 3, 3) maps is a rotation, reflection and uniform scale, as far as float32 matrices
     can be."""
-    return _stretch_deviation(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY
+    return _anisotropy(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY_RTOL
 
 
-def map_sum(moments: Moments, matrices: NDArray, about: ArrayLike | None = None) -> Moments:
+def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None = None) -> Moments:
     """The images of one body under k affine maps, as one body: instances.
 
-    matrices: (k, 4, 4), as for `Moments.mapped`. about: (3,), by default the mean of the images of `moments.about`.
+    matrices: (k, 4, 4), as for `Moments.transform`. about: (3,), by default the mean of the images of `moments.about`.
     """
-    linear, places = maps_last(_checked(np.asarray(matrices, np.float64)))
+    linear, offsets = to_trailing_axis(_validated_matrices(np.asarray(matrices, np.float64)))
     point = moments.about[:, None]
-    origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + places
+    origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
     about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     raw, error, extra = np.zeros((3, len(moments.raw)))
-    block = max(BLOCK * 20 // len(moments.raw), 16)
+    block = max(MAPS_PER_BLOCK * 20 // len(moments.raw), 16)
     for start in range(0, len(matrices), block):
         part = slice(start, start + block)
         maps = linear[:, :, part]
-        weight, weight_error, deviation = measure_factors(moments.of, maps)
+        weight, weight_error, anisotropy = measure_scale_factors(moments.measure, maps)
         offset = origins[:, part] - about[:, None]
         # The images of the reference point are rounded, and the body moves with them.
         stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
-        slack = 6 * U * (np.abs(places[:, part]).max(axis=0) + np.abs(about).max() + stretch * np.abs(point).max())
+        tolerance = 6 * U * (np.abs(offsets[:, part]).max(axis=0) + np.abs(about).max() + stretch * np.abs(point).max())
         weight_error = weight_error + (len(matrices) + 6 * moments.order + 8) * U * weight
         if len(matrices) == 1:
-            image, *bounds = _one(moments, maps, offset, slack, weight, weight_error, deviation)
+            image, *bounds = _single_image(moments, maps, offset, tolerance, weight, weight_error, anisotropy)
         else:
-            image = np.add.reduce(horner(moments.raw[:, None], moments.order, maps, offset) * weight, axis=1)
-            bounds = _bounds(moments, stretch, reach, slack, weight, weight_error, deviation)
+            image = np.add.reduce(
+                transform_by_horner(moments.raw[:, None], moments.order, maps, offset) * weight, axis=1
+            )
+            bounds = _image_error_bounds(moments, stretch, reach, tolerance, weight, weight_error, anisotropy)
         raw += image
         error += bounds[0]
         extra += bounds[1]
-    return Moments(raw, about, moments.of, error, extra)
+    return Moments(raw, about, moments.measure, error, extra)
 
 
-def _checked(matrices: NDArray) -> NDArray[np.float64]:
+def _validated_matrices(matrices: NDArray) -> NDArray[np.float64]:
     """The maps. ValueError where they are none."""
     if matrices.ndim != 3 or matrices.shape[1:] != (4, 4) or not len(matrices) or not np.isfinite(matrices).all():
         raise ValueError("matrices not finite (4, 4)")
     return matrices
 
 
-def _one(
+def _single_image(
     moments: Moments,
     linear: NDArray,
     offset: NDArray,
-    slack: NDArray,
+    tolerance: NDArray,
     weight: NDArray,
     weight_error: NDArray,
-    deviation: NDArray,
+    anisotropy: NDArray,
 ) -> tuple[NDArray, NDArray, NDArray]:
     """The image under one map, (3, 3, 1) and (3, 1), and its bounds moment by moment: the same on absolute values."""
     order, away = moments.order, np.abs(offset.T)
-    values = turn(
-        np.array([moments.raw, moments.error, moments.input, np.abs(moments.raw) + moments.error]),
+    values = apply_linear(
+        np.array(
+            [moments.raw, moments.rounding_error, moments.input_error, np.abs(moments.raw) + moments.rounding_error]
+        ),
         order,
         linear[:, :, 0],
     )
-    image, error, mapped_input, size = shift(values, order, np.concatenate([offset.T, away, away, away + slack]))
+    image, error, mapped_input, size = apply_translation(
+        values, order, np.concatenate([offset.T, away, away, away + tolerance])
+    )
     rounding = weight * error + (weight_error + (4.0 * order + 50.0) * U * weight) * size
-    for axis, raised in enumerate(raised_places(order) if order else ()):
-        moved = monomials(order)[raised, axis] * slack * weight * size[: len(raised)]
+    for axis, raised in enumerate(product_indices(order) if order else ()):
+        moved = monomials(order)[raised, axis] * tolerance * weight * size[: len(raised)]
         rounding[raised] += moved
-    return weight * image, rounding, weight * (mapped_input + deviation * (size + mapped_input))
+    return weight * image, rounding, weight * (mapped_input + anisotropy * (size + mapped_input))
 
 
-def _bounds(
+def _image_error_bounds(
     moments: Moments,
     stretch: NDArray,
     reach: NDArray,
-    slack: NDArray,
+    tolerance: NDArray,
     weight: NDArray,
     weight_error: NDArray,
-    deviation: NDArray,
+    anisotropy: NDArray,
 ) -> tuple[NDArray, NDArray]:
-    """(K,) and (K,) what `error`, with the rounding of the maps, and `input` become under k maps together.
+    """(K,) and (K,) what `error`, with the rounding of the maps, and `input_error` become under k maps together.
 
     By degree: where the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product
     of n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest
-    of its degree. An offset that may be off by `slack` changes it by at most n slack times n-1 forms.
+    of its degree. An offset that may be off by `tolerance` changes it by at most n slack times n-1 forms.
     """
     order = moments.order
     degree = monomials(order).sum(axis=1)
     starts = [monomial_count(n - 1) for n in range(order + 1)]
-    error, inputs = np.maximum.reduceat(moments.error, starts), np.maximum.reduceat(moments.input, starts)
+    error, inputs = (
+        np.maximum.reduceat(moments.rounding_error, starts),
+        np.maximum.reduceat(moments.input_error, starts),
+    )
     size = np.maximum.reduceat(np.abs(moments.raw), starts) + error
 
     def carried(factor: NDArray, reach: NDArray, *largest: NDArray) -> list[NDArray]:
@@ -272,32 +290,32 @@ def _bounds(
 
     rounding, mapped_input = carried(weight, reach, error, inputs)
     rounding += carried(weight_error, reach, size)[0]
-    rounding[1:] += np.arange(1, order + 1) * carried(weight * slack, reach + slack, size)[0][:-1]
-    if deviation.any():
-        mapped_input += carried(weight * deviation, reach, size + inputs)[0]
+    rounding[1:] += np.arange(1, order + 1) * carried(weight * tolerance, reach + tolerance, size)[0][:-1]
+    if anisotropy.any():
+        mapped_input += carried(weight * anisotropy, reach, size + inputs)[0]
     return rounding[degree], mapped_input[degree]
 
 
-def measure_factors(of: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     """(k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and by how much the
     map fails to have one factor."""
     exact = np.zeros(linear.shape[2])
-    if of == Measure.MASS:
+    if measure == Measure.MASS:
         return np.ones(linear.shape[2]), exact, exact
     a, b, c = linear
     terms = [(a[i] * b[j] * c[k], a[i] * b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
     det = np.abs(sum(plus - minus for plus, minus in terms))
     permanent = sum(np.abs(plus) + np.abs(minus) for plus, minus in terms)
-    if of == Measure.VOLUME:
+    if measure == Measure.VOLUME:
         return det, 8 * U * permanent, exact
-    deviation = _stretch_deviation(linear)
-    if np.any(deviation > SIMILARITY):
+    anisotropy = _anisotropy(linear)
+    if np.any(anisotropy > SIMILARITY_RTOL):
         raise ValueError("not a similarity")
-    power = 1 if of == Measure.LENGTH else 2
-    return np.cbrt(det) ** power, 8 * U * np.cbrt(permanent) ** power, deviation
+    power = 1 if measure == Measure.LENGTH else 2
+    return np.cbrt(det) ** power, 8 * U * np.cbrt(permanent) ** power, anisotropy
 
 
-def _stretch_deviation(linear: NDArray) -> NDArray[np.float64]:
+def _anisotropy(linear: NDArray) -> NDArray[np.float64]:
     """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for
     a flat map."""
     columns = linear.transpose(1, 0, 2)

@@ -15,7 +15,7 @@ def monomial_count(order: int) -> int:
     return (order + 1) * (order + 2) * (order + 3) // 6
 
 
-def order_of(count: int) -> int:
+def order_from_count(count: int) -> int:
     """The lowest order that has at least `count` monomials."""
     order = 0
     while monomial_count(order) < count:
@@ -23,7 +23,7 @@ def order_of(count: int) -> int:
     return order
 
 
-def index(p: int, q: int, r: int) -> int:
+def monomial_index(p: int, q: int, r: int) -> int:
     """Where raw[p,q,r] stands: graded by degree, within a degree by (q+r, r)."""
     s = q + r
     return monomial_count(p + s - 1) + s * (s + 1) // 2 + r
@@ -32,29 +32,29 @@ def index(p: int, q: int, r: int) -> int:
 @lru_cache
 def monomials(order: int) -> NDArray[np.int64]:
     """(K, 3) the exponents (p, q, r) in storage order; read-only."""
-    rows = [(n - s, s - r, r) for n in range(order + 1) for s in range(n + 1) for r in range(s + 1)]
-    table = np.array(rows, np.int64)
+    exponents = [(n - s, s - r, r) for n in range(order + 1) for s in range(n + 1) for r in range(s + 1)]
+    table = np.array(exponents, np.int64)
     table.flags.writeable = False
     return table
 
 
-def rows_of(degree: int) -> int:
+def count_of_degree(degree: int) -> int:
     """How many monomials have exactly this degree."""
     return (degree + 1) * (degree + 2) // 2
 
 
 @lru_cache
-def predecessors(degree: int, missing: int) -> NDArray[np.intp]:
+def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
     """(3, rows) where x^α without one factor x, y or z stands among the monomials one degree lower; `missing` where
     x^α has no such factor."""
-    table = monomials(degree)[-rows_of(degree) :]
+    table = monomials(degree)[-count_of_degree(degree) :]
     r, s = table[:, 2], table[:, 1] + table[:, 2]
     lower = s * (s - 1) // 2
     return np.where(table.T > 0, np.array([s * (s + 1) // 2 + r, lower + r, lower + r - 1]), missing)
 
 
 @lru_cache
-def raised_places(order: int) -> tuple[NDArray[np.int64], ...]:
+def product_indices(order: int) -> tuple[NDArray[np.int64], ...]:
     """For each monomial below `order`, where its product with x, with y and with z stands."""
     lower = monomials(order - 1)
-    return tuple(np.array([index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int))
+    return tuple(np.array([monomial_index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int))

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..verdict.finding import MeasureError
-from .affine_maps import shift
+from .affine_maps import apply_translation
 from .moments import Measure, Moments, U
 from .monomials import monomials
 
@@ -18,12 +18,13 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
 
     by: "size", μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas: those of the body scaled to a volume, or area,
     of 1. "gyration", μ / (m R^n) with R² = ∫ r² dm / m: those of the body scaled to a radius of gyration and a mass
-    of 1. `error` and `input` hold for the body's true center. MeasureError where there is too little to divide by.
+    of 1. `error` and `input_error` hold for the body's true center. MeasureError where there is too little to divide
+    by.
     """
-    dimension = {Measure.VOLUME: 3, Measure.AREA: 2}.get(moments.of)
+    dimension = {Measure.VOLUME: 3, Measure.AREA: 2}.get(moments.measure)
     if by == "size" and dimension is None:
         raise ValueError("masses need 'gyration'")
-    uncertain = moments.error[0] + moments.input[0]
+    uncertain = moments.rounding_error[0] + moments.input_error[0]
     if moments.order < (2 if by == "gyration" else 1) or not moments.total > 2.0 * uncertain:
         raise MeasureError("normalization_undefined")
     body = moments.about_center()
@@ -34,11 +35,12 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
     else:
         factor = body.total ** -(1.0 + n / dimension)
     bounds = []
-    for delta in (body.error, body.error + body.input):  # of the total, the trace, and the center's place
+    # of the total, the trace, and the center's place
+    for delta in (body.rounding_error, body.rounding_error + body.input_error):
         total = body.total / (body.total - delta[0])
         off = (np.abs(body.raw[1:4]) + delta[1:4]) / (body.total - delta[0]) + 2.0 * U * np.abs(body.about)
         size = np.abs(body.raw) + delta
-        away = shift(size[None], moments.order, off[None])[0] - size + 8.0 * U * n * size
+        away = apply_translation(size[None], moments.order, off[None])[0] - size + 8.0 * U * n * size
         if by == "gyration":
             spread = delta[[4, 7, 9]].sum() + away[[4, 7, 9]].sum()
             if not trace > 2.0 * spread:
@@ -50,7 +52,7 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
     return Moments(
         body.raw * factor,
         np.zeros(3),
-        moments.of if by == "size" else Measure.MASS,
+        moments.measure if by == "size" else Measure.MASS,
         bounds[0],
-        (bounds[1] - bounds[0]) * bool(moments.input.any()),
+        (bounds[1] - bounds[0]) * bool(moments.input_error.any()),
     )

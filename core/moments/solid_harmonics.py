@@ -17,7 +17,7 @@ from math import comb, factorial, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from .moments import index, monomial_count, monomials
+from .moments import monomial_count, monomial_index, monomials
 
 Multiplets = dict[tuple[int, int], NDArray[np.complex128]]
 
@@ -32,23 +32,23 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
         for l in range(order - 2 * j + 1):
             block = raw[monomial_count(l - 1) : monomial_count(l)]
             half = np.add.reduce(_solid(l).conj() * block, axis=1)  # m = 0..l
-            result[l + 2 * j, l] = both_signs(half)
+            result[l + 2 * j, l] = with_negative_orders(half)
         if order - 2 * j >= 2:
-            raw = raw[_squared(order - 2 * j)].sum(axis=0)  # ∫ r² f for each monomial f two orders lower
+            raw = raw[_square_product_indices(order - 2 * j)].sum(axis=0)  # ∫ r² f for each monomial f two orders lower
     return result
 
 
-def both_signs(half: NDArray) -> NDArray[np.complex128]:
+def with_negative_orders(half: NDArray) -> NDArray[np.complex128]:
     """(2l+1, …) for m = -l..l from (l+1, …) for m = 0..l: c[-m] = (-1)^m conj(c[m])."""
     l = len(half) - 1
     sign = ((-1.0) ** np.arange(l, 0, -1)).reshape(-1, *[1] * (half.ndim - 1))
     return np.concatenate([half[:0:-1].conj() * sign, half])
 
 
-def coupled(a: NDArray, b: NDArray, c: NDArray) -> float:
+def couple(a: NDArray, b: NDArray, c: NDArray) -> float:
     """The scalar made of three multiplets: Σ (l l' l''; m m' m'') a_m b_m' c_m''. A reflection changes its sign where
     l + l' + l'' is odd."""
-    l, k, n = ((len(one) - 1) // 2 for one in (a, b, c))
+    l, k, n = ((len(multiplet) - 1) // 2 for multiplet in (a, b, c))
     value = np.einsum("ijk,i,j,k->", _three_j(l, k, n), a, b, c)
     return float(value.imag if (l + k + n) % 2 else value.real)
 
@@ -64,24 +64,26 @@ def _solid(l: int) -> NDArray[np.complex128]:
             factor = (
                 (-1.0) ** (k + m) / 2.0 ** (2 * k + m) / (factorial(k + m) * factorial(k) * factorial(l - m - 2 * k))
             )
-            for i, value in enumerate(_circular(k + m, k)):
-                table[m, index(2 * k + m - i, i, l - m - 2 * k) - start] += norm * factor * value
+            for i, value in enumerate(_circular_coefficients(k + m, k)):
+                table[m, monomial_index(2 * k + m - i, i, l - m - 2 * k) - start] += norm * factor * value
     table.flags.writeable = False
     return table
 
 
 @lru_cache(maxsize=1024)
-def _circular(plus: int, minus: int) -> tuple[complex, ...]:
+def _circular_coefficients(plus: int, minus: int) -> tuple[complex, ...]:
     """The coefficients of x^(n-i) y^i, i = 0..n, in (x+iy)^plus (x-iy)^minus."""
-    one = [comb(plus, i) * 1j ** (i % 4) for i in range(plus + 1)]
-    other = [comb(minus, i) * (-1j) ** (i % 4) for i in range(minus + 1)]
-    return tuple(np.convolve(one, other).tolist())
+    plus_powers = [comb(plus, i) * 1j ** (i % 4) for i in range(plus + 1)]
+    minus_powers = [comb(minus, i) * (-1j) ** (i % 4) for i in range(minus + 1)]
+    return tuple(np.convolve(plus_powers, minus_powers).tolist())
 
 
 @lru_cache
-def _squared(order: int) -> NDArray[np.int64]:
+def _square_product_indices(order: int) -> NDArray[np.int64]:
     """(3, K) where the products with x², y² and z² of the monomials two orders lower stand."""
-    return np.array([[index(*(row + 2 * unit)) for row in monomials(order - 2)] for unit in np.eye(3, dtype=int)])
+    return np.array(
+        [[monomial_index(*(row + 2 * unit)) for row in monomials(order - 2)] for unit in np.eye(3, dtype=int)]
+    )
 
 
 @lru_cache(maxsize=256)

@@ -10,22 +10,22 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from .moments import Moments, index, monomials
+from .moments import Moments, monomial_index, monomials
 
 
-def distinct(arrays: NDArray, within: float) -> NDArray[np.float64]:
+def distinct_arrays(arrays: NDArray, within: float) -> NDArray[np.float64]:
     """Those of (n, ...) vectors or matrices that differ from all earlier ones by at least `within` in some entry."""
     same = np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
     return arrays[np.argmax(same, axis=1) == np.arange(len(arrays))]
 
 
-def inverted(moments: Moments) -> Moments:
+def invert_through_point(moments: Moments) -> Moments:
     """The moments of the body's image in its point `about`: its mirror image, turned."""
     sign = (-1.0) ** monomials(moments.order).sum(axis=1)
     return replace(moments, raw=moments.raw * sign)
 
 
-def _contracted(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
+def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
     """The symmetric tensor with that many of its slots filled with each of the (n, 3) points."""
     if not times:
         return np.broadcast_to(tensor, (len(points), *tensor.shape))
@@ -35,7 +35,7 @@ def _contracted(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.floa
     return out
 
 
-def _rotated(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
+def _rotate_tensor(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
     """(k, 3, ..., 3) the symmetric tensor's entries along the axes of k frames."""
     degree = tensor.ndim
     out = np.broadcast_to(tensor, (len(frames), *tensor.shape))
@@ -48,13 +48,15 @@ def _rotated(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
 def tensor_index(degree: int) -> NDArray[np.int64]:
     """(3, ..., 3) where in `Moments.raw` the entries of the symmetric tensor of a degree stand; read-only."""
     axes = np.indices((3,) * degree)
-    table = index(*((axes == axis).sum(axis=0) for axis in range(3)))
+    table = monomial_index(*((axes == axis).sum(axis=0) for axis in range(3)))
     table.flags.writeable = False
     return table
 
 
 @lru_cache
-def _places(degree: int) -> NDArray[np.int64]:
+def _tensor_positions(degree: int) -> NDArray[np.int64]:
     """For each monomial of a degree, in storage order, where the flattened tensor has it."""
     flat = tensor_index(degree).ravel()
-    return np.array([np.argmax(flat == i) for i in range(index(degree, 0, 0), index(0, 0, degree) + 1)])
+    return np.array(
+        [np.argmax(flat == i) for i in range(monomial_index(degree, 0, 0), monomial_index(0, 0, degree) + 1)]
+    )

@@ -18,7 +18,7 @@ def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
     return (value | value << 2) & 0x09249249
 
 
-def ramp(counts: NDArray) -> NDArray[np.intp]:
+def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
     """0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, …"""
     ends = np.cumsum(counts)
     return np.arange(ends[-1]) - np.repeat(ends - counts, counts)
@@ -44,10 +44,10 @@ def following_pairs(
     for part in batches(counts, size):
         row = np.repeat(np.arange(part.start, part.stop), counts[part])
         if len(row):
-            yield order[row], order[row + 1 + ramp(counts[part])]
+            yield order[row], order[row + 1 + segment_ranges(counts[part])]
 
 
-def first_equal(*columns: NDArray) -> NDArray[np.intp]:
+def first_occurrence(*columns: NDArray) -> NDArray[np.intp]:
     """(n,) for each row the first row that is equal to it in all columns: 64-bit values, compared by their bits.
 
     By hashing into a table in which the lowest row of a slot wins; rows equal to the winner are done, the others, whose
@@ -56,8 +56,8 @@ def first_equal(*columns: NDArray) -> NDArray[np.intp]:
     columns = [column.view(np.uint64) for column in columns]
     key = columns[0]
     for column in columns[1:]:
-        key = mixed(key) + column
-    key = mixed(key)
+        key = hash_uint64(key) + column
+    key = hash_uint64(key)
     first = np.arange(len(key), dtype=np.int32 if len(key) < 1 << 31 else np.int64)
     rest = first.copy()
     while len(rest):
@@ -71,16 +71,16 @@ def first_equal(*columns: NDArray) -> NDArray[np.intp]:
             lost |= column != column[winner]
         first[rest] = rest[winner]
         lost = np.flatnonzero(lost)
-        rest, key, columns = rest[lost], mixed(key[lost]), [column[lost] for column in columns]
+        rest, key, columns = rest[lost], hash_uint64(key[lost]), [column[lost] for column in columns]
     return first.astype(np.intp)
 
 
-ODD = np.uint64(0x9E3779B97F4A7C15)  # 2^64 divided by the golden ratio, as in SplitMix64
+GOLDEN_RATIO_64 = np.uint64(0x9E3779B97F4A7C15)  # 2^64 divided by the golden ratio, as in SplitMix64
 
 
-def mixed(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
+def hash_uint64(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
     """A 64-bit hash of 64-bit values: the finalizer of SplitMix64."""
-    z = values + ODD
+    z = values + GOLDEN_RATIO_64
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
     return z ^ (z >> np.uint64(31))

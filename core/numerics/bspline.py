@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """B-splines of one parameter: function spaces, their values and derivatives.
 
-A `Space` is what Soldea, Elber and Rivlin (Exact and efficient computation of moments of free-form surface and
+A `SplineSpace` is what Soldea, Elber and Rivlin (Exact and efficient computation of moments of free-form surface and
 trivariate based geometry, section 2) call the function space of a direction: order and knots, without control points.
 Everything that can be computed before control points are known is a table over a space. The basis is evaluated by the
 triangular scheme of Cox and de Boor, for many parameters at once; derivatives are differences of lower orders.
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)
-class Space:
+class SplineSpace:
     """The B-splines of one order over one knot vector.
 
     knots: non-decreasing, as many as basis functions plus `order`. order: degree + 1, at least 1.
@@ -32,7 +32,7 @@ class Space:
 
     def __post_init__(self) -> None:
         knots = np.asarray(self.knots, np.float64)
-        if self.order < 1 or self.count < 1 or len(knots) < 2 * self.order or self.functions < self.count:
+        if self.order < 1 or self.count < 1 or len(knots) < 2 * self.order or self.function_count < self.count:
             raise ValueError("too few control points")
         if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
             raise ValueError("knots must ascend")
@@ -40,17 +40,17 @@ class Space:
             raise ValueError("empty domain")
 
     @property
-    def functions(self) -> int:
+    def function_count(self) -> int:
         """The number of basis functions."""
         return len(self.knots) - self.order
 
     @property
     def domain(self) -> tuple[float, float]:
         """Where all the basis functions add up to one."""
-        return self.knots[self.order - 1], self.knots[self.functions]
+        return self.knots[self.order - 1], self.knots[self.function_count]
 
     @cached_property
-    def is_torn(self) -> bool:
+    def is_discontinuous(self) -> bool:
         """Whether curves may jump: where a knot within the domain is repeated as often as the order says."""
         knots = np.asarray(self.knots)
         first = knots[: len(knots) - self.order + 1]
@@ -61,7 +61,7 @@ class Space:
     def spans(self) -> NDArray[np.int64]:
         """(s,) the j of every interval knots[j] < knots[j + 1] in the domain."""
         knots = np.asarray(self.knots)
-        j = np.arange(self.order - 1, self.functions)
+        j = np.arange(self.order - 1, self.function_count)
         return j[knots[j] < knots[j + 1]]
 
     @cached_property
@@ -70,24 +70,24 @@ class Space:
         knots = np.asarray(self.knots)
         return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
 
-    def steps(self, each: int) -> NDArray[np.float64]:
+    def uniform_parameters(self, per_span: int) -> NDArray[np.float64]:
         """(spans * each + 1,) parameters at equal steps in every span, both ends of the domain included."""
         low, high = self.intervals.T
-        inner = low[:, None] + (high - low)[:, None] * (np.arange(each) / each)
+        inner = low[:, None] + (high - low)[:, None] * (np.arange(per_span) / per_span)
         return np.append(inner.ravel(), high[-1])
 
     @cached_property
-    def ends(self) -> NDArray[np.float64]:
+    def end_weights(self) -> NDArray[np.float64]:
         """(2, count) what each control point weighs at the domain's ends."""
-        return self.matrix(np.array(self.domain))
+        return self.collocation_matrix(np.array(self.domain))
 
     @cached_property
-    def acting(self) -> NDArray[np.int64]:
+    def active_controls(self) -> NDArray[np.int64]:
         """(s, order) the control points that act in each span."""
-        return self.controls(self.spans)
+        return self.controls_of_spans(self.spans)
 
     @cached_property
-    def blossoms(self) -> NDArray[np.float64]:
+    def bezier_extraction(self) -> NDArray[np.float64]:
         """(s, order, order) what each acting control point weighs in each Bézier control point of a span.
 
         That is the recursion of Cox and de Boor with a parameter for each of its steps, the span's beginning or its
@@ -99,7 +99,7 @@ class Space:
         b = np.arange(self.order)
         values = np.ones((len(near), self.order, 1))
         for order in range(2, self.order + 1):
-            before, after = self._neighbours(near, order)
+            before, after = self._adjacent_knots(near, order)
             t = np.where(b >= order - 1, high, low)[..., None]
             share = values * ((t - before[:, None]) / (after - before)[:, None])
             rest = values - share
@@ -108,17 +108,17 @@ class Space:
             values[..., :-1] += rest
         return values
 
-    def controls(self, spans: NDArray[np.integer]) -> NDArray[np.int64]:
+    def controls_of_spans(self, spans: NDArray[np.integer]) -> NDArray[np.int64]:
         """(..., order) the control points that act in each span."""
         return (np.asarray(spans)[..., None] + np.arange(1 - self.order, 1)) % self.count
 
-    def locate(self, parameters: NDArray) -> NDArray[np.int64]:
+    def find_spans(self, parameters: NDArray) -> NDArray[np.int64]:
         """The span of each parameter, the nearest one outside of the domain."""
         inner = self.intervals[1:, 0]
         return self.spans[np.searchsorted(inner, parameters, side="right")]
 
-    def derivatives(self, spans: NDArray[np.integer], parameters: NDArray, most: int) -> list[NDArray[np.float64]]:
-        """The basis functions that act in the given spans and their derivatives, at most to order `most`.
+    def derivatives(self, spans: NDArray[np.integer], parameters: NDArray, highest: int) -> list[NDArray[np.float64]]:
+        """The basis functions that act in the given spans and their derivatives, at most to order `highest`.
 
         spans, parameters: broadcast against each other to some shape (...). Returns most + 1 arrays (..., order).
         """
@@ -128,47 +128,47 @@ class Space:
         near = knots[np.asarray(spans)[..., None] + np.arange(2 - self.order, self.order)]
         lower = [np.ones((*t.shape, 1))]  # by order, from 1
         for order in range(2, self.order + 1):
-            before, after = self._neighbours(near, order)
+            before, after = self._adjacent_knots(near, order)
             ratio = lower[-1] / (after - before)
             values = np.empty((*t.shape, order))
             values[..., 0] = 0.0
             np.multiply(ratio, t[..., None] - before, out=values[..., 1:])
             values[..., :-1] += ratio * (after - t[..., None])
             lower.append(values)
-        found = [lower[-1]]
-        for derivative in range(1, most + 1):
+        by_derivative = [lower[-1]]
+        for derivative in range(1, highest + 1):
             if derivative >= self.order:
-                found.append(np.zeros_like(lower[-1]))
+                by_derivative.append(np.zeros_like(lower[-1]))
                 continue
             values = lower[self.order - derivative - 1]
             for order in range(self.order - derivative + 1, self.order + 1):
-                before, after = self._neighbours(near, order)
+                before, after = self._adjacent_knots(near, order)
                 ratio = (order - 1) * values / (after - before)
                 values = np.zeros((*t.shape, order))
                 values[..., 1:] = ratio
                 values[..., :-1] -= ratio
-            found.append(values)
-        return found
+            by_derivative.append(values)
+        return by_derivative
 
-    def _neighbours(self, near: NDArray, order: int) -> tuple[NDArray, NDArray]:
+    def _adjacent_knots(self, near: NDArray, order: int) -> tuple[NDArray, NDArray]:
         """The first and the last knot of the order - 1 functions, one order lower, that act in a span."""
         return near[..., self.order - order : self.order - 1], near[..., self.order - 1 : self.order + order - 2]
 
-    def matrix(
+    def collocation_matrix(
         self, parameters: NDArray, derivative: int = 0, spans: NDArray[np.integer] | None = None
     ) -> NDArray[np.float64]:
         """(n, count) what each control point weighs at each of n parameters, or in a derivative there. spans: (n,)
         those that they belong to, where a knot may end one or begin the next."""
         parameters = np.asarray(parameters, np.float64)
-        spans = self.locate(parameters) if spans is None else spans
+        spans = self.find_spans(parameters) if spans is None else spans
         values = self.derivatives(spans, parameters, derivative)[derivative]
         table = np.zeros((len(parameters), self.count))
-        np.add.at(table, (np.arange(len(parameters))[:, None], self.controls(spans)), values)
+        np.add.at(table, (np.arange(len(parameters))[:, None], self.controls_of_spans(spans)), values)
         return table
 
 
 @lru_cache(maxsize=64)
-def clamped(order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0) -> Space:
+def clamped_space(order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0) -> SplineSpace:
     """The space whose curves begin and end at their first and last control points. inner: knots in between."""
     knots = (low,) * order + tuple(inner) + (high,) * order
-    return Space(knots, order, len(knots) - order)
+    return SplineSpace(knots, order, len(knots) - order)

@@ -20,30 +20,30 @@ def two_sum(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray]:
 def two_product(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray]:
     """The rounded product and its error: together exactly a b, for products between 1e-290 and 1e290."""
     product = a * b
-    (ah, al), (bh, bl) = _halves(a), _halves(b)
+    (ah, al), (bh, bl) = _split(a), _split(b)
     return product, al * bl - (((product - ah * bh) - al * bh) - ah * bl)
 
 
-def _halves(a: NDArray) -> tuple[NDArray, NDArray]:
+def _split(a: NDArray) -> tuple[NDArray, NDArray]:
     """Two numbers of 26 bits whose sum is a."""
     big = SPLITTER * a
     high = big - (big - a)
     return high, a - high
 
 
-def normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
+def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
     """(3, k) (b-a) x (c-a) for corners (3, k), each component to a relative accuracy of about u, however thin the
     triangle."""
     (u, ul), (v, vl) = two_sum(b, -a), two_sum(c, -a)
-    rows = []
+    coordinates = []
     for y, z in ((1, 2), (2, 0), (0, 1)):
         (p, pl), (m, ml) = two_product(u[y], v[z]), two_product(u[z], v[y])
         total, rest = two_sum(p, -m)
-        rows.append(total + (rest + (pl - ml) + (u[y] * vl[z] + ul[y] * v[z] - u[z] * vl[y] - ul[z] * v[y])))
-    return np.stack(rows)
+        coordinates.append(total + (rest + (pl - ml) + (u[y] * vl[z] + ul[y] * v[z] - u[z] * vl[y] - ul[z] * v[y])))
+    return np.stack(coordinates)
 
 
-def wave(q: NDArray, x: NDArray) -> NDArray[np.complex128]:
+def phase_factors(q: NDArray, x: NDArray) -> NDArray[np.complex128]:
     """(m,) exp(-i q·x) for q (m, n) and x (n,), accurate to a few u, however large the phase."""
     total, rest = two_product(q[:, 0], x[0])
     for axis in range(1, q.shape[1]):

@@ -7,6 +7,6 @@ from __future__ import annotations
 import numpy as np
 
 
-def decimal(value: float) -> float:
+def shortest_decimal(value: float) -> float:
     """The shortest decimal that is stored as the float32 `value`: 0.001 where float32 has 0.0010000000474974513."""
     return float(str(np.float32(value)))

@@ -7,22 +7,25 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-BLOCK = 3 << 16  # corners at a time: enough for calls that threads gain by. A multiple of 3 and 4, lest faces are split
+# corners at a time: enough for calls that threads gain by. A multiple of 3 and 4, lest faces are split
+EDGES_PER_BLOCK = 3 << 16
 
 
-def components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
+def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
     """(count,) the connected component of each node, in the order of their first nodes, and how many there are.
 
     a, b: the ends of the links between the nodes.
     """
     label, number = None, count
     while True:
-        blocks = [slice(start, start + BLOCK) for start in range(0, len(a), BLOCK)]
+        blocks = [slice(start, start + EDGES_PER_BLOCK) for start in range(0, len(a), EDGES_PER_BLOCK)]
         node = np.arange(number, dtype=np.int32 if number < 1 << 31 else np.int64)
         parent = node.copy()
-        for rows in blocks:
+        for block in blocks:
             np.minimum.at(
-                parent, np.maximum(a[rows], b[rows]).astype(np.intp), np.minimum(a[rows], b[rows]).astype(parent.dtype)
+                parent,
+                np.maximum(a[block], b[block]).astype(np.intp),
+                np.minimum(a[block], b[block]).astype(parent.dtype),
             )
         first = parent == node
         number = int(np.count_nonzero(first))
@@ -35,12 +38,12 @@ def components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tu
             parent = grand
         tree = (np.cumsum(first, dtype=parent.dtype) - 1).take(parent, mode="clip")
         label = tree if label is None else tree.take(label, mode="clip")
-        one, other = [tree[:0]], [tree[:0]]
-        for rows in blocks:
-            left, right = (tree.take(ends[rows].astype(np.intp), mode="clip") for ends in (a, b))
+        left_ends, right_ends = [tree[:0]], [tree[:0]]
+        for block in blocks:
+            left, right = (tree.take(ends[block].astype(np.intp), mode="clip") for ends in (a, b))
             apart = np.flatnonzero(left != right)
-            one.append(left[apart])
-            other.append(right[apart])
-        a, b = np.concatenate(one), np.concatenate(other)
+            left_ends.append(left[apart])
+            right_ends.append(right[apart])
+        a, b = np.concatenate(left_ends), np.concatenate(right_ends)
         if not len(a):
             return label.astype(np.intp), number

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 
 @lru_cache
-def gauss(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def gauss_legendre(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Nodes and weights of the Gauss-Legendre rule on [0, 1], exact to degree 2 points - 1; read-only."""
     nodes, weights = leggauss(points)
     nodes, weights = (nodes + 1.0) / 2.0, weights / 2.0
@@ -21,9 +21,9 @@ def gauss(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 @lru_cache
-def gauss_and_ends(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """As `gauss`, with 0 before and 1 after its nodes, whose weights are 0; read-only."""
-    nodes, weights = gauss(points)
+def gauss_legendre_with_ends(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """As `gauss_legendre`, with 0 before and 1 after its nodes, whose weights are 0; read-only."""
+    nodes, weights = gauss_legendre(points)
     nodes, weights = np.concatenate([[0.0], nodes, [1.0]]), np.concatenate([[0.0], weights, [0.0]])
     nodes.flags.writeable = weights.flags.writeable = False
     return nodes, weights
@@ -38,18 +38,18 @@ def triangle_rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """
     if n == 3:
         root = np.sqrt(15.0)
-        places = [
+        barycentric = [
             [1.0 / 3.0] * 3,
             *(np.roll([1.0 - 2.0 * a, a, a], k) for a in ((6.0 - root) / 21.0, (6.0 + root) / 21.0) for k in range(3)),
         ]
-        return np.array(places).T, np.array([270.0, *[155.0 - root] * 3, *[155.0 + root] * 3]) / 2400.0
+        return np.array(barycentric).T, np.array([270.0, *[155.0 - root] * 3, *[155.0 + root] * 3]) / 2400.0
     k = np.arange(n)
     beside = np.sqrt((k[1:] * (k[1:] + 1.0)) / (2.0 * k[1:] + 1.0) ** 2)
     u, vectors = np.linalg.eigh(
         np.diag(-1.0 / ((2.0 * k + 1.0) * (2.0 * k + 3.0))) + np.diag(beside, 1) + np.diag(beside, -1)
     )
     u, towards = (u + 1.0) / 2.0, vectors[0] ** 2 / 2.0
-    v, across = gauss(n)
+    v, across = gauss_legendre(n)
     second = np.outer(1.0 - u, v).reshape(-1)
     first = np.repeat(u, n)
     return np.stack([1.0 - first - second, first, second]), np.outer(towards, across).reshape(-1)

@@ -38,10 +38,10 @@ def quaternion(rotation: NDArray) -> NDArray[np.float64]:
     return (column if column[0] >= 0.0 else -column) + 0.0  # no negative zeros
 
 
-SHEARED = 1e-5  # the cosine of axes that float32 rotations never show
+MAX_AXIS_COSINE = 1e-5  # the cosine of axes that float32 rotations never show
 
 
-def own_axes(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """(k, 3, 3) the right-angled unit axes, as columns, of what each of the (k, 4, 4) maps moves, turns, scales and
     mirrors; and whether a map shears, so that they are only the nearest ones.
 
@@ -53,4 +53,4 @@ def own_axes(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]
     columns = np.divide(linear, length, out=np.zeros_like(linear), where=length > 0.0)
     u, _, v = np.linalg.svd(columns)
     skew = np.abs(columns.transpose(0, 2, 1) @ columns) * (1.0 - np.eye(3))
-    return u @ v, skew.max(axis=(1, 2)) > SHEARED
+    return u @ v, skew.max(axis=(1, 2)) > MAX_AXIS_COSINE

@@ -11,7 +11,7 @@ Number = TypeVar("Number")
 Vector = Sequence[Number]  # x, y, z
 
 
-def minus(u: Vector, v: Vector) -> Vector:
+def subtract(u: Vector, v: Vector) -> Vector:
     return u[0] - v[0], u[1] - v[1], u[2] - v[2]
 
 

@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.bspline import Space
+from ..numerics.bspline import SplineSpace
 
 
 def is_valid(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> bool:
@@ -46,20 +46,20 @@ def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
 
 
 @lru_cache(maxsize=256)  # so that what is known of a space stays known from frame to frame
-def blender_space(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> Space | None:
+def blender_space(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> SplineSpace | None:
     """The function space of one direction of a Blender spline, None where Blender shows nothing for it."""
     if not is_valid(count, order, cyclic, bezier, endpoint):
         return None
     knots = blender_knots(count, order, cyclic, bezier, endpoint)
     if not knots[order - 1] < knots[len(knots) - order]:
         return None
-    return Space(tuple(knots.tolist()), order, count)
+    return SplineSpace(tuple(knots.tolist()), order, count)
 
 
-def display_parameters(space: Space, resolution: int) -> NDArray[np.float64]:
+def display_parameters(space: SplineSpace, resolution: int) -> NDArray[np.float64]:
     """(count * resolution,) the parameters at which Blender's display mesh samples a direction, in its own float32
     steps, which drift."""
-    cyclic = space.functions > space.count
+    cyclic = space.function_count > space.count
     total = space.count * resolution
     low, high = np.float32(space.domain[0]), np.float32(space.domain[1])
     steps = np.full(total, (high - low) / np.float32(total if cyclic else total - 1), np.float32)
@@ -67,16 +67,16 @@ def display_parameters(space: Space, resolution: int) -> NDArray[np.float64]:
     return np.add.accumulate(steps, dtype=np.float32).astype(np.float64)
 
 
-def display_table(space: Space, parameters: NDArray) -> NDArray[np.float64]:
+def display_table(space: SplineSpace, parameters: NDArray) -> NDArray[np.float64]:
     """(n, count) what each control point weighs in Blender's display mesh at those parameters.
 
     The last of them may drift past the domain's end, into a span whose next basis function does not exist: there the
     weights add up to less than one, and so does the surface that is displayed.
     """
-    table = space.matrix(np.minimum(parameters, space.domain[1]))
+    table = space.collocation_matrix(np.minimum(parameters, space.domain[1]))
     past = (parameters > space.domain[1]) & (space.knots[-1] > space.domain[1])
     if past.any():
         knots = space.knots + tuple(space.knots[-1] + 1.0 + i for i in range(space.order))
-        longer = Space(knots, space.order, len(knots) - space.order)
-        table[past] = longer.matrix(parameters[past])[:, : space.count]
+        longer = SplineSpace(knots, space.order, len(knots) - space.order)
+        table[past] = longer.collocation_matrix(parameters[past])[:, : space.count]
     return table

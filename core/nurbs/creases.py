@@ -15,34 +15,34 @@ from numpy.typing import NDArray
 
 from ..numerics.vectors import cross
 from .patch import Patch
-from .patch_topology import SIDES, Closure
+from .patch_topology import SIDES, PatchTopology
 
-EACH = 17  # samples of a side
-POLE = 1e-9  # of the largest: what normals at a pole are
+SAMPLES_PER_SIDE = 17  # samples of a side
+POLE_RTOL = 1e-9  # of the largest: what normals at a pole are
 
 
-def sharpest_crease(patches: Sequence[Patch], closure: Closure) -> float:
+def sharpest_crease(patches: Sequence[Patch], topology: PatchTopology) -> float:
     """The largest angle, in radians, between the normals on both sides of a crease, 0 where there is none."""
-    worst = max((_within(patch) for patch in patches), default=0.0)
-    for left, right in closure.seams.tolist():
-        one, other = (
-            _along_side(patches[k // 4], *SIDES[k % 4][:2]) * (-1.0 if closure.turned[k // 4] else 1.0)
+    worst = max((_inner_crease_angle(patch) for patch in patches), default=0.0)
+    for left, right in topology.seams.tolist():
+        first_side, second_side = (
+            _along_side(patches[k // 4], *SIDES[k % 4][:2]) * (-1.0 if topology.flipped[k // 4] else 1.0)
             for k in (left, right)
         )
-        points = [patches[k // 4].side(*SIDES[k % 4][:2]).samples(EACH) for k in (left, right)]
+        points = [patches[k // 4].side(*SIDES[k % 4][:2]).samples(SAMPLES_PER_SIDE) for k in (left, right)]
         nearest = np.linalg.norm(points[0][:, None] - points[1], axis=2).argmin(axis=1)
-        worst = max(worst, _angle(one, other[nearest]))
+        worst = max(worst, _largest_angle(first_side, second_side[nearest]))
     return worst
 
 
 def _along_side(patch: Patch, axis: int, end: int) -> NDArray[np.float64]:
     """(m, 3) its unit normals along a side, at the samples of the side's curve; zero at poles."""
     held, run = patch.spaces[axis], patch.spaces[1 - axis]
-    tables = [(np.array([held.domain[end]]), None), (run.steps(EACH), None)]
+    tables = [(np.array([held.domain[end]]), None), (run.uniform_parameters(SAMPLES_PER_SIDE), None)]
     return _normals(patch, *(tables if axis == 0 else tables[::-1])).reshape(-1, 3)
 
 
-def _within(patch: Patch) -> float:
+def _inner_crease_angle(patch: Patch) -> float:
     """The largest angle at its inner knots."""
     worst = 0.0
     for axis, space in enumerate(patch.spaces):
@@ -51,30 +51,33 @@ def _within(patch: Patch) -> float:
         sharp = np.array([np.count_nonzero(knots == knot) >= space.order - 1 for knot in inner], bool)
         if not sharp.any():
             continue
-        across = patch.spaces[1 - axis].steps(EACH), None
+        across = patch.spaces[1 - axis].uniform_parameters(SAMPLES_PER_SIDE), None
         before, after = ((inner[sharp], spans[sharp]) for spans in (space.spans[:-1], space.spans[1:]))
-        one, other = (_normals(patch, *((rows, across) if axis == 0 else (across, rows))) for rows in (before, after))
-        worst = max(worst, _angle(one, other))
+        normals_before, normals_after = (
+            _normals(patch, *((parameters, across) if axis == 0 else (across, parameters)))
+            for parameters in (before, after)
+        )
+        worst = max(worst, _largest_angle(normals_before, normals_after))
     return worst
 
 
-def _normals(patch: Patch, *places: tuple[NDArray, NDArray | None]) -> NDArray[np.float64]:
+def _normals(patch: Patch, *parameters: tuple[NDArray, NDArray | None]) -> NDArray[np.float64]:
     """(m, n, 3) unit normals at parameters, perhaps in given spans; zero where there is none."""
     (s, by_s), (t, by_t) = (
-        [space.matrix(at, k, spans) for k in (0, 1)] for space, (at, spans) in zip(patch.spaces, places)
+        [space.collocation_matrix(at, k, spans) for k in (0, 1)] for space, (at, spans) in zip(patch.spaces, parameters)
     )
     net = np.moveaxis(patch.points - patch.points[0, 0], -1, 0)
     weights = np.ones(net.shape[1:]) if patch.weights is None else patch.weights
     net = np.concatenate([net * weights, weights[None]])
-    place, along, across = (one @ net @ other.T for one, other in ((s, t), (by_s, t), (s, by_t)))
+    place, along, across = (s_weights @ net @ t_weights.T for s_weights, t_weights in ((s, t), (by_s, t), (s, by_t)))
     along, across = (slope[:3] - place[:3] / place[3] * slope[3] for slope in (along, across))
     normal = np.stack(cross(along, across), axis=-1)
     length = np.linalg.norm(normal, axis=-1, keepdims=True)
-    return np.where(length > POLE * length.max(), normal / np.where(length > 0.0, length, 1.0), 0.0)
+    return np.where(length > POLE_RTOL * length.max(), normal / np.where(length > 0.0, length, 1.0), 0.0)
 
 
-def _angle(one: NDArray, other: NDArray) -> float:
+def _largest_angle(first: NDArray, second: NDArray) -> float:
     """The largest angle between two rows of unit vectors, where both are some."""
-    known = one.any(axis=-1) & other.any(axis=-1)
-    chord = np.linalg.norm(one[known] - other[known], axis=-1).max(initial=0.0)
+    known = first.any(axis=-1) & second.any(axis=-1)
+    chord = np.linalg.norm(first[known] - second[known], axis=-1).max(initial=0.0)
     return float(2.0 * np.arcsin(min(chord / 2.0, 1.0)))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.bspline import Space
+from ..numerics.bspline import SplineSpace
 from ..verdict.finding import MeasureError
 
 
@@ -21,14 +21,14 @@ def checked_points(
 
     ValueError for another shape; MeasureError for what is not finite, and weights that are not positive.
     """
-    points = _own(points)
+    points = _frozen_copy(points)
     if points.shape != (*shape, 3):
         raise ValueError("points not {}".format((*shape, 3)))
     if not np.isfinite(points).all():
         raise MeasureError("non_finite_control_points")
     if weights is None:
         return points, None
-    weights = _own(weights)
+    weights = _frozen_copy(weights)
     if weights.shape != shape:
         raise ValueError("weights not {}".format(shape))
     if not (np.isfinite(weights).all() and (weights > 0.0).all()):
@@ -36,17 +36,17 @@ def checked_points(
     return points, None if (weights == weights.flat[0]).all() else weights
 
 
-def _own(values: ArrayLike) -> NDArray[np.float64]:
-    own = np.array(values, np.float64, order="C")
-    own.setflags(write=False)
-    return own
+def _frozen_copy(values: ArrayLike) -> NDArray[np.float64]:
+    copy = np.array(values, np.float64, order="C")
+    copy.setflags(write=False)
+    return copy
 
 
 @dataclass(frozen=True, eq=False)
 class Curve:
     """space: of its parameter. points: (count, 3). weights: (count,) positive, or None for a polynomial curve."""
 
-    space: Space
+    space: SplineSpace
     points: NDArray[np.float64]
     weights: NDArray[np.float64] | None = None
 
@@ -55,11 +55,11 @@ class Curve:
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "weights", weights)
 
-    def at(self, parameters: ArrayLike) -> NDArray[np.float64]:
+    def evaluate(self, parameters: ArrayLike) -> NDArray[np.float64]:
         """(n, 3) its points."""
-        return self.combined(self.space.matrix(np.asarray(parameters, np.float64)))
+        return self.apply_weights(self.space.collocation_matrix(np.asarray(parameters, np.float64)))
 
-    def combined(self, table: NDArray) -> NDArray[np.float64]:
+    def apply_weights(self, table: NDArray) -> NDArray[np.float64]:
         """(n, 3) its points where its control points weigh what a table (n, count) says."""
         if self.weights is not None:
             table = table * self.weights
@@ -69,7 +69,7 @@ class Curve:
 
     def velocity(self, parameters: ArrayLike) -> NDArray[np.float64]:
         """(n, 3) the derivative by the parameter."""
-        values, slopes = (self.space.matrix(np.asarray(parameters, np.float64), k) for k in (0, 1))
+        values, slopes = (self.space.collocation_matrix(np.asarray(parameters, np.float64), k) for k in (0, 1))
         points = self.points - self.points[0]
         if self.weights is None:
             return np.einsum("ni,id->nd", slopes, points)
@@ -78,23 +78,24 @@ class Curve:
         place = np.einsum("ni,id->nd", values, points) / bottom
         return (np.einsum("ni,id->nd", slopes, points) - place * slopes.sum(axis=1, keepdims=True)) / bottom
 
-    def mapped(self, matrix: NDArray) -> Curve:
+    def transform(self, matrix: NDArray) -> Curve:
         """Its image under an affine map (4, 4)."""
         return Curve(self.space, self.points @ matrix[:3, :3].T + matrix[:3, 3], self.weights)
 
-    def reversed(self) -> Curve:
+    def reverse(self) -> Curve:
         """The same curve run backwards."""
-        if self.space.functions > self.space.count:  # then the first point of the reversed one is that of function 0
-            order = (self.space.functions - 1 - np.arange(self.space.count)) % self.space.count
+        # then the first point of the reversed one is that of function 0
+        if self.space.function_count > self.space.count:
+            order = (self.space.function_count - 1 - np.arange(self.space.count)) % self.space.count
         else:
             order = np.arange(self.space.count)[::-1]
         knots = tuple((-np.asarray(self.space.knots)[::-1]).tolist())
         return Curve(
-            Space(knots, self.space.order, self.space.count),
+            SplineSpace(knots, self.space.order, self.space.count),
             self.points[order],
             None if self.weights is None else self.weights[order],
         )
 
     def samples(self, each: int) -> NDArray[np.float64]:
         """(spans * each + 1, 3) points at equal steps in every span, both ends included."""
-        return self.at(self.space.steps(each))
+        return self.evaluate(self.space.uniform_parameters(each))

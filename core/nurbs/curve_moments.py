@@ -24,12 +24,12 @@ from numpy.typing import NDArray
 from ..moments.moments import Measure, Moments, U, monomials
 from .bezier import bernstein, halves
 from .curve import Curve
-from .patch_moments import ROUNDING, TOLERANCE
+from .patch_moments import ROUNDING, VOLUME_RTOL
 
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # points; each is compared with the one before
-DEEPEST = 60  # times that a piece is halved
-STEEP = 1e8  # the largest weight of a piece by its smallest: beyond it two rules may miss the same
+MAX_DEPTH = 60  # times that a piece is halved
+MAX_WEIGHT_RATIO = 1e8  # the largest weight of a piece by its smallest: beyond it two rules may miss the same
 
 
 def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
@@ -47,7 +47,7 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
     def length(place: NDArray, velocity: NDArray) -> NDArray:
         return np.sqrt((velocity**2).sum(axis=0))
 
-    values, estimate, size = _integrated(curves, length, 1.0, order, about, reach, LENGTH_TOLERANCE, kinks=True)
+    values, estimate, size = _integrate(curves, length, 1.0, order, about, reach, LENGTH_TOLERANCE, kinks=True)
     scale = size * reach ** degree.astype(np.float64)
     error = estimate * reach ** degree.astype(np.float64) + ROUNDING * U * 8 * scale
     return Moments(values, about, Measure.LENGTH, error)
@@ -71,11 +71,11 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
     exact = [curve for curve in curves if curve.weights is None]
     for curve in exact:
         points = ceil((order + 2) * (curve.space.order - 1) / 2)
-        rows, length = _summed(*_pieces(curve, about), max(points, 1), flux, order)
-        values, size = values + rows.sum(axis=0), size + length.sum()
+        contributions, length = _piece_integrals(*_bezier_pieces(curve, about), max(points, 1), flux, order)
+        values, size = values + contributions.sum(axis=0), size + length.sum()
     rational = [curve for curve in curves if curve.weights is not None]
     if rational:
-        more, estimate, length = _integrated(rational, flux, reach, order, about, reach, TOLERANCE)
+        more, estimate, length = _integrate(rational, flux, reach, order, about, reach, VOLUME_RTOL)
         values, size = values + more, size + length
     powers = reach ** (degree + 1.0)
     error = (estimate / max(reach, 1e-300) * powers + ROUNDING * U * 8 * size * powers) / (degree + 2.0)
@@ -86,7 +86,7 @@ def _reach(curves: Sequence[Curve], about: NDArray) -> float:
     return max(float(np.sqrt(((curve.points - about) ** 2).sum(axis=1).max())) for curve in curves)
 
 
-def _integrated(
+def _integrate(
     curves: Sequence[Curve],
     density: Callable,
     largest: float,
@@ -106,68 +106,68 @@ def _integrated(
     unit = reach ** degree.astype(np.float64)
     values, estimate, whole = np.zeros(len(degree)), 0.0, 0.0
     for curve in curves:
-        net, home = _pieces(curve, about)
+        net, anchor = _bezier_pieces(curve, about)
         coarse, rule, depth, share = None, 0, 0, 0.0
         while len(net):
             if coarse is None:
-                coarse, _ = _summed(net, home, RULES[rule], density, order)
-            fine, size = _summed(net, home, RULES[rule + 1], density, order)
+                coarse, _ = _piece_integrals(net, anchor, RULES[rule], density, order)
+            fine, size = _piece_integrals(net, anchor, RULES[rule + 1], density, order)
             share = share or float(size.mean())
             differ = np.where(unit > 0.0, np.abs(fine - coarse) / np.where(unit > 0.0, unit, 1.0), 0.0).max(axis=1)
             if kinks:
-                differ += _turning(net)
-            differ += largest * _unseen(net)
+                differ += _turn_back_lengths(net)
+            differ += largest * _undersampled_lengths(net)
             # What is no number, of moments beyond its range, is not halved.
-            good = ~(differ > tolerance * np.maximum(size, share) * largest) | (depth >= DEEPEST)
+            good = ~(differ > tolerance * np.maximum(size, share) * largest) | (depth >= MAX_DEPTH)
             values += fine[good].sum(axis=0)
             estimate += float(differ[good].sum())
             whole += float(size[good].sum())
-            net, home, coarse, rule = net[~good], home[~good], fine[~good], rule + 1
+            net, anchor, coarse, rule = net[~good], anchor[~good], fine[~good], rule + 1
             if rule + 1 == len(RULES):
                 net = np.concatenate([np.einsum("ij,cjd->cid", half, net) for half in halves(net.shape[1])])
-                net, home = _at_home(net, np.tile(home, (2, 1)))
+                net, anchor = _about_first_control(net, np.tile(anchor, (2, 1)))
                 coarse, rule, depth = None, 0, depth + 1
     return values, estimate, whole
 
 
-def _pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The Bézier curves that a curve consists of: their control points (c, order, 3), or (c, order, 4) those times
     their weights, and the weights, about home (c, 3), itself about the point."""
     space, origin = curve.space, curve.points[0]
     net = curve.points - origin
     if curve.weights is not None:
         net = np.concatenate([net * curve.weights[:, None], curve.weights[:, None]], axis=1)
-    net = np.einsum("sij,sjd->sid", space.blossoms, net[space.acting])
-    return _at_home(net, np.tile(origin - about, (len(net), 1)))
+    net = np.einsum("sij,sjd->sid", space.bezier_extraction, net[space.active_controls])
+    return _about_first_control(net, np.tile(origin - about, (len(net), 1)))
 
 
-def _at_home(net: NDArray, home: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _about_first_control(net: NDArray, anchor: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The same about their own first control points."""
     rational = net.shape[2] == 4
     first = net[:, :1, :3] / net[:, :1, 3:] if rational else net[:, :1]
-    places = net[..., :3] - (first * net[..., 3:] if rational else first)
-    return np.concatenate([places, net[..., 3:]], axis=2), home + first[:, 0]
+    points = net[..., :3] - (first * net[..., 3:] if rational else first)
+    return np.concatenate([points, net[..., 3:]], axis=2), anchor + first[:, 0]
 
 
-def _turning(net: NDArray) -> NDArray[np.float64]:
+def _turn_back_lengths(net: NDArray) -> NDArray[np.float64]:
     """(c,) the most that the lengths of pieces can be where they may turn back, 0 of others."""
     edges = np.diff(net[..., :3] / net[..., 3:] if net.shape[2] == 4 else net, axis=1)
     ahead = np.einsum("ckd,cd->ck", edges, edges.sum(axis=1)).min(axis=1) >= 0.0
     return np.where(ahead, 0.0, np.sqrt((edges**2).sum(axis=2)).sum(axis=1))
 
 
-def _unseen(net: NDArray) -> NDArray[np.float64]:
+def _undersampled_lengths(net: NDArray) -> NDArray[np.float64]:
     """(c,) the most that the lengths can be of pieces that heavy weights draw to a point but for their ends, 0 of
     others."""
     if net.shape[2] == 3:
         return np.zeros(len(net))
-    weights, places = net[..., 3], net[..., :3] / net[..., 3:]
-    steep = weights.max(axis=1) > STEEP * weights.min(axis=1)
-    return np.where(steep, np.sqrt((np.diff(places, axis=1) ** 2).sum(axis=2)).sum(axis=1), 0.0)
+    weights, points = net[..., 3], net[..., :3] / net[..., 3:]
+    steep = weights.max(axis=1) > MAX_WEIGHT_RATIO * weights.min(axis=1)
+    return np.where(steep, np.sqrt((np.diff(points, axis=1) ** 2).sum(axis=2)).sum(axis=1), 0.0)
 
 
-def _summed(
-    net: NDArray, home: NDArray, points: int, density: Callable, order: int
+def _piece_integrals(
+    net: NDArray, anchor: NDArray, points: int, density: Callable, order: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(c, K) the contributions of pieces of a curve by a Gauss rule, and (c,) their lengths."""
     tables, weights = bernstein(net.shape[1], (points,))
@@ -176,7 +176,7 @@ def _summed(
         bottom = place[3]
         velocity = (velocity[:3] - place[:3] / bottom * velocity[3]) / bottom
         place = place[:3] / bottom
-    place = place + home.T[:, :, None]
+    place = place + anchor.T[:, :, None]
     element = density(place, velocity) * weights[:, 0]
     columns = [
         (element * place[0] ** p * place[1] ** q * place[2] ** r).sum(axis=1) for p, q, r in monomials(order).tolist()

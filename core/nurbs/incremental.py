@@ -17,15 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Moments, monomials
-from ..numerics.bspline import Space
-from .bezier import MOST_CELLS, cells_of_nets, homogeneous
+from ..numerics.bspline import SplineSpace
+from .bezier import MAX_CELLS, cells_of_nets, homogeneous
 from .patch import Patch
-from .patch_moments import blocks, exact_points, flux_sums
+from .patch_moments import exact_points, flux_sums, integrand_in_blocks
 
-RATIONAL = 16  # Gauss points in a span of a rational patch
+RATIONAL_GAUSS_POINTS = 16  # Gauss points in a span of a rational patch
 
 
-class Evaluator:
+class IncrementalPatchMoments:
     """A patch in a fixed function space, its control points free to move.
 
     Gauss rules are exact for polynomial patches. For rational ones they have 16 points a span and come without an
@@ -37,10 +37,12 @@ class Evaluator:
     def __init__(self, patch: Patch, order: int = 2, about: NDArray | None = None):
         self.spaces, self.order, self.rational = patch.spaces, order, patch.weights is not None
         self.about = np.asarray(patch.points.mean(axis=(0, 1)) if about is None else about, np.float64)
-        self._rule = tuple((RATIONAL if self.rational else exact_points(space.order, order),) for space in self.spaces)
+        self._rule = tuple(
+            (RATIONAL_GAUSS_POINTS if self.rational else exact_points(space.order, order),) for space in self.spaces
+        )
         self._flux = partial(flux_sums, order=order, area=True)
         self._divisor = monomials(order).sum(axis=1) + 3.0
-        self._home = self.about
+        self._anchor = self.about
         self._net = np.zeros((*patch.points.shape[:2], 3 + self.rational))
         if self.rational:
             self._net[..., 3] = patch.weights
@@ -54,53 +56,53 @@ class Evaluator:
         """
         self._require_rational(weights)
         points = np.asarray(points, np.float64)
-        self._home = points[0, 0].copy()
-        net = points - self._home
+        self._anchor = points[0, 0].copy()
+        net = points - self._anchor
         if self.rational:
             net = homogeneous(net, self._net[..., 3] if weights is None else np.asarray(weights))
         self._net = net
         _, u, v = self._sums.shape
-        step = max(1, MOST_CELLS // v)
+        step = max(1, MAX_CELLS // v)
         for start in range(0, u, step):
             self._evaluate(slice(start, min(start + step, u)), slice(0, v))
-        return self._made()
+        return self._current_moments()
 
-    def move(self, i: int, j: int, point: NDArray, weight: float | None = None) -> Moments:
+    def move_control_point(self, i: int, j: int, point: NDArray, weight: float | None = None) -> Moments:
         """All moments after control point (i, j) has moved: only the spans on which it acts are evaluated.
 
         weight: of a rational patch; None leaves it. `moments` must have been called for the others.
         """
         self._require_rational(weight)
-        place = np.asarray(point, np.float64) - self._home
+        place = np.asarray(point, np.float64) - self._anchor
         if self.rational:
             weight = self._net[i, j, 3] if weight is None else weight
             place = np.append(place * weight, weight)
         self._net[i, j] = place
-        for rows in _touched(self.spaces[0], i):
-            for columns in _touched(self.spaces[1], j):
-                self._evaluate(rows, columns)
-        return self._made()
+        for s_spans in _affected_spans(self.spaces[0], i):
+            for t_spans in _affected_spans(self.spaces[1], j):
+                self._evaluate(s_spans, t_spans)
+        return self._current_moments()
 
     def _require_rational(self, weights: NDArray | float | None) -> None:
         if weights is not None and not self.rational:
             raise ValueError("made without weights")
 
-    def _evaluate(self, rows: slice, columns: slice) -> None:
-        home = (self._home - self.about)[None]
-        cells = cells_of_nets(self._net[None], home, self.spaces, (rows, columns), (False, False), 0.0)
-        sums = blocks(cells, self._rule, self._flux)[0]
-        self._sums[:, rows, columns] = sums.reshape(len(sums), rows.stop - rows.start, -1)
+    def _evaluate(self, s_spans: slice, t_spans: slice) -> None:
+        anchor = (self._anchor - self.about)[None]
+        cells = cells_of_nets(self._net[None], anchor, self.spaces, (s_spans, t_spans), (False, False), 0.0)
+        sums = integrand_in_blocks(cells, self._rule, self._flux)[0]
+        self._sums[:, s_spans, t_spans] = sums.reshape(len(sums), s_spans.stop - s_spans.start, -1)
 
-    def _made(self) -> Moments:
+    def _current_moments(self) -> Moments:
         sums = np.add.reduce(self._sums, axis=(1, 2))
         self.area = float(sums[-1])
         return Moments(sums[:-1] / self._divisor, self.about)
 
 
-def _touched(space: Space, control: int) -> list[slice]:
+def _affected_spans(space: SplineSpace, control: int) -> list[slice]:
     """The spans on which a control point acts: several runs of them where a closed direction repeats it."""
     runs = [
         slice(*np.searchsorted(space.spans, (function, function + space.order)).tolist())
-        for function in range(control, space.functions, space.count)
+        for function in range(control, space.function_count, space.count)
     ]
     return [run for run in runs if run.start < run.stop]

@@ -14,7 +14,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.bspline import Space
+from ..numerics.bspline import SplineSpace
 from .curve import Curve, checked_points
 
 
@@ -22,7 +22,7 @@ from .curve import Curve, checked_points
 class Patch:
     """spaces: of s and t. points: (count_s, count_t, 3). weights: (count_s, count_t) positive, or None: polynomial."""
 
-    spaces: tuple[Space, Space]
+    spaces: tuple[SplineSpace, SplineSpace]
     points: NDArray[np.float64]
     weights: NDArray[np.float64] | None = None
 
@@ -32,25 +32,27 @@ class Patch:
         object.__setattr__(self, "weights", weights)
 
     @cached_property
-    def steady(self) -> tuple[bool, bool]:
+    def constant_weights(self) -> tuple[bool, bool]:
         """Whether the weights are the same along s, and along t."""
         if self.weights is None:
             return True, True
         return bool((self.weights == self.weights[:1]).all()), bool((self.weights == self.weights[:, :1]).all())
 
-    def mapped(self, matrix: NDArray) -> Patch:
+    def transform(self, matrix: NDArray) -> Patch:
         """Its image under an affine map (4, 4): that of its control points."""
         return replace(self, points=self.points @ np.asarray(matrix)[:3, :3].T + np.asarray(matrix)[:3, 3])
 
-    def turned(self) -> Patch:
+    def reverse_orientation(self) -> Patch:
         """The same surface facing the other way."""
         return Patch(self.spaces[::-1], self.points.swapaxes(0, 1), None if self.weights is None else self.weights.T)
 
-    def grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
+    def evaluate_grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
         """(len(s), len(t), 3) its points."""
-        return self.combined(*(space.matrix(np.asarray(values)) for space, values in zip(self.spaces, (s, t))))
+        return self.apply_weights(
+            *(space.collocation_matrix(np.asarray(values)) for space, values in zip(self.spaces, (s, t)))
+        )
 
-    def combined(self, *tables: NDArray) -> NDArray[np.float64]:
+    def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
         """(m, n, 3) its points where its control points weigh what two tables, (m, count_s) and (n, count_t), say."""
         points = self.points
         if self.weights is not None:
@@ -61,7 +63,7 @@ class Patch:
 
     def side(self, axis: int, end: int) -> Curve:
         """The curve that bounds the patch where s (axis 0) or t (axis 1) is first (end 0) or last (end 1)."""
-        weigh = self.spaces[axis].ends[end]
+        weigh = self.spaces[axis].end_weights[end]
         points, weights = self.points, self.weights
         if weights is None:
             return Curve(self.spaces[1 - axis], np.tensordot(weigh, points, (0, axis)))
@@ -71,10 +73,10 @@ class Patch:
 
     def samples(self, each: int) -> NDArray[np.float64]:
         """A grid of points, each + 1 to every span and direction, ends included."""
-        return self.combined(*(_sample_table(space, each) for space in self.spaces))
+        return self.apply_weights(*(_sample_table(space, each) for space in self.spaces))
 
 
 @lru_cache(maxsize=64)
-def _sample_table(space: Space, each: int) -> NDArray[np.float64]:
+def _sample_table(space: SplineSpace, each: int) -> NDArray[np.float64]:
     """What control points weigh at equal steps in every span; not to be written to."""
-    return space.matrix(space.steps(each))
+    return space.collocation_matrix(space.uniform_parameters(each))

@@ -25,41 +25,44 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..moments.monomials import monomial_count
-from ..numerics.bspline import Space
-from ..numerics.quadrature import gauss, gauss_and_ends
+from ..numerics.bspline import SplineSpace
+from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
 from ..numerics.vectors import cross, dot
 from ..verdict.finding import MeasureError
-from .bezier import Cells, Rule, Weights, cells_of
+from .bezier import BezierCells, Rule, Weights, cells_of
 from .patch import Patch
 
-TOLERANCE = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
-AREA_TOLERANCE = 1e-11
-UNSETTLED = 8.0  # times what two rules differ by that have not begun to agree, when no more points are to be spent
-STEEP = 1e2, 1e6  # a cell's largest weight by its smallest, beyond which rules may differ by less than both miss, or
+VOLUME_RTOL = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
+AREA_RTOL = 1e-11
+# times what two rules differ by that have not begun to agree, when no more points are to be spent
+UNCONVERGED_FACTOR = 8.0
+# a cell's largest weight by its smallest, beyond which rules may differ by less than both miss, or
+MAX_WEIGHT_RATIOS = 1e2, 1e6
 # miss the same
-FOLDED = 8.0  # times what two rules differ by: where a patch folds back, its area has kinks, and both may be off alike
-TURNED = 1e-9  # a normal that points against its neighbour by less than this is rounding
+# times what two rules differ by: where a patch folds back, its area has kinks, and both may be off alike
+FOLD_FACTOR = 8.0
+MIN_REVERSED_NORMAL = 1e-9  # a normal that points against its neighbour by less than this is rounding
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
 COARSE_RULES = (8, 12, 18)  # where less is asked for
-TINY = 1e-300  # what is divided by at least
-DEEPEST = 14  # times that a cell is cut
-MOST_POINTS = 6_000_000  # evaluated at most
-BLOCK = 12288  # points at a time: their arrays stay in the cache
+MIN_DIVISOR = 1e-300  # what is divided by at least
+MAX_DEPTH = 14  # times that a cell is cut
+MAX_POINTS = 6_000_000  # evaluated at most
+POINTS_PER_BLOCK = 12288  # points at a time: their arrays stay in the cache
 SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time, for the area's gradient
 ROUNDING = 64.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
 
-Integrand = Callable[[Cells, Rule], NDArray]
+Integrand = Callable[[BezierCells, Rule], NDArray]
 
 
 @dataclass(frozen=True, eq=False)
 class Integral:
     """values: (K,). estimate: of their truncation, and size: of all cells, both by the unit of each moment.
-    settled: whether the estimate is below the tolerance."""
+    converged: whether the estimate is below the tolerance."""
 
     values: NDArray[np.float64]
     estimate: float
     size: float
-    settled: bool
+    converged: bool
 
 
 def control_box(patches: Sequence[Patch]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -77,7 +80,7 @@ def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
 
 
 def volume_moments(
-    patches: Sequence[Patch], order: int = 3, about: NDArray | None = None, tolerance: float = TOLERANCE
+    patches: Sequence[Patch], order: int = 3, about: NDArray | None = None, tolerance: float = VOLUME_RTOL
 ) -> tuple[Moments, bool]:
     """The volume moments of the body that closed, outward patches bound.
 
@@ -95,26 +98,26 @@ def volume_moments(
             rational.append(part)
             continue
         points = exact_points(part.orders[0], order), exact_points(part.orders[1], order)
-        sums = np.add.reduce(blocks(part, (points[:1], points[1:]), flux)[0], axis=1)
+        sums = np.add.reduce(integrand_in_blocks(part, (points[:1], points[1:]), flux)[0], axis=1)
         values += sums[:-1]
         size += float(sums[-1])
     unit = reach ** (degree + 1.0)
     if rational:
-        found = adaptive(rational, flux, unit, tolerance, order)
-        values, estimate, settled = values + found.values, found.estimate, found.settled
-        size += found.size
+        integral = integrate_adaptively(rational, flux, unit, tolerance, order)
+        values, estimate, settled = values + integral.values, integral.estimate, integral.converged
+        size += integral.size
     error = (estimate + (ROUNDING * U * size) * (orders + degree)) * unit / (degree + 3.0)
     return Moments(values / (degree + 3.0), about, Measure.VOLUME, error), settled
 
 
-def flux_sums(cells: Cells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
+def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
     """(rules, K + 1, c) the flux of monomials times the place, and a size: the area, or, what that is at most,
     ∫ |S_s| |S_t|."""
-    (s, along, across), weights = cells.at(rule)
+    (s, along, across), weights = cells.evaluate(rule)
     normal = cross(along, across)
-    rows = weighted_monomials(s, dot(s, normal), order, 1)
-    np.sqrt(dot(normal, normal) if area else _square(along) * _square(across), out=rows[-1])
-    return summed(rows, weights)
+    terms = weighted_monomials(s, dot(s, normal), order, 1)
+    np.sqrt(dot(normal, normal) if area else _square(along) * _square(across), out=terms[-1])
+    return sum_over_points(terms, weights)
 
 
 def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
@@ -127,31 +130,33 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
     parts = list(cells_of(patches, about))
     unit = max(part.reach for part in parts) ** _degrees(order)
 
-    def area(cells: Cells, rule: Rule) -> NDArray:
-        (s, along, across), weights = cells.at(rule, ends=True)
+    def area(cells: BezierCells, rule: Rule) -> NDArray:
+        (s, along, across), weights = cells.evaluate(rule, ends=True)
         normal = np.stack(cross(along, across))
-        rows = weighted_monomials(s, _length(normal), order, 1)
-        rows[-1] = rows[0]
-        return np.concatenate([summed(rows, weights), _turning(normal, weights, rule)[None, None]], axis=1)
+        terms = weighted_monomials(s, _length(normal), order, 1)
+        terms[-1] = terms[0]
+        return np.concatenate(
+            [sum_over_points(terms, weights), _reversed_areas(normal, weights, rule)[None, None]], axis=1
+        )
 
-    found = adaptive(parts, area, unit, AREA_TOLERANCE)
+    integral = integrate_adaptively(parts, area, unit, AREA_RTOL)
     orders = max(sum(part.orders) for part in parts)
-    error = (FOLDED * found.estimate + ROUNDING * U * orders * found.size) * unit
-    return Moments(found.values, about, Measure.AREA, error), found.settled
+    error = (FOLD_FACTOR * integral.estimate + ROUNDING * U * orders * integral.size) * unit
+    return Moments(integral.values, about, Measure.AREA, error), integral.converged
 
 
-def _turning(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
+def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
     """(c,) the areas between neighbouring points of cells where the patch turns over between them: its area has a kink
     there, which two rules may miss alike. normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both
     directions."""
     total = np.zeros(normal.shape[2])
-    for (points,), other in zip(rule, weights[::-1]):
-        nodes, _ = gauss_and_ends(points)
+    for (points,), other_weights in zip(rule, weights[::-1]):
+        nodes, _ = gauss_legendre_with_ends(points)
         length = _length(normal)
         # At a pole the normal is rounding.
-        over = dot(normal[:, :-1], normal[:, 1:]) < -TURNED * np.maximum(length[:-1], length[1:]) ** 2
+        over = dot(normal[:, :-1], normal[:, 1:]) < -MIN_REVERSED_NORMAL * np.maximum(length[:-1], length[1:]) ** 2
         size = np.where(over, length[:-1] + length[1:], 0.0) * np.diff(nodes)[:, None, None] / 2.0
-        total += size.sum(axis=0) @ other[:, 0]
+        total += size.sum(axis=0) @ other_weights[:, 0]
         normal = normal.swapaxes(1, 3)
     return total
 
@@ -165,11 +170,11 @@ def area_slope(patches: Sequence[Patch]) -> float:
         if patch.weights is not None:
             net = np.concatenate([net * patch.weights, patch.weights[None]])
         gradient = np.zeros((3, *patch.points.shape[:2]))
-        for s, s_slope, s_steps, rows in _slope_tiles(patch.spaces[0]):
-            for t, t_slope, t_steps, columns in _slope_tiles(patch.spaces[1]):
-                own = np.ascontiguousarray(net[:, rows[:, None], columns])
-                force = _slope_of_tile((s, s_slope), (t, t_slope), s_steps[:, None] * t_steps, own)
-                gradient[:, rows[:, None], columns] += force
+        for s, s_slope, s_steps, s_controls in _slope_tiles(patch.spaces[0]):
+            for t, t_slope, t_steps, t_controls in _slope_tiles(patch.spaces[1]):
+                tile_net = np.ascontiguousarray(net[:, s_controls[:, None], t_controls])
+                force = _slope_of_tile((s, s_slope), (t, t_slope), s_steps[:, None] * t_steps, tile_net)
+                gradient[:, s_controls[:, None], t_controls] += force
         if patch.weights is not None:
             gradient *= patch.weights
         total += float(_length(gradient).sum())
@@ -177,18 +182,23 @@ def area_slope(patches: Sequence[Patch]) -> float:
 
 
 @lru_cache(maxsize=64)
-def _slope_tiles(space: Space) -> tuple[tuple[NDArray, NDArray, NDArray, NDArray], ...]:
+def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, NDArray], ...]:
     """Values and slopes (m, k) of the control points (k,) that act in a few spans at a time, and the steps (m,); not to
     be written to."""
-    nodes, weights = gauss(SLOPE_POINTS)
+    nodes, weights = gauss_legendre(SLOPE_POINTS)
     tiles = []
     for start in range(0, len(space.spans), SLOPE_SPANS):
         low, high = space.intervals[start : start + SLOPE_SPANS].T
         size = (high - low)[:, None]
-        places = (low[:, None] + size * nodes).ravel()
-        acting = np.unique(space.controls(space.spans[start : start + SLOPE_SPANS]))
+        parameters = (low[:, None] + size * nodes).ravel()
+        acting = np.unique(space.controls_of_spans(space.spans[start : start + SLOPE_SPANS]))
         tiles.append(
-            (space.matrix(places)[:, acting], space.matrix(places, 1)[:, acting], (size * weights).ravel(), acting)
+            (
+                space.collocation_matrix(parameters)[:, acting],
+                space.collocation_matrix(parameters, 1)[:, acting],
+                (size * weights).ravel(),
+                acting,
+            )
         )
     return tuple(tiles)
 
@@ -199,8 +209,8 @@ def _slope_of_tile(
     """(3, k, k') the area's gradient by control points, of homogeneous ones by the product of weight and place."""
     (s, s_slope), (t, t_slope) = along, across
     place, by_s, by_t = (
-        np.matmul(np.matmul(one, net), np.ascontiguousarray(other.T))
-        for one, other in ((s, t), (s_slope, t), (s, t_slope))
+        np.matmul(np.matmul(s_table, net), np.ascontiguousarray(t_table.T))
+        for s_table, t_table in ((s, t), (s_slope, t), (s, t_slope))
     )
     rational = len(net) == 4
     if rational:
@@ -215,7 +225,9 @@ def _slope_of_tile(
     parts = [(s_slope, s_force, t), (s, t_force, t_slope)]
     if rational:
         parts.append((s, -(s_force * s_bottom + t_force * t_bottom), t))
-    return sum(np.matmul(np.matmul(np.ascontiguousarray(one.T), force), other) for one, force, other in parts)
+    return sum(
+        np.matmul(np.matmul(np.ascontiguousarray(s_table.T), force), t_table) for s_table, force, t_table in parts
+    )
 
 
 def sheet_moments(
@@ -229,11 +241,11 @@ def sheet_moments(
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
     parts = list(cells_of(patches, about))
     unit = (max(part.reach for part in parts) + max(abs(inner), abs(outer))) ** _degrees(order)
-    nodes, steps = gauss(ceil((order + 3) / 2))
+    nodes, steps = gauss_legendre(ceil((order + 3) / 2))
     heights, steps = inner + (outer - inner) * nodes, (outer - inner) * steps
 
-    def sheet(cells: Cells, rule: Rule) -> NDArray:
-        (s, along, across, *second), weights = cells.at(rule, 2)
+    def sheet(cells: BezierCells, rule: Rule) -> NDArray:
+        (s, along, across, *second), weights = cells.evaluate(rule, 2)
         normal = np.stack(cross(along, across))
         length = _length(normal)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -246,20 +258,20 @@ def sheet_moments(
         # (1 - k h) and (1 - k' h), k and k' the curvatures, must both be positive: their product, and their sum too.
         bend = dot(np.stack(cross(along, turning[1])) + np.stack(cross(turning[0], across)), unit)
         for height in (inner, outer):
-            product = _stretch(along, across, turning, unit, height)
+            product = _offset_jacobian(along, across, turning, unit, height)
             if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
                 raise MeasureError("wall_thicker_than_curvature")
-        rows = 0.0
+        terms = 0.0
         for height, step in zip(heights, steps):
-            element = step * _stretch(along, across, turning, unit, height)
-            rows = rows + weighted_monomials(s + height * unit, element, order, 1)
-        rows[-1] = length * (outer - inner)
-        return summed(rows, weights)
+            element = step * _offset_jacobian(along, across, turning, unit, height)
+            terms = terms + weighted_monomials(s + height * unit, element, order, 1)
+        terms[-1] = length * (outer - inner)
+        return sum_over_points(terms, weights)
 
-    found = adaptive(parts, sheet, unit, AREA_TOLERANCE, thickness=outer - inner)
+    integral = integrate_adaptively(parts, sheet, unit, AREA_RTOL, thickness=outer - inner)
     orders = max(sum(part.orders) for part in parts)
-    error = (found.estimate + ROUNDING * U * orders * found.size) * unit
-    return Moments(found.values, about, Measure.VOLUME, error), found.settled
+    error = (integral.estimate + ROUNDING * U * orders * integral.size) * unit
+    return Moments(integral.values, about, Measure.VOLUME, error), integral.converged
 
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
@@ -267,9 +279,9 @@ def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
     the weights are the same, by a fixed rule along others."""
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
-        s, t = ((max(1, order - 1) if same else RULES[0],) for order, same in zip(cells.orders, cells.steady))
-        (_, along, across), weights = cells.at((s, t))
-        total += summed(np.stack(cross(along, across)), weights)[0].sum(axis=1)
+        s, t = ((max(1, order - 1) if same else RULES[0],) for order, same in zip(cells.orders, cells.constant_weights))
+        (_, along, across), weights = cells.evaluate((s, t))
+        total += sum_over_points(np.stack(cross(along, across)), weights)[0].sum(axis=1)
     return total
 
 
@@ -278,8 +290,8 @@ def exact_points(order: int, degree: int) -> int:
     return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
 
 
-def adaptive(
-    cells: Sequence[Cells],
+def integrate_adaptively(
+    cells: Sequence[BezierCells],
     integrand: Integrand,
     unit: NDArray,
     tolerance: float,
@@ -295,32 +307,42 @@ def adaptive(
     A cell is settled when two rules agree to the tolerance of its own scale, or of its share of the whole one.
     """
     k = len(unit)
-    values, estimate, lost, most = np.zeros(k), 0.0, 0.0, np.maximum(unit, TINY)[:, None]
-    points, enough = (RULES, MOST_POINTS) if tolerance < AREA_TOLERANCE else (COARSE_RULES, MOST_POINTS // 2)
+    values, estimate, lost, most = np.zeros(k), 0.0, 0.0, np.maximum(unit, MIN_DIVISOR)[:, None]
+    points, enough = (RULES, MAX_POINTS) if tolerance < AREA_RTOL else (COARSE_RULES, MAX_POINTS // 2)
     work = [(part, None, 0) for part in cells]
     whole, count, spent, settled, depth = 0.0, sum(map(len, cells)), 0, True, 0
-    at_stake = thickness * sum(float(_unseen(part, STEEP[0]).sum()) for part in cells)
+    at_stake = thickness * sum(float(_undersampled_areas(part, MAX_WEIGHT_RATIOS[0]).sum()) for part in cells)
     while work:
         waiting, compared = [], []
         for part, coarse, level in work:
-            rules = _rules(part.orders, part.steady, points[level : level + 2], degree)
-            found = [row for rule in (rules if coarse is None else rules[-1:]) for row in blocks(part, rule, integrand)]
+            rules = _rules(part.orders, part.constant_weights, points[level : level + 2], degree)
+            estimates = [
+                row
+                for rule in (rules if coarse is None else rules[-1:])
+                for row in integrand_in_blocks(part, rule, integrand)
+            ]
             spent += len(part) * sum(number**2 for number in points[level + (coarse is not None) : level + 2])
-            compared.append((part, found[0] if coarse is None else coarse, found[-1], level))
+            compared.append((part, estimates[0] if coarse is None else coarse, estimates[-1], level))
         whole = whole or sum(float(np.add.reduce(fine[k])) for _, _, fine, _ in compared)
-        last = spent > enough or depth >= DEEPEST
+        last = spent > enough or depth >= MAX_DEPTH
         for part, coarse, fine, level in compared:
             # The worst of all moments stands for each: one may agree by chance.
             differ = np.maximum.reduce(np.abs(fine[:k] - coarse[:k]) / most)
             kinks = fine[k + 1] if len(fine) > k + 1 else 0.0
-            steep = thickness * _unseen(part, STEEP[1])
+            steep = thickness * _undersampled_areas(part, MAX_WEIGHT_RATIOS[1])
             differ += kinks
             good = differ + steep <= tolerance * np.maximum(fine[k], whole / count)
             if last or good.all():
                 settled &= not last or bool(good.all())
-                lost += thickness * float(_unseen(part[~good], STEEP[0]).sum()) if last and at_stake else 0.0
+                lost += (
+                    thickness * float(_undersampled_areas(part[~good], MAX_WEIGHT_RATIOS[0]).sum())
+                    if last and at_stake
+                    else 0.0
+                )
                 values += np.add.reduce(fine[:k], axis=1)
-                estimate += float(np.add.reduce(differ)) + (UNSETTLED - 1.0) * float(np.add.reduce(differ[~good]))
+                estimate += float(np.add.reduce(differ)) + (UNCONVERGED_FACTOR - 1.0) * float(
+                    np.add.reduce(differ[~good])
+                )
                 continue
             values += np.add.reduce(fine[:k, good], axis=1)
             estimate += float(np.add.reduce(differ[good]))
@@ -336,16 +358,16 @@ def adaptive(
     return Integral(values, estimate + min(lost, at_stake), whole, settled)
 
 
-def _unseen(cells: Cells, steep: float) -> NDArray[np.float64]:
+def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
     """(c,) the area that may lie between the points of all rules: of cells whose weights differ by more than that
     factor, so that all but a rim of them is drawn to a point, the squared diagonal of their control points' box."""
     lost = np.zeros(len(cells))
     if len(cells.net) == 4:
         weights = cells.net[3]
-        rows = np.flatnonzero(weights.max(axis=(0, 2)) > steep * weights.min(axis=(0, 2)))
-        if len(rows):
-            places = cells.net[:3, :, rows] / cells.net[3:, :, rows]
-            lost[rows] = (np.ptp(places, axis=(1, 3)) ** 2).sum(axis=0)
+        steep_cells = np.flatnonzero(weights.max(axis=(0, 2)) > steep * weights.min(axis=(0, 2)))
+        if len(steep_cells):
+            points = cells.net[:3, :, steep_cells] / cells.net[3:, :, steep_cells]
+            lost[steep_cells] = (np.ptp(points, axis=(1, 3)) ** 2).sum(axis=0)
     return lost
 
 
@@ -369,9 +391,9 @@ def _rules(
     return (coarse[:1], coarse[1:]), (fine[:1], fine[1:])
 
 
-def blocks(cells: Cells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
+def integrand_in_blocks(cells: BezierCells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
     """(rules, K, c) an integrand of many cells, some at a time."""
-    step = max(1, BLOCK // (sum(rule[0]) * sum(rule[1])))
+    step = max(1, POINTS_PER_BLOCK // (sum(rule[0]) * sum(rule[1])))
     if len(cells) <= step:
         return integrand(cells, rule)
     return np.concatenate(
@@ -382,30 +404,30 @@ def blocks(cells: Cells, rule: Rule, integrand: Integrand) -> NDArray[np.float64
 def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
     """(K + more, ...) the density times the monomials of points (3, ...), in the order of `monomials`, and rows of
     zeros to be filled."""
-    rows = np.empty((monomial_count(order) + more, *density.shape))
-    rows[monomial_count(order) :] = 0.0
-    rows[0] = density
+    terms = np.empty((monomial_count(order) + more, *density.shape))
+    terms[monomial_count(order) :] = 0.0
+    terms[0] = density
     if order:
-        np.multiply(place, density, out=rows[1:4])
+        np.multiply(place, density, out=terms[1:4])
     start = 1
     for degree in range(1, order):
         end = monomial_count(degree)
         onward = 2 * end - start
-        np.multiply(place[0], rows[start:end], out=rows[end:onward])
-        np.multiply(place[1], rows[end - degree - 1 : end], out=rows[onward : onward + degree + 1])
-        np.multiply(place[2], rows[end - 1], out=rows[onward + degree + 1])
+        np.multiply(place[0], terms[start:end], out=terms[end:onward])
+        np.multiply(place[1], terms[end - degree - 1 : end], out=terms[onward : onward + degree + 1])
+        np.multiply(place[2], terms[end - 1], out=terms[onward + degree + 1])
         start = end
-    return rows
+    return terms
 
 
-def summed(rows: NDArray, weights: Weights) -> NDArray[np.float64]:
+def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
     """(rules, K, c) the sums of (K, m, c, n) over the points of each cell, by weights (m, rules) and (n, rules), of
     which one has one column."""
-    count, m, c, n = rows.shape
-    one, other = weights
-    half = (rows.reshape(-1, n) @ other).reshape(count, m, -1)
-    found = np.matmul(one.T, half).reshape(count, one.shape[1], c, -1)
-    return found.transpose(1, 3, 0, 2).reshape(-1, count, c)
+    count, m, c, n = terms.shape
+    s_weights, t_weights = weights
+    half = (terms.reshape(-1, n) @ t_weights).reshape(count, m, -1)
+    sums = np.matmul(s_weights.T, half).reshape(count, s_weights.shape[1], c, -1)
+    return sums.transpose(1, 3, 0, 2).reshape(-1, count, c)
 
 
 @lru_cache
@@ -426,6 +448,6 @@ def _tangent(a: NDArray, unit: NDArray) -> NDArray[np.float64]:
     return a - dot(a, unit) * unit
 
 
-def _stretch(along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float) -> NDArray:
+def _offset_jacobian(along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float) -> NDArray:
     """The jacobian of the sheet at a height: |S_s x S_t| (1 - 2 H h + K h²), by the offset surface's derivatives."""
     return dot(cross(along + height * turning[0], across + height * turning[1]), unit)

@@ -21,22 +21,22 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.boxes import overlapping_boxes
+from ..mesh.boxes import overlapping_box_pairs
 from ..numerics.arrays import following_pairs
-from ..numerics.bspline import Space, clamped
-from ..numerics.graph import components
+from ..numerics.bspline import SplineSpace, clamped_space
+from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
 from .curve import Curve
 from .patch import Patch
 from .patch_moments import vector_area
-from .planar_region import crosses_itself
+from .planar_region import self_intersects
 
-SAMPLES = 33  # points at least by which sides are compared
-BLOCK = 4096  # pairs of sides compared at a time
-PIECE = 1 << 20  # pairs of sides looked at together
-FOLDED = 1e-3  # radians: patches that lie on each other
-MOST_CHORDS = 4096  # of a rim that is asked whether it crosses itself
-MOST_PAIRS = 100_000  # of closed sides, compared point by point
+SAMPLES_PER_SIDE = 33  # points at least by which sides are compared
+PAIRS_PER_BLOCK = 4096  # pairs of sides compared at a time
+PAIRS_PER_BATCH = 1 << 20  # pairs of sides looked at together
+FOLDED_ANGLE = 1e-3  # radians: patches that lie on each other
+MAX_CHORDS = 4096  # of a rim that is asked whether it crosses itself
+MAX_SIDE_PAIRS = 100_000  # of closed sides, compared point by point
 SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held, end, run forward), counter-clockwise
 
 
@@ -50,120 +50,131 @@ class Side:
 
 
 @dataclass(frozen=True, eq=False)
-class Loop:
+class BoundaryLoop:
     """Open sides that run round a hole. caps: the patches that close it and face as theirs do. patch: one of theirs.
-    flat: whether it lies in a plane; out_of_plane: by how much it does not. slim: whether it has no area, so that it
-    is closed already. area: of the cap, an estimate. crossing: whether it is flat and crosses itself."""
+    is_planar: whether it lies in a plane; out_of_plane: by how much it does not. zero_area: whether it has no area, so
+    that it is closed already. area: of the cap, an estimate. self_intersecting: whether it is flat and crosses
+    itself."""
 
     caps: tuple[Patch, ...]
     patch: int
-    flat: bool
-    slim: bool
+    is_planar: bool
+    zero_area: bool
     area: float
     out_of_plane: float
-    crossing: bool
+    self_intersecting: bool
 
 
 @dataclass(frozen=True, eq=False)
-class Closure:
-    """component: (n,) of each patch; number: of them. turned: (n,) which patches face against the first of theirs.
-    loops: the holes. open_sides, crowded, against: how many sides lie open, coincide with more than one other, or run
-    the same way as the side that they coincide with, before anything was turned. gap: the largest distance, times the
-    length, of sides that coincide. seams: (k, 2) sides that are joined, four to a patch in the order of `SIDES`.
-    broken: (number,) components whose sides can be joined to no loops, or that have one side only.
+class PatchTopology:
+    """component: (n,) of each patch; number: of them. flipped: (n,) which patches face against the first of theirs.
+    loops: the holes. open_sides, non_manifold_sides, misoriented_sides: how many sides lie open, coincide with more
+    than one other, or run the same way as the side that they coincide with, before anything was turned. seam_gap: the
+    largest distance, times the length, of sides that coincide. seams: (k, 2) sides that are joined, four to a patch in
+    the order of `SIDES`.
+    unclosable: (number,) components whose sides can be joined to no loops, or that have one side only.
     """
 
     component: NDArray[np.intp]
     number: int
-    turned: NDArray[np.bool_]
-    loops: tuple[Loop, ...]
+    flipped: NDArray[np.bool_]
+    loops: tuple[BoundaryLoop, ...]
     open_sides: int
-    crowded: int
-    against: int
-    gap: float
+    non_manifold_sides: int
+    misoriented_sides: int
+    seam_gap: float
     seams: NDArray[np.intp]
-    broken: NDArray[np.bool_]
+    unclosable: NDArray[np.bool_]
 
 
-def close_patches(patches: Sequence[Patch], tolerance: float) -> Closure:
+def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
     """Find out how patches close. tolerance: the distance within which points are the same.
 
     MeasureError where knots may tear one: what gapes within a patch is no side of it.
     """
-    if any(space.is_torn for patch in patches for space in patch.spaces):
+    if any(space.is_discontinuous for patch in patches for space in patch.spaces):
         raise MeasureError("discontinuous_patch")
     sides = [Side(i, patch.side(axis, end), forward) for i, patch in enumerate(patches) for axis, end, forward in SIDES]
-    count = max([SAMPLES] + [2 * len(side.curve.space.spans) + 1 for side in sides])
-    points = np.array([side.curve.combined(_evenly(side.curve.space, count)) for side in sides])
+    count = max([SAMPLES_PER_SIDE] + [2 * len(side.curve.space.spans) + 1 for side in sides])
+    points = np.array([side.curve.apply_weights(_uniform_table(side.curve.space, count)) for side in sides])
     length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
     wide = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
     owner = np.array([side.patch for side in sides])
     forward = np.array([side.forward for side in sides])
-    left, right, same, gap, crowded = _paired(
-        _matched(sides, points, np.flatnonzero(wide), tolerance), points, owner, forward
+    left, right, same, gap, non_manifold_sides = _pair_sides(
+        _coincident_sides(sides, points, np.flatnonzero(wide), tolerance), points, owner, forward
     )
 
     # Two sides fit where one runs against the other; else one of their patches must turn.
-    against = same == (forward[left] == forward[right])
-    component, number = components(len(patches), owner[left], owner[right])
-    turned, conflict = _turned(len(patches), owner[left], owner[right], against)
-    broken = np.zeros(number, bool)
-    broken[component[conflict]] = True
+    misoriented = same == (forward[left] == forward[right])
+    component, number = connected_components(len(patches), owner[left], owner[right])
+    flipped, conflict = _orient_patches(len(patches), owner[left], owner[right], misoriented)
+    unclosable = np.zeros(number, bool)
+    unclosable[component[conflict]] = True
 
     free = wide.copy()
     free[left] = free[right] = False
     loops = []
-    for rows, complete in _loops(points, np.flatnonzero(free), forward ^ turned[owner], tolerance):
+    for loop_sides, complete in _find_loops(points, np.flatnonzero(free), forward ^ flipped[owner], tolerance):
         if not complete:
-            broken[component[owner[rows]]] = True
+            unclosable[component[owner[loop_sides]]] = True
             continue
-        loops.append(_capped([sides[k] for k in rows], points[rows], (forward ^ turned[owner])[rows], tolerance))
-    return Closure(
+        loops.append(
+            _cap_loop(
+                [sides[k] for k in loop_sides], points[loop_sides], (forward ^ flipped[owner])[loop_sides], tolerance
+            )
+        )
+    return PatchTopology(
         component,
         number,
-        turned,
+        flipped,
         tuple(loops),
         int(free.sum()),
-        crowded,
-        int(against.sum()),
+        non_manifold_sides,
+        int(misoriented.sum()),
         float((gap * length[left]).sum()),
         np.stack([left, right], axis=1),
-        broken,
+        unclosable,
     )
 
 
 @lru_cache(maxsize=64)
-def _evenly(space: Space, count: int) -> NDArray[np.float64]:
+def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
     """What control points weigh at equal steps of the domain; not to be written to."""
     low, high = space.domain
-    return space.matrix(low + (high - low) * np.linspace(0.0, 1.0, count))
+    return space.collocation_matrix(low + (high - low) * np.linspace(0.0, 1.0, count))
 
 
-def _matched(
+def _coincident_sides(
     sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
     """Pairs of sides that coincide, the nearest first: how far they are apart, which, and whether their curves run the
     same way."""
     middle = points.shape[1] // 2
-    rows = points[wide]
-    first, last = rows[:, 0], rows[:, -1]
-    pairs = _near(np.concatenate([first + last, 2.0 * rows[:, middle]], axis=1), 2.0 * tolerance)
-    found = list(_apart(points, *(wide[k] for k in pairs), tolerance))
+    side_points = points[wide]
+    first, last = side_points[:, 0], side_points[:, -1]
+    pairs = _close_pairs(np.concatenate([first + last, 2.0 * side_points[:, middle]], axis=1), 2.0 * tolerance)
+    coincident = list(_distance_between(points, *(wide[k] for k in pairs), tolerance))
     loose = np.ones(len(points), bool)
-    loose[[side for _, i, j, _ in found for side in (i, j)]] = False
+    loose[[side for _, i, j, _ in coincident for side in (i, j)]] = False
     # The same curve by other parameters: between the same ends, or without ends.
     ring = np.linalg.norm(last - first, axis=1) <= 2.0 * tolerance
     arcs, rings = np.flatnonzero(loose[wide] & ~ring), np.flatnonzero(loose[wide] & ring)
-    ends = _near(np.concatenate([first + last, np.abs(first - last)], axis=1)[arcs], 2.0 * tolerance)
-    boxes = overlapping_boxes(rows[rings].min(axis=1), rows[rings].max(axis=1), -tolerance, MOST_PAIRS)[:2]
+    ends = _close_pairs(np.concatenate([first + last, np.abs(first - last)], axis=1)[arcs], 2.0 * tolerance)
+    boxes = overlapping_box_pairs(
+        side_points[rings].min(axis=1), side_points[rings].max(axis=1), -tolerance, MAX_SIDE_PAIRS
+    )[:2]
     candidates = np.concatenate([arcs[np.stack(ends)], np.sort(rings[np.stack(boxes)], axis=0)], axis=1)
     for i, j in wide[candidates.T].tolist():
-        found += _astride(sides[i].curve, sides[j].curve, points[i], points[j], i, j, tolerance)
-    return sorted(found)
+        coincident += _overlapping_sides(sides[i].curve, sides[j].curve, points[i], points[j], i, j, tolerance)
+    return sorted(coincident)
 
 
-def _paired(
-    found: Sequence[tuple[float, int, int, bool]], points: NDArray, owner: NDArray[np.intp], forward: NDArray[np.bool_]
+def _pair_sides(
+    coincident: Sequence[tuple[float, int, int, bool]],
+    points: NDArray,
+    owner: NDArray[np.intp],
+    forward: NDArray[np.bool_],
 ) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
     """Which of the sides that coincide are joined: (k,) and (k,), whether their curves run the same way, how far they
     are apart, and the number of sides that coincide with more than one other.
@@ -172,7 +183,7 @@ def _paired(
     sides, then a patch by itself to what it fits as it faces, then whatever fits as it faces: so no patch is turned
     that need not be. Of equal ones the sharpest angle comes first, patches that lie on each other after all others.
     """
-    times = np.bincount(np.array([side for _, i, j, _ in found for side in (i, j)], np.intp), minlength=len(owner))
+    times = np.bincount(np.array([side for _, i, j, _ in coincident for side in (i, j)], np.intp), minlength=len(owner))
     part, odd, size = list(range(len(owner))), [False] * len(owner), [1] * len(owner)
 
     def root(patch: int) -> tuple[int, bool]:
@@ -194,10 +205,10 @@ def _paired(
         (a, turn), (b, other) = root(int(owner[i])), root(int(owner[j]))
         flip = same == (forward[i] == forward[j])
         if a == b:
-            found = 0 if flip == turn ^ other else 4
+            rank_found = 0 if flip == turn ^ other else 4
         else:
-            found = 3 if flip else 1 if (size[a] == 1) != (size[b] == 1) else 2
-        return max(found, 3) if angle(pair) < FOLDED else found
+            rank_found = 3 if flip else 1 if (size[a] == 1) != (size[b] == 1) else 2
+        return max(rank_found, 3) if angle(pair) < FOLDED_ANGLE else rank_found
 
     def join(pair: tuple[float, int, int, bool]) -> None:
         _, i, j, same = pair
@@ -209,19 +220,19 @@ def _paired(
         used[[i, j]] = True
         pairs.append(pair)
 
-    crowds = [pair for pair in found if max(times[pair[1]], times[pair[2]]) > 1]
-    for pair in found:
+    crowds = [pair for pair in coincident if max(times[pair[1]], times[pair[2]]) > 1]
+    for pair in coincident:
         if times[pair[1]] == times[pair[2]] == 1:
             join(pair)
-    crowd, number = components(len(owner), *(np.array([pair[k] for pair in crowds], np.intp) for k in (1, 2)))
+    crowd, number = connected_components(len(owner), *(np.array([pair[k] for pair in crowds], np.intp) for k in (1, 2)))
     together: dict[int, list] = {}
     for pair in crowds:
         together.setdefault(int(crowd[pair[1]]), []).append(pair)
     for meeting in together.values():
         meeting.sort(key=lambda pair: (round(angle(pair), 3), pair))
-        for wanted in range(5):
+        for priority in range(5):
             for pair in meeting:
-                if not (used[pair[1]] or used[pair[2]]) and rank(pair) <= wanted:
+                if not (used[pair[1]] or used[pair[2]]) and rank(pair) <= priority:
                     join(pair)
     left, right, same, gap = (
         (np.array(column) for column in zip(*((i, j, same, gap) for gap, i, j, same in pairs)))
@@ -231,7 +242,7 @@ def _paired(
     return left.astype(np.intp), right.astype(np.intp), same.astype(bool), gap, int((times > 1).sum())
 
 
-def _near(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Pairs of rows i < j of (n, d) that differ by no more than a limit in any column: their projections on a line that
     is parallel to nothing are neighbours."""
     if not len(keys):
@@ -243,33 +254,36 @@ def _near(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.int
     line = line[order]
     count = np.searchsorted(line, line + (limit * slope.sum() + 1e-12 * np.abs(line).max()), side="right")
     count -= np.arange(1, len(line) + 1)
-    found = []
-    for i, j in following_pairs(order, count, PIECE):
+    pairs = []
+    for i, j in following_pairs(order, count, PAIRS_PER_BATCH):
         near = (np.abs(keys[i] - keys[j]) <= limit).all(axis=1)
-        found.append(np.sort([i[near], j[near]], axis=0))
-    return tuple(np.concatenate([np.empty((2, 0), np.intp), *found], axis=1))
+        pairs.append(np.sort([i[near], j[near]], axis=0))
+    return tuple(np.concatenate([np.empty((2, 0), np.intp), *pairs], axis=1))
 
 
-def _apart(points: NDArray, left: NDArray, right: NDArray, tolerance: float) -> Iterator[tuple[float, int, int, bool]]:
+def _distance_between(
+    points: NDArray, left: NDArray, right: NDArray, tolerance: float
+) -> Iterator[tuple[float, int, int, bool]]:
     """Which pairs of sides agree parameter by parameter: their distance, which, whether they run the same way."""
-    for start in range(0, len(left), BLOCK):
-        i, j = left[start : start + BLOCK], right[start : start + BLOCK]
-        against, along = (
-            np.linalg.norm(points[i] - other, axis=2).max(axis=1) for other in (points[j][:, ::-1], points[j])
+    for start in range(0, len(left), PAIRS_PER_BLOCK):
+        i, j = left[start : start + PAIRS_PER_BLOCK], right[start : start + PAIRS_PER_BLOCK]
+        reversed_distance, forward_distance = (
+            np.linalg.norm(points[i] - other_points, axis=2).max(axis=1)
+            for other_points in (points[j][:, ::-1], points[j])
         )
         for same, gap, fits in (
-            (False, against, against <= tolerance),
-            (True, along, (along <= tolerance) & (against > tolerance)),
+            (False, reversed_distance, reversed_distance <= tolerance),
+            (True, forward_distance, (forward_distance <= tolerance) & (reversed_distance > tolerance)),
         ):
             yield from zip(gap[fits].tolist(), i[fits].tolist(), j[fits].tolist(), [same] * int(fits.sum()))
 
 
-def _astride(
-    one: Curve, other: Curve, at_one: NDArray, at_other: NDArray, i: int, j: int, tolerance: float
+def _overlapping_sides(
+    first: Curve, second: Curve, first_points: NDArray, second_points: NDArray, i: int, j: int, tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
     """Whether two curves coincide whatever their parameters are: every point of each is on the other one."""
     gaps, ways = [], []
-    for curve, samples, points in ((other, at_other, at_one), (one, at_one, at_other)):
+    for curve, samples, points in ((second, second_points, first_points), (first, first_points, second_points)):
         gap, way = _nearest(curve, samples, points, tolerance)
         gaps.append(gap)
         ways.append(way)
@@ -287,63 +301,65 @@ def _nearest(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) 
     for _ in range(12):
         slope = curve.velocity(t)
         square = (slope**2).sum(axis=1)
-        step = ((points - curve.at(t)) * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0)
+        step = ((points - curve.evaluate(t)) * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0)
         t = t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0])
         t = low + (t - low) % (high - low) if closed else np.clip(t, low, high)
-    gap = float(np.linalg.norm(points - curve.at(t), axis=1).max())
+    gap = float(np.linalg.norm(points - curve.evaluate(t), axis=1).max())
     return gap, float((np.diff(points, axis=0) * curve.velocity(t[:-1])).sum())
 
 
-def _turned(count: int, left: NDArray, right: NDArray, against: NDArray) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+def _orient_patches(
+    count: int, left: NDArray, right: NDArray, misoriented: NDArray
+) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
     """Which patches must turn to face as the first of their component, and those that cannot."""
     neighbours: list[list[tuple[int, bool]]] = [[] for _ in range(count)]
-    for i, j, flip in zip(left.tolist(), right.tolist(), against.tolist()):
+    for i, j, flip in zip(left.tolist(), right.tolist(), misoriented.tolist()):
         neighbours[i].append((j, flip))
         neighbours[j].append((i, flip))
-    turned, seen, conflict = np.zeros(count, bool), np.zeros(count, bool), []
+    flipped, visited, conflict = np.zeros(count, bool), np.zeros(count, bool), []
     for first in range(count):
-        pending = [] if seen[first] else [first]
-        seen[first] = True
+        pending = [] if visited[first] else [first]
+        visited[first] = True
         while pending:
             i = pending.pop()
             for j, flip in neighbours[i]:
-                if not seen[j]:
-                    turned[j], seen[j] = turned[i] ^ flip, True
+                if not visited[j]:
+                    flipped[j], visited[j] = flipped[i] ^ flip, True
                     pending.append(j)
-                elif turned[j] != turned[i] ^ flip:
+                elif flipped[j] != flipped[i] ^ flip:
                     conflict.append(i)
-    return turned, np.array(conflict, np.intp)
+    return flipped, np.array(conflict, np.intp)
 
 
-def _loops(
+def _find_loops(
     points: NDArray, free: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
 ) -> list[tuple[list[int], bool]]:
     """Open sides in turn, each set with whether it ends where it began."""
     ahead = forward[free]
-    begin, end = (points[free, np.where(ahead, one, other)] for one, other in ((0, -1), (-1, 0)))
-    i, j = _near(np.concatenate([begin, end]), 2.0 * tolerance)
+    begin, end = (points[free, np.where(ahead, source, target)] for source, target in ((0, -1), (-1, 0)))
+    i, j = _close_pairs(np.concatenate([begin, end]), 2.0 * tolerance)
     count = len(free)
     i, j = np.concatenate([i, j]), np.concatenate([j, i])  # both ways
     meet = (i >= count) & (j < count)
     i, j = i[meet] - count, j[meet]
     close = np.linalg.norm(end[i] - begin[j], axis=1) <= 2.0 * tolerance
     onward: list[list[int]] = [[] for _ in range(count)]
-    for one, other in sorted(zip(i[close].tolist(), j[close].tolist())):
-        onward[one].append(other)
-    found, used = [], np.zeros(count, bool)
+    for source, target in sorted(zip(i[close].tolist(), j[close].tolist())):
+        onward[source].append(target)
+    loops, used = [], np.zeros(count, bool)
     for first in range(count):
-        rows = [] if used[first] else [first]
-        while rows:
-            used[rows[-1]] = True
-            after = [k for k in onward[rows[-1]] if not used[k]]
-            if first in onward[rows[-1]] or not after:
-                found.append((free[rows].tolist(), first in onward[rows[-1]]))
+        path = [] if used[first] else [first]
+        while path:
+            used[path[-1]] = True
+            after = [k for k in onward[path[-1]] if not used[k]]
+            if first in onward[path[-1]] or not after:
+                loops.append((free[path].tolist(), first in onward[path[-1]]))
                 break
-            rows.append(after[0])
-    return found
+            path.append(after[0])
+    return loops
 
 
-def _capped(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_], tolerance: float) -> Loop:
+def _cap_loop(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_], tolerance: float) -> BoundaryLoop:
     """The cone from a loop's centroid."""
     run = np.concatenate([row if ahead else row[::-1] for row, ahead in zip(points, forward)])
     steps = np.diff(np.concatenate([run, run[:1]]), axis=0)
@@ -358,10 +374,10 @@ def _capped(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_], 
         curve = side.curve
         ends = (np.broadcast_to(center, curve.points.shape), curve.points)[:: 1 if ahead else -1]
         weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
-        caps.append(Patch((curve.space, clamped(2)), np.stack(ends, axis=1), weights))
+        caps.append(Patch((curve.space, clamped_space(2)), np.stack(ends, axis=1), weights))
     flat = off <= tolerance
     # A way there and back has no net area; of a loop in space only its cone's area tells.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width
     slim = area <= tolerance * weigh.sum()
-    crossing = flat and not slim and len(arms) <= MOST_CHORDS and crosses_itself(arms @ axes[:2].T, tolerance)
-    return Loop(tuple(caps), sides[0].patch, flat, slim, area, off, crossing)
+    crossing = flat and not slim and len(arms) <= MAX_CHORDS and self_intersects(arms @ axes[:2].T, tolerance)
+    return BoundaryLoop(tuple(caps), sides[0].patch, flat, slim, area, off, crossing)

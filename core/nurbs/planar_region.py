@@ -10,16 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import MeasureError
-from ..verdict.tolerances import TOLERANCE
+from ..verdict.tolerances import WELDING_RTOL
 from .curve import Curve
 from .curve_moments import curves_center
 
-EACH = 16, 64, 256  # samples of a span: more where what fewer make seems to cross
-MOST_CHORDS = 8192  # of the finer ones
-MOST_PAIRS = 4_000_000  # of chords compared at a time
+SAMPLES_PER_SPAN = 16, 64, 256  # samples of a span: more where what fewer make seems to cross
+MAX_CHORDS = 8192  # of the finer ones
+MAX_CHORD_PAIRS = 4_000_000  # of chords compared at a time
 
 
-def plane_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], NDArray[np.float64]]:
+def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], NDArray[np.float64]]:
     """The curves, outer ones counter-clockwise about the normal and holes clockwise, and the unit normal (3,).
 
     stored: by how much storing their points may have moved them.
@@ -29,10 +29,10 @@ def plane_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cur
     """
     center = curves_center(curves)
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)
-    tolerance = 4.0 * (TOLERANCE * size + stored + 2.0**-52 * float(np.abs(center).max()))
-    loops = [curve.samples(EACH[0]) for curve in curves]
+    tolerance = 4.0 * (WELDING_RTOL * size + stored + 2.0**-52 * float(np.abs(center).max()))
+    loops = [curve.samples(SAMPLES_PER_SPAN[0]) for curve in curves]
     if any(np.linalg.norm(loop[0] - loop[-1]) > tolerance for loop in loops) or any(
-        curve.space.is_torn for curve in curves
+        curve.space.is_discontinuous for curve in curves
     ):
         raise MeasureError("curve_open")
     points = np.concatenate([curve.points for curve in curves]) - center
@@ -45,28 +45,28 @@ def plane_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cur
     frame = np.stack([axes[0], np.cross(normal, axes[0])], axis=1)
 
     def polygons(each: int) -> list[NDArray]:
-        return [_apart((curve.samples(each)[:-1] - center) @ frame, tolerance) for curve in curves]
+        return [_without_repeats((curve.samples(each)[:-1] - center) @ frame, tolerance) for curve in curves]
 
-    flat = polygons(EACH[0])
+    flat = polygons(SAMPLES_PER_SPAN[0])
     if min(map(len, flat)) < 3:
         raise MeasureError("curve_too_small")
-    spans, crossing = sum(len(curve.space.spans) for curve in curves), cross(flat, tolerance)
-    for each in EACH[1:]:
-        if crossing and spans * each <= MOST_CHORDS:
+    spans, crossing = sum(len(curve.space.spans) for curve in curves), chords_cross(flat, tolerance)
+    for each in SAMPLES_PER_SPAN[1:]:
+        if crossing and spans * each <= MAX_CHORDS:
             flat = polygons(each)
-            crossing = cross(flat, tolerance)
+            crossing = chords_cross(flat, tolerance)
     if crossing:
         raise MeasureError("curves_cross")
-    found = []
+    oriented = []
     for i, (curve, loop) in enumerate(zip(curves, flat)):
-        depth = sum(_within(loop[0], other) for j, other in enumerate(flat) if j != i)
+        depth = sum(_is_inside(loop[0], outer) for j, outer in enumerate(flat) if j != i)
         following = np.roll(loop, -1, axis=0)
         area = float((loop[:, 0] * following[:, 1] - loop[:, 1] * following[:, 0]).sum())
-        found.append(curve if (area > 0.0) == (depth % 2 == 0) else curve.reversed())
-    return found, normal
+        oriented.append(curve if (area > 0.0) == (depth % 2 == 0) else curve.reverse())
+    return oriented, normal
 
 
-def _within(point: NDArray, loop: NDArray) -> bool:
+def _is_inside(point: NDArray, loop: NDArray) -> bool:
     """Whether a point is in a polygon (n, 2): the crossings of a ray along +x."""
     a, b = loop, np.roll(loop, -1, axis=0)
     upward = (a[:, 1] <= point[1]) != (b[:, 1] <= point[1])
@@ -75,24 +75,25 @@ def _within(point: NDArray, loop: NDArray) -> bool:
     return bool(np.count_nonzero(upward & (x > point[0])) % 2)
 
 
-def crosses_itself(loop: NDArray, tolerance: float) -> bool:
+def self_intersects(loop: NDArray, tolerance: float) -> bool:
     """Whether a polygon (n, 2) runs through itself, in a corner too, but does not merely touch itself."""
-    loop = _apart(loop, tolerance)
-    return cross([loop], tolerance, touch=False) or (
-        cross([loop], tolerance) and cross([(loop + np.roll(loop, 1, axis=0)) / 2.0], tolerance, touch=False)
+    loop = _without_repeats(loop, tolerance)
+    return chords_cross([loop], tolerance, touch=False) or (
+        chords_cross([loop], tolerance)
+        and chords_cross([(loop + np.roll(loop, 1, axis=0)) / 2.0], tolerance, touch=False)
     )
 
 
-def _apart(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
+def _without_repeats(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
     """A polygon without repeated points."""
     return loop[np.linalg.norm(loop - np.roll(loop, 1, axis=0), axis=1) > tolerance]
 
 
-def cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True) -> bool:
+def chords_cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True) -> bool:
     """Whether chords of polygons (n, 2) cross by more than a tolerance. touch: or corners of them coincide."""
     a = np.concatenate(loops)
     b = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
-    step = max(1, MOST_PAIRS // len(a))
+    step = max(1, MAX_CHORD_PAIRS // len(a))
     for start in range(0, len(a), step):
         p, q = a[start : start + step, None], b[start : start + step, None]
         if touch and np.count_nonzero(np.abs(p - a).max(axis=2) <= tolerance) > len(p):

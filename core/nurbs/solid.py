@@ -16,45 +16,45 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.bvh import Shells, sort_shells
+from ..mesh.bvh import SortedComponents, sort_components
 from ..moments.moments import Moments, monomials, sum_moments
-from ..solid.nesting import Relations, decide, relate
+from ..solid.nesting import ShellRelations, classify_pairs, orient_nested_shells
 from ..verdict.finding import Finding, MeasureError, finding
-from ..verdict.health import Health
-from ..verdict.tolerances import NEGLIGIBLE, NO_VOLUME, ROUNDING, TOLERANCE
+from ..verdict.health import MeshReport
+from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL, NEGLIGIBLE, WELDING_RTOL
 from .patch import Patch
 from .patch_moments import area_moments, area_slope, control_box, patches_center, sheet_moments, volume_moments
-from .patch_topology import Closure, close_patches
+from .patch_topology import PatchTopology, find_topology
 
-EACH, FINE = 8, 48  # samples of a span, for comparing parts, and where those cross
-MOST_TRIANGLES = 1_000_000  # compared where samples cross
+SAMPLES_PER_SPAN, FINE_SAMPLES_PER_SPAN = 8, 48  # samples of a span, for comparing parts, and where those cross
+MAX_TRIANGLES = 1_000_000  # compared where samples cross
 
 
 @dataclass(frozen=True, eq=False)
-class PatchMeasure:
+class PatchIntegrals:
     """volume: Moments of the body; its error is an estimate. area: Moments of the patches, without caps; an estimate.
     method: "exact", "capped", "reoriented" or "open". findings: the decisions taken.
     patches: those whose signed sum `volume` is, caps among them. signs: (n,) how each of those that were given counts:
-    1, -1, or 0 for a flat part. closure: how they close.
+    1, -1, or 0 for a flat part. topology: how they close.
     """
 
     volume: Moments
     area: Moments
-    health: Health
+    health: MeshReport
     method: str
     findings: tuple[Finding, ...]
     patches: tuple[Patch, ...]
     signs: NDArray[np.float64]
-    closure: Closure
+    topology: PatchTopology
 
 
 def measure_patches(
     patches: Sequence[Patch], *, order: int = 3, area_order: int = 0, stored: float = 0.0
-) -> PatchMeasure:
+) -> PatchIntegrals:
     """The moments of the body that patches bound, in their own coordinates and unit.
 
     order: of the volume's moments; area_order: of the area's. stored: by how much storing the control points may have
-    moved each, for the moments' `input`. MeasureError where there is nothing to measure.
+    moved each, for the moments' `input_error`. MeasureError where there is nothing to measure.
     """
     if not patches:
         raise MeasureError("no_patches")
@@ -62,66 +62,68 @@ def measure_patches(
     if not size > 0.0:
         raise MeasureError("no_extent")
     about = patches_center(patches)
-    closure = close_patches(patches, max(TOLERANCE * size, 4.0 * stored))
+    topology = find_topology(patches, max(WELDING_RTOL * size, 4.0 * stored))
     area, settled = area_moments(patches, area_order, about)
     findings = () if settled else (finding("area_error_estimate_large"),)
-    parts = parts_of(patches, closure)
+    parts = oriented_parts(patches, topology)
     measured = [volume_moments(part, order, about) for part in parts]
-    return judged(patches, closure, parts, measured, area, area_slope(patches), stored, findings)
+    return assess(patches, topology, parts, measured, area, area_slope(patches), stored, findings)
 
 
-def parts_of(patches: Sequence[Patch], closure: Closure) -> list[list[Patch]]:
+def oriented_parts(patches: Sequence[Patch], topology: PatchTopology) -> list[list[Patch]]:
     """The patches of each component, facing the same way, with the caps of its holes."""
-    parts: list[list[Patch]] = [[] for _ in range(closure.number)]
-    for patch, turn, own in zip(patches, closure.turned, closure.component):
-        parts[own].append(patch.turned() if turn else patch)
-    for loop in closure.loops:
-        parts[closure.component[loop.patch]] += loop.caps
+    parts: list[list[Patch]] = [[] for _ in range(topology.number)]
+    for patch, turn, part in zip(patches, topology.flipped, topology.component):
+        parts[part].append(patch.reverse_orientation() if turn else patch)
+    for loop in topology.loops:
+        parts[topology.component[loop.patch]] += loop.caps
     return parts
 
 
-def judged(
+def assess(
     patches: Sequence[Patch],
-    closure: Closure,
+    topology: PatchTopology,
     parts: Sequence[list[Patch]],
     measured: Sequence[tuple[Moments, bool]],
     area: Moments,
     slope: float,
     stored: float,
     findings: Sequence[Finding] = (),
-) -> PatchMeasure:
+) -> PatchIntegrals:
     """What the moments of parts, as they face, come to, with findings.
 
-    measured: of each of `parts_of`, as `volume_moments` gives them. area: of all patches; slope: as `area_slope` gives
-    it. findings: further ones.
+    measured: of each of `oriented_parts`, as `volume_moments` gives them. area: of all patches; slope: as `area_slope`
+    gives it. findings: further ones.
     """
     size, findings = patches_size(patches), list(findings)
-    caps = np.zeros((closure.number, 3))
-    for loop in closure.loops:
-        if not loop.slim:
-            caps[closure.component[loop.patch]] += (loop.flat, not loop.flat, loop.area)
+    caps = np.zeros((topology.number, 3))
+    for loop in topology.loops:
+        if not loop.zero_area:
+            caps[topology.component[loop.patch]] += (loop.is_planar, not loop.is_planar, loop.area)
     capped = caps.any(axis=1)
-    noise = np.where(capped, NO_VOLUME * size + 4.0 * stored, ROUNDING * size) * area.total
+    noise = np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * stored, CLOSED_SHEET_VOLUME_RTOL * size) * area.total
     total = np.array([moments.total for moments, _ in measured])
-    solid = ~closure.broken & (np.abs(total) > noise)
-    turn, compared = _compared(parts, total, solid, max(TOLERANCE * size, 4.0 * stored))
-    kept = solid if solid.any() else closure.broken
-    volumes = [moments * (-1.0 if flip else 1.0) for (moments, _), flip, keep in zip(measured, turn, kept) if keep]
-    if not all(fine for (_, fine), keep in zip(measured, kept) if keep):
+    solid = ~topology.unclosable & (np.abs(total) > noise)
+    turn, compared = _compare_parts(parts, total, solid, max(WELDING_RTOL * size, 4.0 * stored))
+    counted_parts = solid if solid.any() else topology.unclosable
+    volumes = [
+        moments * (-1.0 if flip else 1.0) for (moments, _), flip, keep in zip(measured, turn, counted_parts) if keep
+    ]
+    if not all(fine for (_, fine), keep in zip(measured, counted_parts) if keep):
         findings.append(finding("volume_error_estimate_large"))
     volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
-    is_open = bool(closure.broken.any() or not solid.any())
+    is_open = bool(topology.unclosable.any() or not solid.any())
     if is_open and volume.total < 0.0:
         volume = replace(volume, raw=-volume.raw)
     reach = size + 4.0 * stored
     # caps move with their rims
-    skin = area.total + sum(loop.area for loop in closure.loops)
-    volume = replace(volume, input=_moved(volume, stored, closure.gap, skin, reach))
-    area = replace(area, input=_moved(area, stored, 0.0, slope + area.total / reach, reach))
-    mixed = _mixed(closure)
+    skin = area.total + sum(loop.area for loop in topology.loops)
+    volume = replace(volume, input_error=_input_error(volume, stored, topology.seam_gap, skin, reach))
+    area = replace(area, input_error=_input_error(area, stored, 0.0, slope + area.total / reach, reach))
+    mixed = _misoriented_count(topology)
     findings = [
-        *_orientation_findings(closure, mixed, turn),
-        *_closing_findings(closure, solid, area.total, volume.total, size),
+        *_orientation_findings(topology, mixed, turn),
+        *_closing_findings(topology, solid, area.total, volume.total, size),
         *compared["findings"],
         *findings,
     ]
@@ -129,22 +131,25 @@ def judged(
     method = (
         "open" if is_open else "capped" if capped[solid].any() else "reoriented" if mixed or turn.any() else "exact"
     )
-    health = Health(
-        closed=not (closure.broken.any() or capped.any()),
-        boundary_edges=closure.open_sides,
-        non_manifold_edges=closure.crowded,
-        inconsistent_edges=closure.against,
-        components=closure.number,
+    health = MeshReport(
+        closed=not (topology.unclosable.any() or capped.any()),
+        boundary_edges=topology.open_sides,
+        non_manifold_edges=topology.non_manifold_sides,
+        inconsistent_edges=topology.misoriented_sides,
+        components=topology.number,
         inverted_components=int(turn.sum()),
         cap_area_share=share,
         **compared["counts"],
     )
     outward = [
-        patch.turned() if flip else patch for part, flip, keep in zip(parts, turn, kept) if keep for patch in part
+        patch.reverse_orientation() if flip else patch
+        for part, flip, keep in zip(parts, turn, counted_parts)
+        if keep
+        for patch in part
     ]
-    counted = np.where(turn, -1.0, 1.0) * kept
-    signs = counted[closure.component] * np.where(closure.turned, -1.0, 1.0)
-    return PatchMeasure(volume, area, health, method, tuple(findings), tuple(outward), signs, closure)
+    counted = np.where(turn, -1.0, 1.0) * counted_parts
+    signs = counted[topology.component] * np.where(topology.flipped, -1.0, 1.0)
+    return PatchIntegrals(volume, area, health, method, tuple(findings), tuple(outward), signs, topology)
 
 
 def measure_sheet(
@@ -158,8 +163,8 @@ def measure_sheet(
     sheet, settled = sheet_moments(patches, inner, outer, 3, about)
     size = patches_size(patches)
     reach = size + max(abs(inner), abs(outer)) + 4.0 * stored
-    area = replace(area, input=_moved(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
-    sheet = replace(sheet, input=_moved(sheet, stored, 0.0, 2.0 * sheet.total / reach, reach))
+    area = replace(area, input_error=_input_error(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
+    sheet = replace(sheet, input_error=_input_error(sheet, stored, 0.0, 2.0 * sheet.total / reach, reach))
     return sheet, area, fine and settled
 
 
@@ -169,45 +174,45 @@ def patches_size(patches: Sequence[Patch]) -> float:
     return float(np.linalg.norm(high - low))
 
 
-def _moved(moments: Moments, stored: float, gap: float, area: float, reach: float) -> NDArray[np.float64]:
+def _input_error(moments: Moments, stored: float, gap: float, area: float, reach: float) -> NDArray[np.float64]:
     """(K,) what a skin moved by `stored`, and a gap of that area along seams, may change: at most the area they sweep
     times the largest value of the monomial, which is at most `reach` to its degree."""
     return (stored * area + gap) * reach ** monomials(moments.order).sum(axis=1)
 
 
-def _compared(
+def _compare_parts(
     parts: list[list[Patch]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
 ) -> tuple[NDArray[np.bool_], dict]:
     """Which parts to turn, with the counts and findings about parts in others' material."""
-    turned = solid & (total < 0.0)
+    flipped = solid & (total < 0.0)
     if len(parts) == 1 or not solid.any():
-        return turned, {"counts": {}, "findings": []}
-    shells, relations = _related(parts, solid, EACH, tolerance)
+        return flipped, {"counts": {}, "findings": []}
+    shells, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
     shells = replace(shells, volume=total)
-    shared = np.unique(relations.crossing)
+    shared = np.unique(relations.intersecting)
     spans = sum(len(patch.spaces[0].spans) * len(patch.spaces[1].spans) for k in shared for patch in parts[k])
-    each = min(FINE, int(np.sqrt(MOST_TRIANGLES / (2.0 * max(spans, 1)))))
-    if len(shared) and each > EACH:  # what samples cross may be but near
-        nearer = _related([parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance)[1]
+    each = min(FINE_SAMPLES_PER_SPAN, int(np.sqrt(MAX_TRIANGLES / (2.0 * max(spans, 1)))))
+    if len(shared) and each > SAMPLES_PER_SPAN:  # what samples cross may be but near
+        nearer = _classify_parts([parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance)[1]
         crossed, inside, crossing = (
             np.sort(pairs, axis=1) @ (len(parts), 1)
-            for pairs in (relations.crossing, shared[nearer.inside], shared[nearer.crossing])
+            for pairs in (relations.intersecting, shared[nearer.contained_in], shared[nearer.intersecting])
         )
-        relations = Relations(
-            np.concatenate([relations.inside, shared[nearer.inside][np.isin(inside, crossed)]]),
-            relations.crossing[np.isin(crossed, crossing)],
-            relations.unchecked,
+        relations = ShellRelations(
+            np.concatenate([relations.contained_in, shared[nearer.contained_in][np.isin(inside, crossed)]]),
+            relations.intersecting[np.isin(crossed, crossing)],
+            relations.undecided_pairs,
         )
-    turned, nested, cavities = decide(shells, relations, solid)
-    crossing = len(np.unique(relations.crossing))
+    flipped, nested, cavities = orient_nested_shells(shells, relations, solid)
+    crossing = len(np.unique(relations.intersecting))
     findings = []
     if nested.any():
         findings.append(finding("components_nested", count=int(nested.sum())))
     if crossing:
         findings.append(finding("components_overlap", count=crossing))
-    if relations.unchecked:
-        findings.append(finding("overlap_unchecked", count=int(relations.unchecked)))
-    return turned, {
+    if relations.undecided_pairs:
+        findings.append(finding("overlap_unchecked", count=int(relations.undecided_pairs)))
+    return flipped, {
         "counts": {
             "nested_components": int(nested.sum()),
             "cavities": int(cavities.sum()),
@@ -217,9 +222,9 @@ def _compared(
     }
 
 
-def _related(
+def _classify_parts(
     parts: Sequence[Sequence[Patch]], solid: NDArray[np.bool_], each: int, tolerance: float
-) -> tuple[Shells, Relations]:
+) -> tuple[SortedComponents, ShellRelations]:
     """How parts lie to each other, by samples of their patches: `each` to a span. Those that are nearer than what lies
     between the samples and the patches do not cross where `each` is not the coarsest."""
     points, triangles, shell = [], [], []
@@ -236,8 +241,10 @@ def _related(
             count += len(points[-1])
             off = max(off, _sagitta(grid, each) + _sagitta(grid.swapaxes(0, 1), each))
     points, triangles, shell = np.concatenate(points), np.concatenate(triangles), np.concatenate(shell)
-    shells = sort_shells(points, triangles, shell, len(parts))
-    return shells, relate(points, shells, solid, tolerance if each == EACH else max(tolerance, 2.0 * off))
+    shells = sort_components(points, triangles, shell, len(parts))
+    return shells, classify_pairs(
+        points, shells, solid, tolerance if each == SAMPLES_PER_SPAN else max(tolerance, 2.0 * off)
+    )
 
 
 def _sagitta(grid: NDArray, each: int) -> float:
@@ -247,38 +254,40 @@ def _sagitta(grid: NDArray, each: int) -> float:
     return float(bend.max())
 
 
-def _mixed(closure: Closure) -> int:
+def _misoriented_count(topology: PatchTopology) -> int:
     """How many patches face against the rest of their part: the fewer of both kinds in each."""
-    turned = np.bincount(closure.component, closure.turned, closure.number)
-    return int(np.minimum(turned, np.bincount(closure.component, minlength=closure.number) - turned).sum())
+    flipped = np.bincount(topology.component, topology.flipped, topology.number)
+    return int(np.minimum(flipped, np.bincount(topology.component, minlength=topology.number) - flipped).sum())
 
 
-def _orientation_findings(closure: Closure, mixed: int, turn: NDArray[np.bool_]) -> list[Finding]:
+def _orientation_findings(closure: PatchTopology, mixed: int, turn: NDArray[np.bool_]) -> list[Finding]:
     """About patches, and whole parts, that were turned. mixed: patches that face against the rest of their part."""
     findings = []
     if mixed:
         findings.append(finding("flipped_patches", count=mixed))
-        if closure.crowded:
-            findings.append(finding("ambiguous_patch_sides", count=int(closure.crowded)))
+        if closure.non_manifold_sides:
+            findings.append(finding("ambiguous_patch_sides", count=int(closure.non_manifold_sides)))
     if turn.any():
         findings.append(finding("inverted_patch_components", count=int(turn.sum()), total=int(closure.number)))
     return findings
 
 
 def _closing_findings(
-    closure: Closure, solid: NDArray[np.bool_], area: float, volume: float, size: float
+    closure: PatchTopology, solid: NDArray[np.bool_], area: float, volume: float, size: float
 ) -> list[Finding]:
     """About what is open, flat or was capped. solid: (c,) the parts with a volume."""
     findings = []
-    if closure.broken.any():
+    if closure.unclosable.any():
         findings.append(finding("open_patch_sides"))
     if not solid.any():
-        return findings if closure.broken.any() else [finding("flat_surface")]
-    flattened = int((~solid & ~closure.broken).sum())
+        return findings if closure.unclosable.any() else [finding("flat_surface")]
+    flattened = int((~solid & ~closure.unclosable).sum())
     if flattened:
         findings.append(finding("flat_components", count=flattened, total=int(closure.number)))
     loops = [loop for loop in closure.loops if solid[closure.component[loop.patch]]]
-    flat, curved = ([loop for loop in loops if not loop.slim and loop.flat == level] for level in (True, False))
+    flat, curved = (
+        [loop for loop in loops if not loop.zero_area and loop.is_planar == level] for level in (True, False)
+    )
     if flat:
         capped = sum(loop.area for loop in flat)
         slight = capped * size < NEGLIGIBLE * volume
@@ -289,7 +298,7 @@ def _closing_findings(
                 share=float(capped / area),
             )
         )
-    crossing = sum(bool(loop.crossing) for loop in loops)
+    crossing = sum(bool(loop.self_intersecting) for loop in loops)
     if crossing:
         findings.append(finding("patch_boundary_crosses_itself", count=crossing))
     if curved:

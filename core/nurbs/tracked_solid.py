@@ -19,19 +19,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials, sum_moments
-from ..verdict.tolerances import TOLERANCE
-from .incremental import Evaluator
+from ..verdict.tolerances import WELDING_RTOL
+from .incremental import IncrementalPatchMoments
 from .patch import Patch
 from .patch_moments import area_slope, patches_center, volume_moments
-from .patch_topology import Closure, close_patches
-from .solid import PatchMeasure, judged, measure_patches, parts_of, patches_size
+from .patch_topology import PatchTopology, find_topology
+from .solid import PatchIntegrals, assess, measure_patches, oriented_parts, patches_size
 
-FEW = 6  # moved control points that are updated one by one
-COARSE = 1e-10  # of the largest that a moment could be: a rule that is off by more does not follow
-GROWS = 8.0  # by how much moved control points may let the rule's error grow: an estimate
+MAX_SINGLE_UPDATES = 6  # moved control points that are updated one by one
+MAX_RULE_ERROR = 1e-10  # of the largest that a moment could be: a rule that is off by more does not follow
+RULE_ERROR_GROWTH = 8.0  # by how much moved control points may let the rule's error grow: an estimate
 
 
-class FollowedBody:
+class TrackedSolid:
     """The body that patches bound. measure: what it is now; its volume has moments to order 3. Of a body that has
     followed the bounds are estimates, and the area is an approximation."""
 
@@ -39,23 +39,23 @@ class FollowedBody:
         self._measure_anew(patches, stored)
 
     def _measure_anew(self, patches: Sequence[Patch], stored: float) -> None:
-        self.measure: PatchMeasure = measure_patches(patches, stored=stored)
+        self.measure: PatchIntegrals = measure_patches(patches, stored=stored)
         volume, area = self.measure.volume, self.measure.area
         self._slope = area_slope(patches)
         self._patches = list(patches)
-        self._evaluators = [Evaluator(patch, 3, volume.about) for patch in patches]
+        self._evaluators = [IncrementalPatchMoments(patch, 3, volume.about) for patch in patches]
         self._fluxes = [
             evaluator.moments(patch.points, patch.weights) for evaluator, patch in zip(self._evaluators, patches)
         ]
         largest = self._largest(patches, area.total)
-        self._error, self._area_error = volume.error / largest, area.error[:1] / area.total
-        self._follows = self.measure.method != "open"
-        if self._follows and any(patch.weights is not None for patch in patches):
-            tables = self._judged(patches, self.measure.closure, stored).volume
+        self._error, self._area_error = volume.rounding_error / largest, area.rounding_error[:1] / area.total
+        self._is_tracking = self.measure.method != "open"
+        if self._is_tracking and any(patch.weights is not None for patch in patches):
+            tables = self._assess(patches, self.measure.topology, stored).volume
             # The worst of all moments stands for each: of a symmetric body one may be right by chance.
             off = float((np.abs(tables.raw - volume.raw) / largest).max())
-            off = max([off] + [_off_at_random(patch) for patch in patches if patch.weights is not None])
-            self._error, self._follows = self._error + GROWS * off, off <= COARSE
+            off = max([off] + [_rule_error_at_random(patch) for patch in patches if patch.weights is not None])
+            self._error, self._is_tracking = self._error + RULE_ERROR_GROWTH * off, off <= MAX_RULE_ERROR
 
     def _largest(self, patches: Sequence[Patch], area: float) -> NDArray[np.float64]:
         """(K,) what a moment of the body could be at most."""
@@ -64,43 +64,45 @@ class FollowedBody:
         )
         return area * reach ** (monomials(3).sum(axis=1) + 1.0)
 
-    def follow(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
+    def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
         """Measure the patches as they are now; whether tables were enough for that."""
         size, about = patches_size(patches), self.measure.volume.about
         if not (
-            self._follows and self._same_spaces(patches) and np.linalg.norm(patches_center(patches) - about) <= size
+            self._is_tracking and self._same_spaces(patches) and np.linalg.norm(patches_center(patches) - about) <= size
         ):
             self._measure_anew(patches, stored)
             return False
         self._fluxes = [self._flux(k, patch) for k, patch in enumerate(patches)]
         self._patches = list(patches)
-        measure = self._judged(patches, close_patches(patches, max(TOLERANCE * size, 4.0 * stored)), stored)
+        measure = self._assess(patches, find_topology(patches, max(WELDING_RTOL * size, 4.0 * stored)), stored)
         if measure.method == "open":
             self._measure_anew(patches, stored)
             return False
         self.measure = measure
         return True
 
-    def _judged(self, patches: Sequence[Patch], closure: Closure, stored: float) -> PatchMeasure:
+    def _assess(self, patches: Sequence[Patch], topology: PatchTopology, stored: float) -> PatchIntegrals:
         """As `measure_patches`, by the patches' fluxes."""
         about = self.measure.volume.about
         total = sum(evaluator.area for evaluator in self._evaluators)
         area = Moments(np.array([total]), about, Measure.AREA, self._area_error * total)
-        fluxes: list[list[Moments]] = [[] for _ in range(closure.number)]
-        for flux, turn, own in zip(self._fluxes, closure.turned, closure.component):
-            fluxes[own].append(flux * -1.0 if turn else flux)
-        for loop in closure.loops:
-            fluxes[closure.component[loop.patch]].append(volume_moments(loop.caps, 3, about)[0])
-        measure = judged(
+        fluxes: list[list[Moments]] = [[] for _ in range(topology.number)]
+        for flux, turn, part in zip(self._fluxes, topology.flipped, topology.component):
+            fluxes[part].append(flux * -1.0 if turn else flux)
+        for loop in topology.loops:
+            fluxes[topology.component[loop.patch]].append(volume_moments(loop.caps, 3, about)[0])
+        measure = assess(
             patches,
-            closure,
-            parts_of(patches, closure),
-            [(sum_moments(own), True) for own in fluxes],
+            topology,
+            oriented_parts(patches, topology),
+            [(sum_moments(part), True) for part in fluxes],
             area,
             self._slope,
             stored,
         )
-        return replace(measure, volume=replace(measure.volume, error=self._error * self._largest(patches, total)))
+        return replace(
+            measure, volume=replace(measure.volume, rounding_error=self._error * self._largest(patches, total))
+        )
 
     def _same_spaces(self, patches: Sequence[Patch]) -> bool:
         """Whether their function spaces are the same, those of rational patches being made by their weights too."""
@@ -112,21 +114,21 @@ class FollowedBody:
 
     def _flux(self, k: int, patch: Patch) -> Moments:
         old = self._patches[k]
-        rows = np.argwhere((patch.points != old.points).any(axis=2))
-        if not len(rows):
+        moved_controls = np.argwhere((patch.points != old.points).any(axis=2))
+        if not len(moved_controls):
             return self._fluxes[k]
-        if len(rows) > FEW:
+        if len(moved_controls) > MAX_SINGLE_UPDATES:
             return self._evaluators[k].moments(patch.points)
-        for i, j in rows:
-            found = self._evaluators[k].move(int(i), int(j), patch.points[i, j])
-        return found
+        for i, j in moved_controls:
+            flux = self._evaluators[k].move_control_point(int(i), int(j), patch.points[i, j])
+        return flux
 
 
-def _off_at_random(patch: Patch) -> float:
+def _rule_error_at_random(patch: Patch) -> float:
     """By how much the tables' rule is off for these weights, of the largest that a moment could be."""
     points = np.random.default_rng(0).uniform(-1.0, 1.0, patch.points.shape)
-    other, about = replace(patch, points=points), np.zeros(3)
-    evaluator = Evaluator(other, 3, about)
-    off = np.abs(evaluator.moments(points, patch.weights).raw - volume_moments([other], 3, about)[0].raw)
+    perturbed, about = replace(patch, points=points), np.zeros(3)
+    evaluator = IncrementalPatchMoments(perturbed, 3, about)
+    off = np.abs(evaluator.moments(points, patch.weights).raw - volume_moments([perturbed], 3, about)[0].raw)
     reach = float(np.sqrt((points**2).sum(axis=2).max()))
     return float((off / (evaluator.area * reach ** (monomials(3).sum(axis=1) + 1.0))).max())

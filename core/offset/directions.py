@@ -27,46 +27,50 @@ from numpy.typing import NDArray
 from ..mesh.edges import find_edges
 from ..moments.moments import U
 
-BLOCK = 4096  # triangles at a time
-ONE_PLANE = 1e-4  # of the largest eigenvalue of Σ θ n n': planes that span less are one, φ²/4 for two φ apart
-ROUND = 2e-2  # the same where not all planes can be met
-SLIVER = 1e-9  # of the longest side: a lower triangle has no normal to speak of
-NOISY = 1e3  # times what storing moved the points by: a lower triangle's normal is known to 1e-3 only
-UNEVEN = 1e-6  # relative deviation from the thickness that counts as one
-BEHIND = 0.1  # of the thickness: where a face would get less, its vertices look for a better direction
-ROUNDS = 400  # of the search for it
-FLAT = 1e-12  # of the largest eigenvalue: planes that span less are the same to rounding
-SLIDES, EVEN = 400, 1e-12  # steps, and what is left of the unevenness
+TRIANGLES_PER_BLOCK = 4096  # triangles at a time
+SAME_PLANE_RTOL = 1e-4  # of the largest eigenvalue of Σ θ n n': planes that span less are one, φ²/4 for two φ apart
+LEAST_SQUARES_RTOL = 2e-2  # the same where not all planes can be met
+SLIVER_RTOL = 1e-9  # of the longest side: a lower triangle has no normal to speak of
+NOISY_HEIGHT_FACTOR = 1e3  # times what storing moved the points by: a lower triangle's normal is known to 1e-3 only
+UNEVEN_RTOL = 1e-6  # relative deviation from the thickness that counts as one
+MIN_ADVANCE = 0.1  # of the thickness: where a face would get less, its vertices look for a better direction
+MAXIMIN_STEPS = 400  # of the search for it
+RANK_RTOL = 1e-12  # of the largest eigenvalue: planes that span less are the same to rounding
+SMOOTHING_STEPS, SMOOTHING_RTOL = 400, 1e-12  # steps, and what is left of the unevenness
 
 
 @dataclass(frozen=True, eq=False)
-class Directions:
+class OffsetDirections:
     """Where the vertices go for a unit of thickness.
 
     vectors: (n, 3), unit of the points per unit of thickness.
-    slide, lift: (2, n) what rounding, and storing the points as float32, may have moved them by in all, and along the
+    tangential_error, normal_error: (2, n) what rounding, and storing the points as float32, may have moved them by in
+    all, and along the
         normals of their faces: to first order, as long as the same planes are told apart, and not where the direction
         is the one most in front.
-    solid: (m,) whether a triangle has a normal that is known; the others were not asked.
+    has_normal: (m,) whether a triangle has a normal that is known; the others were not asked.
     """
 
     vectors: NDArray[np.float64]
-    slide: NDArray[np.float64]
-    lift: NDArray[np.float64]
-    solid: NDArray[np.bool_]
+    tangential_error: NDArray[np.float64]
+    normal_error: NDArray[np.float64]
+    has_normal: NDArray[np.bool_]
 
 
 def blocks(triangles: NDArray) -> Iterator[NDArray]:
     """Pieces of triangles whose scratch stays in the cache."""
-    return (triangles[start : start + BLOCK] for start in range(0, len(triangles), BLOCK))
+    return (triangles[start : start + TRIANGLES_PER_BLOCK] for start in range(0, len(triangles), TRIANGLES_PER_BLOCK))
 
 
-def offset_directions(points: NDArray[np.float64], triangles: NDArray[np.integer], stored: float = 0.0) -> Directions:
+def offset_directions(
+    points: NDArray[np.float64], triangles: NDArray[np.integer], stored: float = 0.0
+) -> OffsetDirections:
     """The direction of every vertex. points: (n, 3) float64, triangles: (m, 3), stored: what storing the points may
     have moved them by."""
     count = len(points)
     normals, angles, noise, solid = (
-        np.concatenate(column) for column in zip(*(_corners(points[part], stored) for part in blocks(triangles)))
+        np.concatenate(column)
+        for column in zip(*(_corner_geometry(points[part], stored) for part in blocks(triangles)))
     )
     corner = triangles[solid].ravel()
     weight, normals = angles[solid].ravel(), np.repeat(normals[solid], 3, axis=0)
@@ -87,15 +91,15 @@ def offset_directions(points: NDArray[np.float64], triangles: NDArray[np.integer
             system[:, i, j] = system[:, j, i] = mean(normals[:, i] * normals[:, j])
     right = np.stack([mean(short * column) for column in normals.T], axis=1)
     values, axes = np.linalg.eigh(system)
-    tilt = np.stack([_largest(row.repeat(3), corner, count) for row in noise[solid].T])
-    thinnest = 1.0 / np.sqrt(np.maximum(-_largest(-weight / total[corner], corner, count), np.finfo(float).tiny))
+    tilt = np.stack([_group_maximum(row.repeat(3), corner, count) for row in noise[solid].T])
+    thinnest = 1.0 / np.sqrt(np.maximum(-_group_maximum(-weight / total[corner], corner, count), np.finfo(float).tiny))
 
     def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
         """(n, 3) directions across the planes that the eigenvalues above `least` span, (n,) how far from 1 n·d is on
         average, and (n,) what moving the normals by one moves d by (Wedin, to first order)."""
-        kept = values > least * values[:, 2:]
-        inverse = np.where(kept, 1.0 / np.where(kept, values, 1.0), 0.0)
-        across = np.where(kept | (values[:, 2:] <= 0.0), 1.0, 0.0)
+        independent = values > least * values[:, 2:]
+        inverse = np.where(independent, 1.0 / np.where(independent, values, 1.0), 0.0)
+        across = np.where(independent | (values[:, 2:] <= 0.0), 1.0, 0.0)
         vectors = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right) + np.einsum(
             "nij,nj,nkj,nk->ni", axes, across, axes, middle
         )
@@ -103,32 +107,32 @@ def offset_directions(points: NDArray[np.float64], triangles: NDArray[np.integer
         gain = np.sqrt(inverse.max(axis=1))
         return vectors, off, 2.0 * gain * np.linalg.norm(vectors, axis=1) + gain**2 * off
 
-    vectors, off, gain = solved(ONE_PLANE)
-    rough = off > UNEVEN + 4.0 * (tilt[0] + tilt[1]) * np.linalg.norm(vectors, axis=1)
+    vectors, off, gain = solved(SAME_PLANE_RTOL)
+    rough = off > UNEVEN_RTOL + 4.0 * (tilt[0] + tilt[1]) * np.linalg.norm(vectors, axis=1)
     if rough.any():
-        smooth, spread, slack = solved(ROUND)
-        vectors[rough], gain[rough], off[rough] = smooth[rough], slack[rough], spread[rough]
-        low = -_largest(-np.einsum("ij,ij->i", normals, vectors[corner]), corner, count)
-        behind = np.flatnonzero(rough & (low < BEHIND))
+        smooth, spread, residual = solved(LEAST_SQUARES_RTOL)
+        vectors[rough], gain[rough], off[rough] = smooth[rough], residual[rough], spread[rough]
+        low = -_group_maximum(-np.einsum("ij,ij->i", normals, vectors[corner]), corner, count)
+        behind = np.flatnonzero(rough & (low < MIN_ADVANCE))
         if len(behind):
-            _most_in_front(vectors, behind, low, corner, weight, normals)
-    flat = values <= np.maximum(FLAT, (8.0 * (tilt[0] + tilt[1])) ** 2)[:, None] * values[:, 2:]
+            _maximin_direction(vectors, behind, low, corner, weight, normals)
+    flat = values <= np.maximum(RANK_RTOL, (8.0 * (tilt[0] + tilt[1])) ** 2)[:, None] * values[:, 2:]
     flat &= (total > np.finfo(float).tiny)[:, None] & ~rough[:, None]
     if flat.any():
-        vectors = _slid(points, triangles[solid], vectors, np.einsum("nij,nj,nkj->nik", axes, flat, axes))
+        vectors = _smooth_in_plane(points, triangles[solid], vectors, np.einsum("nij,nj,nkj->nik", axes, flat, axes))
     far = np.linalg.norm(vectors, axis=1)
     lift = thinnest * (far + gain * off)
-    return Directions(
+    return OffsetDirections(
         vectors, gain * tilt + 8.0 * U * gain * [[1.0], [0.0]], lift * tilt + 8.0 * U * lift * [[1.0], [0.0]], solid
     )
 
 
-def _slid(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
+def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
     """The vectors, made even by conjugate gradients in the directions that the projections `free`, (n, 3, 3), leave.
     Vertices of a rim stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller thickness."""
     edges = find_edges(triangles)
-    rims = edges.rims()
-    free[triangles.ravel()[rims]] = free[np.roll(triangles, -1, axis=1).ravel()[rims]] = 0.0
+    boundary = edges.boundary_sides()
+    free[triangles.ravel()[boundary]] = free[np.roll(triangles, -1, axis=1).ravel()[boundary]] = 0.0
     able = np.einsum("nii->n", free) > 0.5
     triangles = triangles[able[triangles].any(axis=1)]
     if not len(triangles):
@@ -141,80 +145,80 @@ def _slid(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) 
     weight = -np.einsum("mki,mki->mk", np.roll(sides, -1, axis=1), np.roll(sides, -2, axis=1)) / double[:, None]
     start, stop, weight = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel(), weight.ravel()
 
-    def pulled(rows: NDArray) -> NDArray[np.float64]:
+    def gradient(steps: NDArray) -> NDArray[np.float64]:
         """Half the gradient of Σ cot |d_i - d_j|², in the free directions."""
-        pull = weight[:, None] * (rows[start] - rows[stop])
+        force = weight[:, None] * (steps[start] - steps[stop])
         total = np.stack(
-            [np.bincount(start, column, count) - np.bincount(stop, column, count) for column in pull.T], axis=1
+            [np.bincount(start, column, count) - np.bincount(stop, column, count) for column in force.T], axis=1
         )
         return np.einsum("nij,nj->ni", free, total)
 
     size = np.bincount(start, np.abs(weight), count) + np.bincount(stop, np.abs(weight), count)
     size = np.maximum(size, np.finfo(float).tiny)[:, None]
-    rows = vectors[used]
-    rest = -pulled(rows)
+    directions = vectors[used]
+    rest = -gradient(directions)
     step = rest / size
     power = first = np.vdot(rest, step)
-    for _ in range(SLIDES):
-        if not power > EVEN**2 * first:
+    for _ in range(SMOOTHING_STEPS):
+        if not power > SMOOTHING_RTOL**2 * first:
             break
-        image = pulled(step)
+        image = gradient(step)
         curve = np.vdot(step, image)
         if not curve > 0.0:
             break
-        rows = rows + power / curve * step
+        directions = directions + power / curve * step
         rest = rest - power / curve * image
         before, power = power, np.vdot(rest, rest / size)
         step = rest / size + power / before * step
     vectors = vectors.copy()
-    vectors[used] = rows
+    vectors[used] = directions
     return vectors
 
 
-def _largest(values: NDArray, group: NDArray, count: int) -> NDArray[np.float64]:
+def _group_maximum(values: NDArray, group: NDArray, count: int) -> NDArray[np.float64]:
     """(count,) the largest of the (k,) values in each group, zero where there is none."""
     order = np.argsort(values, kind="stable")
-    found = np.zeros(count)
-    found[group[order]] = values[order]  # of equal indices the last is kept
-    return found
+    maximum = np.zeros(count)
+    maximum[group[order]] = values[order]  # of equal indices the last is kept
+    return maximum
 
 
-def _most_in_front(
+def _maximin_direction(
     vectors: NDArray, behind: NDArray, low: NDArray, corner: NDArray, weight: NDArray, normals: NDArray
 ) -> None:
     """Replace the vectors of the vertices `behind` by ones that are more in front of all their faces, where there are
     such. low: (n,) the least n·d of each vertex now."""
     number = np.full(len(vectors), -1)
     number[behind] = np.arange(len(behind))
-    rows = np.flatnonzero(number[corner] >= 0)
-    own, normals, angle = number[corner[rows]], normals[rows], weight[rows]
-    count, share = len(behind), angle / np.bincount(own, angle, len(behind))[own]
-    best, found = np.full(count, -np.inf), np.zeros((count, 3))
-    for k in range(ROUNDS):
-        trial = np.stack([np.bincount(own, share * column, count) for column in normals.T], axis=1)
+    corner_rows = np.flatnonzero(number[corner] >= 0)
+    vertex, normals, angle = number[corner[corner_rows]], normals[corner_rows], weight[corner_rows]
+    count, share = len(behind), angle / np.bincount(vertex, angle, len(behind))[vertex]
+    best, best_direction = np.full(count, -np.inf), np.zeros((count, 3))
+    for k in range(MAXIMIN_STEPS):
+        trial = np.stack([np.bincount(vertex, share * column, count) for column in normals.T], axis=1)
         length = np.linalg.norm(trial, axis=1)
         trial /= np.where(length > 0.0, length, 1.0)[:, None]
-        height = np.einsum("ij,ij->i", normals, trial[own])
-        least = -_largest(-height, own, count)
+        height = np.einsum("ij,ij->i", normals, trial[vertex])
+        least = -_group_maximum(-height, vertex, count)
         better = least > best
-        best[better], found[better] = least[better], trial[better]
+        best[better], best_direction[better] = least[better], trial[better]
         share = share * np.exp(-height / np.sqrt(1.0 + k))
-        share /= np.bincount(own, share, count)[own]
-    height = np.einsum("ij,ij->i", normals, found[own])
-    square = np.bincount(own, angle * height**2, count)
-    scale = np.bincount(own, angle * height, count) / np.where(square > 0.0, square, 1.0)
+        share /= np.bincount(vertex, share, count)[vertex]
+    height = np.einsum("ij,ij->i", normals, best_direction[vertex])
+    square = np.bincount(vertex, angle * height**2, count)
+    scale = np.bincount(vertex, angle * height, count) / np.where(square > 0.0, square, 1.0)
     better = (best * scale > low[behind]) & (best > 0.0)
-    vectors[behind[better]] = (scale[:, None] * found)[better]
+    vectors[behind[better]] = (scale[:, None] * best_direction)[better]
 
 
-def _corners(points: NDArray, stored: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+def _corner_geometry(points: NDArray, stored: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
     """(m, 3) unit normals, (m, 3) angles, (m, 2) what rounding and storing may turn the normal by, and (m,) whether
     there is a normal, of (m, 3, 3) corners."""
     sides = points[:, [1, 2, 0]] - points
     normal = np.cross(sides[:, 0], sides[:, 1])
     double = np.linalg.norm(normal, axis=1)
     longest = np.linalg.norm(sides, axis=2).max(axis=1)
-    solid = double > longest * np.maximum(SLIVER * longest, NOISY * stored)
+    solid = double > longest * np.maximum(SLIVER_RTOL * longest, NOISY_HEIGHT_FACTOR * stored)
     double = np.where(solid, double, 1.0)
     dots = -np.einsum("mki,mki->mk", sides, sides[:, [2, 0, 1]])
     angles = np.arctan2(double[:, None], dots)

@@ -21,40 +21,44 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.bvh import sort_shells
+from ..mesh.bvh import sort_components
 from ..mesh.edges import find_edges
 from ..mesh.surface import Surface
-from ..mesh.welding import equal_positions
-from ..moments.moments import PAIRWISE, Measure, Moments, U, index, monomial_count, monomials
-from ..numerics.graph import components
+from ..mesh.welding import first_at_equal_position
+from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, monomial_count, monomial_index, monomials
+from ..numerics.graph import connected_components
 from ..numerics.vectors import cross
-from ..solid.nesting import pierced, relate, winds_twice
+from ..solid.nesting import classify_pairs, self_overlaps, surfaces_intersect
 from ..verdict.finding import MeasureError
-from .directions import UNEVEN, blocks, offset_directions
+from .directions import UNEVEN_RTOL, blocks, offset_directions
 
 ORDER = 3
-POWERS = ORDER + 3  # coefficients in s: degrees 0 to 5
-TOUCHING = 1e-6  # of the size: nearer sides touch
-UNKNOWN = 0.01  # of the area: where more of it faces nobody knows which way, there is no wall
-ROUNDED = 20.0  # u: what rounds a Jacobian, relative to the product of the lengths in it
-INNER, OUTER = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
-NODES = np.concatenate([np.full((3, 3), outer) + (inner - outer) * np.eye(3) for inner, outer in zip(INNER, OUTER)])
+COEFFICIENT_COUNT = ORDER + 3  # coefficients in s: degrees 0 to 5
+TOUCHING_RTOL = 1e-6  # of the size: nearer sides touch
+MAX_UNORIENTED_SHARE = 0.01  # of the area: where more of it faces nobody knows which way, there is no wall
+JACOBIAN_ROUNDINGS = 20.0  # u: what rounds a Jacobian, relative to the product of the lengths in it
+INNER_NODES, OUTER_NODES = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
+NODES = np.concatenate(
+    [np.full((3, 3), outer) + (inner - outer) * np.eye(3) for inner, outer in zip(INNER_NODES, OUTER_NODES)]
+)
 WEIGHTS = np.repeat([0.11169079483900573, 0.054975871827660933], 3)
 
 
 @dataclass(frozen=True, eq=False)
-class Sweep:
+class OffsetSolid:
     """What a surface sweeps when it moves along its directions by s, per unit of s, as polynomials in s.
 
     points, vectors, triangles: (n, 3), (n, 3) and (m, 3), what moves where.
-    coefficients, error, input: (20, 6) of s^0 to s^5 for each moment to third order about `about`: what they are, and
-        bounds for positive and negative s of what rounding and storing the points as float32 may have changed.
-    swept: (4,) of s^0 to s^3: what both sides sweep at most when storing the points as float32 moves them, which bounds
-        its changes as `input` does. reach: (2, 3) of the points from `about` and of the vectors, by axis.
+    coefficients, rounding_error, input_error: (20, 6) of s^0 to s^5 for each moment to third order about `about`: what
+        they are, and bounds for positive and negative s of what rounding and storing the points as float32 may have
+        changed.
+    swept_bound: (4,) of s^0 to s^3: what both sides sweep at most when storing the points as float32 moves them, which
+        bounds its changes as `input_error` does. reach: (2, 3) of the points from `about` and of the vectors, by axis.
     outward, inward: how far the surface can move before a prism folds over, infinite where none does.
     outward_at, inward_at: the triangles that fold first, -1 for none.
-    uneven: (k,) the vertices at which no direction moves all faces alike. least, most: the thickness there, by the
-        thickness asked for. ignored: triangles without a known normal, which are swept but ask for nothing.
+    inexact_vertices: (k,) the vertices at which no direction moves all faces alike. min_ratio, max_ratio: the thickness
+        there, by the thickness asked for. degenerate_triangles: triangles without a known normal, which are swept but
+        ask for nothing.
     """
 
     points: NDArray[np.float64]
@@ -62,18 +66,18 @@ class Sweep:
     triangles: NDArray[np.integer]
     about: NDArray[np.float64]
     coefficients: NDArray[np.float64]
-    error: NDArray[np.float64]
-    input: NDArray[np.float64]
-    swept: NDArray[np.float64]
+    rounding_error: NDArray[np.float64]
+    input_error: NDArray[np.float64]
+    swept_bound: NDArray[np.float64]
     reach: NDArray[np.float64]
     outward: float
     inward: float
     outward_at: int
     inward_at: int
-    uneven: int
-    least: float
-    most: float
-    ignored: int
+    inexact_vertices: int
+    min_ratio: float
+    max_ratio: float
+    degenerate_triangles: int
 
     def moments(self, inward: float, outward: float) -> Moments:
         """The volume moments to third order of the wall from `inward` below the surface to `outward` above it.
@@ -82,40 +86,42 @@ class Sweep:
         """
         if not (inward < self.inward or inward == 0.0) or not (outward < self.outward or outward == 0.0):
             raise ValueError("offset folds over")
-        degree = np.arange(1, POWERS + 1)
+        degree = np.arange(1, COEFFICIENT_COUNT + 1)
         up, down = outward**degree / degree, -((-inward) ** degree) / degree
         both = outward**degree / degree + inward**degree / degree
         raw = self.coefficients @ (up + down)
-        error = self.error @ both + 16.0 * U * (np.abs(self.coefficients) @ both)
-        swept = sum(self.swept @ s ** np.arange(4) for s in (inward, outward))
+        error = self.rounding_error @ both + 16.0 * U * (np.abs(self.coefficients) @ both)
+        swept = sum(self.swept_bound @ s ** np.arange(4) for s in (inward, outward))
         reach = self.reach[0] + max(inward, outward) * self.reach[1]
         moved = swept * np.multiply.reduce(reach ** monomials(ORDER), axis=1)
-        return Moments(raw, self.about, Measure.VOLUME, error, np.minimum(self.input @ both, moved))
+        return Moments(raw, self.about, Measure.VOLUME, error, np.minimum(self.input_error @ both, moved))
 
     def box(self, inward: float, outward: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(3,) and (3,) the least and the largest coordinates of the wall."""
         sides = [self.points - inward * self.vectors, self.points + outward * self.vectors]
         return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
 
-    def meets_itself(self, inward: float, outward: float) -> bool:
+    def self_intersects(self, inward: float, outward: float) -> bool:
         """Whether the two sides of the wall go through each other, a moved side through itself, or the walls of parts
         into one another, as far as is found within bounds of time."""
         count = len(self.points)
         points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
         triangles = np.concatenate([self.triangles, self.triangles + count])
         shell = np.repeat([0, 1], len(self.triangles))
-        tolerance = min(TOUCHING * float(np.ptp(points, axis=0).max()), 1e-3 * (inward + outward))
+        tolerance = min(TOUCHING_RTOL * float(np.ptp(points, axis=0).max()), 1e-3 * (inward + outward))
         pairs = [(0, 1), *((k, k) for k, moved in enumerate((inward, outward)) if moved)]
-        return pierced(
+        return surfaces_intersect(
             points, triangles, shell, np.array(pairs), np.tile(np.arange(count), 2), tolerance
         ) or self._overlaps(points, tolerance)
 
     def _overlaps(self, points: NDArray, tolerance: float) -> bool:
         """Whether the walls of parts reach into one another or into themselves, where no edge need pierce a face: skins
         that have moved past each other, or that are flush. Each wall is a closed body: both its sides and its rim."""
-        part, number = components(len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel())
-        rims, count = find_edges(self.triangles).rims(), len(self.points)
-        start, stop = self.triangles.ravel()[rims], np.roll(self.triangles, -1, axis=1).ravel()[rims]
+        part, number = connected_components(
+            len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
+        )
+        boundary, count = find_edges(self.triangles).boundary_sides(), len(self.points)
+        start, stop = self.triangles.ravel()[boundary], np.roll(self.triangles, -1, axis=1).ravel()[boundary]
         triangles = np.concatenate(
             [
                 self.triangles[:, ::-1],
@@ -124,18 +130,18 @@ class Sweep:
                 np.stack([start, stop + count, start + count], axis=1),
             ]
         )
-        shells = sort_shells(points, triangles, part[triangles[:, 0] % count].astype(np.intp), number)
+        shells = sort_components(points, triangles, part[triangles[:, 0] % count].astype(np.intp), number)
         solid = shells.volume > 0.0
-        if winds_twice(points, shells, solid, tolerance):
+        if self_overlaps(points, shells, solid, tolerance):
             return True
-        found = relate(points, shells, solid, tolerance)
-        return len(found.inside) + len(found.crossing) > 0
+        relations = classify_pairs(points, shells, solid, tolerance)
+        return len(relations.contained_in) + len(relations.intersecting) > 0
 
-    def without_surface(self) -> Sweep:
+    def drop_arrays(self) -> OffsetSolid:
         """The same without the arrays that are as large as the mesh."""
         return replace(self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0])
 
-    def fold(self, side: str) -> NDArray[np.float64]:
+    def first_fold_location(self, side: str) -> NDArray[np.float64]:
         """(3,) the middle of the triangle that folds first on that side."""
         at = {
             "inward": self.inward_at,
@@ -144,55 +150,55 @@ class Sweep:
         }[side]
         return self.points[self.triangles[at]].mean(axis=0)
 
-    def largest(self, side: str) -> float:
+    def max_thickness(self, side: str) -> float:
         """The thickness from which the wall on that side folds over: "inward", "outward" or "centered"."""
         return {"inward": self.inward, "outward": self.outward, "centered": 2.0 * min(self.inward, self.outward)}[side]
 
 
-def share(side: str, thickness: float) -> tuple[float, float]:
+def split_thickness(side: str, thickness: float) -> tuple[float, float]:
     """How much of a thickness is inside the surface and outside."""
     return {"inward": (thickness, 0.0), "outward": (0.0, thickness), "centered": (thickness / 2.0, thickness / 2.0)}[
         side
     ]
 
 
-def sweep(surface: Surface) -> Sweep:
+def offset_solid(surface: Surface) -> OffsetSolid:
     """The walls of a surface, closed or open, whose faces agree which side is outward.
 
     Points at exactly the same place are one. MeasureError where faces disagree, more than two meet in an edge, or
     float32 has lost which way they face; its edges are pairs of the surface's vertices.
     """
-    points, triangles = _joined(surface)
+    points, triangles = _weld_equal(surface)
     stored = float(np.linalg.norm(surface.coordinate_error))
     low, high = points.min(axis=0), points.max(axis=0)
     about = low / 2.0 + high / 2.0
     directions = offset_directions(points, triangles, stored)
     vectors = directions.vectors
     reach = np.abs(points - about).max(axis=0) * (1.0 + 4.0 * U), np.abs(vectors).max(axis=0)
-    sums, bounds, swept, tested = np.zeros((20, POWERS)), np.zeros((3, 7)), np.zeros(4), []
-    for part, known in zip(blocks(triangles), blocks(directions.solid)):
+    sums, bounds, swept, tested = np.zeros((20, COEFFICIENT_COUNT)), np.zeros((3, 7)), np.zeros(4), []
+    for part, known in zip(blocks(triangles), blocks(directions.has_normal)):
         prisms = _Prisms(points[part], about, vectors[part])
         sums += prisms.sums()
-        slide, lift = directions.slide[:, part].max(axis=2), directions.lift[:, part].max(axis=2)
+        slide, lift = directions.tangential_error[:, part].max(axis=2), directions.normal_error[:, part].max(axis=2)
         if stored:
             lift[1] += np.where(known, 0.0, 1.0 + prisms.far)  # it should have moved by one
         bounds += prisms.bounds(slide, lift, stored)
         swept += prisms.swept(slide[1], lift[1], stored)
         tested.append(prisms.jacobians())
-    jacobian, doubt, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
-    solid = directions.solid
+    jacobian, jacobian_error, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
+    solid = directions.has_normal
     lost = float(double[~solid].sum()) / (float(double.sum()) or 1.0)
-    if stored and lost > UNKNOWN:
+    if stored and lost > MAX_UNORIENTED_SHARE:
         raise MeasureError("wall_precision_lost", share=lost)
     rest = np.flatnonzero(solid)
     outward, inward = (
-        first_fold(jacobian[:, :, solid] * signs[:, None, None], doubt[:, solid])
+        first_positive_root(jacobian[:, :, solid] * signs[:, None, None], jacobian_error[:, solid])
         for signs in (np.array([1.0, 1.0, 1.0]), np.array([1.0, -1.0, 1.0]))
     )
     height = jacobian[0, :, solid] / double[solid, None]
-    uneven = np.abs(height - 1.0) > UNEVEN
-    error, moved = _propagated(bounds, reach, len(tested), stored)
-    return Sweep(
+    uneven = np.abs(height - 1.0) > UNEVEN_RTOL
+    error, moved = _propagate_error(bounds, reach, len(tested), stored)
+    return OffsetSolid(
         points,
         vectors,
         triangles,
@@ -205,17 +211,17 @@ def sweep(surface: Surface) -> Sweep:
         outward.min(initial=np.inf),
         inward.min(initial=np.inf),
         *(int(rest[np.argmin(limit)]) if np.isfinite(limit.min(initial=np.inf)) else -1 for limit in (outward, inward)),
-        uneven=len(np.unique(triangles[solid][uneven])),
-        least=height.min(initial=1.0),
-        most=height.max(initial=1.0),
-        ignored=int(np.count_nonzero(~solid)),
+        inexact_vertices=len(np.unique(triangles[solid][uneven])),
+        min_ratio=height.min(initial=1.0),
+        max_ratio=height.max(initial=1.0),
+        degenerate_triangles=int(np.count_nonzero(~solid)),
     )
 
 
-def _joined(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+def _weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
     """Points and triangles with one vertex for each place."""
     triangles, _ = surface.all_triangles()
-    first = equal_positions(surface.points)
+    first = first_at_equal_position(surface.points)
     triangles = first[triangles.astype(np.intp)]
     triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
     if not len(triangles):
@@ -227,9 +233,9 @@ def _joined(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]
     if crowded.any():
         pairs = used[_vertex_pairs(triangles, edges.first[crowded])]
         raise MeasureError("wall_non_manifold", elements=pairs, count=len(pairs))
-    against = (edges.count == 2) & (edges.balance(np.zeros(len(triangles), bool)) != 0.0)
-    if against.any():
-        pairs = used[_vertex_pairs(triangles, edges.first[against])]
+    misoriented = (edges.count == 2) & (edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0)
+    if misoriented.any():
+        pairs = used[_vertex_pairs(triangles, edges.first[misoriented])]
         raise MeasureError("wall_inconsistent_faces", elements=pairs, count=len(pairs))
     return surface.points[used].astype(np.float64), triangles
 
@@ -248,35 +254,35 @@ class _Prisms:
         self.points = points.transpose(1, 2, 0) - about[:, None]
         self.edges, self.turns = (b - a, c - a), (v - u, w - u)
         plain, first, second, turned = (
-            np.stack(cross(one, other)) for one in (b - a, v - u) for other in (c - a, w - u)
+            np.stack(cross(first, second)) for first in (b - a, v - u) for second in (c - a, w - u)
         )
         self.normals = plain, first + second, turned
         # power of s, corner, prism
-        self.own = np.array(
+        self.own_size = np.array(
             [[np.einsum("im,im->m", normal, vector) for vector in self.vectors] for normal in self.normals]
         )
         self.double = np.sqrt(np.einsum("im,im->m", self.normals[0], self.normals[0]))
-        self.long, self.turned, self.far = (
-            np.sqrt(np.max([np.einsum("im,im->m", row, row) for row in rows], axis=0))
-            for rows in (self.edges, self.turns, self.vectors)
+        self.long, self.turned_length, self.far = (
+            np.sqrt(np.max([np.einsum("im,im->m", row, row) for row in vectors_by_axis], axis=0))
+            for vectors_by_axis in (self.edges, self.turns, self.vectors)
         )
 
     def jacobians(self) -> tuple[NDArray, NDArray, NDArray]:
         """(3, 3, m) coefficients in s of J at each corner, (3, m) what rounding may have changed them by, and (m,)
         |N(0)|."""
-        return self.own, ROUNDED * U * self._sizes(), self.double
+        return self.own_size, JACOBIAN_ROUNDINGS * U * self._sizes(), self.double
 
     def _sizes(self) -> NDArray[np.float64]:
         """(3, m) bounds of the coefficients of J."""
-        return np.array([self.long**2, 2.0 * self.long * self.turned, self.turned**2]) * self.far
+        return np.array([self.long**2, 2.0 * self.long * self.turned_length, self.turned_length**2]) * self.far
 
     def sums(self) -> NDArray[np.float64]:
         """(20, 6) the coefficients of the moments."""
-        sums, count = np.zeros((monomial_count(ORDER), POWERS)), self.points.shape[2]
+        sums, count = np.zeros((monomial_count(ORDER), COEFFICIENT_COUNT)), self.points.shape[2]
         place, step = (
-            np.einsum("nk,kim->inm", NODES, rows).reshape(3, 6 * count) for rows in (self.points, self.vectors)
+            np.einsum("nk,kim->inm", NODES, corners).reshape(3, 6 * count) for corners in (self.points, self.vectors)
         )
-        table = {(0, 0, 0): (np.einsum("nk,pkm->pnm", NODES, self.own) * WEIGHTS[:, None]).reshape(3, 6 * count)}
+        table = {(0, 0, 0): (np.einsum("nk,pkm->pnm", NODES, self.own_size) * WEIGHTS[:, None]).reshape(3, 6 * count)}
         for exponents in map(tuple, monomials(ORDER).tolist()):
             if exponents not in table:
                 axis = next(i for i in range(3) if exponents[i])
@@ -286,18 +292,18 @@ class _Prisms:
                 product[1:] += lower * step[axis]
                 table[exponents] = product
             values = np.add.reduce(table[exponents], axis=1)
-            sums[index(*exponents), : len(values)] = values
+            sums[monomial_index(*exponents), : len(values)] = values
         return sums
 
-    def bounds(self, slide: NDArray, lift: NDArray, stored: float) -> NDArray[np.float64]:
+    def bounds(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
         """(3, 7) coefficients in s, summed over the prisms. First row: the sizes of J, three; the other four are zero.
         Second row: by how much J changes where directions move by slide[0], (m,), and by lift[0] along the normals,
         three; and the sizes of J times the move of x, four. Third row: the same where directions move by slide[1] and
         lift[1], and points by `stored`."""
-        sizes, rows = self._sizes(), [np.zeros((7, len(self.double)))]
-        rows[0][:3] = sizes
-        long, turned, far = self.long, self.turned, self.far
-        for delta, along, step in zip(slide, lift, (0.0, stored)):
+        sizes, coefficients = self._sizes(), [np.zeros((7, len(self.double)))]
+        coefficients[0][:3] = sizes
+        long, turned, far = self.long, self.turned_length, self.far
+        for delta, along, step in zip(tangential_error, normal_error, (0.0, stored)):
             change = [
                 4.0 * long * step * far + self.double * along,
                 (4.0 * turned * step + 4.0 * long * delta) * far + 2.0 * long * turned * delta,
@@ -305,30 +311,30 @@ class _Prisms:
             ]
             flat = self.double * far
             place = [flat * step, flat * delta + sizes[1] * step, sizes[1] * delta + sizes[2] * step, sizes[2] * delta]
-            rows.append(np.array(change + place))
-        return np.add.reduce(np.array(rows), axis=2) / 2.0
+            coefficients.append(np.array(change + place))
+        return np.add.reduce(np.array(coefficients), axis=2) / 2.0
 
-    def swept(self, slide: NDArray, lift: NDArray, stored: float) -> NDArray[np.float64]:
+    def swept(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
         """(4,) coefficients in s of what the triangles and what they have become at s sweep together, when points move
-        by `stored` and directions by `slide` in all and `lift` along the normals."""
+        by `stored` and directions by `tangential_error` in all and `normal_error` along the normals."""
         unit = self.normals[0] / np.where(self.double > 0.0, self.double, 1.0)
         along = [np.abs(np.einsum("im,im->m", normal, unit)) for normal in self.normals]
         size = [np.sqrt(np.einsum("im,im->m", normal, normal)) for normal in self.normals]
         across = [np.sqrt(np.maximum(a * a - b * b, 0.0)) + 8.0 * U * a for a, b in zip(size, along)]
-        rows = [
+        coefficients = [
             2.0 * size[0] * stored,
-            size[1] * stored + size[0] * lift,
-            size[2] * stored + along[1] * lift + across[1] * slide,
-            along[2] * lift + across[2] * slide,
+            size[1] * stored + size[0] * normal_error,
+            size[2] * stored + along[1] * normal_error + across[1] * tangential_error,
+            along[2] * normal_error + across[2] * tangential_error,
         ]
-        return np.add.reduce(np.array(rows), axis=1) / 2.0
+        return np.add.reduce(np.array(coefficients), axis=1) / 2.0
 
 
-def _propagated(
+def _propagate_error(
     bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(20, 6) and (20, 6) `error` and `input` from the sums of `_Prisms.bounds`, with every point within reach[0] of
-    the middle and every direction within reach[1], by axis."""
+    """(20, 6) and (20, 6) `error` and `input_error` from the sums of `_Prisms.bounds`, with every point within reach[0]
+    of the middle and every direction within reach[1], by axis."""
     place, step = reach[0] + stored, reach[1]
 
     def times(row: NDArray, exponents: list[int]) -> NDArray[np.float64]:
@@ -337,10 +343,10 @@ def _propagated(
                 row = np.convolve(row, (place[axis], step[axis]))
         return row
 
-    error, moved = np.zeros((2, monomial_count(ORDER), POWERS))
+    error, moved = np.zeros((2, monomial_count(ORDER), COEFFICIENT_COUNT))
     for i, exponents in enumerate(monomials(ORDER).tolist()):
         degree = sum(exponents)
-        rounded = (ROUNDED + 8.0 * degree + PAIRWISE + blocks) * U
+        rounded = (JACOBIAN_ROUNDINGS + 8.0 * degree + PAIRWISE_SUM_ROUNDINGS + blocks) * U
         error[i, : degree + 3] = times(rounded * bounds[0, :3], exponents)
         for target, row in ((error, bounds[1]), (moved, bounds[2])):
             target[i, : degree + 3] += times(row[:3], exponents)
@@ -351,14 +357,14 @@ def _propagated(
     return error, moved
 
 
-def first_fold(jacobian: NDArray, doubt: NDArray) -> NDArray[np.float64]:
+def first_positive_root(jacobian: NDArray, error: NDArray) -> NDArray[np.float64]:
     """(m,) the s up to which three quadratics a + b s + c s² are certainly positive, infinite where they always are.
 
-    jacobian: (3, 3, m) their coefficients a, b and c; doubt: (3, m) what rounding may have raised these by, which is
+    jacobian: (3, 3, m) their coefficients a, b and c; error: (3, m) what rounding may have raised these by, which is
     taken off. A discriminant that rounding alone may have made negative counts as zero. The largest root of
     a y² + b y + c is 1 / s.
     """
-    a, b, c = jacobian - doubt[:, None]
+    a, b, c = jacobian - error[:, None]
     dead = ~(a > 0.0)
     a = np.where(dead, 1.0, a)
     size = b * b + np.abs(4.0 * a * c)

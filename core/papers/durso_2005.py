@@ -101,10 +101,10 @@ def tensor(points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tu
 def moments(points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int) -> list[Number]:
     """∫ x^p y^q z^r dV to any order, in the order of `moments.monomials`: a fan over each face from an apex in its
     plane, here its first corner's. Arguments as for `tensor`."""
-    return moments_from(points, faces, [points[face[0]] for face in faces], order)
+    return moments_from_apexes(points, faces, [points[face[0]] for face in faces], order)
 
 
-def moments_from(
+def moments_from_apexes(
     points: Sequence[Vector], faces: Sequence[Sequence[int]], apexes: Sequence[Vector], order: int
 ) -> list[Number]:
     """As `moments`, with an apex for each face: any point of its plane, p⊥ among them."""
@@ -119,8 +119,8 @@ def moments_from(
     return [total / factorial(sum(m) + 3) for m, total in zip(exponents, sums)]
 
 
-def feet(points: Sequence[Vector], faces: Sequence[Sequence[int]]) -> list[Vector]:
-    """p⊥ of each face: the apexes with which `moments_from` is D'Urso's own sum."""
+def perpendicular_feet(points: Sequence[Vector], faces: Sequence[Sequence[int]]) -> list[Vector]:
+    """p⊥ of each face: the apexes with which `moments_from_apexes` is D'Urso's own sum."""
     return [_plane([points[i] for i in face])[1] for face in faces]
 
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import monomials
-from ..numerics.vectors import Number, Vector, cross, dot, minus
+from ..numerics.vectors import Number, Vector, cross, dot, subtract
 
 
 def sigma(exponents: tuple[int, int, int], a: Vector, b: Vector, c: Vector) -> Number:
@@ -50,7 +50,7 @@ def volume_moments(
 
     points: rows of x, y, z, of one exact or inexact type. faces: corner indices, counter-clockwise from outside.
     """
-    sums = _summed(points, faces, order, about, lambda a, b, c: dot(a, cross(b, c)))
+    sums = _sum_over_faces(points, faces, order, about, lambda a, b, c: dot(a, cross(b, c)))
     return [total / factorial(sum(m) + 3) for m, total in zip(exponents_to(order), sums)]
 
 
@@ -67,10 +67,10 @@ def surface_moments(
     """
 
     def double_area(a: Vector, b: Vector, c: Vector) -> Number:
-        normal = cross(minus(b, a), minus(c, a))
+        normal = cross(subtract(b, a), subtract(c, a))
         return root(dot(normal, normal))
 
-    sums = _summed(points, faces, order, about, double_area)
+    sums = _sum_over_faces(points, faces, order, about, double_area)
     return [total / factorial(sum(m) + 2) for m, total in zip(exponents_to(order), sums)]
 
 
@@ -80,7 +80,7 @@ def triangle_moments(
     """(K,) volume and (K,) surface moments of (m, 3) triangles over (n, 3) points, all triangles at once in float64."""
     corners = np.asarray(points, np.float64) - np.asarray(about, np.float64)
     a, b, c = (corners[np.asarray(triangles)[:, i]].T for i in range(3))
-    normal = cross(minus(b, a), minus(c, a))
+    normal = cross(subtract(b, a), subtract(c, a))
     det, double = dot(a, normal), np.sqrt(dot(normal, normal))
     means = [sigma(m, a, b, c) for m in exponents_to(order)]
     degrees = [sum(m) for m in exponents_to(order)]
@@ -89,14 +89,14 @@ def triangle_moments(
     return np.array(volume), np.array(surface)
 
 
-def _summed(
+def _sum_over_faces(
     points: Sequence[Vector],
     faces: Sequence[Sequence[int]],
     order: int,
     about: Vector,
     weight: Callable[[Vector, Vector, Vector], Number],
 ) -> list[Number]:
-    points = [minus(point, about) for point in points]
+    points = [subtract(point, about) for point in points]
     sums = [0] * len(exponents_to(order))
     for face in faces:
         for j in range(1, len(face) - 1):

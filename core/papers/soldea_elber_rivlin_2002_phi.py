@@ -16,19 +16,19 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.bspline import Space
-from ..numerics.quadrature import gauss
+from ..numerics.bspline import SplineSpace
+from ..numerics.quadrature import gauss_legendre
 
-MOST_ENTRIES = 2_000_000
+MAX_ENTRIES = 2_000_000
 
 
-def phi(spaces: tuple[Space, Space], order: int) -> NDArray[np.float64]:
+def phi(spaces: tuple[SplineSpace, SplineSpace], order: int) -> NDArray[np.float64]:
     """Φ of the given order, 0, 1 or 2: (n, n, n, ...), indexed [i, j, l, m, ...] by control points in row-major order.
 
     ValueError where it would hold too many entries.
     """
     size = (spaces[0].count * spaces[1].count) ** (3 + order)
-    if size > MOST_ENTRIES:
+    if size > MAX_ENTRIES:
         raise ValueError("{:d} entries of Φ".format(size))
     s, t = (_integrals(space, order) for space in spaces)
     swapped = (1, 0, *range(2, 3 + order))
@@ -43,16 +43,16 @@ def phi_moments(points: NDArray, tensors: tuple[NDArray, ...]) -> dict[tuple[int
     """The moments of the z-flux of a polynomial patch (n_s, n_t, 3), by exponents, from Φ⁰, Φ¹ and Φ² (or fewer)."""
     x, y, z = points.reshape(-1, 3).T
     flux = [np.einsum("ij...,i,j->...", tensor, x, y) for tensor in tensors]
-    found = {(0, 0, 0): float(z @ flux[0])}
+    moments = {(0, 0, 0): float(z @ flux[0])}
     if len(flux) > 1:
-        found[1, 0, 0], found[0, 1, 0] = float(x @ flux[1] @ z), float(y @ flux[1] @ z)
-        found[0, 0, 1] = float(z @ flux[1] @ z) / 2.0
+        moments[1, 0, 0], moments[0, 1, 0] = float(x @ flux[1] @ z), float(y @ flux[1] @ z)
+        moments[0, 0, 1] = float(z @ flux[1] @ z) / 2.0
     if len(flux) > 2:
 
         def second(a: NDArray, b: NDArray, part: float) -> float:
             return float(np.einsum("abc,a,b,c->", flux[2], a, b, z)) * part
 
-        found |= {
+        moments |= {
             (2, 0, 0): second(x, x, 1.0),
             (1, 1, 0): second(x, y, 1.0),
             (1, 0, 1): second(x, z, 0.5),
@@ -60,16 +60,16 @@ def phi_moments(points: NDArray, tensors: tuple[NDArray, ...]) -> dict[tuple[int
             (0, 1, 1): second(y, z, 0.5),
             (0, 0, 2): second(z, z, 1.0 / 3.0),
         }
-    return found
+    return moments
 
 
-def _integrals(space: Space, order: int) -> NDArray[np.float64]:
+def _integrals(space: SplineSpace, order: int) -> NDArray[np.float64]:
     """∫ B'_i B_j B_l ... of one parameter, (count, count, count, ...)."""
-    nodes, weights = gauss((3 + order) * (space.order - 1) // 2 + 1)
+    nodes, weights = gauss_legendre((3 + order) * (space.order - 1) // 2 + 1)
     low, high = space.intervals.T
     size = (high - low)[:, None]
     parameters = (low[:, None] + size * nodes).ravel()
-    values, slopes = space.matrix(parameters), space.matrix(parameters, 1)
+    values, slopes = space.collocation_matrix(parameters), space.collocation_matrix(parameters, 1)
     operands = [slopes] + [values] * (2 + order)
     letters = "ijlmo"[: 3 + order]
     return np.einsum(

@@ -5,7 +5,7 @@
 Area moments of any order are those of a boundary of 1-simplices (Sheynin and Tuzikov in two dimensions; see `simplex`):
 over an edge a, b the triangle with the origin gives (a x b)·S_pq·p! q! / (p+q+2)!. Outer outlines run counter-
 clockwise, holes clockwise, separate regions simply add. What makes a region ambiguous, outlines that cross or lie on
-one another, is found by `flaws`: no sum over edges would show it.
+one another, is found by `find_defects`: no sum over edges would show it.
 """
 
 from __future__ import annotations
@@ -16,30 +16,31 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arrays import ramp
-from ..numerics.graph import components
+from ..numerics.arrays import segment_ranges
+from ..numerics.graph import connected_components
 from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, facet_moments
 from ..verdict.finding import MeasureError
 
-SAMPLES = 16  # midpoints of an outline's edges that are asked what it lies in
-PAIRS = 10_000_000  # of edges that are compared, and of rays and the edges they may meet; more rays are thinned out
-BLOCK = 1 << 18  # of those at a time
-ROWS = 64  # neighbouring rays at a time, which meet much the same edges
-CELLS = 1024  # along a side of the grid that edges are compared in
-TOUCH = 1e-9  # of the polygon's size: edges that pass each other by less than this touch
+SAMPLES_PER_OUTLINE = 16  # midpoints of an outline's edges that are asked what it lies in
+# of edges that are compared, and of rays and the edges they may meet; more rays are thinned out
+MAX_EDGE_PAIRS = 10_000_000
+PAIRS_PER_BLOCK = 1 << 18  # of those at a time
+RAYS_PER_BLOCK = 64  # neighbouring rays at a time, which meet much the same edges
+GRID_CELLS = 1024  # along a side of the grid that edges are compared in
+TOUCH_RTOL = 1e-9  # of the polygon's size: edges that pass each other by less than this touch
 
 
 @dataclass(frozen=True)
-class Flaws:
-    """crossings: pairs of edges that cross, lost: whether there were too many pairs to look at all; doubled: whether
-    somewhere an edge has more than one region, or less than none, beside it; negative: whether less than none.
-    shared: the length along which edges run against each other, which is not the region's rim."""
+class OutlineDefects:
+    """crossings: pairs of edges that cross, lost: whether there were too many pairs to look at all; overlapping:
+    whether somewhere an edge has more than one region, or less than none, beside it; negative: whether less than none.
+    shared_length: the length along which edges run against each other, which is not the region's rim."""
 
     crossings: int
-    lost: bool
-    doubled: bool
+    too_many_pairs: bool
+    overlapping: bool
     negative: bool = False
-    shared: float = 0.0
+    shared_length: float = 0.0
 
 
 def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
@@ -63,34 +64,36 @@ def outline_moments(
     return facet_moments(points, edges, order, about)
 
 
-def directed(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
+def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
     """(m, 2) the edges of loops of indices, in the direction of each."""
-    rows = [np.stack([np.asarray(loop), np.roll(loop, -1)], axis=1) for loop in loops]
-    return np.concatenate(rows).astype(np.intp) if rows else np.empty((0, 2), np.intp)
+    loop_edges = [np.stack([np.asarray(loop), np.roll(loop, -1)], axis=1) for loop in loops]
+    return np.concatenate(loop_edges).astype(np.intp) if loop_edges else np.empty((0, 2), np.intp)
 
 
-def nested(points: NDArray, loops: Sequence[NDArray]) -> NDArray[np.intp]:
+def orient_loops(points: NDArray, loops: Sequence[NDArray]) -> NDArray[np.intp]:
     """(m, 2) the edges of loops of any direction, turned so that what lies in an odd number of them is inside:
     outlines, holes in those, islands in holes.
 
     MeasureError where one loop runs along another all the way, so that neither is in the other.
     """
-    lows, highs = (np.array([rim(points[loop], axis=0) for loop in loops]).reshape(-1, 2) for rim in (np.min, np.max))
+    lows, highs = (
+        np.array([extreme(points[loop], axis=0) for loop in loops]).reshape(-1, 2) for extreme in (np.min, np.max)
+    )
     order = []
     for i, loop in enumerate(loops):
         around = np.flatnonzero((lows <= lows[i]).all(axis=1) & (highs >= highs[i]).all(axis=1))
-        edges = directed([loop])
-        middle = points[edges[:: max(1, len(edges) // SAMPLES)]].mean(axis=1)
+        edges = directed_edges([loop])
+        middle = points[edges[:: max(1, len(edges) // SAMPLES_PER_OUTLINE)]].mean(axis=1)
         depth = 0
         for j in around[around != i].tolist():
-            winding = np.abs(winding_numbers(points, directed([loops[j]]), middle))
+            winding = np.abs(winding_numbers(points, directed_edges([loops[j]]), middle))
             clear = np.abs(winding - 0.5)  # a midpoint on the other loop has half a turn
             if clear.max() < 0.25:
                 raise MeasureError("outlines_coincide")
             depth += int(winding[np.argmax(clear)] > 0.5)
         ahead = _signed_area(points, edges) > 0.0
         order.append(loop if ahead == (depth % 2 == 0) else loop[::-1])
-    return directed(order)
+    return directed_edges(order)
 
 
 def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
@@ -98,7 +101,7 @@ def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
     way: as often as one direction is more frequent."""
     ahead = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)
     low, high = ahead.min(axis=1), ahead.max(axis=1)
-    ahead, low, high = (rows[low != high] for rows in (ahead, low, high))
+    ahead, low, high = (values[low != high] for values in (ahead, low, high))
     keys, which = np.unique(low * count + high, return_inverse=True)
     net = np.bincount(which.ravel(), np.where(ahead[:, 0] == low, 1.0, -1.0), minlength=len(keys)).astype(np.int64)
     edges = np.stack([keys // count, keys % count], axis=1) if len(keys) else np.empty((0, 2), np.int64)
@@ -112,33 +115,33 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
         return np.zeros(0)
     origin = points[edges[0, 0]]
     a, b = (points[edges[:, i]] - origin for i in (0, 1))
-    outline = components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]
+    outline = connected_components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]
     sums = np.bincount(outline, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0)
     return sums[np.unique(outline)]
 
 
-def flaws(points: NDArray, edges: NDArray, error: float = 0.0) -> Flaws:
+def find_defects(points: NDArray, edges: NDArray, error: float = 0.0) -> OutlineDefects:
     """What makes it unclear which side of the edges is inside. Outlines may touch, at corners and along edges; edges so
     short that their ends touch have no sides.
 
     error: how far the points may be from where they were meant; what overlaps by no more touches.
     """
     if not len(edges):
-        return Flaws(0, False, False)
+        return OutlineDefects(0, False, False)
     points = points - points[edges.ravel()].min(axis=0)
-    touch = TOUCH * float(points[edges.ravel()].max()) + 4.0 * error
-    crossings, shared, lost = _pairs(points, edges, touch)
-    left, right = _sides(points, edges, touch)
+    touch = TOUCH_RTOL * float(points[edges.ravel()].max()) + 4.0 * error
+    crossings, shared, lost = _crossing_pairs(points, edges, touch)
+    left, right = _side_windings(points, edges, touch)
     negative = bool((left < 0).any() or (right < 0).any())
-    return Flaws(crossings, lost, negative or bool((left < right).any() or (left > 1).any()), negative, shared)
+    return OutlineDefects(crossings, lost, negative or bool((left < right).any() or (left > 1).any()), negative, shared)
 
 
-def winding_numbers(points: NDArray, edges: NDArray, places: NDArray) -> NDArray[np.float64]:
+def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> NDArray[np.float64]:
     """(k,) how often the edges go round each place; at a place on an edge the mean of both sides."""
     turns = [np.zeros(0)]
-    block = max(1, BLOCK // max(1, len(edges)))
-    for start in range(0, len(places), block):
-        spans = points[edges] - places[start : start + block, None, None]  # (k, m, 2 ends, 2)
+    block = max(1, PAIRS_PER_BLOCK // max(1, len(edges)))
+    for start in range(0, len(query_points), block):
+        spans = points[edges] - query_points[start : start + block, None, None]  # (k, m, 2 ends, 2)
         a, b = spans[:, :, 0], spans[:, :, 1]
         cross, along = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=2)
         # A place on an edge sees its ends in opposite directions, with a sign that is rounding.
@@ -147,38 +150,39 @@ def winding_numbers(points: NDArray, edges: NDArray, places: NDArray) -> NDArray
     return np.concatenate(turns)
 
 
-def _sides(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _side_windings(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """(k,) and (k,) the winding numbers to the left and to the right of edges, of some of them where there are many.
 
     Rays are sent across the edges, so that none runs along its own; edges that lie on one another are passed together.
     """
     span = np.abs(points[edges[:, 1]] - points[edges[:, 0]])
     steep, long = span[:, 1] >= span[:, 0], np.hypot(*span.T) > 4.0 * touch
-    found = [
-        _sides_of(points, edges, np.flatnonzero(steep & long), touch),
+    parts = [
+        _steep_side_windings(points, edges, np.flatnonzero(steep & long), touch),
         # Mirrored, and each edge turned round: left stays left.
-        _sides_of(points[:, ::-1], edges[:, ::-1], np.flatnonzero(~steep & long), touch),
+        _steep_side_windings(points[:, ::-1], edges[:, ::-1], np.flatnonzero(~steep & long), touch),
     ]
-    left, right = zip(*found)
+    left, right = zip(*parts)
     return np.concatenate(left), np.concatenate(right)
 
 
-def _sides_of(points: NDArray, edges: NDArray, chosen: NDArray, touch: float) -> tuple[NDArray, NDArray]:
-    """As `_sides`, of the chosen edges, which are steep: by rays to the right from their middles."""
+def _steep_side_windings(points: NDArray, edges: NDArray, chosen: NDArray, touch: float) -> tuple[NDArray, NDArray]:
+    """As `_side_windings`, of the chosen edges, which are steep: by rays to the right from their middles."""
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low, high = np.minimum(start, end)[:, 1] - touch, np.maximum(start, end)[:, 1] + touch
     along = end - start
     length = np.hypot(*along.T)
     height = float(high.max() - low.min()) or 1.0
-    share = min(1.0, float((high - low).mean()) / height + ROWS / len(edges))  # of the edges that a ray may meet
-    chosen = chosen[:: max(1, int(len(chosen) * len(edges) * max(share, 1.0 / ROWS) / PAIRS))]
+    # of the edges that a ray may meet
+    share = min(1.0, float((high - low).mean()) / height + RAYS_PER_BLOCK / len(edges))
+    chosen = chosen[:: max(1, int(len(chosen) * len(edges) * max(share, 1.0 / RAYS_PER_BLOCK) / MAX_EDGE_PAIRS))]
     middle = (start[chosen] + end[chosen]) / 2.0
     chosen = chosen[np.argsort(middle[:, 1], kind="stable")]
     middle = (start[chosen] + end[chosen]) / 2.0
-    rows = max(1, min(ROWS, BLOCK // len(edges)))
+    rays_per_block = max(1, min(RAYS_PER_BLOCK, PAIRS_PER_BLOCK // len(edges)))
     left, right = np.zeros((2, len(chosen)), np.int64)
-    for first in range(0, len(chosen), rows):
-        part = slice(first, first + rows)
+    for first in range(0, len(chosen), rays_per_block):
+        part = slice(first, first + rays_per_block)
         x, y = middle[part, 0, None], middle[part, 1, None]
         near = np.flatnonzero((high >= y.min()) & (low <= y.max()))
         a, b, d = start[near], end[near], along[near]
@@ -201,7 +205,7 @@ def _signed_area(points: NDArray, edges: NDArray) -> float:
     return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum()) / 2.0
 
 
-def _pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
+def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
     """Pairs of edges that cross by more than `touch`, and the length along which others run against each other: each
     edge is entered into the cells of a grid that its box meets, and compared with those that share a cell. The last
     value tells whether that was given up."""
@@ -210,31 +214,31 @@ def _pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, b
     length = np.hypot(*(end - start).T)
     length[length == 0.0] = 1.0
     size = float((high.max(axis=0) - low.min(axis=0)).max()) or 1.0
-    cell = max(2.0 * float((high - low).mean()), size / CELLS)
+    cell = max(2.0 * float((high - low).mean()), size / GRID_CELLS)
     low, high = (np.floor(corner / cell).astype(np.int64) for corner in (low - touch, high + touch))
     wide, tall = (high - low + 1).T
-    if (wide * tall).sum() > PAIRS:
+    if (wide * tall).sum() > MAX_EDGE_PAIRS:
         return 0, 0.0, True
     edge = np.repeat(np.arange(len(edges)), wide * tall)
-    within = ramp(wide * tall)
-    key = (low[edge, 0] + within // tall[edge]) * (2 * CELLS) + low[edge, 1] + within % tall[edge]
+    within = segment_ranges(wide * tall)
+    key = (low[edge, 0] + within // tall[edge]) * (2 * GRID_CELLS) + low[edge, 1] + within % tall[edge]
     order = np.argsort(key, kind="stable")
     edge, key = edge[order], key[order]
-    active, found, against, looked = np.arange(len(edge)), [], {}, 0
+    active, crossings, opposed, compared_count = np.arange(len(edge)), [], {}, 0
     for step in range(1, len(edge)):
         active = active[active < len(edge) - step]
         active = active[key[active + step] == key[active]]
-        looked += len(active)
-        if not len(active) or looked > PAIRS:
+        compared_count += len(active)
+        if not len(active) or compared_count > MAX_EDGE_PAIRS:
             break
         i, j = edge[active], edge[active + step]
         sides = []
-        for p, q, other in ((i, j, start), (i, j, end), (j, i, start), (j, i, end)):
-            span, to = end[p] - start[p], other[q] - start[p]
+        for p, q, target in ((i, j, start), (i, j, end), (j, i, start), (j, i, end)):
+            span, to = end[p] - start[p], target[q] - start[p]
             sides.append((span[:, 0] * to[:, 1] - span[:, 1] * to[:, 0]) / length[p])
         sides = np.array(sides)
         pair = np.minimum(i, j) * len(edges) + np.maximum(i, j)
-        found.append(
+        crossings.append(
             pair[(sides[0] * sides[1] < 0.0) & (sides[2] * sides[3] < 0.0) & (np.abs(sides) > touch).all(axis=0)]
         )
         along = (np.abs(sides) <= touch).all(axis=0)
@@ -242,5 +246,9 @@ def _pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, b
         unit = (end[i] - start[i]) / length[i, None]
         first, last = (((point[j] - start[i]) * unit).sum(axis=1) for point in (start, end))
         common = np.minimum(first, length[i]) - np.maximum(last, 0.0)  # of opposite edges first is beyond last
-        against.update(zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist()))
-    return len(np.unique(np.concatenate(found))) if found else 0, float(sum(against.values())), looked > PAIRS
+        opposed.update(zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist()))
+    return (
+        len(np.unique(np.concatenate(crossings))) if crossings else 0,
+        float(sum(opposed.values())),
+        compared_count > MAX_EDGE_PAIRS,
+    )

@@ -18,30 +18,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import normals
-from ..mesh.welding import equal_positions
+from ..mesh.welding import first_at_equal_position
 from ..moments.moments import U
 from ..polyhedron.n_dimensions import SimplexMoments
 from ..verdict.finding import MeasureError
 from .polygon import area_moments, boundary_edges, outline_areas, outline_moments
 
-FLAT = 1e-5  # of a region's size: points farther off their plane are not planar; an area is off by the square of this
-EQUAL = 1e-6  # principal moments closer than this, relatively, are equal
-UNSURE = 1e-3  # of the larger one: what is more is not taken for noise
-ENDS = 2.0 * np.sqrt(2.0)  # an edge grows by this where both ends move by 1 along each axis
-ALONG = 0.05  # the least share of an axis that must lie in the plane to name the plane's x axis
+# of a region's size: points farther off their plane are not planar; an area is off by the square of this
+PLANAR_RTOL = 1e-5
+EQUAL_MOMENTS_RTOL = 1e-6  # principal moments closer than this, relatively, are equal
+MAX_NOISE_SHARE = 1e-3  # of the larger one: what is more is not taken for noise
+EDGE_GROWTH = 2.0 * np.sqrt(2.0)  # an edge grows by this where both ends move by 1 along each axis
+MIN_AXIS_SHARE = 0.05  # the least share of an axis that must lie in the plane to name the plane's x axis
 
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """origin: (3,). axes: (3, 3), columns x, y and the normal, right-handed. off: how far the points are off it.
-    named: which of the preferred axes x is nearest to: "X" or "Y"."""
+    """origin: (3,). axes: (3, 3), columns x, y and the normal, right-handed. out_of_plane: how far the points are off
+    it.
+    x_axis_name: which of the preferred axes x is nearest to: "X" or "Y"."""
 
     origin: NDArray[np.float64]
     axes: NDArray[np.float64]
-    off: float
-    named: str
+    out_of_plane: float
+    x_axis_name: str
 
-    def flat(self, points: NDArray) -> NDArray[np.float64]:
+    def project(self, points: NDArray) -> NDArray[np.float64]:
         """(n, 2) the points in the plane's axes."""
         x, y, z = (points - self.origin).T
         return np.stack([x * a[0] + y * a[1] + z * a[2] for a in self.axes.T[:2]], axis=1)
@@ -53,8 +55,8 @@ class Section:
 
     centroid: (2,) in the plane's axes from its origin. second: (3,) I_x, I_y, I_xy about the centroid. reach: (4,) the
     distance of the outermost corner from the axes x, y, 1, 2 through the centroid. outlines, holes: how many.
-    error, input: bounds {"area", "perimeter", "centroid", "second"} of rounding, and of what storing coordinates as
-    float32 may have moved; of the centroid its length, of the second moments each of them.
+    rounding_error, input_error: bounds {"area", "perimeter", "centroid", "second"} of rounding, and of what storing
+    coordinates as float32 may have moved; of the centroid its length, of the second moments each of them.
     """
 
     plane: Plane
@@ -65,8 +67,8 @@ class Section:
     reach: NDArray[np.float64]
     outlines: int
     holes: int
-    error: dict[str, float]
-    input: dict[str, float]
+    rounding_error: dict[str, float]
+    input_error: dict[str, float]
 
     @property
     def center(self) -> NDArray[np.float64]:
@@ -81,20 +83,20 @@ class Section:
         return float(larger), max(0.0, (first * second - mixed * mixed) / larger)  # no difference of near equals
 
     @property
-    def free(self) -> bool:
+    def axes_undetermined(self) -> bool:
         """Whether every axis through the centroid is a principal one."""
         first, second = self.principal
-        return first - second <= EQUAL * first + 2.0 * self._noise
+        return first - second <= EQUAL_MOMENTS_RTOL * first + 2.0 * self._noise
 
     @property
     def angle(self) -> float:
         """Radians from x towards y to axis 1; 0 where every axis is one."""
-        return 0.0 if self.free else principal_angle(self.second, self._noise)
+        return 0.0 if self.axes_undetermined else principal_angle(self.second, self._noise)
 
     @property
     def _noise(self) -> float:
         """What tells nothing of the axes. Where bounds are wide the moments are those of axes all the same."""
-        return min(self.error["second"] + self.input["second"], UNSURE * self.principal[0])
+        return min(self.rounding_error["second"] + self.input_error["second"], MAX_NOISE_SHARE * self.principal[0])
 
     @property
     def polar(self) -> float:
@@ -151,7 +153,7 @@ def fit_plane(
     heights = (used - middle) @ normal
     level = float(heights.min() + heights.max()) / 2.0
     off = float(np.ptp(heights)) / 2.0
-    if off > FLAT * size + 4.0 * error:
+    if off > PLANAR_RTOL * size + 4.0 * error:
         raise MeasureError("section_not_flat", share=off / size)
     axes, named = _axes(normal, prefer)
     distance = float((middle - origin) @ normal) + level
@@ -160,7 +162,7 @@ def fit_plane(
 
 def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
     inside = [axis - normal * (normal @ axis) for axis in prefer.T[:2]]
-    first = int(np.sqrt(inside[0] @ inside[0]) <= ALONG)
+    first = int(np.sqrt(inside[0] @ inside[0]) <= MIN_AXIS_SHARE)
     x = inside[first] / np.sqrt(inside[first] @ inside[first])
     x = x - normal * (normal @ x)
     x = x / np.sqrt(x @ x)
@@ -175,40 +177,41 @@ def region(
 
     faces: (k,) the face of each triangle; a face is turned as a whole.
     """
-    triangles = equal_positions(points)[triangles]
-    a, b, c = (plane.flat(points)[triangles[:, i]] for i in range(3))
+    triangles = first_at_equal_position(points)[triangles]
+    a, b, c = (plane.project(points)[triangles[:, i]] for i in range(3))
     areas = np.bincount(faces, ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2.0)
     longest = np.abs(np.stack([b - a, c - a])).max(axis=(0, 2))
     noise = np.zeros(len(areas))
     np.maximum.at(noise, faces, longest)  # slivers have no side to look to
-    turned = areas < -(4.0 * error + 1e-12 * noise) * noise
-    triangles = np.where(turned[faces][:, None], triangles[:, ::-1], triangles)
-    return boundary_edges(triangles, len(points)), int(np.count_nonzero(turned))
+    flipped = areas < -(4.0 * error + 1e-12 * noise) * noise
+    triangles = np.where(flipped[faces][:, None], triangles[:, ::-1], triangles)
+    return boundary_edges(triangles, len(points)), int(np.count_nonzero(flipped))
 
 
 def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0, shared: float = 0.0) -> Section:
-    """The properties of the region left of directed edges over (n, 3) points near the plane. `polygon.flaws` tells
-    whether that is one region, and the length that edges share, which the perimeter leaves out twice.
+    """The properties of the region left of directed edges over (n, 3) points near the plane. `polygon.find_defects`
+    tells whether that is one region, and the length that edges share, which the perimeter leaves out twice.
 
     error: how far storing the points as float32 may have moved each of them.
     MeasureError where the edges enclose no area, or do not close.
     """
-    flat = plane.flat(points)
+    flat = plane.project(points)
     used = flat[edges.ravel()] if len(edges) else np.zeros((1, 2))
     about = used.min(axis=0) / 2.0 + used.max(axis=0) / 2.0
     rounded = 16.0 * U * float(np.abs(points).max(initial=0.0) + np.abs(plane.origin).max() + np.abs(used).max())
     first = area_moments(flat, edges, 1, about)
-    moved = _moved(flat, edges, about, rounded)[:3] + first.error
+    moved = _displacement_bounds(flat, edges, about, rounded)[:3] + first.rounding_error
     if not first.raw[0] > moved[0]:
         raise MeasureError("section_encloses_nothing")
     about = about + first.raw[1:] / first.raw[0]
     moments = area_moments(flat, edges, 2, about)  # about the centroid as far as floats go: nothing cancels
     length = outline_moments(flat, edges)
     bounds = []
-    for step, own in ((rounded, moments.error), (error, np.zeros(6))):
-        bounds.append(_bounds(moments, _moved(flat, edges, about, step) + own))
-    ends = ENDS * len(edges) * (5.0 if shared else 1.0)  # of 2 len(edges) shared pieces at most, each taken twice
-    bounds[0]["perimeter"] = float(length.error[0]) * (3.0 if shared else 1.0) + ends * rounded
+    for step, rounding in ((rounded, moments.rounding_error), (error, np.zeros(6))):
+        bounds.append(_bounds(moments, _displacement_bounds(flat, edges, about, step) + rounding))
+    # of 2 len(edges) shared pieces at most, each taken twice
+    ends = EDGE_GROWTH * len(edges) * (5.0 if shared else 1.0)
+    bounds[0]["perimeter"] = float(length.rounding_error[0]) * (3.0 if shared else 1.0) + ends * rounded
     bounds[1]["perimeter"] = ends * error
     area, shift = float(moments.raw[0]), moments.raw[1:3] / moments.raw[0]
     second = moments.raw[[5, 3, 4]] - area * np.array([shift[1] ** 2, shift[0] ** 2, shift[0] * shift[1]])
@@ -232,7 +235,7 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
     return replace(section, reach=reach)
 
 
-def _moved(points: NDArray, edges: NDArray, about: NDArray, step: float) -> NDArray[np.float64]:
+def _displacement_bounds(points: NDArray, edges: NDArray, about: NDArray, step: float) -> NDArray[np.float64]:
     """(6,) what the moments to second order may change by where every point moves by `step` along each axis.
 
     Between its old and its new place an edge sweeps over at most its length times the distance it moves.
@@ -259,7 +262,7 @@ def _bounds(moments: SimplexMoments, delta: NDArray) -> dict[str, float]:
     if not area > 2.0 * delta[0]:  # then nothing bounds a quotient
         return {"area": float(delta[0]), "centroid": float("inf"), "second": float("inf")}
     drift = (delta[1:3] + shift * delta[0]) / (area - delta[0])
-    slack = 4.0 * U * (np.abs(moments.about) + shift)
+    tolerance = 4.0 * U * (np.abs(moments.about) + shift)
     second = delta[3:].max() + (area + delta[0]) * (drift + shift).max() ** 2
     second += 4.0 * U * np.abs(moments.raw[3:]).max()
-    return {"area": float(delta[0]), "centroid": float(np.hypot(*(drift + slack))), "second": float(second)}
+    return {"area": float(delta[0]), "centroid": float(np.hypot(*(drift + tolerance))), "second": float(second)}

@@ -27,19 +27,20 @@ from math import factorial, frexp
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface, all_there, flipped_quads
+from ..mesh.surface import Surface, flipped_quads, indices_in_range
 from ..moments.moments import Measure, Moments, U
-from ..moments.monomials import monomial_count, monomials, predecessors, rows_of
+from ..moments.monomials import count_of_degree, monomial_count, monomials, quotient_indices
 from ..verdict.finding import MeasureError
-from .any_order_kernel import TINY, Levels, Sums, row_count, sizes
-from .third_order import finite_box, middle, nothing, pairs
+from .any_order_kernel import UNDERFLOW_BOUND, AnyOrderKernel, Sums, absolute_sums, row_count
+from .third_order import box_center, finite_box, nothing, quad_corners
 from .third_order_kernel import NO_VERTEX
 
-NUMBERS = 1_400_000  # that a block's scratch may hold; with fewer, two threads wait for each other
-FEWEST = 4608  # faces in a block; of rows less than half its buffer of 8192 long, numpy copies those it uses again
-BATCH = 8  # blocks that are handed to a thread at once
-USUAL = 8  # powers of two up to which coordinates are left as they are
-RANGE = 1000.0  # powers of two beyond which a moment is no number
+SCRATCH_NUMBERS = 1_400_000  # that a block's scratch may hold; with fewer, two threads wait for each other
+# faces in a block; of rows less than half its buffer of 8192 long, numpy copies those it uses again
+MIN_FACES_PER_BLOCK = 4608
+BLOCKS_PER_TASK = 8  # blocks that are handed to a thread at once
+MAX_UNSCALED_EXPONENT = 8  # powers of two up to which coordinates are left as they are
+MAX_EXPONENT = 1000.0  # powers of two beyond which a moment is no number
 
 
 @lru_cache
@@ -56,11 +57,11 @@ def _factors(order: int) -> NDArray[np.float64]:
 def _exponent(reach: float) -> int:
     """The exponent of the power of two by which a body that reaches so far is scaled: 0 where its size is usual."""
     exponent = frexp(reach)[1]
-    return exponent if abs(exponent) > USUAL else 0
+    return exponent if abs(exponent) > MAX_UNSCALED_EXPONENT else 0
 
 
 @dataclass(frozen=True, eq=False)
-class _Task:
+class _FaceBatch:
     """Some faces, (m, 3) or (m, 4), of a piece of the body. size: how many of them make a block. half_ulp: (3,) that
     of its points."""
 
@@ -70,7 +71,7 @@ class _Task:
     half_ulp: NDArray[np.float64]
 
 
-class _Total:
+class _CompensatedSum:
     """A running sum of arrays, with what the additions round off kept beside it (Neumaier), and with the sums that its
     bounds are made of. faces: how many were added."""
 
@@ -87,19 +88,19 @@ class _Total:
         self.low = self.low + ((self.high - (total - grown)) + (part.sums - grown))
         self.high = total
         last = self.pending[-1] if self.pending else part
-        columns = sum(other.chunks.shape[1] for other in self.pending)
+        columns = sum(waiting.chunks.shape[1] for waiting in self.pending)
         if (
             len(last.chunks) != len(part.chunks)
             or not np.array_equal(last.half_ulp, part.half_ulp)
-            or columns * rows_of(self.order) * 3 * self.weights > NUMBERS
+            or columns * count_of_degree(self.order) * 3 * self.weights > SCRATCH_NUMBERS
         ):
-            self.settle()
+            self.flush()
         self.pending.append(part)
 
-    def settle(self) -> None:
+    def flush(self) -> None:
         """Add up the bounds of the pending blocks: many at once, which is faster."""
         if self.pending:
-            self.sizes = self.sizes + sizes(self.order, self.weights, self.pending)
+            self.sizes = self.sizes + absolute_sums(self.order, self.weights, self.pending)
             self.pending = []
 
 
@@ -113,10 +114,10 @@ def integrate(
     reach: float | None,
 ) -> tuple[Moments, Moments | None]:
     """The volume's moments and, where wanted, the area's; arguments as for `polyhedron_moments`."""
-    return _Stream(order, area, threads, progress, about, reach).measured(stream)
+    return _StreamIntegrator(order, area, threads, progress, about, reach).integrate(stream)
 
 
-class _Stream:
+class _StreamIntegrator:
     """One body being measured, piece by piece."""
 
     def __init__(
@@ -131,24 +132,24 @@ class _Stream:
         self.order, self.area, self.threads, self.progress = order, area, max(1, threads), progress
         self.center = about
         self.exponent = None if reach is None else _exponent(reach)
-        self.idle: list[Levels] = []
+        self.idle: list[AnyOrderKernel] = []
         self.half_ulp = np.zeros(3)
 
-    def measured(self, stream: Iterable[Surface]) -> tuple[Moments, Moments | None]:
+    def integrate(self, stream: Iterable[Surface]) -> tuple[Moments, Moments | None]:
         """Volume and, where wanted, area."""
-        total = _Total(self.order, 2 if self.area else 1)
-        for faces, parts in self._parts(self._tasks(stream)):
+        total = _CompensatedSum(self.order, 2 if self.area else 1)
+        for faces, parts in self._ordered_results(self._tasks(stream)):
             for part in parts:
                 total.add(part)
             total.faces += faces
             if self.progress is not None:
                 self.progress(total.faces)
-        total.settle()
+        total.flush()
         if not total.faces:
             return nothing(self.order, self.center)
         return self._moments(total, Measure.VOLUME), self._moments(total, Measure.AREA) if self.area else None
 
-    def _parts(self, tasks: Iterator[_Task]) -> Iterator[tuple[int, list[Sums]]]:
+    def _ordered_results(self, tasks: Iterator[_FaceBatch]) -> Iterator[tuple[int, list[Sums]]]:
         """The results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
         first = list(islice(tasks, min(self.threads, 2)))
         alone, tasks = len(first) < 2, chain(first, tasks)
@@ -165,61 +166,64 @@ class _Stream:
             while waiting:
                 yield waiting.popleft().result()
 
-    def _tasks(self, stream: Iterable[Surface]) -> Iterator[_Task]:
+    def _tasks(self, stream: Iterable[Surface]) -> Iterator[_FaceBatch]:
         for surface in stream:
             if not len(surface.triangles) + len(surface.quads):
                 continue
             points = np.ascontiguousarray(surface.points)
             if points.dtype != np.float32:
                 points = points.astype(np.float64, copy=False)
-            self._settle(surface)
+            self._choose_frame(surface)
             half_ulp = surface.coordinate_error
             self.half_ulp = np.maximum(self.half_ulp, half_ulp)
             for faces in (surface.triangles, surface.quads):
                 size = self._size(faces)
                 blocks = -(-len(faces) // size)
-                step = size * (BATCH if self.threads == 1 else max(1, min(BATCH, blocks // (4 * self.threads))))
+                step = size * (
+                    BLOCKS_PER_TASK if self.threads == 1 else max(1, min(BLOCKS_PER_TASK, blocks // (4 * self.threads)))
+                )
                 for start in range(0, len(faces), step):
-                    yield _Task(points, faces[start : start + step], size, half_ulp)
+                    yield _FaceBatch(points, faces[start : start + step], size, half_ulp)
 
     def _size(self, faces: NDArray) -> int:
         """How many faces make a block: blocks are of even length, and as many for each of 2 or 4 threads. Whatever the
         number of threads the blocks are the same, and so is their sum."""
         corners = faces.shape[1]
-        ours = 2 if corners == 3 and pairs(faces[:2]) is not None else 1  # where two triangles make one face of ours
-        most = ours * max(NUMBERS // row_count(corners + ours - 1, self.order, 1), FEWEST)
+        # where two triangles make one face of ours
+        ours = 2 if corners == 3 and quad_corners(faces[:2]) is not None else 1
+        most = ours * max(SCRATCH_NUMBERS // row_count(corners + ours - 1, self.order, 1), MIN_FACES_PER_BLOCK)
         blocks = -(-len(faces) // (4 * most)) * 4
-        blocks = max(1, min(blocks, len(faces) // (ours * FEWEST)))
+        blocks = max(1, min(blocks, len(faces) // (ours * MIN_FACES_PER_BLOCK)))
         return max(2, -(-len(faces) // (2 * blocks)) * 2)
 
-    def _settle(self, surface: Surface) -> None:
+    def _choose_frame(self, surface: Surface) -> None:
         """The reference point and the scale, by the first piece where nobody has given them."""
         low, high = finite_box(surface)
         if self.center is None:
-            self.center = middle(low, high, surface.points.dtype)
+            self.center = box_center(low, high, surface.points.dtype)
         largest = float(np.maximum(high - self.center, self.center - low).max())
         if self.exponent is None:
             self.exponent = _exponent(largest)
         beyond = frexp(largest)[1] - self.exponent
-        if (max(beyond, 0) + 2) * (self.order + 3) > RANGE:
+        if (max(beyond, 0) + 2) * (self.order + 3) > MAX_EXPONENT:
             raise ValueError("about and reach needed")
-        if (max(beyond, 0) + self.exponent) * (self.order + 3) > RANGE:
+        if (max(beyond, 0) + self.exponent) * (self.order + 3) > MAX_EXPONENT:
             raise MeasureError("moments_overflow", order=int(self.order))
 
-    def _run(self, task: _Task) -> tuple[int, list[Sums]]:
+    def _run(self, task: _FaceBatch) -> tuple[int, list[Sums]]:
         """One task, in whatever thread: how many faces it has, and what each of its blocks adds."""
-        if not all_there(task.faces, len(task.points)):
+        if not indices_in_range(task.faces, len(task.points)):
             raise ValueError(NO_VERTEX)
-        levels = self.idle.pop() if self.idle else Levels(self.order, self.area)
-        found = [
-            levels.run(task.points, self.center, 2.0**-self.exponent, task.half_ulp, corners, size)
+        levels = self.idle.pop() if self.idle else AnyOrderKernel(self.order, self.area)
+        block_sums = [
+            levels.block_sums(task.points, self.center, 2.0**-self.exponent, task.half_ulp, corners, size)
             for corners, size in self._blocks(task)
         ]
         self.idle.append(levels)
-        return len(task.faces), found
+        return len(task.faces), block_sums
 
     @staticmethod
-    def _blocks(task: _Task) -> Iterator[tuple[Sequence[NDArray], int]]:
+    def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray], int]]:
         """The corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles; and
         how many there are in a block that is full. Each block is judged by itself, so that it does not depend on its
         neighbours."""
@@ -227,10 +231,10 @@ class _Stream:
             faces = task.faces[start : start + task.size]
             if faces.shape[1] == 4:
                 faces = np.where(flipped_quads(task.points, faces)[:, None], np.roll(faces, -1, axis=1), faces)
-            halves = pairs(faces) if faces.shape[1] == 3 else None
+            halves = quad_corners(faces) if faces.shape[1] == 3 else None
             yield (faces.T, task.size) if halves is None else (halves, task.size // 2)
 
-    def _moments(self, total: _Total, of: Measure) -> Moments:
+    def _moments(self, total: _CompensatedSum, of: Measure) -> Moments:
         """What the sums come to, in the body's own unit, with its bounds."""
         degree = monomials(self.order).sum(axis=1)
         row, dimension = (0, 3) if of == Measure.VOLUME else (1, 2)
@@ -239,8 +243,12 @@ class _Stream:
         raw = (total.high[row] + total.low[row]) * factors
         mean = 2.0 * ((degree + 3.0) if of == Measure.VOLUME else 1.0)  # ∫ |x^α| is at most weight reach^α / this
         rounding = U * (8.0 * degree + 228.0)
-        error = (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean + 8.0 * U * np.abs(raw) + TINY * total.faces
-        moved = self._moved(total, of) if self.half_ulp.any() else np.zeros(len(raw))
+        error = (
+            (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean
+            + 8.0 * U * np.abs(raw)
+            + UNDERFLOW_BOUND * total.faces
+        )
+        moved = self._input_error(total, of) if self.half_ulp.any() else np.zeros(len(raw))
         powers = self.exponent * (degree + dimension)
         return Moments(
             np.ldexp(raw, powers),
@@ -250,7 +258,7 @@ class _Stream:
             np.ldexp(moved, powers),
         )
 
-    def _moved(self, total: _Total, of: Measure) -> NDArray[np.float64]:
+    def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
         """What moving the vertices by their half ulps may change: over the volume that they sweep; of areas, over what
         is added, and by the change of the integrand."""
         swept = total.sizes[2] * (1.0 + 1e-9)
@@ -262,8 +270,8 @@ class _Stream:
         for degree in range(1, self.order + 1):
             known, below = monomial_count(degree - 1), monomial_count(degree - 2)
             lower = np.append(swept[below:known], 0.0) / np.linalg.norm(half_ulp)
-            for axis, places in enumerate(predecessors(degree, rows_of(degree - 1))):
+            for axis, quotients in enumerate(quotient_indices(degree, count_of_degree(degree - 1))):
                 moved[known : monomial_count(degree)] += (
-                    table[known : monomial_count(degree), axis] * half_ulp[axis] * lower[places]
+                    table[known : monomial_count(degree), axis] * half_ulp[axis] * lower[quotients]
                 )
         return moved

@@ -29,14 +29,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import U
-from ..moments.monomials import monomial_count, monomials, predecessors, rows_of
+from ..moments.monomials import count_of_degree, monomial_count, monomials, quotient_indices
 from .workspace import Workspace, gather
 
-CHUNK = 32  # faces that share one bound of their coordinates
-SLICES = 16  # of a row, that einsum adds up: a divisor of CHUNK
-ROUNDING = 9.0 * U  # of a determinant, and of a doubled area, relative to the sizes of their terms: see `polyhedron`
-SQUARE = 1e-145  # underflow loses less than its root of a length, and than `ROUNDING` times it of a doubled area
-TINY = 1e-220  # more than underflow can lose of one face whose coordinates are at most 256
+FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates
+SLICES_PER_ROW = 16  # of a row, that einsum adds up: a divisor of CHUNK
+# of a determinant, and of a doubled area, relative to the sizes of their terms: see `polyhedron`
+DETERMINANT_ROUNDING = 9.0 * U
+# underflow loses less than its root of a length, and than `DETERMINANT_ROUNDING` times it of a doubled area
+MIN_SQUARED_LENGTH = 1e-145
+UNDERFLOW_BOUND = 1e-220  # more than underflow can lose of one face whose coordinates are at most 256
 
 
 @lru_cache
@@ -45,7 +47,7 @@ def multinomials(degree: int) -> NDArray[np.float64]:
     return np.array(
         [
             [factorial(degree) // (factorial(p) * factorial(q) * factorial(r))]
-            for p, q, r in monomials(degree)[-rows_of(degree) :].tolist()
+            for p, q, r in monomials(degree)[-count_of_degree(degree) :].tolist()
         ],
         np.float64,
     )
@@ -67,10 +69,10 @@ class Sums:
 
 
 @lru_cache
-def layout(count: int, order: int, weights: int) -> tuple[dict[str, tuple[int, ...]], ...]:
+def scratch_layout(count: int, order: int, weights: int) -> tuple[dict[str, tuple[int, ...]], ...]:
     """Of each array of `_Block` for faces of `count` corners the shape of its rows: of those that last, of those for
     weighing, and of those for summing, which share memory with the second."""
-    ends, fans, lower = count - 1, count - 2, rows_of(order - 1)
+    ends, fans, lower = count - 1, count - 2, count_of_degree(order - 1)
     return (
         {"heavy": (weights, 3, count), "tips": (weights, fans), "both": (weights,)},
         {"index": (count,), "edges": (3, ends), "normals": (3, fans), "minus": (3, fans), "single": (3 * count,)},
@@ -82,7 +84,7 @@ def layout(count: int, order: int, weights: int) -> tuple[dict[str, tuple[int, .
 def row_count(count: int, order: int, weights: int) -> int:
     """How many rows a block needs, with one for the gap behind each array."""
     kept, weighing, summing = (
-        sum(prod(shape) + 1 for shape in group.values()) for group in layout(count, order, weights)
+        sum(prod(shape) + 1 for shape in group.values()) for group in scratch_layout(count, order, weights)
     )
     return kept + max(weighing, summing)
 
@@ -91,140 +93,146 @@ class _Block:
     """The rows of a block of faces, k columns, and what is done with them once the corners' coordinates and the edges
     from the first corner are there: `steps`, in their order.
 
-    corners: (3, c, k). edges: (3, c-1, k). tips: (w, c-2, k), the weights of the triangles a, b, c and a, c, d; both:
-    (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree. heavy: (w, 3, c, k),
-    weights times corners. room: for what is needed for a moment.
+    corners: (3, c, k). edges: (3, c-1, k). apex_vectors: (w, c-2, k), the weights of the triangles a, b, c and a, c, d;
+    both: (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree.
+    weighted_products: (w, 3, c, k), weights times corners. room: for what is needed for a moment.
     total: (w, K), the sums. chunks: as in `Sums`; neighbours stand below each other in the (CHUNK, m) that a row is.
     """
 
     def __init__(self, workspace: Workspace, count: int, k: int, *, order: int, weights: int):
-        kept, *passing = ({name: (*rows, k) for name, rows in group.items()} for group in layout(count, order, weights))
+        kept, *passing = (
+            {name: (*row_count, k) for name, row_count in group.items()}
+            for group in scratch_layout(count, order, weights)
+        )
         arrays = {name: workspace.take(*shape) for name, shape in kept.items()}
         for group, taken in zip(passing, workspace.overlay(*(list(group.values()) for group in passing))):
             arrays |= dict(zip(group, taken))
         self.k, self.order = k, order
-        self.heavy, self.edges, self.powers, self.levels = (
+        self.weighted_products, self.edges, self.powers, self.levels = (
             arrays[name] for name in ("heavy", "edges", "powers", "levels")
         )
-        self.corners, self.tips = self.heavy[-1], arrays["tips"]
-        self.both = arrays["both"] if count == 4 else self.tips[:, 0]
+        self.corners, self.apex_vectors = self.weighted_products[-1], arrays["tips"]
+        self.both = arrays["both"] if count == 4 else self.apex_vectors[:, 0]
         self.index, self.room = arrays["index"].view(np.intp), arrays["room"].reshape(-1)
         self.single = arrays["single"].reshape(-1).view(np.float32)[: 3 * count * k].reshape(3, count, k)
         self.total = np.empty((weights, monomial_count(order)))
-        self.chunks = np.empty((6 + weights + count - 1, k // CHUNK))
+        self.chunks = np.empty((6 + weights + count - 1, k // FACES_PER_CHUNK))
         self.steps: list[Callable[[], object]] = []
-        self._weigh(arrays["normals"], arrays["minus"])
-        self._sum()
+        self._append_weights(arrays["normals"], arrays["minus"])
+        self._append_sums()
 
-    def _do(self, function: Callable, *operands: object) -> None:
+    def _append_call(self, function: Callable, *operands: object) -> None:
         self.steps.append(partial(function, *operands))
 
-    def _weigh(self, normals: NDArray, minus: NDArray) -> None:
+    def _append_weights(self, normals: NDArray, minus: NDArray) -> None:
         """Determinants, doubled areas, and what their bounds are made from."""
-        edges, corners, tips = self.edges, self.corners, self.tips
+        edges, corners, apex_vectors = self.edges, self.corners, self.apex_vectors
         first, second = edges[:, :-1], edges[:, 1:]
         for x, y, z in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-            self._do(np.multiply, first[y], second[z], normals[x])
-            self._do(np.multiply, first[z], second[y], minus[x])
-        self._do(np.subtract, normals, minus, normals)
-        self._do(partial(np.einsum, out=tips[0]), "cfk,ck->fk", normals, corners[:, 0])
-        if len(tips) == 2:
-            self._do(partial(np.einsum, out=tips[1]), "cfk,cfk->fk", normals, normals)
-            self._do(np.sqrt, tips[1], tips[1])
-        if tips.shape[1] == 2:
-            self._do(np.add.reduce, tips, 1, None, self.both)
+            self._append_call(np.multiply, first[y], second[z], normals[x])
+            self._append_call(np.multiply, first[z], second[y], minus[x])
+        self._append_call(np.subtract, normals, minus, normals)
+        self._append_call(partial(np.einsum, out=apex_vectors[0]), "cfk,ck->fk", normals, corners[:, 0])
+        if len(apex_vectors) == 2:
+            self._append_call(partial(np.einsum, out=apex_vectors[1]), "cfk,cfk->fk", normals, normals)
+            self._append_call(np.sqrt, apex_vectors[1], apex_vectors[1])
+        if apex_vectors.shape[1] == 2:
+            self._append_call(np.add.reduce, apex_vectors, 1, None, self.both)
         squares = minus.reshape(-1)[: edges[0].size].reshape(edges[0].shape)
-        self._do(partial(np.einsum, out=squares), "ick,ick->ck", edges, edges)
-        sizes = edges.reshape(-1)[: tips.size].reshape(tips.shape)
-        self._do(np.abs, tips, sizes)
+        self._append_call(partial(np.einsum, out=squares), "ick,ick->ck", edges, edges)
+        sizes = edges.reshape(-1)[: apex_vectors.size].reshape(apex_vectors.shape)
+        self._append_call(np.abs, apex_vectors, sizes)
         row = 0
-        for function, rows in ((np.maximum, corners), (np.minimum, corners), (np.add, sizes), (np.maximum, squares)):
-            split = rows.reshape(len(rows), -1, self.k // CHUNK)
-            self._do(function.reduce, split, 1, None, self.chunks[row : row + len(rows)])
-            row += len(rows)
+        for function, values in ((np.maximum, corners), (np.minimum, corners), (np.add, sizes), (np.maximum, squares)):
+            split = values.reshape(len(values), -1, self.k // FACES_PER_CHUNK)
+            self._append_call(function.reduce, split, 1, None, self.chunks[row : row + len(values)])
+            row += len(values)
 
-    def _sum(self) -> None:
+    def _append_sums(self) -> None:
         """The sums over the block, degree by degree."""
-        corners, levels, powers, tips = self.corners, self.levels, self.powers, self.tips
+        corners, levels, powers, apex_vectors = self.corners, self.levels, self.powers, self.apex_vectors
         first, ends = corners[:, 0], corners[:, 1:]
-        self._do(np.add.reduce, self.both, 1, None, self.total[:, 0])
-        self._do(np.add, first, corners[:, 2], levels[1, :3])
-        self._do(np.add, corners[:, 1::2].transpose(1, 0, 2), levels[1, :3], levels[::2, :3])
-        self._dot("wfsk,frsk->wrk", tips, levels[::2, :3], self.total[:, 1:4])
+        self._append_call(np.add.reduce, self.both, 1, None, self.total[:, 0])
+        self._append_call(np.add, first, corners[:, 2], levels[1, :3])
+        self._append_call(np.add, corners[:, 1::2].transpose(1, 0, 2), levels[1, :3], levels[::2, :3])
+        self._append_dot("wfsk,frsk->wrk", apex_vectors, levels[::2, :3], self.total[:, 1:4])
         for degree in range(2, self.order):
-            rows, known = rows_of(degree), monomial_count(degree - 1)
-            self._raise(degree, ends[:, :, None])
-            _raise_powers(self._do, first if degree == 2 else powers, degree, first, powers)
-            self._add_powers(degree)
-            self._do(np.add, levels[::2, :rows], levels[1, :rows], levels[::2, :rows])
-            self._dot("wfsk,frsk->wrk", tips, levels[::2, :rows], self.total[:, known : known + rows])
-        self._last()
+            count, known = count_of_degree(degree), monomial_count(degree - 1)
+            self._append_raise(degree, ends[:, :, None])
+            _raise_powers(self._append_call, first if degree == 2 else powers, degree, first, powers)
+            self._append_powers(degree)
+            self._append_call(np.add, levels[::2, :count], levels[1, :count], levels[::2, :count])
+            self._append_dot("wfsk,frsk->wrk", apex_vectors, levels[::2, :count], self.total[:, known : known + count])
+        self._append_last_degree()
 
-    def _add_powers(self, degree: int) -> None:
+    def _append_powers(self, degree: int) -> None:
         """C of this degree added to D."""
-        rows, most = rows_of(degree), len(self.room) // self.k
-        for start in range(0, rows, most):
-            part = slice(start, min(start + most, rows))
+        count, most = count_of_degree(degree), len(self.room) // self.k
+        for start in range(0, count, most):
+            part = slice(start, min(start + most, count))
             grown = self._room(part.stop - start)
-            self._do(np.multiply, self.powers[part], multinomials(degree)[part], grown)
-            self._do(np.add, self.levels[1, part], grown, self.levels[1, part])
+            self._append_call(np.multiply, self.powers[part], multinomials(degree)[part], grown)
+            self._append_call(np.add, self.levels[1, part], grown, self.levels[1, part])
 
-    def _raise(self, degree: int, vectors: NDArray) -> None:
+    def _append_raise(self, degree: int, vectors: NDArray) -> None:
         """Σ_i v_i L_{α-e_i} in place of all levels L, (c-1, R, k), one degree lower. vectors: (3, c-1, 1, k).
 
         Without a factor x, a row stands where it stood; without y or z, in the run of rows with one less q+r.
         """
-        levels, below = self.levels, rows_of(degree - 1)
+        levels, below = self.levels, count_of_degree(degree - 1)
         last, new = levels[:, below - degree : below], levels[:, below : below + degree + 1]
-        self._do(np.multiply, last, vectors[1], new[:, :-1])
-        self._do(np.multiply, last[:, -1:], vectors[2], new[:, -1:])
+        self._append_call(np.multiply, last, vectors[1], new[:, :-1])
+        self._append_call(np.multiply, last[:, -1:], vectors[2], new[:, -1:])
         by_z = self._room(len(levels), degree - 1)
-        self._do(np.multiply, last[:, :-1], vectors[2], by_z)
-        self._do(np.add, new[:, 1:-1], by_z, new[:, 1:-1])
+        self._append_call(np.multiply, last[:, :-1], vectors[2], by_z)
+        self._append_call(np.add, new[:, 1:-1], by_z, new[:, 1:-1])
         end = degree - 1
         while end:
             first = end  # and the runs before it that fit into the room
-            while first > 1 and _start(end) - _start(first - 2) < self.order:
+            while first > 1 and _first_row(end) - _first_row(first - 2) < self.order:
                 first -= 1
-            products = self._room(2, len(levels), _start(end) - _start(first - 1))
-            self._do(np.multiply, levels[:, _start(first - 1) : _start(end)], vectors[1:], products)
-            rows = levels[:, _start(first) if first > 1 else 0 : _start(end + 1)]
-            self._do(np.multiply, rows, vectors[0], rows)
+            products = self._room(2, len(levels), _first_row(end) - _first_row(first - 1))
+            self._append_call(np.multiply, levels[:, _first_row(first - 1) : _first_row(end)], vectors[1:], products)
+            level_rows = levels[:, _first_row(first) if first > 1 else 0 : _first_row(end + 1)]
+            self._append_call(np.multiply, level_rows, vectors[0], level_rows)
             for s in range(first, end + 1):
-                before = _start(s - 1) - _start(first - 1)
+                before = _first_row(s - 1) - _first_row(first - 1)
                 for axis in (0, 1):
-                    rows = levels[:, _start(s) + axis : _start(s) + axis + s]
-                    self._do(np.add, rows, products[axis, :, before : before + s], rows)
+                    level_rows = levels[:, _first_row(s) + axis : _first_row(s) + axis + s]
+                    self._append_call(np.add, level_rows, products[axis, :, before : before + s], level_rows)
             end = first - 1
 
-    def _last(self) -> None:
+    def _append_last_degree(self) -> None:
         """The sums of the last degree: of products of the rows one degree lower and weighted coordinates."""
-        degree, heavy, powers = self.order, self.heavy, self.powers
-        rows, below, known = rows_of(degree), rows_of(degree - 1), monomial_count(degree - 1)
-        for row, both, tips in zip(heavy, self.both, self.tips):  # in place of the corners at last
-            self._do(np.multiply, self.corners[:, ::2], both, row[:, ::2])
-            self._do(np.multiply, self.corners[:, 1::2], tips, row[:, 1::2])
-        sums, grown = np.zeros((len(heavy), 3, below + 1)), np.empty((len(heavy), rows))
-        self._dot("wifsk,frsk->wirk", heavy[:, :, 1:], self.levels, sums[:, :, :-1])
-        for axis, old, new in ((0, 0, 0), (1, below - degree, below), (2, below - 1, rows - 1)):
-            self._dot("wsk,rsk->wrk", heavy[:, axis, 0], powers[old:], grown[:, new : new + below - old])
-        self._do(_add_last, sums, grown, degree, self.total[:, known:])
+        degree, weighted_products, powers = self.order, self.weighted_products, self.powers
+        count, below, known = count_of_degree(degree), count_of_degree(degree - 1), monomial_count(degree - 1)
+        # in place of the corners at last
+        for row, both, apex_vectors in zip(weighted_products, self.both, self.apex_vectors):
+            self._append_call(np.multiply, self.corners[:, ::2], both, row[:, ::2])
+            self._append_call(np.multiply, self.corners[:, 1::2], apex_vectors, row[:, 1::2])
+        sums, grown = np.zeros((len(weighted_products), 3, below + 1)), np.empty((len(weighted_products), count))
+        self._append_dot("wifsk,frsk->wirk", weighted_products[:, :, 1:], self.levels, sums[:, :, :-1])
+        for axis, old, new in ((0, 0, 0), (1, below - degree, below), (2, below - 1, count - 1)):
+            self._append_dot(
+                "wsk,rsk->wrk", weighted_products[:, axis, 0], powers[old:], grown[:, new : new + below - old]
+            )
+        self._append_call(_add_last, sums, grown, degree, self.total[:, known:])
 
     def _room(self, *shape: int) -> NDArray[np.float64]:
         return self.room[: prod(shape) * self.k].reshape(*shape, self.k)
 
-    def _dot(self, products: str, weights: NDArray, rows: NDArray, out: NDArray) -> None:
+    def _append_dot(self, products: str, weights: NDArray, terms: NDArray, out: NDArray) -> None:
         """Scalar products of weights (..., k) with rows (..., k)."""
-        self._do(
-            _dots,
+        self._append_call(
+            _sliced_dot,
             products,
-            weights.reshape(*weights.shape[:-1], SLICES, -1),
-            rows.reshape(*rows.shape[:-1], SLICES, -1),
+            weights.reshape(*weights.shape[:-1], SLICES_PER_ROW, -1),
+            terms.reshape(*terms.shape[:-1], SLICES_PER_ROW, -1),
             out,
         )
 
 
-class Levels:
+class AnyOrderKernel:
     """The loop body, with its scratch. Not to be shared by threads.
 
     order: of the moments, at least 3. area: whether sums weighted with doubled areas are wanted beside the volume's.
@@ -234,7 +242,7 @@ class Levels:
         self.order, self.weights = order, 2 if area else 1
         self.workspace = Workspace(partial(_Block, order=order, weights=self.weights))
 
-    def run(
+    def block_sums(
         self, points: NDArray, center: NDArray, scale: float, half_ulp: NDArray, faces: Sequence[NDArray], size: int
     ) -> Sums:
         """The sums over a block of faces, all triangles or all pairs. size: how many are in one that is full.
@@ -244,75 +252,78 @@ class Levels:
         triangles a, b, c and a, c, d.
         """
         k = len(faces[0])
-        shape = len(faces), -(-(size if k > 0.9 * size else k) // CHUNK) * CHUNK
-        own = self.workspace.block(shape, row_count(shape[0], self.order, self.weights) * shape[1])
-        self._gather(own, points, faces, center, scale)
-        for step in own.steps:
+        shape = len(faces), -(-(size if k > 0.9 * size else k) // FACES_PER_CHUNK) * FACES_PER_CHUNK
+        block = self.workspace.block(shape, row_count(shape[0], self.order, self.weights) * shape[1])
+        self._gather_corners(block, points, faces, center, scale)
+        for step in block.steps:
             step()
-        return Sums(own.total.copy(), own.chunks.copy(), half_ulp * scale)
+        return Sums(block.total.copy(), block.chunks.copy(), half_ulp * scale)
 
     @staticmethod
-    def _gather(own: _Block, points: NDArray, faces: Sequence[NDArray], center: NDArray, scale: float) -> None:
+    def _gather_corners(
+        block: _Block, points: NDArray, faces: Sequence[NDArray], center: NDArray, scale: float
+    ) -> None:
         """The corners' coordinates and the edges from the first corner."""
         k = len(faces[0])
-        for row, corner in zip(own.index, faces):
-            if k < own.k:  # filled up with faces that are a point
-                corner = np.concatenate([corner, np.full(own.k - k, faces[0][0])])
-            row.reshape(CHUNK, -1)[...] = corner.reshape(-1, CHUNK).T
-        gather(points, own.index, own.single, own.corners)
+        for row, corner in zip(block.index, faces):
+            if k < block.k:  # filled up with faces that are a point
+                corner = np.concatenate([corner, np.full(block.k - k, faces[0][0])])
+            row.reshape(FACES_PER_CHUNK, -1)[...] = corner.reshape(-1, FACES_PER_CHUNK).T
+        gather(points, block.index, block.single, block.corners)
         if scale != 1.0:
-            np.multiply(own.corners, scale, out=own.corners)
-        np.subtract(own.corners[:, 1:], own.corners[:, :1], out=own.edges)
-        np.subtract(own.corners, (center * scale)[:, None, None], out=own.corners)
+            np.multiply(block.corners, scale, out=block.corners)
+        np.subtract(block.corners[:, 1:], block.corners[:, :1], out=block.edges)
+        np.subtract(block.corners, (center * scale)[:, None, None], out=block.corners)
 
 
-def sizes(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
+def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
     """(sets, K) Σ weight reach^α over the chunks of blocks of one kind, for the weights |determinant| with its
     rounding, that rounding alone, the volume that moving every vertex by its half ulp sweeps; and with areas: doubled
     area with its rounding, that alone, and the area that moving the vertices adds."""
     chunks, half_ulp = np.concatenate([part.chunks for part in parts], axis=1), parts[0].half_ulp
-    high, low, own, squares = np.split(chunks, (3, 6, 6 + weights))
+    high, low, weight_sums, squares = np.split(chunks, (3, 6, 6 + weights))
     reach = np.maximum(high, -low) * (1.0 + 4.0 * U) + half_ulp[:, None]
-    edges, own = np.sqrt(squares + SQUARE) * (1.0 + 1e-9), own * (1.0 + 1e-9)
-    terms = CHUNK * (edges[:-1] * edges[1:]).sum(axis=0)  # bounds Σ |normal|, and what its components are made from
-    rounding, step = ROUNDING * terms, np.linalg.norm(half_ulp)
-    double = own[1] + 3.0 * rounding if weights == 2 else terms
-    added = step * CHUNK * ((edges[:-1] + edges[1:]).sum(axis=0) + 2.0 * (len(edges) - 1) * step)
+    edges, weight_sums = np.sqrt(squares + MIN_SQUARED_LENGTH) * (1.0 + 1e-9), weight_sums * (1.0 + 1e-9)
+    # bounds Σ |normal|, and what its components are made from
+    terms = FACES_PER_CHUNK * (edges[:-1] * edges[1:]).sum(axis=0)
+    rounding, step = DETERMINANT_ROUNDING * terms, np.linalg.norm(half_ulp)
+    double = weight_sums[1] + 3.0 * rounding if weights == 2 else terms
+    added = step * FACES_PER_CHUNK * ((edges[:-1] + edges[1:]).sum(axis=0) + 2.0 * (len(edges) - 1) * step)
     uncertain = rounding * reach.sum(axis=0)
-    rows = [own[0] + uncertain, uncertain, step * (double / 2.0 + added)]
+    seeds = [weight_sums[0] + uncertain, uncertain, step * (double / 2.0 + added)]
     if weights == 2:
-        rows += [double, 3.0 * rounding, added]
-    powers = np.empty((rows_of(order), len(rows), chunks.shape[1]))
-    powers[0] = rows
-    found = [np.add.reduce(powers[:1], axis=2)]
+        seeds += [double, 3.0 * rounding, added]
+    powers = np.empty((count_of_degree(order), len(seeds), chunks.shape[1]))
+    powers[0] = seeds
+    by_degree = [np.add.reduce(powers[:1], axis=2)]
     vector = np.broadcast_to(reach[:, None], (3, *powers.shape[1:]))
     for degree in range(1, order + 1):
         _raise_powers(lambda ufunc, *operands: ufunc(*operands), powers, degree, vector, powers)
-        found.append(np.add.reduce(powers[: rows_of(degree)], axis=2))
-    return np.concatenate(found).T
+        by_degree.append(np.add.reduce(powers[: count_of_degree(degree)], axis=2))
+    return np.concatenate(by_degree).T
 
 
 def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
     """Row by row, x^α of one degree from those of the degree below, perhaps in their place: those without x from the
     last ones. do: calls a function with these arguments, or notes the call for later."""
-    rows = rows_of(degree - 1)
-    do(np.multiply, old[rows - degree : rows], vector[1], powers[rows : rows + degree])
-    do(np.multiply, old[rows - 1], vector[2], powers[rows + degree])
-    do(np.multiply, old[:rows], vector[0], powers[:rows])
+    count = count_of_degree(degree - 1)
+    do(np.multiply, old[count - degree : count], vector[1], powers[count : count + degree])
+    do(np.multiply, old[count - 1], vector[2], powers[count + degree])
+    do(np.multiply, old[:count], vector[0], powers[:count])
 
 
-def _start(run: int) -> int:
+def _first_row(run: int) -> int:
     """The first of the rows of one degree with this q+r."""
     return run * (run + 1) // 2
 
 
-def _dots(products: str, weights: NDArray, rows: NDArray, out: NDArray) -> None:
+def _sliced_dot(products: str, weights: NDArray, terms: NDArray, out: NDArray) -> None:
     """Scalar products over slices of the rows, and over what is left of them then."""
-    np.add.reduce(np.einsum(products, weights, rows), -1, None, out)
+    np.add.reduce(np.einsum(products, weights, terms), -1, None, out)
 
 
 def _add_last(sums: NDArray, powers: NDArray, degree: int, total: NDArray) -> None:
     """The last degree: what x, y and z times the rows one degree lower come to, and C."""
     np.multiply(powers, multinomials(degree)[:, 0], total)
-    for axis, places in enumerate(predecessors(degree, rows_of(degree - 1))):
-        total += sums[:, axis].take(places, axis=1)
+    for axis, quotients in enumerate(quotient_indices(degree, count_of_degree(degree - 1))):
+        total += sums[:, axis].take(quotients, axis=1)

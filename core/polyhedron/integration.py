@@ -15,13 +15,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh.planarity import Witness
+from ..mesh.planarity import PlanarityAccumulator
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..moments.monomials import monomial_count
 from ..verdict.finding import MeasureError
 from . import any_order, third_order
-from .third_order import finite_box, middle, nothing
+from .third_order import box_center, finite_box, nothing
 
 MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 THIRD = 3  # orders up to this one have their own kernel
@@ -37,14 +37,14 @@ def polyhedron_moments(
     exact: bool = False,
     threads: int = 1,
     progress: Callable[[int], None] | None = None,
-    planarity: Witness | None = None,
+    planarity: PlanarityAccumulator | None = None,
 ) -> tuple[Moments, Moments | None]:
     """The moments of the body that a closed surface bounds, and of the surface itself.
 
     The volume's are positive for outward faces, signed otherwise. An open surface is closed by the cone from the
-    reference point. `error` bounds the rounding of every moment, `input` what storing coordinates as float32 may have
-    changed (of a closed surface). Memory beside what `body` holds: for each thread a block's scratch, some 13 MB at
-    order 4, 30 MB at order 20 and 65 MB at order 30, and some 15 MB for the bounds; to third order less.
+    reference point. `error` bounds the rounding of every moment, `input_error` what storing coordinates as float32 may
+    have changed (of a closed surface). Memory beside what `body` holds: for each thread a block's scratch, some 13 MB
+    at order 4, 30 MB at order 20 and 65 MB at order 30, and some 15 MB for the bounds; to third order less.
 
     Parameters
     ----------
@@ -54,8 +54,8 @@ def polyhedron_moments(
     order : int
         Of the volume's moments: all p+q+r ≤ order.
     area_order : int, optional
-        Of the area's moments; 0 for the area alone. To third order that costs little and makes the volume's `input`
-        the smaller. By default no areas.
+        Of the area's moments; 0 for the area alone. To third order that costs little and makes the volume's
+        `input_error` the smaller. By default no areas.
     about : (3,) array_like, optional
         The reference point, by default the center of the bounding box; of a stream that can be read only once, that of
         its first piece. Far from the body digits are lost, and `error` says how many: give a point in it.
@@ -103,7 +103,7 @@ def polyhedron_moments(
         options = {"area": area_order is not None, "shell": shell, "exact": exact and order == THIRD}
         volume, area = _sum_to_third_order(stream, threads, about, progress, planarity=planarity, **options)
         # Bounds are not negative, and an area's have one power of the reach less.
-        if not isfinite(np.add.reduce(volume.error[: monomial_count(highest)])):
+        if not isfinite(np.add.reduce(volume.rounding_error[: monomial_count(highest)])):
             raise MeasureError("moments_overflow", order=int(order))
     else:
         volume, area = any_order.integrate(stream, highest, area_order is not None, threads, progress, about, reach)
@@ -128,11 +128,11 @@ def _center(surfaces: list[Surface]) -> NDArray[np.float64] | None:
         return None
     lows, highs = zip(*boxes)
     dtype = np.result_type(*(surface.points for surface in surfaces))
-    return middle(np.min(lows, axis=0), np.max(highs, axis=0), dtype)
+    return box_center(np.min(lows, axis=0), np.max(highs, axis=0), dtype)
 
 
 def _to_order(moments: Moments, order: int) -> Moments:
-    return moments if len(moments.raw) <= monomial_count(order) else moments.truncated(order)
+    return moments if len(moments.raw) <= monomial_count(order) else moments.truncate(order)
 
 
 def _sum_to_third_order(

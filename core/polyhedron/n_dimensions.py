@@ -24,11 +24,11 @@ from math import comb, factorial, isfinite
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import PAIRWISE, U
+from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, U
 from ..verdict.finding import MeasureError
 
-MEMORY = 1 << 20  # numbers in the table of a block
-LEAST = 64  # simplices in a block, whatever the table takes
+NUMBERS_PER_BLOCK = 1 << 20  # numbers in the table of a block
+MIN_SIMPLICES_PER_BLOCK = 64  # simplices in a block, whatever the table takes
 UNDERFLOW = 2.0**-1000  # of a body of size 1: far above what products of its coordinates lose where they vanish
 
 
@@ -36,36 +36,36 @@ UNDERFLOW = 2.0**-1000  # of a body of size 1: far above what products of its co
 class SimplexMoments:
     """Moments in n dimensions to some order.
 
-    raw: (K,) ∫ x^α about `about`, in the order of `multi_indices`. about: (n,). error: (K,) bound of |raw - exact| for
-    the coordinates and the point as given.
+    raw: (K,) ∫ x^α about `about`, in the order of `multi_indices`. about: (n,). rounding_error: (K,) bound of |raw -
+    exact| for the coordinates and the point as given.
     """
 
     raw: NDArray[np.float64]
     about: NDArray[np.float64]
     order: int
-    error: NDArray[np.float64]
+    rounding_error: NDArray[np.float64]
 
     def __getitem__(self, exponents: tuple[int, ...]) -> float:
-        return float(self.raw[place(len(self.about), self.order, exponents)])
+        return float(self.raw[multi_index_position(len(self.about), self.order, exponents)])
 
     def bound(self, exponents: tuple[int, ...]) -> float:
         """The error bound of one moment."""
-        return float(self.error[place(len(self.about), self.order, exponents)])
+        return float(self.rounding_error[multi_index_position(len(self.about), self.order, exponents)])
 
 
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
     """(K, n) all exponents of degree at most `order`, by degree, the first exponents largest first; read-only. In three
     dimensions the order of `moments.monomials`."""
-    rows = [row for degree in range(order + 1) for row in _of_degree(dimension, degree)]
-    table = np.array(rows, np.int64).reshape(-1, dimension)
+    exponents = [row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)]
+    table = np.array(exponents, np.int64).reshape(-1, dimension)
     table.flags.writeable = False
     return table
 
 
-def place(dimension: int, order: int, exponents: tuple[int, ...]) -> int:
+def multi_index_position(dimension: int, order: int, exponents: tuple[int, ...]) -> int:
     """Where one moment stands. KeyError beyond the order."""
-    return _places(dimension, order)[tuple(exponents)]
+    return _positions(dimension, order)[tuple(exponents)]
 
 
 def enclosed_moments(
@@ -127,11 +127,11 @@ def _measure(
     measure = dimension if enclosed else dimension - 1
     degree = indices.sum(axis=1)
     raw, size = np.zeros((2, len(indices)))
-    block = max(LEAST, MEMORY // (2 * len(indices)))
+    block = max(MIN_SIMPLICES_PER_BLOCK, NUMBERS_PER_BLOCK // (2 * len(indices)))
     blocks = range(0, len(simplices), block)
     for start in blocks:
-        rows = simplices[start : start + block].T
-        corners = np.ascontiguousarray(points[rows].transpose(0, 2, 1))  # (n corners, n coordinates, k)
+        vertices = simplices[start : start + block].T
+        corners = np.ascontiguousarray(points[vertices].transpose(0, 2, 1))  # (n corners, n coordinates, k)
         edges = np.ldexp(corners[1:] - corners[:1], -exponent)
         corners = np.ldexp(corners - about[:, None], -exponent)
         weight, weight_size = _weights(corners, edges, enclosed)
@@ -142,7 +142,14 @@ def _measure(
 
     # Roundings that one product of coordinates goes through: of each coordinate, product and sum of the recursion, of
     # the passes that only carry it on, of the weight, and of the sum over all simplices.
-    steps = degree * (dimension + 2) + dimension * dimension + _weight_steps(dimension) + PAIRWISE + len(blocks) + 4
+    steps = (
+        degree * (dimension + 2)
+        + dimension * dimension
+        + _weight_steps(dimension)
+        + PAIRWISE_SUM_ROUNDINGS
+        + len(blocks)
+        + 4
+    )
     error = 1.01 * steps * U * size + (len(simplices) + 1) * UNDERFLOW
     factor = np.array([_factor(row, measure) for row in indices.tolist()])
     power = (exponent * (degree + measure)).astype(np.int32)
@@ -156,15 +163,15 @@ def _measure(
 def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
     """(K, k) S_α of k simplices; corners: (n corners, n coordinates, k)."""
     dimension = corners.shape[1]
-    starts, raised = _steps(dimension, order)
+    starts, raised = _degree_steps(dimension, order)
     table = np.zeros((starts[-1], corners.shape[2]))
     table[0] = 1.0
     for corner in corners:
         for n in range(order):
             lower = table[starts[n] : starts[n + 1]]
             upper = table[starts[n + 1] : starts[n + 2]]
-            for coordinate, rows in zip(corner, raised[n]):
-                upper[rows] += lower * coordinate
+            for coordinate, positions in zip(corner, raised[n]):
+                upper[positions] += lower * coordinate
     return table
 
 
@@ -182,8 +189,8 @@ def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
     edges: (n-1, n, k). Minors by Laplace's expansion along the last row, smaller ones shared.
     """
     dimension = len(edges) + 1
-    one = np.ones(edges.shape[2])
-    minors = {(): (one, one)}
+    ones = np.ones(edges.shape[2])
+    minors = {(): (ones, ones)}
     for row, edge in enumerate(edges):
         grown = {}
         for columns in combinations(range(dimension), row + 1):
@@ -195,8 +202,8 @@ def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
             grown[columns] = value, size
         minors = grown
     every = tuple(range(dimension))
-    found = [minors[every[:i] + every[i + 1 :]] for i in range(dimension)]
-    return [(-1) ** i * value for i, (value, _) in enumerate(found)], [size for _, size in found]
+    components = [minors[every[:i] + every[i + 1 :]] for i in range(dimension)]
+    return [(-1) ** i * value for i, (value, _) in enumerate(components)], [size for _, size in components]
 
 
 def _weight_steps(dimension: int) -> int:
@@ -213,29 +220,33 @@ def _factor(exponents: list[int], measure: int) -> float:
     return product / factorial(sum(exponents) + measure)
 
 
-def _of_degree(dimension: int, degree: int) -> list[tuple[int, ...]]:
+def _exponents_of_degree(dimension: int, degree: int) -> list[tuple[int, ...]]:
     if dimension == 1:
         return [(degree,)]
-    return [(first, *rest) for first in range(degree, -1, -1) for rest in _of_degree(dimension - 1, degree - first)]
+    return [
+        (first, *rest)
+        for first in range(degree, -1, -1)
+        for rest in _exponents_of_degree(dimension - 1, degree - first)
+    ]
 
 
 @lru_cache
-def _places(dimension: int, order: int) -> dict[tuple[int, ...], int]:
+def _positions(dimension: int, order: int) -> dict[tuple[int, ...], int]:
     return {tuple(row): i for i, row in enumerate(multi_indices(dimension, order).tolist())}
 
 
 @lru_cache
-def _steps(dimension: int, order: int) -> tuple[list[int], list[list[NDArray]]]:
+def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDArray]]]:
     """Where each degree starts, and for each degree and axis where, in the next degree, its products with that
     coordinate stand."""
     starts = [0] + [comb(n + dimension, dimension) for n in range(order + 1)]
-    places, table = _places(dimension, order), multi_indices(dimension, order).tolist()
+    positions, table = _positions(dimension, order), multi_indices(dimension, order).tolist()
     raised = []
     for n in range(order):
-        rows = table[starts[n] : starts[n + 1]]
+        exponents = table[starts[n] : starts[n + 1]]
         raised.append(
             [
-                np.array([places[*row[:k], row[k] + 1, *row[k + 1 :]] - starts[n + 1] for row in rows])
+                np.array([positions[*row[:k], row[k] + 1, *row[k + 1 :]] - starts[n + 1] for row in exponents])
                 for k in range(dimension)
             ]
         )

@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface
 from ..moments.moments import Measure, Moments, U
 
-BLOCK = 1 << 17  # products of a map with a normal at a time
-SUMMED = 128  # u: within a block numpy adds up in pairs of sums of at most 128 in 8 lanes
+PRODUCTS_PER_BLOCK = 1 << 17  # products of a map with a normal at a time
+SUM_ROUNDINGS = 128  # u: within a block numpy adds up in pairs of sums of at most 128 in 8 lanes
 
 
 def area_of_images(surface: Surface, linear: NDArray) -> Moments:
     """The areas of all images together, of order 0.
 
-    linear: (k, 3, 3) the maps. `error` bounds the rounding; `input` the change when every coordinate moves by its
+    linear: (k, 3, 3) the maps. `error` bounds the rounding; `input_error` the change when every coordinate moves by its
     float32 half ulp.
     """
     linear = np.asarray(linear, np.float64)
@@ -33,10 +33,11 @@ def area_of_images(surface: Surface, linear: NDArray) -> Moments:
     normals, size = plus - minus, (np.abs(plus) + np.abs(minus)).sum(axis=1)
     above, below = linear[:, [1, 2, 0]], linear[:, [2, 0, 1]]
     plus, minus = (
-        above[:, :, one] * below[:, :, other] for one, other in (([1, 2, 0], [2, 0, 1]), ([2, 0, 1], [1, 2, 0]))
+        above[:, :, second_axis] * below[:, :, third_axis]
+        for second_axis, third_axis in (([1, 2, 0], [2, 0, 1]), ([2, 0, 1], [1, 2, 0]))
     )
     cofactors = plus - minus
-    step, sums = max(1, BLOCK // len(linear)), []
+    step, sums = max(1, PRODUCTS_PER_BLOCK // len(linear)), []
     for start in range(0, len(triangles), step):
         images = cofactors @ normals[:, start : start + step]
         sums.append(np.sqrt(np.einsum("kif,kif->kf", images, images)).sum())
@@ -52,6 +53,6 @@ def area_of_images(surface: Surface, linear: NDArray) -> Moments:
         np.array([total]),
         np.zeros(3),
         Measure.AREA,
-        np.array([U * (1.0 + 1e-9) * (rounded + (SUMMED + len(sums)) * total)]),
+        np.array([U * (1.0 + 1e-9) * (rounded + (SUM_ROUNDINGS + len(sums)) * total)]),
         np.array([np.abs(cofactors).sum(axis=(0, 1)) @ moved / 2.0]),
     )

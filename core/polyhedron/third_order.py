@@ -33,28 +33,40 @@ from operator import itemgetter
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.planarity import Witness
-from ..mesh.surface import NO_QUADS, Surface, all_there
-from ..moments.moments import PAIRWISE, Measure, Moments, U
+from ..mesh.planarity import PlanarityAccumulator
+from ..mesh.surface import NO_QUADS, Surface, indices_in_range
+from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U
 from ..moments.monomials import monomial_count, monomials
-from .third_order_kernel import NO_VERTEX, TRIPLES, Faces, Found, Rows, numbers, rows
-from .third_order_small import few
+from .third_order_kernel import (
+    NO_VERTEX,
+    TRIPLES,
+    BlockAccumulator,
+    BlockResult,
+    BlockSums,
+    combine_blocks,
+    scratch_size,
+)
+from .third_order_small import integrate_small
 
-BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
-MEMORY = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
-EXACT = 100_000  # triangles up to which the exact third order, half as much again, costs no time to speak of
-FEW = 1024  # triangles up to which `small` is faster
-PAIRED = 1000  # triangles below which looking for pairs costs more than it saves
-LEAST = 250_000  # triangles that are worth a thread: of fewer the calls are short, and wait for the interpreter
-RANGE = 2.0**100  # reaches beyond this, or below its inverse, are scaled, lest a product of six overflow or vanish
+MAX_TRIANGLES_PER_BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
+SCRATCH_BYTES = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
+# triangles up to which the exact third order, half as much again, costs no time to speak of
+MAX_TRIANGLES_EXACT_THIRD = 100_000
+MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small` is faster
+MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs more than it saves
+# triangles that are worth a thread: of fewer the calls are short, and wait for the interpreter
+MIN_TRIANGLES_PER_THREAD = 250_000
+# reaches beyond this, or below its inverse, are scaled, lest a product of six overflow or vanish
+MAX_UNSCALED_REACH = 2.0**100
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
-FACTORS = np.sort([[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS])  # of 1, x, y, z
+# of 1, x, y, z
+MONOMIAL_FACTORS = np.sort([[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS])
 DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # of the sums of `blocks`
-PRODUCTS = 8.0 * DEGREE  # u: what products of weights and nodes are off by
-THIRDS = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come to as much again at most
-CONE = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
-TO_AREA = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
+PRODUCT_ROUNDINGS = 8.0 * DEGREE  # u: what products of weights and nodes are off by
+THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come to as much again at most
+CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
+AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
 
 # What is measured at a time: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles whose rows may be halves
 # of one quad, with the surface's row that each array begins at; or, without rows, the (4, k) corners of turned quads.
@@ -69,7 +81,7 @@ def integrate(
     shell: bool,
     exact: bool,
     about: NDArray | None = None,
-    planarity: Witness | None = None,
+    planarity: PlanarityAccumulator | None = None,
 ) -> tuple[Moments, Moments]:
     """The volume's moments to third order; and the area where `area`, its moments to third order where `shell`.
 
@@ -83,23 +95,25 @@ def integrate(
     if points.dtype != np.float32:
         points = points.astype(np.float64, copy=False)
     low, high = finite_box(surface)
-    center = middle(low, high, points.dtype) if about is None else np.asarray(about, np.float64)
+    center = box_center(low, high, points.dtype) if about is None else np.asarray(about, np.float64)
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
     largest = max(reach.tolist())
-    if largest and not 1.0 / RANGE < largest < RANGE:
-        return _rescaled(surface, int(np.log2(largest)), threads, about, area=area, shell=shell, exact=exact)
-    exact = exact or count <= EXACT
+    if largest and not 1.0 / MAX_UNSCALED_REACH < largest < MAX_UNSCALED_REACH:
+        return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area=area, shell=shell, exact=exact)
+    exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
     # Two threads have a block each: the sums are the same with one, and with more where there is room for more.
-    room, each = MEMORY[0] * count + MEMORY[1], 8 * numbers(3, area, exact)
-    size = max(2, min(BLOCK, room // (2 * each), count) // 2 * 2)
-    threads = max(1, min(threads, count // LEAST, room // (each * size)))
-    job = _Job(points, center, reach, surface.coordinate_error, count, area, shell, exact, planarity, size, threads)
-    if count <= FEW:
-        if not all(all_there(faces, len(points)) for faces in (surface.triangles, surface.quads)):
+    room, each = SCRATCH_BYTES[0] * count + SCRATCH_BYTES[1], 8 * scratch_size(3, area, exact)
+    size = max(2, min(MAX_TRIANGLES_PER_BLOCK, room // (2 * each), count) // 2 * 2)
+    threads = max(1, min(threads, count // MIN_TRIANGLES_PER_THREAD, room // (each * size)))
+    job = _Integration(
+        points, center, reach, surface.coordinate_error, count, area, shell, exact, planarity, size, threads
+    )
+    if count <= MAX_SMALL_TRIANGLES:
+        if not all(indices_in_range(faces, len(points)) for faces in (surface.triangles, surface.quads)):
             raise ValueError(NO_VERTEX)
         triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
-        return job.moments(few(points, center, triangles, area=area, shell=shell))
-    return job.moments(rows(job.sums(job.blocks(surface))))
+        return job.moments(integrate_small(points, center, triangles, area=area, shell=shell))
+    return job.moments(combine_blocks(job.block_sums(job.blocks(surface))))
 
 
 def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:
@@ -116,38 +130,38 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
     return low, high
 
 
-def middle(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
+def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
     """The center of a bounding box of points of this type, for float32 rounded so that subtracting it is exact."""
     center = low / 2.0 + high / 2.0
     return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
 
 
-def _rescaled(
+def _measure_rescaled(
     surface: Surface, exponent: int, threads: int, about: NDArray | None, **options: bool
 ) -> tuple[Moments, Moments]:
     """The moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
     triangles, faces = surface.all_triangles()
     points = np.ldexp(surface.points.astype(np.float64), -exponent)
-    small = Surface(points, triangles, triangle_faces=faces, moved=np.ldexp(surface.coordinate_error, -exponent))
+    small = Surface(points, triangles, triangle_faces=faces, displacement=np.ldexp(surface.coordinate_error, -exponent))
     results = []
     about = None if about is None else np.ldexp(about, -exponent)
     for moments in integrate(small, threads, about=about, **options):
-        powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.of == Measure.VOLUME else 2))
+        powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.measure == Measure.VOLUME else 2))
         with np.errstate(over="ignore"):  # what becomes infinite is refused by who asked for it
             results.append(
                 replace(
                     moments,
                     raw=np.ldexp(moments.raw, powers),
                     about=np.ldexp(moments.about, exponent),
-                    error=np.ldexp(moments.error, powers) + np.finfo(float).tiny,
-                    input=np.ldexp(moments.input, powers),
+                    rounding_error=np.ldexp(moments.rounding_error, powers) + np.finfo(float).tiny,
+                    input_error=np.ldexp(moments.input_error, powers),
                 )
             )
     return results[0], results[1]
 
 
 @dataclass(frozen=True, eq=False)
-class _Job:
+class _Integration:
     """One surface to be measured. points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count:
     triangles; size: those in a block."""
 
@@ -159,14 +173,14 @@ class _Job:
     area: bool
     shell: bool
     exact: bool
-    planarity: Witness | None
+    planarity: PlanarityAccumulator | None
     size: int
     threads: int
 
     def blocks(self, surface: Surface) -> list[_Block]:
         """The faces in as few blocks as the memory allows, whatever the number of threads."""
         triangles, half, size = surface.triangles, len(surface.triangles) // 2, self.size
-        if _paired(triangles[:1], triangles[half : half + 1]) is None:
+        if _quad_corners_of(triangles[:1], triangles[half : half + 1]) is None:
             half = 0
         whole = (
             ((0, half), (triangles[:half], triangles[half : 2 * half]), size // 2),
@@ -179,134 +193,137 @@ class _Job:
             for i in range(0, len(arrays[0]), step)
         ]
 
-    def sums(self, blocks: list[_Block]) -> list[Found]:
+    def block_sums(self, blocks: list[_Block]) -> list[BlockResult]:
         """What the blocks add, in their order, whichever thread computed them."""
         queue = iter(enumerate(blocks))
         threads = min(self.threads, len(blocks))
         if threads == 1:
-            parts = self._run(queue)
+            parts = self._run_queue(queue)
         else:
             with ThreadPoolExecutor(threads) as pool:
-                parts = [part for own in pool.map(self._run, [queue] * threads) for part in own]
+                parts = [part for of_thread in pool.map(self._run_queue, [queue] * threads) for part in of_thread]
         parts.sort(key=itemgetter(0))
-        found = [one for _, own, _ in parts for one in own]
-        flipped, step = np.concatenate([NO_QUADS.T, *(one for *_, own in parts for one in own)], axis=1), self.size // 2
+        results = [block for _, of_thread, _ in parts for block in of_thread]
+        flipped, step = (
+            np.concatenate([NO_QUADS.T, *(block for *_, of_thread in parts for block in of_thread)], axis=1),
+            self.size // 2,
+        )
         if flipped.size:
-            found += self.sums([([], [flipped[:, i : i + step]]) for i in range(0, flipped.shape[1], step)])
-        return found
+            results += self.block_sums([([], [flipped[:, i : i + step]]) for i in range(0, flipped.shape[1], step)])
+        return results
 
-    def _run(self, queue: Iterator[tuple[int, _Block]]) -> list[tuple[int, list[Found], list[NDArray]]]:
+    def _run_queue(self, queue: Iterator[tuple[int, _Block]]) -> list[tuple[int, list[BlockResult], list[NDArray]]]:
         """Of each block that is taken from the queue: its number, what it adds, and quads that were left out."""
-        faces = Faces(self.points, self.center, area=self.area, shell=self.shell, exact=self.exact)
+        faces = BlockAccumulator(self.points, self.center, area=self.area, shell=self.shell, exact=self.exact)
         parts = []
         for number, block in queue:
-            faces.found, faces.flipped = [], []
+            faces.results, faces.flipped = [], []
             self._add(faces, *block)
-            parts.append((number, faces.found, faces.flipped))
+            parts.append((number, faces.results, faces.flipped))
         return parts
 
-    def _add(self, faces: Faces, starts: list[int], arrays: list[NDArray]) -> None:
+    def _add(self, faces: BlockAccumulator, starts: list[int], arrays: list[NDArray]) -> None:
         first, halves, planarity = arrays[0], None, self.planarity
         if not starts:
-            faces.block(first)
+            faces.add_faces(first)
             return
         if first.shape[1] == 4:
-            faces.block(first.T, quads=True, see=planarity and partial(planarity.see_quads, *starts))
+            faces.add_faces(first.T, quads=True, observe=planarity and partial(planarity.add_quads, *starts))
             return
-        if len(first) >= PAIRED:
-            halves = pairs(first) if len(arrays) == 1 else _paired(*arrays)
+        if len(first) >= MIN_TRIANGLES_TO_PAIR:
+            halves = quad_corners(first) if len(arrays) == 1 else _quad_corners_of(*arrays)
         if halves:
-            seen = (starts, 1) if len(arrays) == 2 else ([starts[0], starts[0] + 1], 2)
-            faces.block(halves, see=planarity and partial(planarity.see_triangles, *seen))
+            planarity_rows = (starts, 1) if len(arrays) == 2 else ([starts[0], starts[0] + 1], 2)
+            faces.add_faces(halves, observe=planarity and partial(planarity.add_triangles, *planarity_rows))
             return
         for start, part in zip(starts, arrays):
-            faces.block(part.T, see=planarity and partial(planarity.see_triangles, [start], 1))
+            faces.add_faces(part.T, observe=planarity and partial(planarity.add_triangles, [start], 1))
 
-    def moments(self, rows: Rows) -> tuple[Moments, Moments]:
+    def moments(self, sums: BlockSums) -> tuple[Moments, Moments]:
         """Volume and area, with their bounds."""
-        bounds = _Bounds(self, rows)
-        raw = rows.sums / DIVISORS
+        bounds = _ErrorBounds(self, sums)
+        raw = sums.sums / DIVISORS
         volume = Moments(raw, self.center, Measure.VOLUME, *bounds.volume(raw))
         if not self.area:
             return volume, Moments(np.zeros(1), self.center, Measure.AREA)
-        raw = rows.areas / (DIVISORS / TO_AREA) if self.shell else np.array([bounds.sizes[1] / 2.0])
+        raw = sums.areas / (DIVISORS / AREA_FACTORS) if self.shell else np.array([bounds.sizes[1] / 2.0])
         return volume, Moments(raw, self.center, Measure.AREA, *bounds.area(raw))
 
 
-class _Bounds:
+class _ErrorBounds:
     """What the numbers may be off by, from the largest edges of each chunk of triangles and the sums of their sizes.
 
     sizes: the sum of the |determinants| and that of the doubled areas. tau: the sum of each τ. powers: (20,) the
-    largest value of each monomial within reach. moved: (20,) the same for points that float32 has moved, by `step` at
-    most; swept: the volume that a closed surface sweeps then. edges: what bounds the sum of the lengths of the edges
-    at the triangles' first corners.
+    largest value of each monomial within reach. displaced_bound: (20,) the same for points that float32 has moved, by
+    `step` at most; swept_bound: the volume that a closed surface sweeps then. edges: what bounds the sum of the lengths
+    of the edges at the triangles' first corners.
     """
 
-    def __init__(self, job: _Job, rows: Rows):
-        self.job, self.rows = job, rows
-        self.sizes, self.count = np.add.reduce(rows.sizes, axis=1).tolist(), int(np.add.reduce(rows.counts))
+    def __init__(self, job: _Integration, sums: BlockSums):
+        self.job, self.sums = job, sums
+        self.sizes, self.count = np.add.reduce(sums.sizes, axis=1).tolist(), int(np.add.reduce(sums.counts))
         # No product of matrices, after which the threads of some BLAS keep a core busy for a while.
-        products = np.einsum("in,jn,n->ij", rows.side, rows.base, rows.counts).tolist()
+        products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts).tolist()
         self.tau = [products[i][j] + products[j][i] for i, j in ((1, 2), (2, 0), (0, 1))]
-        self.powers = _powers(job.reach)
+        self.powers = _monomial_bounds(job.reach)
         self.step = hypot(*job.half_ulp.tolist())
         if self.step:
             step, double = self.step, self.sizes[1] * (1.0 + 1e-9) if job.area else hypot(*self.tau)
-            lengths = np.sqrt(np.add.reduce(rows.side**2)) + np.sqrt(np.add.reduce(rows.base**2))
-            self.edges = float(np.add.reduce(lengths * rows.counts))
-            self.swept = step * (double / 2.0 + step * self.edges + 2.0 * step**2 * self.count)
-            self.moved = _powers(job.reach + job.half_ulp)
+            lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
+            self.edges = float(np.add.reduce(lengths * sums.counts))
+            self.swept_bound = step * (double / 2.0 + step * self.edges + 2.0 * step**2 * self.count)
+            self.displaced_bound = _monomial_bounds(job.reach + job.half_ulp)
 
     def volume(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(20,) and (20,) `error` and `input` of volume moments."""
+        """(20,) and (20,) `error` and `input_error` of volume moments."""
         x, y, z = self.job.reach.tolist()
         weight = 9.0 * U * (x * self.tau[0] + y * self.tau[1] + z * self.tau[2])
-        error = self._error(weight, 0) / CONE + 8.0 * U * np.abs(raw)
-        return error, self.swept * self.moved if self.step else np.zeros(20)
+        error = self._error(weight, 0) / CONE_DIVISORS + 8.0 * U * np.abs(raw)
+        return error, self.swept_bound * self.displaced_bound if self.step else np.zeros(20)
 
     def area(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(k,) and (k,) `error` and `input` of area moments."""
+        """(k,) and (k,) `error` and `input_error` of area moments."""
         error = self._error(9.0 * U * sum(self.tau), 1)[: len(raw)] / 2.0 + 8.0 * U * np.abs(raw)
         if not self.step:
             return error, np.zeros(len(raw))
-        turned = self.step * (self.edges + 2.0 * self.step * self.count)
+        tilted = self.step * (self.edges + 2.0 * self.step * self.count)
         reach = self.job.reach + self.job.half_ulp
         share = self.job.half_ulp / np.where(reach > 0.0, reach, 1.0)  # of an axis along which it has no extent
-        return error, (self.moved * (turned + EXPONENTS @ share * (self.swept / self.step)))[: len(raw)]
+        return error, (self.displaced_bound * (tilted + EXPONENTS @ share * (self.swept_bound / self.step)))[: len(raw)]
 
     def _error(self, weight: float, which: int) -> NDArray[np.float64]:
         """(20,) The error of Σ w E[f], w the determinants or the doubled areas: the weights are off by `weight` in all;
         then their products with the nodes, the sums, what underflow may lose and the rest of the third order."""
-        job, rows, size = self.job, self.rows, self.sizes[which] * (1.0 + 1e-9)
+        job, sums, size = self.job, self.sums, self.sizes[which] * (1.0 + 1e-9)
         # A product of matrices may add up one by one.
-        steps = 3.0 * job.count if job.count <= FEW else PAIRWISE + rows.blocks
-        error = (weight + 1e-290 * self.count + (U * (size + weight)) * (PRODUCTS + steps)) * self.powers
-        error *= THIRDS
+        steps = 3.0 * job.count if job.count <= MAX_SMALL_TRIANGLES else PAIRWISE_SUM_ROUNDINGS + sums.blocks
+        error = (weight + 1e-290 * self.count + (U * (size + weight)) * (PRODUCT_ROUNDINGS + steps)) * self.powers
+        error *= THIRD_ORDER_SHARE
         if not job.exact:
-            e, f = rows.base, rows.side + rows.base / 2.0
+            e, f = sums.base, sums.side + sums.base / 2.0
             rest = [
                 f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
                 for i, j, k in TRIPLES
             ]
-            error[10:] += (1.0 + 1e-9) * np.add.reduce(rest * rows.sizes[which], axis=1)
+            error[10:] += (1.0 + 1e-9) * np.add.reduce(rest * sums.sizes[which], axis=1)
         return error
 
 
-def _powers(reach: NDArray) -> NDArray[np.float64]:
+def _monomial_bounds(reach: NDArray) -> NDArray[np.float64]:
     """(20,) the largest value of each monomial within reach."""
-    return np.multiply.reduce(np.array([1.0, *reach]).take(FACTORS), axis=1)
+    return np.multiply.reduce(np.array([1.0, *reach]).take(MONOMIAL_FACTORS), axis=1)
 
 
-def pairs(triangles: NDArray) -> list[NDArray] | None:
+def quad_corners(triangles: NDArray) -> list[NDArray] | None:
     """The four corners, (k/2,) each, of quads where triangles 2i and 2i+1 are halves of one for every i; else None.
 
     Meshes that were triangulated from quads are like that, and two triangles that share an edge cost less than two
     loose ones. The first pair shows which of their corners meet.
     """
-    return _paired(triangles[0::2], triangles[1::2])
+    return _quad_corners_of(triangles[0::2], triangles[1::2])
 
 
-def _paired(first: NDArray, second: NDArray) -> list[NDArray] | None:
+def _quad_corners_of(first: NDArray, second: NDArray) -> list[NDArray] | None:
     """The same where triangle i of the one array and that of the other are halves of one quad."""
     if not len(second) or len(first) != len(second):
         return None

@@ -33,22 +33,24 @@ from numpy.typing import NDArray
 from ..mesh.surface import flipped_quads
 from .workspace import Workspace, gather
 
-SLICES = 32  # of a row that einsum adds up
-CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES
-FLIP_MARGIN = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
+SLICES_PER_ROW = 32  # of a row that einsum adds up
+COLUMNS_PER_CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES
+MIN_FLIP_COSINE = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
 FLOAT32_UNDERFLOW = 1e-36  # the cosine up to which they do at its other end
 NO_VERTEX = "no such vertex"
 TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
-TENSOR = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
+PAIR_INDEX = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 # Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, x, y, z, the terms of the symmetric products stand: two of
 # each xx, xy, ... and three of each xxx, xxy, ...
 SQUARE = np.array([[9 * i + 6 + j, 9 * j + 6 + i] for i in range(3) for j in range(i, 3)]).T
-CUBE = np.array([[9 * i + TENSOR[j, k], 9 * j + TENSOR[i, k], 9 * k + TENSOR[i, j]] for i, j, k in TRIPLES]).T
+CUBE = np.array(
+    [[9 * i + PAIR_INDEX[j, k], 9 * j + PAIR_INDEX[i, k], 9 * k + PAIR_INDEX[i, j]] for i, j, k in TRIPLES]
+).T
 
 
 @dataclass(frozen=True, eq=False)
-class Rows:
+class BlockSums:
     """What some blocks add.
 
     sums, areas: (20,) Σ weight, 48, 120 and 2880 ∫ of the monomials of first to third order in the order of
@@ -66,13 +68,13 @@ class Rows:
     blocks: int = 1
 
 
-def numbers(count: int, each: bool, exact: bool) -> int:
-    """How many numbers the scratch holds for a face of `count` corners; each: as for `_Calls`."""
+def scratch_size(count: int, each: bool, exact: bool) -> int:
+    """How many numbers the scratch holds for a face of `count` corners; each: as for `_BlockCalls`."""
     fans = count - 2
     return 6 * count + 2 * fans + max(3 * count - 3 + 6 * (fans if each else 1), 16) + (9 * fans if exact else 0)
 
 
-class _Calls:
+class _BlockCalls:
     """What numpy does with blocks of one shape: arrays, and the calls bound to them, as to make views in the loop would
     cost time.
 
@@ -123,7 +125,7 @@ class _Calls:
         if fans == 2:
             self.start.append(partial(np.subtract, corners[:, 0], corners[:, 3], edges[:, 2]))
         self.start.append(partial(np.subtract, corners, center[:, None, None], corners))
-        self.start += _cross(*((sides, base) if each else (base, apex)), normals, spare)
+        self.start += _cross_calls(*((sides, base) if each else (base, apex)), normals, spare)
         self.largest, self.least = (
             partial(function.reduce, chunked(edges), axis=3) for function in (np.maximum, np.minimum)
         )
@@ -143,23 +145,27 @@ class _Calls:
         self.weigh.append(partial(np.abs, self.weights[0], spare))
         self.sizes = [partial(np.add.reduce, chunked(row), axis=2) for row in (spare, self.weights[1])[: 1 + area]]
 
-        self.prepare = _local(sides, base, tips, local, heavy[:, :1]) if exact else []
+        self.prepare = _local_calls(sides, base, tips, local, heavy[:, :1]) if exact else []
         self.prepare.append(partial(np.add, corners[:, 0], corners[:, 2], middle))
         self.moments = []
         for weights in self.weights[: 1 + shell]:
-            calls = _weighted(corners, weights, weighted, table)
-            sums = [partial(np.add.reduce, table, axis=1), partial(_products, _sliced(middle), _sliced(table[:9]))]
+            calls = _weighted_calls(corners, weights, weighted, table)
+            sums = [
+                partial(np.add.reduce, table, axis=1),
+                partial(_scalar_products, _in_slices(middle), _in_slices(table[:9])),
+            ]
             if exact:
                 calls.append(partial(np.multiply, local, weights, heavy))
-                sums.append(partial(_products, _sliced(tips), _sliced(heavy)))
+                sums.append(partial(_scalar_products, _in_slices(tips), _in_slices(heavy)))
             self.moments.append((calls, sums))
 
 
-Found = tuple[int, NDArray, NDArray, list, list]  # of one block: its faces, the edges' extremes, the sizes, the sums
+# of one block: its faces, the edges' extremes, the sizes, the sums
+BlockResult = tuple[int, NDArray, NDArray, list, list]
 
 
-class Faces:
-    """The loop body for blocks of faces. found: what each block so far has added.
+class BlockAccumulator:
+    """The loop body for blocks of faces. results: what each block so far has added.
 
     points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. area: whether doubled areas are
     wanted, shell: also their moments. exact: whether the third order is.
@@ -167,116 +173,121 @@ class Faces:
 
     def __init__(self, points: NDArray, center: NDArray, *, area: bool, shell: bool, exact: bool):
         self.points, self.area, self.exact = points, area, exact
-        self.workspace = Workspace(partial(_Calls, center=center, area=area, shell=shell, exact=exact))
+        self.workspace = Workspace(partial(_BlockCalls, center=center, area=area, shell=shell, exact=exact))
         self.flipped: list[NDArray] = []
-        self.found: list[Found] = []
+        self.results: list[BlockResult] = []
 
-    def block(self, faces: Sequence[NDArray], quads: bool = False, see: Callable | None = None) -> None:
+    def add_faces(self, faces: Sequence[NDArray], quads: bool = False, observe: Callable | None = None) -> None:
         """Add some faces.
 
         faces: the vertices a, b, c and perhaps d, (k,) each. quads: leave those out that Blender cuts along the other
         diagonal, and append them to `flipped`, turned by one corner; otherwise the first diagonal is taken.
-        see: is shown the doubled areas, (c - 2, k); of quads also 6 times the volumes of the tetrahedra of their
+        observe: is shown the doubled areas, (c - 2, k); of quads also 6 times the volumes of the tetrahedra of their
         corners, (k,), the columns of those whose triangles may face away from each other, and gets room, (2, k).
         ValueError where an index names no point.
         """
         k = len(faces[0])
-        shape = (len(faces), *_shape(k), self.area or quads)
-        own = self.workspace.block(shape, numbers(len(faces), shape[3], self.exact) * shape[1] * shape[2])
+        shape = (len(faces), *chunk_shape(k), self.area or quads)
+        workspace = self.workspace.block(shape, scratch_size(len(faces), shape[3], self.exact) * shape[1] * shape[2])
         if isinstance(faces, np.ndarray):
-            own.index[:, :k] = faces
+            workspace.index[:, :k] = faces
         else:
-            for row, corner in zip(own.index, faces):
+            for row, corner in zip(workspace.index, faces):
                 row[:k] = corner
-        if k < own.index.shape[1]:
-            own.index[:, k:] = faces[0][0]  # filled up with faces that are a point
-        if own.unsigned.max() >= len(self.points):  # where a negative index is a large one
+        if k < workspace.index.shape[1]:
+            workspace.index[:, k:] = faces[0][0]  # filled up with faces that are a point
+        if workspace.unsigned.max() >= len(self.points):  # where a negative index is a large one
             raise ValueError(NO_VERTEX)
-        gather(self.points, own.index, own.single, own.corners)
-        for call in own.start:
+        gather(self.points, workspace.index, workspace.single, workspace.corners)
+        for call in workspace.start:
             call()
-        largest, least = own.largest(), own.least()
+        largest, least = workspace.largest(), workspace.least()
         if quads:
-            suspects, flipped = self._flipped(own, np.maximum(largest, -least), k)
-            own.normals[:, :, flipped] = 0.0
-        for call in own.weigh:
+            suspects, flipped = self._find_flipped(workspace, np.maximum(largest, -least), k)
+            workspace.normals[:, :, flipped] = 0.0
+        for call in workspace.weigh:
             call()
-        sizes, sums = [size() for size in own.sizes], []
-        if see is not None:
-            see(own.weights[1, :, :k], *((own.volume()[:k], suspects, own.room[:2, :k]) if quads else ()))
-        for call in own.prepare:
+        sizes, sums = [size() for size in workspace.sizes], []
+        if observe is not None:
+            observe(
+                workspace.weights[1, :, :k],
+                *((workspace.volume()[:k], suspects, workspace.room[:2, :k]) if quads else ()),
+            )
+        for call in workspace.prepare:
             call()
-        for calls, totals in own.moments:
+        for calls, totals in workspace.moments:
             for call in calls:
                 call()
             sums.append([total() for total in totals])
-        self.found.append((k, largest, least, sizes, sums))
+        self.results.append((k, largest, least, sizes, sums))
 
-    def _flipped(self, own: _Calls, largest: NDArray, k: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def _find_flipped(
+        self, workspace: _BlockCalls, largest: NDArray, k: int
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Those of the first k columns whose quads Blender may cut along their other diagonal, and those that it does,
         once they are appended to `flipped`.
 
         They are those whose two normals face away from each other in float32. That can differ from float64 only where
         the product is within float32's rounding of zero.
         """
-        cosine = np.einsum("dk,dk->k", own.normals[:, 0], own.normals[:, 1], out=own.cosine)
+        cosine = np.einsum("dk,dk->k", workspace.normals[:, 0], workspace.normals[:, 1], out=workspace.cosine)
         cosine[k:] = np.inf  # where the block is filled up
         if self.points.dtype == np.float32:
             length = np.sqrt((largest**2).sum(axis=0))
-            margin = np.maximum(FLIP_MARGIN * length[0] * length[1] ** 2 * length[2], FLOAT32_UNDERFLOW)
+            margin = np.maximum(MIN_FLIP_COSINE * length[0] * length[1] ** 2 * length[2], FLOAT32_UNDERFLOW)
             least = np.minimum.reduce(cosine.reshape(len(margin), -1), axis=1)
             if length.max() < FLOAT32_OVERFLOW and (least > margin).all():
-                return own.index[0, :0], own.index[0, :0]
-            square = np.einsum("cik,cik->ik", own.edges, own.edges)
-            limit = np.maximum(FLIP_MARGIN * square[1] * np.sqrt(square[0] * square[2]), FLOAT32_UNDERFLOW)
+                return workspace.index[0, :0], workspace.index[0, :0]
+            square = np.einsum("cik,cik->ik", workspace.edges, workspace.edges)
+            limit = np.maximum(MIN_FLIP_COSINE * square[1] * np.sqrt(square[0] * square[2]), FLOAT32_UNDERFLOW)
             limit[square.max(axis=0) > FLOAT32_OVERFLOW**2] = np.inf
             suspects = np.flatnonzero(cosine <= limit)
         else:  # float32 sees coordinates that were rounded first: all are suspects
             suspects = np.arange(k)
-        quads = own.index[:, suspects] // 3
+        quads = workspace.index[:, suspects] // 3
         loose = self.points[quads.T].reshape(-1, 3)
         turn = flipped_quads(loose, np.arange(len(loose)).reshape(-1, 4))
         self.flipped.append(np.roll(quads[:, turn], -1, axis=0))
         return suspects, suspects[turn]
 
 
-def rows(found: Sequence[Found]) -> Rows:
+def combine_blocks(results: Sequence[BlockResult]) -> BlockSums:
     """What all these blocks together add."""
     columns = []
-    for k, largest, least, sizes, _ in found:
-        edges, width = np.maximum(largest, -least), _shape(k)[1]
+    for k, largest, least, sizes, _ in results:
+        edges, width = np.maximum(largest, -least), chunk_shape(k)[1]
         counts = np.minimum(k - width * np.arange(edges.shape[2]), width)
         columns += [(edges[:, 2 * i], edges[:, 1], counts, *fan) for i, fan in enumerate(zip(*sizes))]
     side, base, counts, *sizes = (np.concatenate(column, axis=-1) for column in zip(*columns))
-    sums, *areas = (_assembled(*map(sum, zip(*parts))) for parts in zip(*(sums for *_, sums in found)))
-    return Rows(
+    sums, *areas = (to_monomial_sums(*map(sum, zip(*parts))) for parts in zip(*(sums for *_, sums in results)))
+    return BlockSums(
         sums,
         areas[0] if areas else None,
         side,
         base,
         np.array((*sizes, np.zeros_like(sizes[0]))[:2]),
         counts,
-        len(found),
+        len(results),
     )
 
 
-def _assembled(rows: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
-    """(20,) `Rows.sums` from the sums of the table's rows, (13,), and the products that have been summed."""
+def to_monomial_sums(table_sums: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
+    """(20,) `BlockSums.sums` from the sums of the table's rows, (13,), and the products that have been summed."""
     mixed = 0.5 * np.add.reduce(products.take(SQUARE))
     third = 10.0 * np.add.reduce(products.take(CUBE))
-    total = 2.0 * np.concatenate([rows[12:], rows[6:9] + rows[9:12], rows[:6] + mixed, third])
+    total = 2.0 * np.concatenate([table_sums[12:], table_sums[6:9] + table_sums[9:12], table_sums[:6] + mixed, third])
     if local is not None:
         total[10:] += np.add.reduce(local.take(CUBE - CUBE // 9 * 3))  # in a table without x, y, z
     return total
 
 
-def _shape(k: int) -> tuple[int, int]:
+def chunk_shape(k: int) -> tuple[int, int]:
     """How many chunks hold k columns, and of what width."""
-    chunks = -(-k // CHUNK)
-    return chunks, -(-k // (chunks * SLICES)) * SLICES
+    chunks = -(-k // COLUMNS_PER_CHUNK)
+    return chunks, -(-k // (chunks * SLICES_PER_ROW)) * SLICES_PER_ROW
 
 
-def _cross(first: NDArray, second: NDArray, out: NDArray, spare: NDArray) -> list[partial]:
+def _cross_calls(first: NDArray, second: NDArray, out: NDArray, spare: NDArray) -> list[partial]:
     """The calls for (3, f, k) cross products of (3, f, k) with (3, 1, k) rows of x, y and z."""
     return [
         partial(np.multiply, first[1:], second[::-2], out[:2]),  # y z', z x'
@@ -287,13 +298,15 @@ def _cross(first: NDArray, second: NDArray, out: NDArray, spare: NDArray) -> lis
     ]
 
 
-def _local(sides: NDArray, base: NDArray, tips: NDArray, local: NDArray, squares: NDArray) -> list[partial]:
+def _local_calls(
+    sides: NDArray, base: NDArray, apex_vectors: NDArray, local: NDArray, squares: NDArray
+) -> list[partial]:
     """The calls for the vectors f and for f f' + e e' of every triangle."""
     calls = [
-        partial(np.multiply, sides, np.array([[2.0], [-2.0]])[: sides.shape[1]], tips),
-        partial(np.subtract, tips, base, tips),
+        partial(np.multiply, sides, np.array([[2.0], [-2.0]])[: sides.shape[1]], apex_vectors),
+        partial(np.subtract, apex_vectors, base, apex_vectors),
     ]
-    for vectors, tensors in ((tips, local), (base, squares)):
+    for vectors, tensors in ((apex_vectors, local), (base, squares)):
         calls += [
             partial(np.multiply, vectors, vectors[0], tensors[:3]),
             partial(np.multiply, vectors[1:], vectors[1], tensors[3:5]),
@@ -302,7 +315,7 @@ def _local(sides: NDArray, base: NDArray, tips: NDArray, local: NDArray, squares
     return [*calls, partial(np.add, local, squares, local)]
 
 
-def _weighted(corners: NDArray, weights: NDArray, weighted: NDArray, table: NDArray) -> list[partial]:
+def _weighted_calls(corners: NDArray, weights: NDArray, weighted: NDArray, table: NDArray) -> list[partial]:
     """The calls for the weighted corners, and for the table: half of H, of Z, of u q and of u."""
     both, every, half = table[9:12], table[6:9], table[12]
     if len(weights) == 2:
@@ -323,11 +336,11 @@ def _weighted(corners: NDArray, weights: NDArray, weighted: NDArray, table: NDAr
     return calls
 
 
-def _sliced(rows: NDArray) -> NDArray[np.float64]:
+def _in_slices(table: NDArray) -> NDArray[np.float64]:
     """(m, SLICES, ·) rows whose products can be summed."""
-    return rows.reshape(len(rows), SLICES, -1)
+    return table.reshape(len(table), SLICES_PER_ROW, -1)
 
 
-def _products(vectors: NDArray, others: NDArray) -> NDArray[np.float64]:
+def _scalar_products(vectors: NDArray, second: NDArray) -> NDArray[np.float64]:
     """(m, n) the scalar products of m rows with n."""
-    return np.add.reduce(np.einsum("cjk,pjk->cpk", vectors, others), axis=2)
+    return np.add.reduce(np.einsum("cjk,pjk->cpk", vectors, second), axis=2)

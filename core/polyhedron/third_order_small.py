@@ -14,23 +14,26 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .third_order_kernel import TENSOR, TRIPLES, Rows
+from .third_order_kernel import PAIR_INDEX, TRIPLES, BlockSums
 
 ROWS, COLUMNS = np.triu_indices(3)
-ABOVE, BELOW = [1, 2, 0], [2, 0, 1]
+NEXT_AXIS, PREVIOUS_AXIS = [1, 2, 0], [2, 0, 1]
 # Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, the three terms of each symmetric product stand.
-CUBE = np.array([[6 * i + TENSOR[j, k], 6 * j + TENSOR[i, k], 6 * k + TENSOR[i, j]] for i, j, k in TRIPLES]).T
-FACTORS = np.repeat([1.0, 2.0, 1.0, 8.0 / 3.0], [1, 3, 6, 10])  # of the sums of `blocks`, to whose divisors these bring
+CUBE = np.array(
+    [[6 * i + PAIR_INDEX[j, k], 6 * j + PAIR_INDEX[i, k], 6 * k + PAIR_INDEX[i, j]] for i, j, k in TRIPLES]
+).T
+# of the sums of `blocks`, to whose divisors these bring
+DIVISOR_FACTORS = np.repeat([1.0, 2.0, 1.0, 8.0 / 3.0], [1, 3, 6, 10])
 
 
-def few(points: NDArray, center: NDArray, triangles: NDArray, *, area: bool, shell: bool) -> Rows:
+def integrate_small(points: NDArray, center: NDArray, triangles: NDArray, *, area: bool, shell: bool) -> BlockSums:
     """The sums of `blocks` over all triangles, (m, 3), as one block; the third order is exact.
 
     area: whether doubled areas are wanted, shell: also their moments.
     """
     corners = points.T.astype(np.float64).take(triangles.T, axis=1)  # (3, 3, m): x, y, z of a, b, c
     edges = corners[:, 1:] - corners[:, :1]
-    above, below = edges.take(ABOVE, 0), edges.take(BELOW, 0)
+    above, below = edges.take(NEXT_AXIS, 0), edges.take(PREVIOUS_AXIS, 0)
     normals = above[:, 0] * below[:, 1] - below[:, 0] * above[:, 1]
     nodes = np.empty((3, 4, len(triangles)))  # a, b, c and s
     np.subtract(corners, center[:, None, None], nodes[:, :3])
@@ -46,12 +49,12 @@ def few(points: NDArray, center: NDArray, triangles: NDArray, *, area: bool, she
         weighted = nodes * weights
         first = np.add.reduce(weighted[:, 3], axis=1)
         third = weighted.reshape(3, -1) @ products.reshape(6, -1).T
-        return FACTORS * np.concatenate(
+        return DIVISOR_FACTORS * np.concatenate(
             [[np.add.reduce(weights)], first, second @ weights, np.add.reduce(third.take(CUBE))]
         )
 
     edges = np.maximum.reduce(np.abs(edges), axis=2)
     sizes = np.array([np.add.reduce(np.abs(det)), np.add.reduce(double)])
-    return Rows(
+    return BlockSums(
         sums(det), sums(double) if shell else None, edges[:, :1], edges[:, 1:], sizes[:, None], np.array([len(det)])
     )

@@ -15,7 +15,7 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-GAP = 8  # numbers between arrays: numpy < 2 leaves its vector loop where output ends at input's start
+ROW_PADDING = 8  # numbers between arrays: numpy < 2 leaves its vector loop where output ends at input's start
 MAX_ARRAYS = 16  # of one shape, at a time
 
 Block = TypeVar("Block")
@@ -38,7 +38,7 @@ class Workspace(Generic[Block]):
         """The block of this shape. numbers: how many its arrays hold together, those that share memory once."""
         if shape != self._shape:
             self._shape = self._block = None
-            needed = numbers + MAX_ARRAYS * GAP
+            needed = numbers + MAX_ARRAYS * ROW_PADDING
             if len(self._buffer) < needed:
                 self._buffer = np.empty(0)  # never two of them
                 self._buffer = np.empty(needed)
@@ -51,7 +51,7 @@ class Workspace(Generic[Block]):
         """The next contiguous array."""
         start = self._position
         end = start + prod(shape)
-        self._position = end + GAP
+        self._position = end + ROW_PADDING
         return self._buffer[start:end].reshape(shape)
 
     def overlay(self, *groups: Sequence[tuple[int, ...]]) -> list[list[NDArray[np.float64]]]:

@@ -29,7 +29,7 @@ READERS = {
 SUFFIXES = tuple(READERS)
 
 
-def suffix(path: str | Path) -> str:
+def scan_suffix(path: str | Path) -> str:
     """What the file's name ends with, in lower case; "" where it is no scan's."""
     name = str(path).lower()
     return next((end for end in sorted(SUFFIXES, key=len, reverse=True) if name.endswith(end)), "")
@@ -38,7 +38,7 @@ def suffix(path: str | Path) -> str:
 def read_scan(path: str | Path) -> Scan:
     """The scan in a file, by its suffix. FileError where it is none or damaged, OSError where it cannot be opened."""
     path = Path(path)
-    read = READERS.get(suffix(path))
+    read = READERS.get(scan_suffix(path))
     if read is None:
         raise FileError("scan_file_type", suffixes=" ".join(SUFFIXES))
     if not path.is_file():
@@ -56,7 +56,7 @@ def read_scan(path: str | Path) -> Scan:
     return scan
 
 
-def placed(
+def sample_matrix(
     scan: Scan, spacing: Sequence[float] | None, origin: Sequence[float] | None, unit_scale: float | None
 ) -> tuple[NDArray[np.float64], tuple[Finding, ...]]:
     """(4, 4) where the samples stand in metres, and what was decided on the way.
@@ -65,19 +65,19 @@ def placed(
     """
     findings = []
     matrix = scan.matrix.copy()
-    own = (unit_scale or 1.0) if scan.unit is None else scan.unit
+    meters_per_unit = (unit_scale or 1.0) if scan.unit is None else scan.unit
     if scan.unit is not None and unit_scale is not None:
         findings.append(finding("scan_own_unit"))
     given = unit_scale or 1.0
-    matrix[:3] *= own
+    matrix[:3] *= meters_per_unit
     if spacing is not None:
         matrix[:3, :3] = np.diag(spacing) * given
     if origin is not None:
         matrix[:3, 3] = np.asarray(origin, float) * given
-    if scan.placed and (spacing is not None or origin is not None):
+    if scan.is_placed and (spacing is not None or origin is not None):
         fields = [name for name, value in (("spacing", spacing), ("origin", origin)) if value is not None]
         findings.append(finding("scan_placement_overridden", fields=fields))
-    if not scan.placed and spacing is None:
+    if not scan.is_placed and spacing is None:
         findings.append(finding("scan_without_spacing"))
     elif scan.unit is None and unit_scale is None and spacing is None:
         findings.append(finding("scan_without_unit"))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import FileError
-from .scan import Scan, damaged, gzip_blocks, mapped, shape_of, unpacked
+from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samples
 
 HEADER = 348  # bytes
 TYPES = {2: "u1", 4: "i2", 8: "i4", 16: "f4", 64: "f8", 256: "i1", 512: "u2", 768: "u4", 1024: "i8", 1280: "u8"}
@@ -44,8 +44,10 @@ def read_nifti(path: Path) -> Scan:
     offset, slope, intercept = struct.unpack_from(order + "3f", head, 108)
     if not 348.0 <= offset < 1 << 40 or offset != int(offset):
         raise FileError("nifti_offset", offset=offset)
-    matrix, placed = _place(head, order)
-    samples = unpacked(path, 0, dtype, shape, int(offset)) if packed else mapped(path, dtype, shape, int(offset))
+    matrix, placed = _sample_matrix(head, order)
+    samples = (
+        unpack_samples(path, 0, dtype, shape, int(offset)) if packed else map_samples(path, dtype, shape, int(offset))
+    )
     if slope == 0.0:  # by the standard: not scaled
         slope, intercept = 1.0, 0.0
     return Scan(samples, matrix, UNITS.get(head[123] & 7), placed, slope, intercept)
@@ -63,7 +65,7 @@ def _head(path: Path, packed: bool) -> bytes:
     return head
 
 
-def _place(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
+def _sample_matrix(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
     """By the standard's three methods: the affine, else the quaternion, else the spacing alone."""
     matrix = np.eye(4)
     pixdim = struct.unpack_from(order + "8f", head, 76)

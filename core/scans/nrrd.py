@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError
-from .scan import Scan, damaged, mapped, shape_of, unpacked
+from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
 
-HEADER = 1 << 20  # bytes of a header, at most
+MAX_HEADER_BYTES = 1 << 20  # bytes of a header, at most
 UNITS = {
     "m": 1.0,
     "meter": 1.0,
@@ -51,7 +51,7 @@ TYPES = {
 def read_nrrd(path: Path) -> Scan:
     """The scan, mapped where it is raw."""
     with open(path, "rb") as file:
-        head = file.read(HEADER)
+        head = file.read(MAX_HEADER_BYTES)
     if not re.match(rb"NRRD000[1-5]\r?\n", head):
         raise FileError("nrrd_unrecognized")
     end = re.search(rb"\r?\n\r?\n", head)
@@ -90,9 +90,10 @@ def _nrrd(path: Path, fields: dict[str, str], start: int | None) -> Scan:
     if dtype.itemsize > 1 and endian not in ("little", "big"):
         raise FileError("nrrd_endian_missing")
     dtype = dtype.newbyteorder(">" if endian == "big" else "<")
-    matrix, placed, unit = _place(fields, numbers)
+    matrix, placed, unit = _sample_matrix(fields, numbers)
     (line_skip,), (byte_skip,) = (
-        _one(numbers(name, int, "0"), name) for name in (_alias(fields, "line skip"), _alias(fields, "byte skip"))
+        _single_value(numbers(name, int, "0"), name)
+        for name in (_alias(fields, "line skip"), _alias(fields, "byte skip"))
     )
     source, name = path, fields.get("data file", fields.get("datafile"))
     if name is not None:
@@ -104,18 +105,18 @@ def _nrrd(path: Path, fields: dict[str, str], start: int | None) -> Scan:
     elif start is None:
         raise FileError("nrrd_header_unended")
     if line_skip:
-        start = _after_lines(source, start, line_skip)
+        start = _skip_lines(source, start, line_skip)
     encoding = needed("encoding").lower()
     if encoding == "raw":
-        samples = mapped(source, dtype, shape, start + max(byte_skip, 0), from_end=byte_skip == -1)
+        samples = map_samples(source, dtype, shape, start + max(byte_skip, 0), from_end=byte_skip == -1)
     elif encoding in ("gzip", "gz"):
-        samples = unpacked(source, start, dtype, shape, byte_skip)
+        samples = unpack_samples(source, start, dtype, shape, byte_skip)
     else:
         raise FileError("nrrd_encoding", encoding=encoding)
     return Scan(samples, matrix, unit, placed)
 
 
-def _one(values: list, name: str) -> list:
+def _single_value(values: list, name: str) -> list:
     if len(values) != 1 or values[0] < -1:
         raise FileError("nrrd_field_not_one_number", field=name)
     return values
@@ -126,27 +127,31 @@ def _alias(fields: dict[str, str], name: str) -> str:
     return name if name in fields else name.replace(" ", "")
 
 
-def _after_lines(path: Path, start: int, count: int) -> int:
+def _skip_lines(path: Path, start: int, count: int) -> int:
     with open(path, "rb") as file:
         file.seek(start)
         for _ in range(count):
-            if not file.readline(HEADER).endswith(b"\n"):
+            if not file.readline(MAX_HEADER_BYTES).endswith(b"\n"):
                 raise damaged(path, "damage_lines")
         return file.tell()
 
 
-def _place(fields: dict[str, str], numbers: Callable[..., list]) -> tuple[NDArray[np.float64], bool, float | None]:
+def _sample_matrix(
+    fields: dict[str, str], numbers: Callable[..., list]
+) -> tuple[NDArray[np.float64], bool, float | None]:
     """Where the samples stand, whether the header says so, and in which unit."""
     matrix = np.eye(4)
     words = re.findall(r'"([^"]*)"', fields.get("space units", fields.get("units", "")))
     units = {UNITS.get(word.strip().lower()) for word in words[:3]}
     unit = units.pop() if len(units) == 1 else None
     if "space directions" in fields:
-        rows = [_vector(text, "space directions") for text in re.findall(r"\([^)]*\)|none", fields["space directions"])]
-        rows = [row for row in rows if row is not None]
-        if len(rows) != 3:
+        directions = [
+            _vector(text, "space directions") for text in re.findall(r"\([^)]*\)|none", fields["space directions"])
+        ]
+        directions = [row for row in directions if row is not None]
+        if len(directions) != 3:
             raise FileError("nrrd_space_directions")
-        matrix[:3, :3] = np.array(rows).T
+        matrix[:3, :3] = np.array(directions).T
         if "space origin" in fields:
             origin = _vector(fields["space origin"], "space origin")
             matrix[:3, 3] = np.zeros(3) if origin is None else origin

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ..verdict.finding import FileError, finding
-from .scan import Scan, check_length, damaged, mapped, real_samples, shape_of
+from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
 
 TYPES = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float32", "float64")
 ENTRY = b"PK\1\2"  # how an entry of a zip archive's directory begins
@@ -75,7 +75,7 @@ def read_raw(path: str | Path, shape: Sequence[int], dtype: str, big_endian: boo
     if dtype not in TYPES:
         raise FileError("raw_type_unknown", type=dtype, types=", ".join(TYPES))
     kind = np.dtype(dtype).newbyteorder(">" if big_endian else "<")
-    return Scan(mapped(Path(path), kind, shape_of(shape), 0), np.eye(4))
+    return Scan(map_samples(Path(path), kind, shape_of(shape), 0), np.eye(4))
 
 
 def read_named_raw(path: Path) -> Scan:

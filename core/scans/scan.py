@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, Finding, finding
 
-DEFLATED = 1032  # bytes that a byte of a gzip file can hold, at most
+MAX_GZIP_RATIO = 1032  # bytes that a byte of a gzip file can hold, at most
 PACKED = 1 << 16  # bytes that are unpacked at a time: what a small member leaves of them is copied
 BLOCK = 1 << 18  # unpacked bytes at a time
 FAULTS = {  # codes of what zlib reports, where there is more to say than its words
@@ -33,12 +33,12 @@ FAULTS = {  # codes of what zlib reports, where there is more to say than its wo
 class Scan:
     """samples: (nx, ny, nz), any real type, perhaps a memory map; a sample stands for slope · sample + intercept.
     matrix: (4, 4), the sample (i, j, k) stands at matrix @ (i, j, k, 1), in units of `unit` metres (None: the file does
-    not say). placed: whether the file says where samples stand. findings: what was decided on the way."""
+    not say). is_placed: whether the file says where samples stand. findings: what was decided on the way."""
 
     samples: NDArray
     matrix: NDArray[np.float64]
     unit: float | None = None
-    placed: bool = False
+    is_placed: bool = False
     slope: float = 1.0
     intercept: float = 0.0
     findings: tuple[Finding, ...] = ()
@@ -81,36 +81,38 @@ def check_length(path: Path, held: int, wanted: int) -> None:
         raise damaged(path, "damage_too_long", total=wanted)
 
 
-def mapped(path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False) -> NDArray:
+def map_samples(
+    path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False
+) -> NDArray:
     """Uncompressed samples, x fastest, from byte `offset` to the end of the file. from_end: they are its last bytes,
     after whatever else begins at `offset`, so that only too few of them can be noticed."""
-    size, wanted = path.stat().st_size, dtype.itemsize * math.prod(shape)
+    size, byte_count = path.stat().st_size, dtype.itemsize * math.prod(shape)
     if from_end:
-        offset = max(offset, size - wanted)
-    check_length(path, max(0, size - offset), wanted)
+        offset = max(offset, size - byte_count)
+    check_length(path, max(0, size - offset), byte_count)
     return np.memmap(path, dtype, "r", offset, shape, "F")
 
 
-def unpacked(path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int) -> NDArray:
+def unpack_samples(path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int) -> NDArray:
     """Samples that are compressed by gzip from byte `start` of the file on, x fastest; skip: unpacked bytes before.
 
     They are read to the end of the file, for the checksum stands behind them; see `gzip_blocks`."""
-    wanted = dtype.itemsize * math.prod(shape)
+    byte_count = dtype.itemsize * math.prod(shape)
     if skip < 0:
         raise FileError("nrrd_skip_from_end")
-    if skip + wanted > DEFLATED * path.stat().st_size:
+    if skip + byte_count > MAX_GZIP_RATIO * path.stat().st_size:
         raise damaged(path, "damage_too_small", samples=list(shape))
-    samples = np.empty(wanted, np.uint8)
+    samples = np.empty(byte_count, np.uint8)
     begin = -skip  # where a block stands among the samples
     for block in gzip_blocks(path, start):
         end = begin + len(block)
-        if end > 0 and begin < wanted:
-            first, last = max(begin, 0), min(end, wanted)
+        if end > 0 and begin < byte_count:
+            first, last = max(begin, 0), min(end, byte_count)
             samples[first:last] = np.frombuffer(block, np.uint8, last - first, first - begin)
         begin = end
-        if begin > wanted:  # a small file may hold a thousand times its size
+        if begin > byte_count:  # a small file may hold a thousand times its size
             break
-    check_length(path, max(0, begin), wanted)
+    check_length(path, max(0, begin), byte_count)
     return samples.view(dtype).reshape(shape, order="F")
 
 

@@ -12,10 +12,11 @@ from enum import StrEnum
 from pathlib import Path
 
 from ..verdict.finding import FileError, Finding, finding
-from .signature import ALIKE, Likeness, Signature, compared
+from .signature import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
 
-SAME = 1e-4  # signatures nearer than this are one shape's: some float32 steps, and no more than a careless export
-SAME_SIZE = 1e-4
+# signatures nearer than this are one shape's: some float32 steps, and no more than a careless export
+SAME_SHAPE_DISTANCE = 1e-4
+SAME_SIZE_RTOL = 1e-4
 
 
 class Similarity(StrEnum):
@@ -31,7 +32,8 @@ class Similarity(StrEnum):
     DIFFERENT = "different"
 
 
-UNCLEAR = (Similarity.COPY_OR_MIRROR, Similarity.SCALED_COPY_OR_MIRROR)  # the signatures do not tell the hand
+# the signatures do not tell the hand
+UNDECIDED_HANDEDNESS = (Similarity.COPY_OR_MIRROR, Similarity.SCALED_COPY_OR_MIRROR)
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,27 +76,27 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
     return entries, missing
 
 
-def nearest(
-    wanted: Signature, entries: Iterable[Entry], any_size: bool = False, any_hand: bool = False
+def rank(
+    query: Signature, entries: Iterable[Entry], any_size: bool = False, any_hand: bool = False
 ) -> list[tuple[Entry, Likeness]]:
     """All entries with their likeness to the one that is wanted, the most alike first."""
-    rows = [(entry, compared(wanted, entry.signature)) for entry in entries]
-    return sorted(rows, key=lambda row: row[1].distance(any_size, any_hand))
+    ranked = [(entry, similarity(query, entry.signature)) for entry in entries]
+    return sorted(ranked, key=lambda row: row[1].distance(any_size, any_hand))
 
 
-def same_size(likeness: Likeness) -> bool:
+def same_size(similarity: Likeness) -> bool:
     """Whether the two bodies are of one size, to noise."""
-    return abs(likeness.scale - 1.0) <= SAME_SIZE
+    return abs(similarity.scale - 1.0) <= SAME_SIZE_RTOL
 
 
-def verdict(likeness: Likeness) -> Similarity:
+def classify(similarity: Likeness) -> Similarity:
     """What a shape is to the one that it was compared with."""
-    if likeness.shape > ALIKE:
+    if similarity.shape > MAX_SIMILAR_DIFFERENCE:
         return Similarity.DIFFERENT
-    if likeness.shape > SAME:
+    if similarity.shape > SAME_SHAPE_DISTANCE:
         return Similarity.SIMILAR
-    if likeness.mirrored is None:
-        return Similarity.COPY_OR_MIRROR if same_size(likeness) else Similarity.SCALED_COPY_OR_MIRROR
-    if likeness.mirrored:
-        return Similarity.MIRROR if same_size(likeness) else Similarity.SCALED_MIRROR
-    return Similarity.COPY if same_size(likeness) else Similarity.SCALED_COPY
+    if similarity.is_mirror_image is None:
+        return Similarity.COPY_OR_MIRROR if same_size(similarity) else Similarity.SCALED_COPY_OR_MIRROR
+    if similarity.is_mirror_image:
+        return Similarity.MIRROR if same_size(similarity) else Similarity.SCALED_MIRROR
+    return Similarity.COPY if same_size(similarity) else Similarity.SCALED_COPY

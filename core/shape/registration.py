@@ -16,62 +16,65 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.canonical_frame import Frames
-from ..inertia.principal_frame import frames_alike, free_axes, settled
+from ..inertia.canonical_frame import EquivalentFrames
+from ..inertia.principal_frame import complete_free_axes, equivalent_frames, undetermined_axes
 from ..moments.moments import Moments
-from ..moments.symmetric_tensors import distinct, inverted
+from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 
 HALF_TURNS = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]])
-EQUAL = 1e-4  # of the size: residuals nearer than this are equal, and the smallest turn is taken
-FITS = 1e-3  # of the size: below, a body lies on the other one
-FEW = 32  # points of each surface that are looked at first
-BETTER = 0.2  # a reflection that leaves less than this share of what rotations leave tells a mirror image
+EQUAL_RESIDUAL_RTOL = 1e-4  # of the size: residuals nearer than this are equal, and the smallest turn is taken
+MAX_FIT_RTOL = 1e-3  # of the size: below, a body lies on the other one
+FIRST_SAMPLES = 32  # points of each surface that are looked at first
+MIRROR_SHARE = 0.2  # a reflection that leaves less than this share of what rotations leave tells a mirror image
 
 
 @dataclass(frozen=True, eq=False)
-class Match:
-    """rotation: (3, 3) about the centers. largest, mean: distances of points of either surface from the other one.
-    mirrored: whether a reflection fits so much better that the bodies are mirror images."""
+class RigidMatch:
+    """rotation: (3, 3) about the centers. max_distance, mean_distance: distances of points of either surface from the
+    other one.
+    is_mirror_image: whether a reflection fits so much better that the bodies are mirror images."""
 
     rotation: NDArray[np.float64]
-    largest: float
-    mean: float
-    mirrored: bool
+    max_distance: float
+    mean_distance: float
+    is_mirror_image: bool
 
 
 Residual = Callable[[NDArray, int | None], NDArray]
 
 
-def match(source: Moments, target: Moments, residual: Residual, size: float) -> Match:
+def match(source: Moments, target: Moments, residual: Residual, size: float) -> RigidMatch:
     """The rotation that lays the source onto the target, both about their centers.
 
     source, target: central moments to the order of a pose. residual: the distances, (n,), that an orthogonal (3, 3)
     map of the source leaves: of all points, or of about so many of them. size: of the target.
     """
-    first = frames_alike(source).frames[0]
-    rotation, distances = _best(_ways(first, frames_alike(target)), residual, size)
+    first = equivalent_frames(source).frames[0]
+    rotation, distances = _best_rotation(_candidate_rotations(first, equivalent_frames(target)), residual, size)
     largest, mirrored = float(distances.max()), False
-    if largest > FITS * size:
-        reflected = _best(-_ways(first, frames_alike(inverted(target))), residual, size)[1].max()
-        mirrored = bool(reflected < BETTER * largest)
-    return Match(rotation, largest, float(distances.mean()), mirrored)
+    if largest > MAX_FIT_RTOL * size:
+        reflected = _best_rotation(
+            -_candidate_rotations(first, equivalent_frames(invert_through_point(target))), residual, size
+        )[1].max()
+        mirrored = bool(reflected < MIRROR_SHARE * largest)
+    return RigidMatch(rotation, largest, float(distances.mean()), mirrored)
 
 
-def _ways(first: NDArray, target: Frames) -> NDArray[np.float64]:
+def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np.float64]:
     """(k, 3, 3) the rotations from a frame of the source to those of the target and their half turns."""
     frames = (target.frames[:, None] * HALF_TURNS[:, None, :]).reshape(-1, 3, 3)
-    frames = np.array([settled(frame, free_axes(target), first) for frame in frames])
-    return distinct(frames @ first.T, 1e-9)
+    frames = np.array([complete_free_axes(frame, undetermined_axes(target), first) for frame in frames])
+    return distinct_arrays(frames @ first.T, 1e-9)
 
 
-def _best(ways: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
-    least = np.array([residual(way, FEW).max() for way in ways])
-    worst, distances = np.full(len(ways), np.inf), {}
+def _best_rotation(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
+    least = np.array([residual(way, FIRST_SAMPLES).max() for way in candidates])
+    worst, distances = np.full(len(candidates), np.inf), {}
     for i in np.argsort(least, kind="stable"):
-        if least[i] > worst.min() + EQUAL * size:
+        if least[i] > worst.min() + EQUAL_RESIDUAL_RTOL * size:
             break
-        distances[i] = residual(ways[i], None)
+        distances[i] = residual(candidates[i], None)
         worst[i] = distances[i].max()
-    near = np.flatnonzero(worst <= worst.min() + EQUAL * size)
-    best = max(near, key=lambda i: np.trace(ways[i]))
-    return ways[best], distances[best]
+    near = np.flatnonzero(worst <= worst.min() + EQUAL_RESIDUAL_RTOL * size)
+    best = max(near, key=lambda i: np.trace(candidates[i]))
+    return candidates[best], distances[best]

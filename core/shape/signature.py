@@ -25,19 +25,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials
-from ..moments.solid_harmonics import coupled, harmonic_moments
+from ..moments.solid_harmonics import couple, harmonic_moments
 from ..verdict.finding import FileError
-from .zernike import BY_MOMENTS, Multiplets, degrees, descriptors, loss, radial_power, zernike_moments
+from .zernike import (
+    MAX_ORDER_BY_MOMENTS,
+    Multiplets,
+    degrees,
+    descriptor_error,
+    descriptors,
+    radial_power,
+    zernike_moments,
+)
 
 Key = tuple[int, int]  # (n, l) of a multiplet
 INVARIANT_ORDER = 6
 COUPLED_ORDER = 4  # of the moments that are coupled in threes
 CHIRAL_ORDER = 6
 FREQUENCIES = np.arange(1.0, 13.0)  # what orders to 20 resolve to a millionth
-ALIKE = 0.1  # beyond this nobody would call two shapes similar
-HANDED = 1e-11  # a chirality below this is rounding
-DOUBT = 10.0  # by the difference of two shapes: what noise that makes it may make of chiralities
-CLEAR = 0.2  # chiralities whose difference is less than this share of their sum, or the other way round, tell a hand
+MAX_SIMILAR_DIFFERENCE = 0.1  # beyond this nobody would call two shapes similar
+MIN_CHIRALITY = 1e-11  # a chirality below this is rounding
+CHIRALITY_NOISE_FACTOR = 10.0  # by the difference of two shapes: what noise that makes it may make of chiralities
+# chiralities whose difference is less than this share of their sum, or the other way round, tell a hand
+CLEAR_CHIRALITY_SHARE = 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,34 +79,38 @@ class Signature:
                 name: np.array(record[name], np.float64).reshape(-1)
                 for name in ("invariants", "zernike", "fourier", "chirality")
             }
-            found = cls(size=float(record["size"]), **arrays)
+            result = cls(size=float(record["size"]), **arrays)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError("signature_unrecognized") from error
         if not (
             np.isfinite(np.concatenate(list(arrays.values()))).all()
-            and found.size > 0.0
-            and len(found.zernike)
-            and len(found.chirality) == len(_chiral_triples())
+            and result.size > 0.0
+            and len(result.zernike)
+            and len(result.chirality) == len(_chiral_triples())
         ):
             raise FileError("signature_incomplete")
-        return found
+        return result
 
 
 @dataclass(frozen=True)
 class Likeness:
     """shape: the difference of the shapes whatever their size and hand, 0 for the same. scale: the second body's size
-    by the first one's. hand: the difference of their chiralities. mirrored: whether it is a mirror image; False
-    where neither has a hand, None where noise as large as the shapes' difference could make up their hands."""
+    by the first one's. chirality_difference: the difference of their chiralities. is_mirror_image: whether it is a
+    mirror image; False where neither has a hand, None where noise as large as the shapes' difference could make up
+    their hands."""
 
     shape: float
     scale: float
-    hand: float
-    mirrored: bool | None
+    chirality_difference: float
+    is_mirror_image: bool | None
 
     def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
         """0 for a copy; also for one of another size, and for a mirror image, where that does not matter. Where it
         does, a difference of size or hand counts as much as one of shape, but never for more than ALIKE."""
-        size, hand = (ALIKE * tanh(abs(value) / ALIKE) for value in (log(self.scale), self.hand))
+        size, hand = (
+            MAX_SIMILAR_DIFFERENCE * tanh(abs(value) / MAX_SIMILAR_DIFFERENCE)
+            for value in (log(self.scale), self.chirality_difference)
+        )
         return hypot(self.shape, 0.0 if any_size else size, 0.0 if any_hand else hand)
 
 
@@ -105,37 +118,45 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
     """moments: about the center, volume or area, to order 6 at least and 20 at most. radius: of the ball about the
     center that just holds the body. zernike: Ω_nlm in that ball where they are known otherwise, by default from the
     moments."""
-    total, order = moments.total, min(moments.order, BY_MOMENTS)
+    total, order = moments.total, min(moments.order, MAX_ORDER_BY_MOMENTS)
     size = sqrt(moments.second().trace() / total)
     degree = monomials(moments.order).sum(axis=1)
     low = len(monomials(INVARIANT_ORDER))
     harmonic = harmonic_moments((moments.raw / size**degree / total)[:low] * sqrt(4.0 * pi), INVARIANT_ORDER)
     error = 0.0
     if zernike is None:
-        dimension = 3 if moments.of != Measure.AREA else 2
+        dimension = 3 if moments.measure != Measure.AREA else 2
         scaled = moments.raw / radius ** (degree + dimension)
-        zernike, error = zernike_moments(scaled, order), loss(scaled, order)
+        zernike, error = zernike_moments(scaled, order), descriptor_error(scaled, order)
     power = np.empty(0)
-    if moments.of == Measure.VOLUME:
+    if moments.measure == Measure.VOLUME:
         volume = zernike[0, 0].real[0] * 4.0 * pi / 3.0
         power = radial_power(zernike, FREQUENCIES)[0] / volume**2
     return Signature(size, _invariants(harmonic), descriptors(zernike), power, _chirality(harmonic), error)
 
 
-def compared(a: Signature, b: Signature) -> Likeness:
+def similarity(a: Signature, b: Signature) -> Likeness:
     """How alike two bodies are: the relative differences of their descriptors and invariants, and what sets apart
     sizes and hands. Descriptors of orders that one of them lacks are left out."""
     n = min(len(a.zernike), len(b.zernike))
-    shape = sqrt((_relative(a.zernike[:n], b.zernike[:n]) ** 2 + _relative(a.invariants, b.invariants) ** 2) / 2.0)
+    shape = sqrt(
+        (
+            _relative_difference(a.zernike[:n], b.zernike[:n]) ** 2
+            + _relative_difference(a.invariants, b.invariants) ** 2
+        )
+        / 2.0
+    )
     same, opposite = np.linalg.norm(a.chirality - b.chirality), np.linalg.norm(a.chirality + b.chirality)
     hand = max(np.linalg.norm(a.chirality), np.linalg.norm(b.chirality))
-    mirrored = False if hand <= HANDED else None
-    if hand > HANDED + shape * DOUBT and min(same, opposite) < CLEAR * max(same, opposite):
+    mirrored = False if hand <= MIN_CHIRALITY else None
+    if hand > MIN_CHIRALITY + shape * CHIRALITY_NOISE_FACTOR and min(same, opposite) < CLEAR_CHIRALITY_SHARE * max(
+        same, opposite
+    ):
         mirrored = bool(opposite < same)
     return Likeness(float(shape), b.size / a.size, float(same), mirrored)
 
 
-def _relative(a: NDArray, b: NDArray) -> float:
+def _relative_difference(a: NDArray, b: NDArray) -> float:
     scale = max(np.linalg.norm(a), np.linalg.norm(b))
     return float(np.linalg.norm(a - b) / scale) if scale else 0.0
 
@@ -143,12 +164,12 @@ def _relative(a: NDArray, b: NDArray) -> float:
 def _invariants(harmonic: Multiplets) -> NDArray[np.float64]:
     scalars = [harmonic[n, 0].real[0] for n in (4, 6)]
     products = [np.vdot(harmonic[a], harmonic[b]).real for a, b in _pairs()]
-    triples = [coupled(*(harmonic[key] for key in triple)) for triple in _even_triples()]
+    triples = [couple(*(harmonic[key] for key in triple)) for triple in _even_triples()]
     return np.array(scalars + products + triples)
 
 
 def _chirality(harmonic: Multiplets) -> NDArray[np.float64]:
-    return np.array([coupled(*(harmonic[key] for key in triple)) for triple in _chiral_triples()])
+    return np.array([couple(*(harmonic[key] for key in triple)) for triple in _chiral_triples()])
 
 
 def _multiplets(order: int) -> list[Key]:
@@ -164,16 +185,16 @@ def _pairs() -> list[tuple[Key, Key]]:
 @lru_cache
 def _even_triples() -> list[tuple[Key, Key, Key]]:
     triples = combinations_with_replacement(_multiplets(COUPLED_ORDER), 3)
-    return [t for t in triples if _couple(t) and sum(l for _, l in t) % 2 == 0]
+    return [t for t in triples if _can_couple(t) and sum(l for _, l in t) % 2 == 0]
 
 
 @lru_cache
 def _chiral_triples() -> list[tuple[Key, Key, Key]]:
     """Three different multiplets: of two alike, an odd coupling is zero."""
-    return [t for t in combinations(_multiplets(CHIRAL_ORDER), 3) if _couple(t) and sum(l for _, l in t) % 2]
+    return [t for t in combinations(_multiplets(CHIRAL_ORDER), 3) if _can_couple(t) and sum(l for _, l in t) % 2]
 
 
-def _couple(triple: tuple[Key, Key, Key]) -> bool:
+def _can_couple(triple: tuple[Key, Key, Key]) -> bool:
     """Whether three multiplets have a scalar: their degrees are the sides of a triangle."""
     a, b, c = sorted(l for _, l in triple)
     return c <= a + b

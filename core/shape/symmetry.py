@@ -5,7 +5,7 @@
 Moments tell which ones can: a rotation takes one of the frames in which all moments to some order are alike to another
 one (see `canonical`), and a reflection takes a frame of the body to one of its mirror image. So every symmetry that the
 body has is among them, and moments of higher order, or details smaller than noise, may rule some out again; the body's
-geometry decides (`confirmed`). The group is named by its Schoenflies symbol: C1 has nothing, D2h is a box, Oh a cube,
+geometry decides (`confirm`). The group is named by its Schoenflies symbol: C1 has nothing, D2h is a box, Oh a cube,
 C∞v a body of revolution, K a ball.
 """
 
@@ -17,83 +17,85 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.canonical_frame import NOISE
-from ..inertia.principal_frame import frames_alike
+from ..inertia.canonical_frame import NOISE_LEVEL
+from ..inertia.principal_frame import equivalent_frames
 from ..moments.moments import Moments
-from ..moments.symmetric_tensors import distinct, inverted
+from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 
-ALIKE = 1e-6  # matrices of one operation are equal to this
-FOLDS = 128  # the highest order of an axis that is looked for
-FEW = 64  # points that are looked at first: most of what does not hold fails there
+EQUAL_OPERATION_ATOL = 1e-6  # matrices of one operation are equal to this
+MAX_AXIS_ORDER = 128  # the highest order of an axis that is looked for
+FIRST_SAMPLES = 64  # points that are looked at first: most of what does not hold fails there
 
 Distance = Callable[[NDArray], NDArray]
 
 
 @dataclass(frozen=True, eq=False)
 class Symmetry:
-    """operations: (k, 3, 3) orthogonal, the finite ones, the identity among them. round_about: (3,) the axis about
+    """operations: (k, 3, 3) orthogonal, the finite ones, the identity among them. revolution_axes: (3,) the axis about
     which every rotation is one; (0, 3) none, (3, 3) all directions. order: of the moments it was found from.
     tolerance: that the geometry was held against, None where it was not."""
 
     operations: NDArray[np.float64]
-    round_about: NDArray[np.float64]
+    revolution_axes: NDArray[np.float64]
     order: int
     tolerance: float | None = None
 
     @property
-    def unique(self) -> bool:
+    def has_no_rotation(self) -> bool:
         """Whether no rotation takes the body to itself."""
-        return not len(self.round_about) and int((np.linalg.det(self.operations) > 0.0).sum()) == 1
+        return not len(self.revolution_axes) and int((np.linalg.det(self.operations) > 0.0).sum()) == 1
 
     @property
     def group(self) -> str:
         """The Schoenflies symbol."""
-        if len(self.round_about) == 3:
+        if len(self.revolution_axes) == 3:
             return "K"
-        if len(self.round_about):
-            return "D∞h" if _turned_over(self.operations, self.round_about[0]).any() else "C∞v"
+        if len(self.revolution_axes):
+            return "D∞h" if _reverses_axis(self.operations, self.revolution_axes[0]).any() else "C∞v"
         return _schoenflies(self)
 
     @property
     def axes(self) -> list[tuple[NDArray, int]]:
         """Rotation axes as (direction, order), the highest order first."""
         proper = self.operations[np.linalg.det(self.operations) > 0.0]
-        turns = proper[np.trace(proper, axis1=1, axis2=2) < 3.0 - ALIKE]
-        found = _directions(np.array([np.linalg.eigh(one + one.T)[1][:, 2] for one in turns]).reshape(-1, 3))
-        return sorted(((axis, 1 + int(same.sum())) for axis, same in found), key=lambda pair: -pair[1])
+        turns = proper[np.trace(proper, axis1=1, axis2=2) < 3.0 - EQUAL_OPERATION_ATOL]
+        directions = _distinct_lines(
+            np.array([np.linalg.eigh(rotation + rotation.T)[1][:, 2] for rotation in turns]).reshape(-1, 3)
+        )
+        return sorted(((axis, 1 + int(same.sum())) for axis, same in directions), key=lambda pair: -pair[1])
 
     @property
     def planes(self) -> list[NDArray]:
         """The normals of the reflection planes."""
         flips = (np.linalg.det(self.operations) < 0.0) & (
-            np.abs(np.trace(self.operations, axis1=1, axis2=2) - 1.0) < ALIKE
+            np.abs(np.trace(self.operations, axis1=1, axis2=2) - 1.0) < EQUAL_OPERATION_ATOL
         )
-        return [np.linalg.eigh(one + one.T)[1][:, 0] for one in self.operations[flips]]
+        return [np.linalg.eigh(reflection + reflection.T)[1][:, 0] for reflection in self.operations[flips]]
 
     @property
     def has_center(self) -> bool:
         """Whether inversion in the center is one of them."""
-        return bool((np.abs(self.operations + np.eye(3)).max(axis=(1, 2)) < ALIKE).any())
+        return bool((np.abs(self.operations + np.eye(3)).max(axis=(1, 2)) < EQUAL_OPERATION_ATOL).any())
 
 
-def symmetry(moments: Moments, noise: float = NOISE) -> Symmetry:
-    """What the moments, to third order at least, are compatible with. noise: as for `frames_alike`."""
+def symmetry(moments: Moments, noise: float = NOISE_LEVEL) -> Symmetry:
+    """What the moments, to third order at least, are compatible with. noise: as for `equivalent_frames`."""
     central = moments.about_center()
-    alike, mirrored = frames_alike(central, noise), frames_alike(inverted(central), noise)
+    alike, mirrored = equivalent_frames(central, noise), equivalent_frames(invert_through_point(central), noise)
     first = alike.frames[0]
     operations = [frame @ first.T for frame in alike.frames]
     if len(alike.values) == len(mirrored.values) and (np.abs(alike.values - mirrored.values) <= alike.noise).all():
         operations += [-frame @ first.T for frame in mirrored.frames]
-    axes = first.T[list(alike.round_about)]
+    axes = first.T[list(alike.revolution_axes)]
     operations = np.array(operations)
     if len(axes) == 1:
-        operations = _about(operations, axes[0])
+        operations = _finite_operations(operations, axes[0])
     elif len(axes) == 3:
         operations = np.array([np.eye(3)])
-    return Symmetry(distinct(operations, ALIKE), axes, moments.order)
+    return Symmetry(distinct_arrays(operations, EQUAL_OPERATION_ATOL), axes, moments.order)
 
 
-def confirmed(found: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
+def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
     """Those that the geometry has.
 
     points: (n, 3) on the surface, corners and what lies between them. distance: of (k, 3) points from the surface,
@@ -102,28 +104,32 @@ def confirmed(found: Symmetry, center: NDArray, points: NDArray, distance: Dista
     points = points - center
     # The outermost points first: there a turn moves most.
     points = points[np.argsort(-(points * points).sum(axis=1), kind="stable")]
-    points = np.concatenate([points[: FEW // 2], points[FEW // 2 :: max(1, len(points) // FEW)], points])
+    points = np.concatenate(
+        [points[: FIRST_SAMPLES // 2], points[FIRST_SAMPLES // 2 :: max(1, len(points) // FIRST_SAMPLES)], points]
+    )
 
     def holds(operation: NDArray) -> bool:
         return all(
             (distance(part @ operation.T + center) <= tolerance).all()
-            for part in (points[:FEW], points[FEW:])
+            for part in (points[:FIRST_SAMPLES], points[FIRST_SAMPLES:])
             if len(part)
         )
 
-    if len(found.round_about) == 3:
-        turns = [_turn(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
+    if len(candidate.revolution_axes) == 3:
+        turns = [_axis_rotation(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
         ball = all(holds(turn) for turn in turns)
-        return Symmetry(np.eye(3)[None], found.round_about if ball else np.empty((0, 3)), found.order, tolerance)
-    operations = found.operations
-    if len(found.round_about):
-        axis = found.round_about[0]
-        if all(holds(_turn(axis, angle)) for angle in (1.0, 0.1, 0.01)):
-            kept = [one for one in operations if holds(one)]
-            return Symmetry(np.array(kept), found.round_about, found.order, tolerance)
+        return Symmetry(
+            np.eye(3)[None], candidate.revolution_axes if ball else np.empty((0, 3)), candidate.order, tolerance
+        )
+    operations = candidate.operations
+    if len(candidate.revolution_axes):
+        axis = candidate.revolution_axes[0]
+        if all(holds(_axis_rotation(axis, angle)) for angle in (1.0, 0.1, 0.01)):
+            confirmed = [operation for operation in operations if holds(operation)]
+            return Symmetry(np.array(confirmed), candidate.revolution_axes, candidate.order, tolerance)
         operations = _around_axis(points, axis, holds)
-    kept = np.array([one for one in operations if holds(one)])
-    return Symmetry(kept, np.empty((0, 3)), found.order, tolerance)
+    confirmed = np.array([operation for operation in operations if holds(operation)])
+    return Symmetry(confirmed, np.empty((0, 3)), candidate.order, tolerance)
 
 
 def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:
@@ -131,66 +137,70 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
     sides. Its mirrors and half turns take one of the points farthest from the axis to another one."""
     # Where the tolerance lets a turn by about the right angle pass, turns by several times that do not.
     fold = next(
-        n for n in range(FOLDS, 0, -1) if all(holds(_turn(axis, 2.0 * np.pi * k / n)) for k in range(1, n // 2 + 1))
+        n
+        for n in range(MAX_AXIS_ORDER, 0, -1)
+        if all(holds(_axis_rotation(axis, 2.0 * np.pi * k / n)) for k in range(1, n // 2 + 1))
     )
-    turns = [_turn(axis, 2.0 * np.pi * k / fold) for k in range(fold)]
+    turns = [_axis_rotation(axis, 2.0 * np.pi * k / fold) for k in range(fold)]
     across = np.eye(3) - 2.0 * np.outer(axis, axis)
-    seeds = [np.eye(3)] + [one for one in (across, _turn(axis, np.pi / fold) @ across) if holds(one)]
+    seeds = [np.eye(3)] + [
+        operation for operation in (across, _axis_rotation(axis, np.pi / fold) @ across) if holds(operation)
+    ]
     flat = points - np.outer(points @ axis, axis)
     radius = np.linalg.norm(flat, axis=1)
     outer = np.unique(np.round(flat[radius > (1.0 - 1e-4) * radius.max()] / radius.max(), 5), axis=0)
     start = outer[0]
-    for other in outer[: 2 * FOLDS]:
-        middle = start + other if np.linalg.norm(start + other) > 1e-3 else np.cross(axis, start)
+    for corner in outer[: 2 * MAX_AXIS_ORDER]:
+        middle = start + corner if np.linalg.norm(start + corner) > 1e-3 else np.cross(axis, start)
         middle = middle - axis * (axis @ middle)
         middle /= np.linalg.norm(middle)
         side = np.cross(axis, middle)
-        found = [
-            one
-            for one in (np.eye(3) - 2.0 * np.outer(side, side), 2.0 * np.outer(middle, middle) - np.eye(3))
-            if holds(one)
+        flips = [
+            operation
+            for operation in (np.eye(3) - 2.0 * np.outer(side, side), 2.0 * np.outer(middle, middle) - np.eye(3))
+            if holds(operation)
         ]
-        if found:
-            seeds += [seed @ one for seed in list(seeds) for one in found]
+        if flips:
+            seeds += [seed @ operation for seed in list(seeds) for operation in flips]
             break
-    return distinct(np.array([turn @ seed for seed in seeds for turn in turns]), ALIKE)
+    return distinct_arrays(np.array([turn @ seed for seed in seeds for turn in turns]), EQUAL_OPERATION_ATOL)
 
 
-def _about(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
+def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
     """The operations of a body of revolution that stand for all: the identity, and whether it can be turned over."""
-    if not _turned_over(operations, axis).any():
+    if not _reverses_axis(operations, axis).any():
         return np.eye(3)[None]
     return np.array([np.eye(3), np.eye(3) - 2.0 * np.outer(axis, axis)])
 
 
-def _turned_over(operations: NDArray, axis: NDArray) -> NDArray[np.bool_]:
+def _reverses_axis(operations: NDArray, axis: NDArray) -> NDArray[np.bool_]:
     return (operations @ axis) @ axis < 0.0
 
 
-def _turn(axis: NDArray, angle: float) -> NDArray[np.float64]:
+def _axis_rotation(axis: NDArray, angle: float) -> NDArray[np.float64]:
     """(3, 3) the rotation about an axis: Rodrigues' formula."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
 
 
-def _directions(vectors: NDArray) -> list[tuple[NDArray, NDArray]]:
+def _distinct_lines(vectors: NDArray) -> list[tuple[NDArray, NDArray]]:
     """Each line once, with which of the (k, 3) unit vectors lie along it."""
-    same = np.abs(vectors @ vectors.T) > 1.0 - ALIKE
+    same = np.abs(vectors @ vectors.T) > 1.0 - EQUAL_OPERATION_ATOL
     return [(vectors[i], same[i]) for i in range(len(vectors)) if np.argmax(same[i]) == i]
 
 
-def _schoenflies(found: Symmetry) -> str:
-    axes, planes, center = found.axes, found.planes, found.has_center
-    proper = int((np.linalg.det(found.operations) > 0.0).sum())
-    improper = len(found.operations) - proper
+def _schoenflies(symmetry_found: Symmetry) -> str:
+    axes, planes, center = symmetry_found.axes, symmetry_found.planes, symmetry_found.has_center
+    proper = int((np.linalg.det(symmetry_found.operations) > 0.0).sum())
+    improper = len(symmetry_found.operations) - proper
     if not axes:
         return "C1" if not improper else "Cs" if planes else "Ci"
     axis, n = axes[0]
     if proper == n:
         if not improper:
             return "C{:d}".format(n)
-        if any(abs(normal @ axis) > 1.0 - ALIKE for normal in planes):
+        if any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes):
             return "C{:d}h".format(n)
         return "C{:d}v".format(n) if planes else "S{:d}".format(2 * n)
     if sum(order == n for _, order in axes) > 1 and n > 2:
@@ -200,5 +210,5 @@ def _schoenflies(found: Symmetry) -> str:
         return "D{:d}".format(n)
     if n == 2:
         return "D2h" if center else "D2d"
-    flat = any(abs(normal @ axis) > 1.0 - ALIKE for normal in planes)
+    flat = any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes)
     return "D{:d}{:s}".format(n, "h" if flat else "d")

@@ -6,10 +6,10 @@
 on the ball: the normalization of Novotni and Klein (3D Zernike descriptors for content based shape retrieval, 2003), in
 which a full ball has Ω_000 = 1. The descriptor ‖Ω_nl‖ is the same however the body is turned, or mirrored.
 
-To order 20 they are sums of raw moments. These sums cancel, and `loss` estimates what is lost. Above that order, and
-where it is too much, the cones from the center over the triangles are integrated by quadrature. Over a triangle a
-polynomial of degree n takes Gauss's rule; along the cone, with S_k = R_nl / sqrt(2n+3), n = l+2k, partial integration
-of r S_k' against each S_i gives (r d/dr + 3) S_k = (n+3) S_k + Σ_{i<k} (2l+4i+3) S_i, and from that for
+To order 20 they are sums of raw moments. These sums cancel, and `descriptor_error` estimates what is lost. Above that
+order, and where it is too much, the cones from the center over the triangles are integrated by quadrature. Over a
+triangle a polynomial of degree n takes Gauss's rule; along the cone, with S_k = R_nl / sqrt(2n+3), n = l+2k, partial
+integration of r S_k' against each S_i gives (r d/dr + 3) S_k = (n+3) S_k + Σ_{i<k} (2l+4i+3) S_i, and from that for
 J_k(x) = ∫_0^1 t² S_k(tx) dt the stable recursion
 
     J_k = (S_k - A_k) / (n+3),    A_{k+1} = ((2n+3) S_k - n A_k) / (n+3),    A_0 = 0.
@@ -29,13 +29,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import U
-from ..moments.solid_harmonics import Multiplets, both_signs, harmonic_moments
+from ..moments.solid_harmonics import Multiplets, harmonic_moments, with_negative_orders
 from ..numerics.quadrature import triangle_rule
 
-BY_MOMENTS = 20  # the highest order that raw moments in float64 give
-ENOUGH = 1e-9  # the error of a descriptor that raw moments may have
-POINTS = 16384  # of a quadrature that are evaluated together
-PRECISE = 1e-13  # of a triangle's integral, as its quadrature is chosen
+MAX_ORDER_BY_MOMENTS = 20  # the highest order that raw moments in float64 give
+MAX_DESCRIPTOR_ERROR = 1e-9  # the error of a descriptor that raw moments may have
+POINTS_PER_BLOCK = 16384  # of a quadrature that are evaluated together
+QUADRATURE_RTOL = 1e-13  # of a triangle's integral, as its quadrature is chosen
 
 
 def zernike_moments(raw: NDArray, order: int) -> Multiplets:
@@ -48,17 +48,17 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
     }
 
 
-def loss(raw: NDArray, order: int) -> float:
+def descriptor_error(raw: NDArray, order: int) -> float:
     """An estimate of the error of the descriptors that raw moments accurate to a few roundings give: what changes when
     each moment is moved by such an amount, at random but always the same."""
     moved = raw * (1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)))
-    before, after = (descriptors(zernike_moments(one, order)) for one in (raw, moved))
+    before, after = (descriptors(zernike_moments(raw_moments, order)) for raw_moments in (raw, moved))
     return float(np.abs(after - before).max())
 
 
 def descriptors(moments: Multiplets) -> NDArray[np.float64]:
     """‖Ω_nl‖ in the order of `degrees`."""
-    return np.array([np.linalg.norm(one) for _, one in sorted(moments.items())])
+    return np.array([np.linalg.norm(multiplet) for _, multiplet in sorted(moments.items())])
 
 
 def degrees(order: int) -> list[tuple[int, int]]:
@@ -79,13 +79,13 @@ def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multi
     for needed in np.unique(nodes):
         faces = np.flatnonzero(nodes == needed)
         (_, u, v), weight = triangle_rule(int(needed) + 1)
-        step = max(1, POINTS // len(u))
+        step = max(1, POINTS_PER_BLOCK // len(u))
         for start in range(0, len(faces), step):
             a, b, c = (corner[faces[start : start + step]] for corner in corners)
             det = (a * np.cross(b, c)).sum(axis=1)
             x = a[:, None] + u[:, None] * (b - a)[:, None] + v[:, None] * (c - a)[:, None]
             _add_cones(total, x.reshape(-1, 3), (det[:, None] * weight).ravel(), order)
-    return {key: sqrt(3.0 / (4.0 * pi)) * both_signs(half) for key, half in total.items()}
+    return {key: sqrt(3.0 / (4.0 * pi)) * with_negative_orders(half) for key, half in total.items()}
 
 
 def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
@@ -95,7 +95,7 @@ def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
     phase = (order + 2.0) * size / 2.0  # a polynomial of degree n on the ball turns by at most about n radians
     for g in range(exact - 1, 0, -1):
         # Gauss's rule: the error of e^(ix) over [-phase/2, phase/2] is (phase/2)^2g / (2g)! in size.
-        needed[(phase / 2.0) ** (2 * g) / factorial(2 * g) < PRECISE] = g
+        needed[(phase / 2.0) ** (2 * g) / factorial(2 * g) < QUADRATURE_RTOL] = g
     return needed
 
 
@@ -138,10 +138,10 @@ def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
         if k == 1:
             before, now = now, (-beta + (beta + 2.0) * x) / 2.0
             continue
-        twice = 2.0 * k + beta
-        scale = 2.0 * k * (k + beta) * (twice - 2.0)
-        first = (twice - 1.0) * (twice * (twice - 2.0) * x - beta * beta)
-        before, now = now, (first * now - 2.0 * (k - 1.0) * (k + beta - 1.0) * twice * before) / scale
+        doubled = 2.0 * k + beta
+        scale = 2.0 * k * (k + beta) * (doubled - 2.0)
+        first = (doubled - 1.0) * (doubled * (doubled - 2.0) * x - beta * beta)
+        before, now = now, (first * now - 2.0 * (k - 1.0) * (k + beta - 1.0) * doubled * before) / scale
 
 
 def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -162,7 +162,7 @@ def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np
     # Parseval: the sum of all |Ω|² is 3/4π times the volume, and by Cauchy and Schwarz the rest of each amplitude is
     # at most the norms' product.
     volume = float(moments[0, 0].real[0]) * 4.0 * pi / 3.0
-    known = sum(float((np.abs(one) ** 2).sum()) for one in moments.values())
+    known = sum(float((np.abs(multiplet) ** 2).sum()) for multiplet in moments.values())
     missing = max(3.0 / (4.0 * pi) * volume - known, 0.0)
     n = np.arange(order + 1, len(bessel))[:, None]
     tail = ((2 * n + 3) * bessel[order + 1 :] ** 2).sum(axis=0) * missing
@@ -174,21 +174,21 @@ def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
     """(order+1, k) j_{n+1}(q)/q for n = 0..order, by Miller's recursion downward."""
     q = np.maximum(q, 1e-8)  # j_1(q)/q is 1/3 from there down
     top = order + 20 + int(2.0 * q.max())
-    rows = np.zeros((order + 3, len(q)))
+    table = np.zeros((order + 3, len(q)))
     above, now = np.zeros_like(q), np.full_like(q, 1e-250)
     for n in range(top, -1, -1):
-        if n < len(rows):
-            rows[n] = now
+        if n < len(table):
+            table[n] = now
         if n:
             above, now = now, (2 * n + 1) / q * now - above
             large = np.abs(now) > 1e200
-            for one in (rows, above, now):
-                one[..., large] *= 1e-200
+            for values in (table, above, now):
+                values[..., large] *= 1e-200
     j0, j1 = np.sin(q) / q, np.sin(q) / q**2 - np.cos(q) / q
-    from_zero = np.abs(rows[0]) > np.abs(rows[1])
-    first, second = (np.where(row == 0.0, 1.0, row) for row in rows[:2])
+    from_zero = np.abs(table[0]) > np.abs(table[1])
+    first, second = (np.where(row == 0.0, 1.0, row) for row in table[:2])
     factor = np.where(from_zero, j0 / first, j1 / second)
-    return (rows * factor)[1 : order + 2] / q
+    return (table * factor)[1 : order + 2] / q
 
 
 @lru_cache

@@ -16,11 +16,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import ramp
-from ..numerics.graph import components
+from ..numerics.arrays import segment_ranges
+from ..numerics.graph import connected_components
 
-SLIM = 1e-3  # width by length, at most, of a gap that counts as none
-MOST_PAIRS = 4_000_000  # of ends that meet; beyond, ends are joined in the order of their numbers
+MAX_GAP_ASPECT = 1e-3  # width by length, at most, of a gap that counts as none
+MAX_END_PAIRS = 4_000_000  # of ends that meet; beyond, ends are joined in the order of their numbers
 
 
 def join_sides(
@@ -48,33 +48,33 @@ def join_sides(
 
     simple = first[degree == 2]
     left, right = [order[simple]], [order[simple + 1]]
-    crowded = first[degree > 2], degree[degree > 2]
-    if len(crowded[0]):
-        one, other = _candidates(order, *crowded)
+    branching = first[degree > 2], degree[degree > 2]
+    if len(branching[0]):
+        first_end, second_end = _candidate_pairs(order, *branching)
         if directed:
-            fits = (one < count) != (other < count)
-            one, other = one[fits], other[fits]
-        score = np.einsum("ij,ij->i", direction[one], direction[other])
-        best = np.lexsort([other, one, -score])
-        one, other = _matched(one[best], other[best], 2 * count)
-        left.append(one)
-        right.append(other)
+            fits = (first_end < count) != (second_end < count)
+            first_end, second_end = first_end[fits], second_end[fits]
+        score = np.einsum("ij,ij->i", direction[first_end], direction[second_end])
+        best = np.lexsort([second_end, first_end, -score])
+        first_end, second_end = _greedy_matching(first_end[best], second_end[best], 2 * count)
+        left.append(first_end)
+        right.append(second_end)
     left, right = np.concatenate(left), np.concatenate(right)
     follows = (left < count) != (right < count)
     return left % count, right % count, follows
 
 
-def _candidates(order: NDArray, first: NDArray, degree: NDArray) -> tuple[NDArray, NDArray]:
+def _candidate_pairs(order: NDArray, first: NDArray, degree: NDArray) -> tuple[NDArray, NDArray]:
     """Pairs of ends that meet at a vertex: all of them, or where that would be too many, neighbours in `order`."""
     pairs = degree * (degree - 1) // 2
-    if pairs.sum() > MOST_PAIRS:
+    if pairs.sum() > MAX_END_PAIRS:
         within = np.concatenate([np.ones(len(order) - 1, bool), [False]])
         within[first - 1] = False
-        member = np.repeat(first, degree) + ramp(degree)
+        member = np.repeat(first, degree) + segment_ranges(degree)
         member = member[within[member]]
         return order[member], order[member + 1]
     row = np.repeat(np.arange(len(degree)), pairs)
-    k = ramp(pairs)
+    k = segment_ranges(pairs)
     # The k-th pair (i, j), i < j, of the strict upper triangle read by columns.
     j = ((1.0 + np.sqrt(1.0 + 8.0 * k)) / 2.0).astype(np.intp)
     j -= j * (j - 1) // 2 > k
@@ -83,51 +83,53 @@ def _candidates(order: NDArray, first: NDArray, degree: NDArray) -> tuple[NDArra
     return order[first[row] + i], order[first[row] + j]
 
 
-def _matched(one: NDArray, other: NDArray, ends: int) -> tuple[NDArray, NDArray]:
+def _greedy_matching(first_end: NDArray, second_end: NDArray, ends: int) -> tuple[NDArray, NDArray]:
     """The greedy matching of candidates that come best first: in each round those that are best for both their ends."""
-    left, right = [one[:0]], [other[:0]]
-    while len(one):
-        rank = np.arange(len(one))
-        best = np.full(ends, len(one))
-        best[one[::-1]] = rank[::-1]
-        second = np.full(ends, len(one))
-        second[other[::-1]] = rank[::-1]
+    left, right = [first_end[:0]], [second_end[:0]]
+    while len(first_end):
+        rank = np.arange(len(first_end))
+        best = np.full(ends, len(first_end))
+        best[first_end[::-1]] = rank[::-1]
+        second = np.full(ends, len(first_end))
+        second[second_end[::-1]] = rank[::-1]
         best = np.minimum(best, second)
-        taken = (best[one] == rank) & (best[other] == rank)
-        left.append(one[taken])
-        right.append(other[taken])
+        taken = (best[first_end] == rank) & (best[second_end] == rank)
+        left.append(first_end[taken])
+        right.append(second_end[taken])
         used = np.zeros(ends, bool)
-        used[one[taken]] = used[other[taken]] = True
-        free = ~(used[one] | used[other])
-        one, other = one[free], other[free]
+        used[first_end[taken]] = used[second_end[taken]] = True
+        free = ~(used[first_end] | used[second_end])
+        first_end, second_end = first_end[free], second_end[free]
     return np.concatenate(left), np.concatenate(right)
 
 
 @dataclass(frozen=True, eq=False)
-class Loops:
+class BoundaryLoops:
     """Rim sides grouped into loops, numbered in the order of their first sides.
 
     of_side: (r,) the loop of each side. complete: (l,) whether all its sides are joined at both ends. perimeter: (l,).
-    centroid: (l, 3), of the curve. cone: (l,) the area of the cone to the centroid. flat: (l,) the norm of the loop's
-    area vector. height: (l,) how far from its plane the loop goes; infinite where it has none.
+    centroid: (l, 3), of the curve. cone_area: (l,) the area of the cone to the centroid. planar_area: (l,) the norm of
+    the loop's area vector. out_of_plane: (l,) how far from its plane the loop goes; infinite where it has none.
     """
 
     of_side: NDArray[np.intp]
     complete: NDArray[np.bool_]
     perimeter: NDArray[np.float64]
     centroid: NDArray[np.float64]
-    cone: NDArray[np.float64]
-    flat: NDArray[np.float64]
-    height: NDArray[np.float64]
+    cone_area: NDArray[np.float64]
+    planar_area: NDArray[np.float64]
+    out_of_plane: NDArray[np.float64]
 
-    def wide(self, tolerance: float) -> NDArray[np.bool_]:
+    def has_area(self, tolerance: float) -> NDArray[np.bool_]:
         """(l,) which loops are holes; the others are narrower than `tolerance` (length) and much longer than wide."""
-        return self.cone > self.perimeter * np.minimum(tolerance, SLIM * self.perimeter)
+        return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
 
-def find_loops(begin: NDArray[np.float64], end: NDArray[np.float64], links: tuple[NDArray, NDArray, NDArray]) -> Loops:
+def find_loops(
+    begin: NDArray[np.float64], end: NDArray[np.float64], links: tuple[NDArray, NDArray, NDArray]
+) -> BoundaryLoops:
     """The loops that the links of `join_sides` make of rim sides, and their measures."""
-    of_side, number = components(len(begin), links[0], links[1])
+    of_side, number = connected_components(len(begin), links[0], links[1])
     joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))
     complete = np.bincount(of_side, joined != 2) == 0
     origin = np.empty((number, 3))
@@ -149,4 +151,4 @@ def find_loops(begin: NDArray[np.float64], end: NDArray[np.float64], links: tupl
         height = np.zeros(number)
         np.maximum.at(height, of_side, np.abs(np.einsum("ij,ij->i", normal[of_side], a)))
     height[~np.isfinite(height)] = np.inf
-    return Loops(of_side, complete, perimeter, center + origin, cone, flat, height)
+    return BoundaryLoops(of_side, complete, perimeter, center + origin, cone, flat, height)

@@ -13,11 +13,11 @@ from ..mesh.surface import normals
 
 
 @dataclass(frozen=True, eq=False)
-class Components:
+class ClosedParts:
     """The triangles whose signed sum is the body, and the closed part that each bounds.
 
     points: (n, 3); triangles: (t, 3), as measured: turned where that was needed, caps included. face: (t,) the mesh
-    face of each, -1 for a cap. part: (t,), 0 to number - 1. within: (number,) whose material a part counts with: its
+    face of each, -1 for a cap. part: (t,), 0 to number - 1. host_part: (number,) whose material a part counts with: its
     own, or of a cavity that of the part it is cut from.
     """
 
@@ -26,7 +26,7 @@ class Components:
     face: NDArray[np.integer]
     part: NDArray[np.integer]
     number: int
-    within: NDArray[np.integer]
+    host_part: NDArray[np.integer]
 
     def areas(self, linear: NDArray | None = None) -> NDArray[np.float64]:
         """(t,) of the triangles under a (3, 3) map, by default as they are."""

@@ -24,20 +24,20 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
-from ..offset.walls import first_fold
+from ..offset.walls import first_positive_root
 from ..polyhedron import polyhedron_moments
 from ..verdict.finding import MeasureError
 from .gradient import Gradient, area_gradient, volume_gradient
 
-STEPS = 100  # of Newton's method at most; it takes a few
-HALVINGS = 20  # of one step, until the center comes nearer
-REACHED = 64.0 * U  # of the body's size and its distance from the origin: what rounding leaves of a center
-POWERLESS = 1e-12  # of what the most effective direction does
-SLIVER = 1e-9  # of its longest side squared: a triangle without a normal
+MAX_NEWTON_STEPS = 100  # of Newton's method at most; it takes a few
+MAX_STEP_HALVINGS = 20  # of one step, until the center comes nearer
+REACHED_TOLERANCE = 64.0 * U  # of the body's size and its distance from the origin: what rounding leaves of a center
+MIN_RELATIVE_EFFECT = 1e-12  # of what the most effective direction does
+SLIVER_RTOL = 1e-9  # of its longest side squared: a triangle without a normal
 
 
 @dataclass(frozen=True, eq=False)
-class Balanced:
+class BalanceResult:
     """points: (n, 3) float64 where the vertices go. before, after: (3,) the center."""
 
     points: NDArray[np.float64]
@@ -51,100 +51,106 @@ def balance(
     target: NDArray,
     *,
     across: NDArray | None = None,
-    willing: NDArray | None = None,
+    weights: NDArray | None = None,
     limit: float = np.inf,
     shell: bool = False,
-) -> Balanced:
+) -> BalanceResult:
     """Moves the vertices `movable`, (k,), as little as possible so that the center of mass comes to `target`, (3,).
 
-    across: (r, 3) orthonormal rows: along these directions only; by default all three. willing: (k,) above 0 to 1.
+    across: (r, 3) orthonormal rows: along these directions only; by default all three. weights: (k,) above 0 to 1.
     limit: how far a vertex may move. shell: the mass is in the surface, else in the body it bounds, which must be
     closed. Uniform density, and all lengths in one unit.
     MeasureError where the center cannot come there, or where faces would be turned over.
     """
     across = np.eye(3) if across is None else np.asarray(across, np.float64)
     movable = np.asarray(movable, np.intp)
-    willing = np.ones(len(movable)) if willing is None else np.asarray(willing, np.float64)
+    weights = np.ones(len(movable)) if weights is None else np.asarray(weights, np.float64)
     problem = _Problem(surface, shell, across, np.asarray(target, np.float64))
     fans = _Fans(surface, shell)
     area = fans.areas[movable]
-    used = (area > 0.0) & (willing > 0.0)
+    used = (area > 0.0) & (weights > 0.0)
     if not used.any():
         raise MeasureError("balance_no_area")
     movable = movable[used]
-    start = problem.at(problem.start)
+    start = problem.evaluate(problem.start)
     if start is None:
         raise MeasureError("balance_zero_area" if shell else "balance_zero_volume")
     before, _, gradient = start
-    pull = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
-    pull *= (willing[used] / area[used])[:, None]
-    if not _strong(_slope(pull, np.zeros(len(across)), gradient[:, movable], np.inf)):
+    step_directions = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
+    step_directions *= (weights[used] / area[used])[:, None]
+    if not _is_solvable(_center_jacobian(step_directions, np.zeros(len(across)), gradient[:, movable], np.inf)):
         raise MeasureError("balance_no_effect")
-    points, center, far = _reached(problem, start, pull, movable, np.inf)
+    points, center, far = _newton_solve(problem, start, step_directions, movable, np.inf)
     left = far
     if limit < np.inf and (far or np.linalg.norm(points - problem.start, axis=1).max() > limit):
-        points, center, left = _reached(problem, start, pull, movable, limit)
+        points, center, left = _newton_solve(problem, start, step_directions, movable, limit)
     if left and far:  # without a limit too: it is not the limit that stands against it
         raise MeasureError("balance_short", distance=float(far))
     if left:
         raise MeasureError("balance_short_by_limit", limit=float(limit), distance=float(left))
     problem.check(points, movable)
-    return Balanced(points, before, center)
+    return BalanceResult(points, before, center)
 
 
-def _reached(
-    problem: _Problem, start: tuple[NDArray, NDArray, NDArray], pull: NDArray, movable: NDArray, limit: float
+def _newton_solve(
+    problem: _Problem, start: tuple[NDArray, NDArray, NDArray], step_directions: NDArray, movable: NDArray, limit: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """(n, 3) and (3,) the points and the center, and how far it stays from its target, 0 where it comes there. start:
-    as of `_Problem.at`."""
+    as of `_Problem.evaluate`."""
     points, (center, residual, gradient) = problem.start, start
-    multiplier = np.zeros(len(pull))
-    slope = _slope(pull, multiplier, gradient[:, movable], limit)
-    for _ in range(STEPS):
+    multiplier = np.zeros(len(step_directions))
+    slope = _center_jacobian(step_directions, multiplier, gradient[:, movable], limit)
+    for _ in range(MAX_NEWTON_STEPS):
         far = np.linalg.norm(residual)
         if far <= problem.tolerance:
             return points, center, 0.0
         change, share = np.linalg.solve(slope, residual), 1.0
-        for _ in range(HALVINGS):
+        for _ in range(MAX_STEP_HALVINGS):
             trial = multiplier + share * change
             moved = problem.start.copy()
-            moved[movable] += _moves(pull, trial, limit)
-            found = problem.at(moved)
-            if found is not None and np.linalg.norm(found[1]) <= (1.0 - 0.1 * share) * far:
-                slope = _slope(pull, trial, found[2][:, movable], limit)
-                if _strong(slope) or np.linalg.norm(found[1]) <= problem.tolerance:
+            moved[movable] += _limited_moves(step_directions, trial, limit)
+            state = problem.evaluate(moved)
+            if state is not None and np.linalg.norm(state[1]) <= (1.0 - 0.1 * share) * far:
+                slope = _center_jacobian(step_directions, trial, state[2][:, movable], limit)
+                if _is_solvable(slope) or np.linalg.norm(state[1]) <= problem.tolerance:
                     break  # else too many are at the limit to go on from there
             share /= 2.0
         else:
             return points, center, far if far > 16.0 * problem.tolerance else 0.0
-        points, multiplier, (center, residual, gradient) = moved, trial, found
+        points, multiplier, (center, residual, gradient) = moved, trial, state
     return points, center, far
 
 
-def _strong(system: NDArray) -> bool:
+def _is_solvable(system: NDArray) -> bool:
     """Whether the (r, r) system can be solved: none of its directions is without effect."""
     strength = np.linalg.svd(system, compute_uv=False)
-    return bool(np.isfinite(strength).all() and strength[-1] > POWERLESS * strength[0])
+    return bool(np.isfinite(strength).all() and strength[-1] > MIN_RELATIVE_EFFECT * strength[0])
 
 
-def _moves(pull: NDArray, multiplier: NDArray, limit: float) -> NDArray[np.float64]:
+def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) -> NDArray[np.float64]:
     """(k, 3) the moves of the (r, k, 3) pulls times the (r,) multiplier, cut to the limit."""
-    moves = np.einsum("rnk,r->nk", pull, multiplier)
+    moves = np.einsum("rnk,r->nk", step_directions, multiplier)
     length = np.linalg.norm(moves, axis=1)
     if not (length > limit).any():
         return moves
     return moves * (limit / np.maximum(length, limit))[:, None]
 
 
-def _slope(pull: NDArray, multiplier: NDArray, gradient: NDArray, limit: float) -> NDArray[np.float64]:
+def _center_jacobian(
+    step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
+) -> NDArray[np.float64]:
     """(r, r) the derivative of the center by the multiplier. A move that is cut can still turn, not grow."""
     if np.isfinite(limit):
-        moves = np.einsum("rnk,r->nk", pull, multiplier)
+        moves = np.einsum("rnk,r->nk", step_directions, multiplier)
         length = np.linalg.norm(moves, axis=1)
         along = moves / np.where(length > 0.0, length, 1.0)[:, None]
-        radial = np.einsum("rnk,nk->rn", pull, along)[:, :, None] * along
-        pull = np.where((length > limit)[:, None], (pull - radial) * (limit / np.maximum(length, limit))[:, None], pull)
-    return np.einsum("rnk,snk->rs", gradient, pull)
+        radial = np.einsum("rnk,nk->rn", step_directions, along)[:, :, None] * along
+        step_directions = np.where(
+            (length > limit)[:, None],
+            (step_directions - radial) * (limit / np.maximum(length, limit))[:, None],
+            step_directions,
+        )
+    return np.einsum("rnk,snk->rs", gradient, step_directions)
 
 
 class _Problem:
@@ -157,18 +163,18 @@ class _Problem:
         self.shell, self.across, self.target = shell, across, target
         used = self.start[np.unique(triangles)]
         self.size = float(np.linalg.norm(np.ptp(used, axis=0)))
-        self.tolerance = REACHED * (self.size + np.abs(used).max())
+        self.tolerance = REACHED_TOLERANCE * (self.size + np.abs(used).max())
         self.sign = 1.0 if shell else float(np.sign(self._moments(self.start).total))
 
     def _moments(self, points: NDArray) -> Moments:
         volume, area = polyhedron_moments(replace(self.surface, points=points), area_order=3 if self.shell else 0)
         return area if self.shell else volume
 
-    def at(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
+    def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
         """(3,) the center, (r,) how far it is from its target, and (r, n, 3) its derivatives; None where the body has
         turned inside out."""
         moments = self._moments(points)
-        if not moments.total * self.sign > moments.error[0]:
+        if not moments.total * self.sign > moments.rounding_error[0]:
             return None
         center = moments.center
         derive = area_gradient if self.shell else volume_gradient
@@ -191,13 +197,13 @@ class _Problem:
         normal = np.cross(*edges)
         double = np.linalg.norm(normal, axis=1)
         longest = np.max([(edge * edge).sum(axis=1) for edge in (*edges, c - b)], axis=0)
-        solid = double > SLIVER * longest
-        rows = (normal, np.cross(edges[0], turns[1]) + np.cross(turns[0], edges[1]), np.cross(*turns))
-        jacobian = np.array([(row * normal).sum(axis=1) for row in rows])[:, None, solid]
-        turned = np.sqrt(np.max([(turn * turn).sum(axis=1) for turn in turns], axis=0))
+        solid = double > SLIVER_RTOL * longest
+        coefficients = (normal, np.cross(edges[0], turns[1]) + np.cross(turns[0], edges[1]), np.cross(*turns))
+        jacobian = np.array([(row * normal).sum(axis=1) for row in coefficients])[:, None, solid]
+        turn_length = np.sqrt(np.max([(turn * turn).sum(axis=1) for turn in turns], axis=0))
         long = np.sqrt(longest)
-        doubt = 32.0 * U * np.array([long * long, 2.0 * long * turned, turned * turned]) * double
-        folded = int(np.count_nonzero(first_fold(jacobian, doubt[:, solid]) <= 1.0))
+        error = 32.0 * U * np.array([long * long, 2.0 * long * turn_length, turn_length * turn_length]) * double
+        folded = int(np.count_nonzero(first_positive_root(jacobian, error[:, solid]) <= 1.0))
         if folded:
             raise MeasureError("balance_folds_faces", count=folded)
 
@@ -224,20 +230,20 @@ class _Fans:
             [np.bincount(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)], axis=1
         )
         whole = np.bincount(faces, minlength=number)[faces] == 1
-        rims, owners = _rims(triangles[~whole], faces[~whole], self.count)
-        fan = np.concatenate([triangles[whole], np.concatenate([rims, self.count + owners[:, None]], axis=1)])
+        boundary, owners = _face_boundaries(triangles[~whole], faces[~whole], self.count)
+        fan = np.concatenate([triangles[whole], np.concatenate([boundary, self.count + owners[:, None]], axis=1)])
         owners = np.concatenate([faces[whole], owners])
         self.points = np.concatenate([points, middles])
         facing = np.stack([np.bincount(faces, column, number) for column in vectors.T], axis=1)[owners]
-        self.against = (normals(self.points, fan) * facing).sum(axis=1) < 0.0  # where a face is not convex
+        self.opposed = (normals(self.points, fan) * facing).sum(axis=1) < 0.0  # where a face is not convex
         self.fan = fan
 
     def center_gradient(self, center: NDArray) -> NDArray[np.float64]:
         """(n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its vertices."""
         if self.shell:  # signed as the faces' own areas are
             parts = [
-                area_gradient(Surface(self.points, rows), center, order=1).by_vertex[:, 1:4]
-                for rows in (self.fan[~self.against], self.fan[self.against])
+                area_gradient(Surface(self.points, triangles), center, order=1).by_vertex[:, 1:4]
+                for triangles in (self.fan[~self.opposed], self.fan[self.opposed])
             ]
             gradient, total = parts[0] - parts[1], self.areas.sum()
         else:
@@ -245,18 +251,18 @@ class _Fans:
             gradient = volume_gradient(surface, center, order=1).by_vertex[:, 1:4]
             total = polyhedron_moments(surface, area_order=0)[0].total
         gradient /= total
-        own, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)
-        for column, shared in zip(own.T, middle.T):
+        vertex_gradient, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)
+        for column, shared in zip(vertex_gradient.T, middle.T):
             column += np.bincount(self.vertex, shared[self.owner] * self.share, self.count)
-        return own.reshape(-1, 3, 3)
+        return vertex_gradient.reshape(-1, 3, 3)
 
 
-def _rims(triangles: NDArray, faces: NDArray, count: int) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+def _face_boundaries(triangles: NDArray, faces: NDArray, count: int) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
     """(k, 2) the sides of triangles that no other triangle of the same face runs along the other way, and (k,) the face
     of each."""
     start, stop = triangles.ravel().astype(np.int64), np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
     owner = np.repeat(faces, 3).astype(np.int64)
     edge = np.unique(np.minimum(start, stop) * count + np.maximum(start, stop), return_inverse=True)[1].ravel()
     _, key, uses = np.unique(owner * (int(edge.max(initial=0)) + 1) + edge, return_inverse=True, return_counts=True)
-    rim = uses[key.ravel()] == 1
-    return np.stack([start[rim], stop[rim]], axis=1), owner[rim]
+    on_boundary = uses[key.ravel()] == 1
+    return np.stack([start[on_boundary], stop[on_boundary]], axis=1), owner[on_boundary]

@@ -24,24 +24,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
-from ..moments.moments import SECOND, Measure, U, index, monomial_count, monomials
+from ..moments.moments import SECOND_MOMENT_INDEX, Measure, U, monomial_count, monomial_index, monomials
 from ..numerics.vectors import cross
 
-BLOCK = 65536  # triangles at a time
+TRIANGLES_PER_BLOCK = 65536  # triangles at a time
 PAIRS = [(i, j) for i in range(3) for j in range(i, 3)]
 
 
 @dataclass(frozen=True, eq=False)
 class Gradient:
     """by_vertex: (n, K, 3) ∂ raw[α] / ∂ vertex, in the order of `monomials`; unit of the moment per length.
-    about: (3,) the fixed point that the moments are about. of: volume or area.
+    about: (3,) the fixed point that the moments are about. measure: volume or area.
     scale: (n,) what the triangles at a vertex add up to at most, where the integrand is one. reach: (3,) of the points
         from `about`. valence: the most triangles at one vertex.
     """
 
     by_vertex: NDArray[np.float64]
     about: NDArray[np.float64]
-    of: Measure
+    measure: Measure
     scale: NDArray[np.float64]
     reach: NDArray[np.float64]
     valence: int
@@ -50,7 +50,7 @@ class Gradient:
         """(n, K) what rounding may have changed each component by."""
         exponents = monomials(2)[: self.by_vertex.shape[1]]
         sizes = np.multiply.reduce(self.reach**exponents, axis=1)
-        if self.of == Measure.AREA:  # |N| ∂m has one power of the reach less and one of the sides more
+        if self.measure == Measure.AREA:  # |N| ∂m has one power of the reach less and one of the sides more
             for axis, step in enumerate(np.eye(3, dtype=int)):
                 lower = np.multiply.reduce(self.reach ** np.maximum(exponents - step, 0), axis=1)
                 sizes = sizes + exponents[:, axis] * lower * 2.0 * self.reach.max()
@@ -62,7 +62,7 @@ class Gradient:
 
     def inertia(self) -> NDArray[np.float64]:
         """(n, 3, 3, 3) ∂ of the tensor about the center, of unit density. `about` must be the center."""
-        second = self.by_vertex[:, SECOND]
+        second = self.by_vertex[:, SECOND_MOMENT_INDEX]
         trace = np.einsum("niik->nk", second)
         return np.eye(3)[None, :, :, None] * trace[:, None, None] - second
 
@@ -86,23 +86,23 @@ def _gradient(surface: Surface, about: NDArray, order: int, shares: Callable) ->
     triangles, _ = surface.all_triangles()
     out, scale = np.zeros((3 * kinds, len(points))), np.zeros(len(points))
     valence = int(np.bincount(triangles.ravel(), minlength=1).max(initial=0))
-    for start in range(0, len(triangles), BLOCK):
-        part = triangles[start : start + BLOCK].astype(np.intp)
+    for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
+        part = triangles[start : start + TRIANGLES_PER_BLOCK].astype(np.intp)
         low = int(part.min())
         place, count = part - low, int(part.max()) - low + 1
         corners = points[part].transpose(1, 2, 0)  # corner, axis, triangle
         edges = (corners[1] - corners[0], corners[2] - corners[0])
         normal = np.stack(cross(*edges))
         size = np.sqrt(np.maximum.reduce([np.einsum("im,im->m", edge, edge) for edge in edges]))
-        rows = shares(corners, corners - about[:, None], normal, kinds)
+        corner_shares = shares(corners, corners - about[:, None], normal, kinds)
         bound = size * size
         if area:  # a normal's direction is the less certain the thinner its triangle
             double = np.sqrt(np.einsum("im,im->m", normal, normal))
             bound = 2.0 * size * np.maximum(1.0, bound / np.where(double > 0.0, double, bound + 1.0))
-        for own, values in zip(place.T, rows):
+        for vertex, values in zip(place.T, corner_shares):
             for row, target in zip(values.reshape(3 * kinds, -1), out):
-                target[low : low + count] += np.bincount(own, row, count)
-            scale[low : low + count] += np.bincount(own, bound, count)
+                target[low : low + count] += np.bincount(vertex, row, count)
+            scale[low : low + count] += np.bincount(vertex, bound, count)
     reach = np.abs(points - about).max(axis=0, initial=0.0)
     by_vertex = out.reshape(kinds, 3, -1).transpose(2, 0, 1)
     return Gradient(by_vertex, about, Measure.AREA if area else Measure.VOLUME, scale, reach, valence)
@@ -113,13 +113,13 @@ def _volume_shares(corners: NDArray, local: NDArray, normal: NDArray, kinds: int
     total = local[0] + local[1] + local[2]
     pairs = PAIRS if kinds > 4 else []
     square = {(i, j): np.einsum("km,km->m", local[:, i], local[:, j]) + total[i] * total[j] for i, j in pairs}
-    for own in local:
+    for corner in local:
         weights = np.empty((kinds, normal.shape[1]))
         weights[0] = 1.0 / 6.0
-        weights[1:4] = (total + own) / 24.0
+        weights[1:4] = (total + corner) / 24.0
         for i, j in pairs:
-            weights[SECOND[i, j]] = (
-                square[i, j] + own[i] * total[j] + total[i] * own[j] + 2.0 * own[i] * own[j]
+            weights[SECOND_MOMENT_INDEX[i, j]] = (
+                square[i, j] + corner[i] * total[j] + total[i] * corner[j] + 2.0 * corner[i] * corner[j]
             ) / 120.0
         yield weights[:, None] * normal
 
@@ -134,14 +134,14 @@ def _area_shares(corners: NDArray, local: NDArray, normal: NDArray, kinds: int) 
     mean[0] = 0.5
     mean[1:4] = total / 6.0
     for i, j in pairs:
-        mean[SECOND[i, j]] = (np.einsum("km,km->m", local[:, i], local[:, j]) + total[i] * total[j]) / 24.0
-    for k, own in enumerate(local):
+        mean[SECOND_MOMENT_INDEX[i, j]] = (np.einsum("km,km->m", local[:, i], local[:, j]) + total[i] * total[j]) / 24.0
+    for k, corner in enumerate(local):
         turn = cross(corners[(k + 1) % 3] - corners[(k + 2) % 3], unit)
         values = mean[:, None] * np.stack(turn)
         for i in range(3):
-            values[index(*np.eye(3, dtype=int)[i]), i] += double / 6.0
+            values[monomial_index(*np.eye(3, dtype=int)[i]), i] += double / 6.0
         for i, j in pairs:
-            row = values[SECOND[i, j]]
-            row[i] += double * (total[j] + own[j]) / 24.0
-            row[j] += double * (total[i] + own[i]) / 24.0
+            row = values[SECOND_MOMENT_INDEX[i, j]]
+            row[i] += double * (total[j] + corner[j]) / 24.0
+            row[j] += double * (total[i] + corner[i]) / 24.0
         yield values

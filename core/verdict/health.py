@@ -16,12 +16,12 @@ NO_FACES = np.empty(0, np.int64)
 
 
 @dataclass(frozen=True, eq=False)
-class Faults:
+class DefectiveElements:
     """Where the faults are, in the input mesh's own numbers, sorted: faces (k,), edges (k, 2) as vertex pairs.
 
     flipped_faces: turned to agree with the rest of their part (not those of a part that is inside out as a whole).
-    boundary_edges, non_manifold_edges, inconsistent_edges: as counted in `Health`, but each with all the mesh's edges
-    that lie there. duplicate_faces: the later copies. degenerate_faces: those without area.
+    boundary_edges, non_manifold_edges, inconsistent_edges: as counted in `MeshReport`, but each with all the mesh's
+    edges that lie there. duplicate_faces: the later copies. degenerate_faces: those without area.
     """
 
     flipped_faces: NDArray[np.integer] = field(default_factory=lambda: NO_FACES)
@@ -33,7 +33,7 @@ class Faults:
 
 
 @dataclass(frozen=True, eq=False)
-class Health:
+class MeshReport:
     """The input, before anything was mended.
 
     closed: in space: equal positions are one, and gaps without area are none.
@@ -63,10 +63,10 @@ class Health:
     non_planar_faces: int = 0
     volume_spread: float = 0.0
     cap_area_share: float = 0.0
-    faults: Faults = field(default_factory=Faults)
+    defective_elements: DefectiveElements = field(default_factory=DefectiveElements)
 
     def as_record(self) -> dict:
         """Plain values for JSON; of the faults only the flipped faces."""
-        record = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name != "faults"}
-        record["flipped_faces"] = self.faults.flipped_faces.tolist()
+        record = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name != "defective_elements"}
+        record["flipped_faces"] = self.defective_elements.flipped_faces.tolist()
         return record

@@ -13,10 +13,10 @@ from ...core.verdict.finding import Finding
 from ..write import reports
 from . import selection
 
-SLICE = 0.1  # seconds of work between two looks at the window's events
+STEP_SECONDS = 0.1  # seconds of work between two looks at the window's events
 
 
-class Stepwise:
+class ModalSteps:
     """Of an operator, whose `_steps` is a generator that does the work and yields how much is done, and whose `_finish`
     alone changes anything.
 
@@ -26,14 +26,14 @@ class Stepwise:
     PROGRESS: Finding
     CANCELED: Finding
 
-    def all_at_once(self, context: Context, count: float) -> set[str]:
+    def run_all_steps(self, context: Context, count: float) -> set[str]:
         """Every step, in one call of the operator. count: what the last step yields."""
         with selection.progress(count) as step:
             for done in self._steps:
                 step(done)
         return self._finish(context)
 
-    def begin_modal(self, context: Context, count: float) -> set[str]:
+    def start_modal(self, context: Context, count: float) -> set[str]:
         """The steps as the window's timer calls for them."""
         self._count = count
         manager = context.window_manager
@@ -45,21 +45,21 @@ class Stepwise:
 
     def modal(self, context: Context, event: Event) -> set[str]:
         if event.type == "ESC":
-            self._end(context)
+            self._stop_modal(context)
             reports.report(self, self.CANCELED)
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         try:
-            until = perf_counter() + SLICE
+            until = perf_counter() + STEP_SECONDS
             for done in self._steps:
                 if perf_counter() >= until:
                     self._show_progress(context, done)
                     return {"RUNNING_MODAL"}
         except BaseException:
-            self._end(context)
+            self._stop_modal(context)
             raise
-        self._end(context)
+        self._stop_modal(context)
         return self._finish(context)
 
     def _show_progress(self, context: Context, done: float) -> None:
@@ -67,7 +67,7 @@ class Stepwise:
         share = done / self._count if self._count else 1.0
         context.workspace.status_text_set(reports.text(replace(self.PROGRESS, values={"share": share})))
 
-    def _end(self, context: Context) -> None:
+    def _stop_modal(self, context: Context) -> None:
         self._steps.close()
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()

@@ -14,19 +14,19 @@ from bpy.types import Context, Object, Operator
 
 from ...core.verdict.finding import Finding, finding
 from ..read import measurable
-from ..scene.transforms import lineage
+from ..scene.transforms import ancestors
 from ..write import reports
 
 
-def selected(context: Context) -> list[Object]:
+def selected_measurable(context: Context) -> list[Object]:
     """The selected objects that could be measured, parents before children. Works in background
     too.
     """
     objects = [obj for obj in context.view_layer.objects.selected if measurable(obj)]
-    return sorted(objects, key=lambda obj: sum(1 for _ in lineage(obj)))
+    return sorted(objects, key=lambda obj: sum(1 for _ in ancestors(obj)))
 
 
-def poll_selected(cls: type[Operator], context: Context, any_mode: bool = False) -> bool:
+def poll_selection(cls: type[Operator], context: Context, any_mode: bool = False) -> bool:
     """Whether something is selected, in Object Mode unless any mode will do; says why not."""
     if not any_mode and context.mode != "OBJECT":
         return reports.unavailable(cls, finding("poll_object_mode"))
@@ -84,7 +84,7 @@ def summarize(
     return {"FINISHED"} if changed else {"CANCELLED"}
 
 
-def one_by_one(
+def iterate_objects(
     objects: Iterable[Object], action: Callable[[Object], Iterator[float] | None], failures: list[Finding]
 ) -> Iterator[float]:
     """Run `action` on one object after the other: it does the work, or returns an iterator that does it in steps and
@@ -100,7 +100,7 @@ def one_by_one(
         yield done
 
 
-def each(objects: Sequence[Object], action: Callable[[Object], bool]) -> tuple[int, list[Finding]]:
+def apply_to_all(objects: Sequence[Object], action: Callable[[Object], bool]) -> tuple[int, list[Finding]]:
     """Run `action` on each object; how many it changed, and why others were refused or failed."""
     changed: list[Object] = []
     failures: list[Finding] = []
@@ -110,6 +110,6 @@ def each(objects: Sequence[Object], action: Callable[[Object], bool]) -> tuple[i
             changed.append(obj)
 
     with progress(len(objects)) as step:
-        for done in one_by_one(objects, run, failures):
+        for done in iterate_objects(objects, run, failures):
             step(done)
     return len(changed), failures

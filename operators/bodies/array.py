@@ -10,14 +10,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...core.measurement import Measurement
-from ...core.scans.formats import placed, read_scan
+from ...core.scans.formats import read_scan, sample_matrix
 from ...core.verdict.finding import MeasureError, ReadError, finding
 from ..read import Reading
 from ..settings.grid import GridOptions
 from ..settings.options import MeasureOptions
 from .grid import density_body
-from .mass import Weighed
-from .measurement import as_measurement, to_order
+from .mass import MassResult
+from .measurement import as_measurement, with_moments
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ def measure_array(path: str, name: str, array: ArrayOptions, options: MeasureOpt
         raise ReadError("grid_as_shell", subject=name)
     try:
         scan = read_scan(path)
-        matrix, findings = placed(scan, array.spacing, array.origin, array.unit_scale)
+        matrix, findings = sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
         grid = GridOptions(
             value_density=array.density_scale, spline_order=array.spline_order, negative="array_negative"
         )
@@ -50,8 +50,8 @@ def measure_array(path: str, name: str, array: ArrayOptions, options: MeasureOpt
         body = density_body(scan.samples, shape, matrix, grid, None, findings, scan.slope, scan.intercept)
         reading = Reading(name, "ARRAY", np.eye(4), np.eye(3), np.zeros(3))
         used = replace(options, kind="solid", density=None, thickness=0.0, overlap="signed", wall="thin")
-        weighed = Weighed(body.mass, finding("density_from_samples"))
-        return to_order(as_measurement(None, reading, body, used, 1.0, weighed, repr(grid.key)), body, used)
+        weighed = MassResult(body.mass, finding("density_from_samples"))
+        return with_moments(as_measurement(None, reading, body, used, 1.0, weighed, repr(grid.key)), body, used)
     except MeasureError as error:
         error.about(name)
         raise

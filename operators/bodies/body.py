@@ -14,43 +14,44 @@ from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Moments
-from ...core.solid.measure_solid import SolidMeasure
+from ...core.solid.measure_solid import SolidIntegrals
 from ...core.verdict.finding import Finding
-from ...core.verdict.health import Health
+from ...core.verdict.health import MeshReport
 
 
 @dataclass(frozen=True)
-class Body:
+class MeasuredBody:
     """All parts of an object together, in SI units and world axes.
 
     volume, area: their moments, the volume's to order 3 at least. mass: of a body whose density is not one number, its
     moments in kg; else None.
     wall: of a shell of real thickness, the volume moments of its material; None of a thin one.
     method, findings: as in `Measurement`.
-    refined: gives what the principal frame is made from, with exact third order, where its bounds leave it undecided.
+    third_order: gives what the principal frame is made from, with exact third order, where its bounds leave it
+    undecided.
     length: of a wire, its moments; else None.
     estimated: whether the bounds of its errors are estimates.
     display_volume: of a body that is measured without its display mesh, what that would have given, m³; else None.
-    to_order: gives the volume's and the area's moments to a higher order: (order, area wanted), and None for an area
+    moments: gives the volume's and the area's moments to a higher order: (order, area wanted), and None for an area
         that is not; itself None where only moments to order 3 are known.
     solids: the surfaces that were measured, and the (k, 4, 4) maps to where each stands.
-    pieces: gives the surfaces where they stand, in float64: around what is solid, or the sheets as they are (sheets
+    surfaces: gives the surfaces where they stand, in float64: around what is solid, or the sheets as they are (sheets
         wanted).
-    faces: how many triangles and quads were measured.
+    face_count: how many triangles and quads were measured.
     """
 
     volume: Moments
     area: Moments
-    health: Health
+    health: MeshReport
     method: str
     findings: tuple[Finding, ...]
     mass: Moments | None = None
     wall: Moments | None = None
-    refined: Callable[[], Moments] | None = None
+    third_order: Callable[[], Moments] | None = None
     length: Moments | None = None
     estimated: bool = False
     display_volume: float | None = None
-    to_order: Callable[[int, bool], tuple[Moments, Moments | None]] | None = None
-    solids: tuple[tuple[SolidMeasure, NDArray], ...] = ()
-    pieces: Callable[[bool], Iterator[Surface]] | None = None
-    faces: int = 0
+    moments: Callable[[int, bool], tuple[Moments, Moments | None]] | None = None
+    solids: tuple[tuple[SolidIntegrals, NDArray], ...] = ()
+    surfaces: Callable[[bool], Iterator[Surface]] | None = None
+    face_count: int = 0

@@ -11,17 +11,17 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.fourier.instances import TOLERANCE, BodyTransform
+from ...core.fourier.instances import FOURIER_RTOL, BodyTransform
 from ...core.fourier.spectrum import APPROXIMATE, Spectrum
-from ...core.fourier.wave_vectors import Grid
+from ...core.fourier.wave_vectors import FrequencyGrid
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
-from ...core.numerics.float32 import decimal
+from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ..read import Reading, read_object, shows_flat_region
 from ..settings.density import density_field
-from ..settings.options import MeasureOptions, resolved
-from .instances import in_metres
+from ..settings.options import MeasureOptions, with_object_settings
+from .instances import to_si
 from .mesh import mesh_body
 
 
@@ -45,10 +45,10 @@ class ObjectTransform:
 
     def result(self) -> tuple[Spectrum, tuple[Finding, ...]]:
         """The spectrum, and a finding for each decision that was taken."""
-        spectrum = self.transform.result().scaled(self.factor)
+        spectrum = self.transform.result().scale(self.factor)
         findings = self.findings
         if spectrum.method == APPROXIMATE:
-            findings += (finding("fourier_approximate", share=TOLERANCE),)
+            findings += (finding("fourier_approximate", share=FOURIER_RTOL),)
         return spectrum, findings
 
 
@@ -56,7 +56,7 @@ def object_transform(
     obj: bpy.types.Object,
     depsgraph: bpy.types.Depsgraph,
     options: MeasureOptions,
-    q: NDArray | Grid | Callable[[float], Grid],
+    q: NDArray | FrequencyGrid | Callable[[float], FrequencyGrid],
     *,
     frame: str = "world",
     area: bool = False,
@@ -68,8 +68,8 @@ def object_transform(
     ∫ exp(-i q·x) dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell.
     Raises MeasureError where there is no transform.
     """
-    unit = options.unit_scale or decimal(depsgraph.scene.unit_settings.scale_length)
-    options = resolved(options, obj, unit)
+    unit = options.unit_scale or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    options = with_object_settings(options, obj, unit)
     reading = read_object(obj, depsgraph)
     shell = options.kind == "shell"
     try:
@@ -77,14 +77,14 @@ def object_transform(
         if area or shell:
             if shell and not area:
                 _require_thin(options)
-            parts = [(part.surface, in_metres(part.matrices, unit)) for part in reading.parts]
+            parts = [(part.surface, to_si(part.matrices, unit)) for part in reading.parts]
             of, total = Measure.AREA, body.area.total
         else:
             if options.kind == "wire":
                 raise ReadError("fourier_of_wire")
             if body.method == "open":
                 raise ReadError("fourier_of_open_surface")
-            parts = [(solid.mended, matrices) for solid, matrices in body.solids]
+            parts = [(solid.repaired_surface, matrices) for solid, matrices in body.solids]
             of, total = Measure.VOLUME, body.volume.total
         if frame == "object":
             turn = _to_object(reading, unit)

@@ -13,16 +13,16 @@ from numpy.typing import NDArray
 from ...core.density.spline_grid import Blocks, grid_moments
 from ...core.moments.moments import Measure, Moments
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.verdict.health import Health
+from ...core.verdict.health import MeshReport
 from ..read import Part, Reading
 from ..read.volume import VolumeReading
 from ..settings.grid import GridOptions
-from .body import Body
-from .mass import LARGEST
+from .body import MeasuredBody
+from .mass import MAX_MASS_MOMENT
 from .mesh import mesh_body
 
 
-def grid_body(reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1) -> Body:
+def grid_body(reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1) -> MeasuredBody:
     """The body of one grid. unit: metres per Blender unit. MeasureError where there is none."""
     if options.solid:
         return _solid(reading, unit, threads)
@@ -47,20 +47,20 @@ def density_body(
     findings: tuple[Finding, ...] = (),
     slope: float = 1.0,
     intercept: float = 0.0,
-) -> Body:
+) -> MeasuredBody:
     """The body of samples at matrix @ (i, j, k, 1), in metres, that stand for slope · sample + intercept.
 
     background: a value that counts as empty.
     """
     if min(shape) < 1:
         raise ReadError("grid_empty")
-    weigh = options.weigh(background)
+    weigh = options.to_densities(background)
 
     def densities(block: NDArray) -> NDArray[np.float64]:
         return weigh(block if slope == 1.0 and intercept == 0.0 else block * slope + intercept)
 
     mass = grid_moments(samples, shape, matrix, options.spline_order, value=densities)
-    if not np.abs(mass.raw).max() < LARGEST:
+    if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError("mass_overflow")
     if not mass.total > 0.0:
         raise ReadError("grid_empty")
@@ -69,26 +69,26 @@ def density_body(
         moments = grid_moments(
             samples, shape, matrix, order=order, value=lambda block: (densities(block) != 0.0).astype(np.float64)
         )
-        return replace(moments, of=Measure.VOLUME)
+        return replace(moments, measure=Measure.VOLUME)
 
     def to_order(order: int, area: bool) -> tuple[Moments, Moments | None]:
         volume = held(order)
         return volume, Moments(np.zeros_like(volume.raw), volume.about, Measure.AREA) if area else None
 
     volume = held(3)
-    findings += (*options.left_empty(background), finding("grid_without_surface"))
-    return Body(
+    findings += (*options.empty_background_note(background), finding("grid_without_surface"))
+    return MeasuredBody(
         volume,
         Moments(np.zeros(1), volume.about, Measure.AREA),
-        Health(closed=True),
+        MeshReport(closed=True),
         "grid exact",
         findings,
         mass=mass,
-        to_order=to_order,
+        moments=to_order,
     )
 
 
-def _solid(reading: VolumeReading, unit: float, threads: int) -> Body:
+def _solid(reading: VolumeReading, unit: float, threads: int) -> MeasuredBody:
     """What a level set bounds, by its polygons."""
     if not reading.level_set:
         raise ReadError("grid_is_not_level_set", grid=reading.grid)

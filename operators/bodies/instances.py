@@ -10,31 +10,31 @@ from dataclasses import fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.mesh.boxes import boxes_meet
+from ...core.mesh.boxes import boxes_overlap
 from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import distinct_linear, translations
-from ...core.moments.moments import Moments, are_similarities, map_sum
+from ...core.moments.affine_maps import distinct_linear_parts, translation_matrices
+from ...core.moments.moments import Moments, are_similarities, sum_of_images
 from ...core.polyhedron.sheared_areas import area_of_images
 from ...core.verdict.finding import Finding, finding
-from ...core.verdict.health import Faults, Health
+from ...core.verdict.health import DefectiveElements, MeshReport
 from ..read import Reading
 
-RANKED = ("open", "capped", "reoriented", "exact")  # methods: of several, the first counts
+METHOD_RANK = ("open", "capped", "reoriented", "exact")  # methods: of several, the first counts
 
 
-def flattened_reason(reading: Reading) -> Finding:
+def singular_reason(reading: Reading) -> Finding:
     """Why nothing of a singular reading encloses anything."""
-    return finding("zero_scale" if reading.flat else "all_instances_zero_scale")
+    return finding("zero_scale" if reading.is_singular else "all_instances_zero_scale")
 
 
-def some_flattened(count: int) -> Finding:
+def singular_instances_message(count: int) -> Finding:
     """That so many instances enclose nothing."""
     return finding("instances_zero_scale", count=count)
 
 
 def not_compared(reading: Reading) -> Finding:
     """That nobody looked for overlap between the instances."""
-    return finding("instance_overlap_unchecked", count=reading.places)
+    return finding("instance_overlap_unchecked", count=reading.instance_count)
 
 
 def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
@@ -61,8 +61,8 @@ def _identity(result: Finding) -> tuple[Finding, object]:
 
 
 def with_sources(reading: Reading, result: Finding) -> Finding:
-    """A finding about `reading.joined()`: its faces, and edges as pairs of vertices, become [face, source] in the
-    numbers of the surfaces that they are instances of, each once."""
+    """A finding about `reading.join_surfaces()`: its faces, and edges as pairs of vertices, become [face, source] in
+    the numbers of the surfaces that they are instances of, each once."""
     elements = np.asarray(result.elements)
     if not elements.size:
         return result
@@ -75,12 +75,12 @@ def with_sources(reading: Reading, result: Finding) -> Finding:
     at = np.searchsorted(ends, elements[:, 0] if of_edges else elements, side="right")
     local = elements - (starts[at, None] if of_edges else starts[at])
     each = np.unique(np.column_stack([places[at], local]), axis=0)
-    names = np.array([part.source or reading.name for part in reading.parts], object)[each[:, 0]]
+    names = np.array([part.source_object_name or reading.name for part in reading.parts], object)[each[:, 0]]
     numbers = each[:, 1:] if of_edges else each[:, 1]
     return replace(result, elements=list(map(list, zip(numbers.tolist(), names.tolist()))))
 
 
-def places_meet(reading: Reading) -> bool:
+def instances_overlap(reading: Reading) -> bool:
     """Whether the boxes around any two of the places where parts stand share more than a rim."""
     centers, extents = [], []
     for part in reading.parts:
@@ -88,17 +88,17 @@ def places_meet(reading: Reading) -> bool:
         linear = part.matrices[:, :3, :3]
         centers.append(linear @ ((low + high) / 2.0) + part.matrices[:, :3, 3])
         extents.append(np.abs(linear) @ ((high - low) / 2.0))
-    return boxes_meet(np.concatenate(centers), np.concatenate(extents))
+    return boxes_overlap(np.concatenate(centers), np.concatenate(extents))
 
 
-def in_metres(matrices: NDArray, unit: float) -> NDArray[np.float64]:
+def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:
     """World matrices to SI."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit
     return scaled
 
 
-def mapped_areas(
+def area_of_instances(
     surface: Surface, area: Moments, matrices: NDArray, measured: Callable[[Surface], Moments] | None
 ) -> Iterator[Moments]:
     """The area moments of a surface's images. They do not follow a map that stretches unevenly, so there the mapped
@@ -106,15 +106,15 @@ def mapped_areas(
     if measured is None:
         even = are_similarities(matrices[:, :3, :3])
         if even.any():
-            yield map_sum(area, matrices[even])
+            yield sum_of_images(area, matrices[even])
         if not even.all():
             yield area_of_images(surface, matrices[~even, :3, :3])
         return
-    for image, places, _ in even_surfaces(surface, matrices):
-        yield map_sum(area if image is surface else measured(image), places)
+    for image, matrices_of_image, _ in group_by_similarity(surface, matrices):
+        yield sum_of_images(area if image is surface else measured(image), matrices_of_image)
 
 
-def even_surfaces(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
+def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
     """A surface's images as images under similarities: the surface itself or mapped ones, one for each different uneven
     map, with the (j, 4, 4) maps that are left and which of `matrices` they stand for, (j,)."""
     even = are_similarities(matrices[:, :3, :3])
@@ -123,26 +123,28 @@ def even_surfaces(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface
     if even.all():
         return
     rest = np.flatnonzero(~even)
-    for linear, own in distinct_linear(matrices[rest]):
-        yield surface.mapped(linear), translations(matrices[rest[own], :3, 3]), rest[own]
+    for linear, members in distinct_linear_parts(matrices[rest]):
+        yield surface.transform(linear), translation_matrices(matrices[rest[members], :3, 3]), rest[members]
 
 
-def together(healths: Iterable[tuple[Health, int, float]]) -> Health:
+def merge_health(healths: Iterable[tuple[MeshReport, int, float]]) -> MeshReport:
     """One verdict for all parts, each with the number of its instances and the area of all of them: counts add; faults
     are named where there is one part only."""
     healths = list(healths)
     first, copies, _ = healths[0]
     if len(healths) == 1 and copies == 1:
         return first
-    area = sum(own for *_, own in healths)
+    area = sum(part_area for *_, part_area in healths)
     total = {
-        "faults": Faults(),
+        "defective_elements": DefectiveElements(),
         "closed": all(h.closed for h, *_ in healths),
         "welded": any(h.welded for h, *_ in healths),
         "volume_spread": sum(h.volume_spread for h, *_ in healths),
-        "cap_area_share": sum(h.cap_area_share * own for h, _, own in healths) / area if area > 0.0 else 0.0,
+        "cap_area_share": sum(h.cap_area_share * part_area for h, _, part_area in healths) / area
+        if area > 0.0
+        else 0.0,
     }
-    for field in fields(Health):
+    for field in fields(MeshReport):
         if field.name not in total:
             total[field.name] = sum(getattr(h, field.name) * k for h, k, _ in healths)
-    return Health(**total)
+    return MeshReport(**total)

@@ -14,27 +14,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.density.part_densities import PartDensities, part_densities
-from ...core.density.piecewise_mass import as_mass, weighted_sheet, weighted_solid
+from ...core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
 from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import distinct_linear
-from ...core.moments.moments import Moments, are_similarities, map_sum, sum_moments
+from ...core.moments.affine_maps import distinct_linear_parts
+from ...core.moments.moments import Moments, are_similarities, sum_moments, sum_of_images
 from ...core.polyhedron import polyhedron_moments
-from ...core.solid.measure_solid import SolidMeasure
-from ...core.solid.parts import Components
+from ...core.solid.measure_solid import SolidIntegrals
+from ...core.solid.parts import ClosedParts
 from ...core.verdict.finding import Finding, ReadError, finding
 from ..read import Reading
 from ..read.reading import said_of
 from ..settings.density import DensityField, material_density
 from . import polynomial_mass as weigh_polynomial
-from .body import Body
-from .instances import findings_by_part, in_metres, mapped_areas, with_sources
+from .body import MeasuredBody
+from .instances import area_of_instances, findings_by_part, to_si, with_sources
 
 MAX_NAMED = 8  # materials
-LARGEST = 1e100  # kg m^n whose squares are still numbers
+MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
 
 
 @dataclass
-class Weighed:
+class MassResult:
     """mass: moments in kg, SI units and world axes. source: where the density came from. findings: what was decided.
     materials: full names of those that were met, with a density or without."""
 
@@ -44,109 +44,116 @@ class Weighed:
     materials: tuple[str, ...] = ()
 
 
-def weigh(
+def mass_result(
     reading: Reading,
-    body: Body,
+    body: MeasuredBody,
     density: DensityField,
     *,
     unit: float,
     shell: bool,
     thickness: float,
-    others: float,
+    default_density: float,
     threads: int = 1,
-) -> Weighed:
+) -> MassResult:
     """The mass of a body that `mesh_body` measured.
 
-    unit: metres per Blender unit; thickness: of a shell, m; others: kg/m³ of faces whose material has no density.
-    MeasureError where the density is missing or negative somewhere.
+    unit: metres per Blender unit; thickness: of a shell, m; default_density: kg/m³ of faces whose material has no
+    density. MeasureError where the density is missing or negative somewhere.
     """
-    if not body.solids or (density.kind != "polynomial" and any(part.painted is None for part in reading.parts)):
+    if not body.solids or (density.kind != "polynomial" and any(part.attributes is None for part in reading.parts)):
         raise ReadError("density_needs_polygons")
     factor = thickness if shell else 1.0
     if density.kind == "polynomial":
-        parts, findings = weigh_polynomial.weigh(reading, body, density, unit=unit, shell=shell, threads=threads)
+        parts, findings = weigh_polynomial.polynomial_mass_result(
+            reading, body, density, unit=unit, shell=shell, threads=threads
+        )
         mass = sum_moments(parts) * factor
-        if not np.abs(mass.raw).max() < LARGEST:
+        if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
             raise ReadError("mass_overflow")
-        return Weighed(mass, density.polynomial_source(), findings)
+        return MassResult(mass, density.polynomial_source(), findings)
     if density.kind == "attribute":
         if not shell:
             raise ReadError("density_attribute_of_solid")
         parts = [
-            _sheets(reading, i, _vertex_density(reading, i, density.attribute), unit, threads, by_vertex=True)
+            _sheet_moments(reading, i, _vertex_density(reading, i, density.attribute), unit, threads, by_vertex=True)
             for i in range(len(reading.parts))
         ]
         source = finding("density_from_attribute", attribute=density.attribute)
-        return Weighed(as_mass(sum_moments([one for part in parts for one in part]), factor), source)
-    return _by_material(reading, body, unit, shell, factor, others, threads)
+        return MassResult(to_mass_moments(sum_moments([moments for part in parts for moments in part]), factor), source)
+    return _by_material(reading, body, unit, shell, factor, default_density, threads)
 
 
 def _by_material(
-    reading: Reading, body: Body, unit: float, shell: bool, factor: float, others: float, threads: int
-) -> Weighed:
+    reading: Reading, body: MeasuredBody, unit: float, shell: bool, factor: float, default_density: float, threads: int
+) -> MassResult:
     if body.method == "union":
         raise ReadError("materials_of_union")
-    painted = _Painted(reading, others)
+    face_densities = _FaceDensities(reading, default_density)
     parts: list[Moments] = []
     by_part: list[tuple[str, list[Finding]]] = []
     mixed = False
     if shell:
-        for i, values in enumerate(painted.values):
-            parts.extend(_sheets(reading, i, values, unit, threads))
+        for i, values in enumerate(face_densities.values):
+            parts.extend(_sheet_moments(reading, i, values, unit, threads))
     else:
-        for i, ((solid, matrices), (values, names)) in enumerate(zip(body.solids, painted.for_solids(body))):
-            weighed, findings, by_area = _solids(solid, matrices, values, names)
+        for i, ((solid, matrices), (values, names)) in enumerate(zip(body.solids, face_densities.for_solids(body))):
+            weighed, findings, by_area = _solid_moments(solid, matrices, values, names)
             parts += weighed
-            by_part.append((reading.parts[i].source, findings))
+            by_part.append((reading.parts[i].source_object_name, findings))
             mixed = mixed or by_area
     if is_joined(reading, body):
         findings = [with_sources(reading, result) for _, found in by_part for result in found]
     else:
         findings = findings_by_part(by_part, reading.name)
-    findings = [*painted.missing(), *findings]
+    findings = [*face_densities.missing_note(), *findings]
     health = body.health
-    if not shell and health.nested_components + health.overlapping_components and painted.several:
+    if not shell and health.nested_components + health.overlapping_components and face_densities.has_several:
         findings.append(finding("overlapping_densities"))
-    return Weighed(as_mass(sum_moments(parts), factor), painted.source(mixed), findings, painted.names)
+    return MassResult(
+        to_mass_moments(sum_moments(parts), factor), face_densities.source(mixed), findings, face_densities.names
+    )
 
 
-class _Painted:
+class _FaceDensities:
     """The densities of all faces of a reading. values: for each part (f,) of its mesh faces."""
 
-    def __init__(self, reading: Reading, others: float):
-        self.reading, self.others = reading, others
+    def __init__(self, reading: Reading, default_density: float):
+        self.reading, self.default_density = reading, default_density
         self.values: list[NDArray] = []
         self.slots: list[tuple[NDArray, tuple]] = []
         met: dict[object, None] = {}
-        self.lacking = self.faces = 0
+        self.faces_without_density = self.faces = 0
         for part in reading.parts:
-            slots, faces = part.painted.materials, part.painted.faces
+            slots, faces = part.attributes.materials, part.attributes.face_slots
             known = [material_density(material) for material in slots]
-            table = np.array([*(others if one is None else one for one in known), others], float)  # -1 is the last
-            lacks = np.array([*(one is None for one in known), True])
+            # -1 is the last
+            table = np.array(
+                [*(default_density if density is None else density for density in known), default_density], float
+            )
+            lacks = np.array([*(density is None for density in known), True])
             self.values.append(table[faces])
             self.slots.append((faces, slots))
-            self.lacking += int(lacks[faces].sum()) * len(part.matrices)
+            self.faces_without_density += int(lacks[faces].sum()) * len(part.matrices)
             self.faces += len(faces) * len(part.matrices)
             met |= dict.fromkeys(slots[i] for i in np.unique(faces).tolist() if i >= 0 and slots[i] is not None)
-        self.met = sorted(met, key=lambda material: material.name_full)
-        if self.lacking and not others > 0.0:
-            raise ReadError("material_without_density", count=self.lacking, total=self.faces)
+        self.materials = sorted(met, key=lambda material: material.name_full)
+        if self.faces_without_density and not default_density > 0.0:
+            raise ReadError("material_without_density", count=self.faces_without_density, total=self.faces)
 
     @property
     def names(self) -> tuple[str, ...]:
-        return tuple(material.name_full for material in self.met)
+        return tuple(material.name_full for material in self.materials)
 
     @property
-    def several(self) -> bool:
+    def has_several(self) -> bool:
         return len({value for values in self.values for value in np.unique(values).tolist()}) > 1
 
-    def missing(self) -> Iterator[Finding]:
+    def missing_note(self) -> Iterator[Finding]:
         """A finding about faces that take the object's density."""
-        if not self.lacking:
+        if not self.faces_without_density:
             return
-        names = [material.name for material in self.met if material_density(material) is None]
-        values = {"count": self.lacking, "total": self.faces, "density": self.others}
+        names = [material.name for material in self.materials if material_density(material) is None]
+        values = {"count": self.faces_without_density, "total": self.faces, "density": self.default_density}
         if names:
             yield finding("object_density_used_for_materials", **values, materials=names)
         else:
@@ -154,18 +161,18 @@ class _Painted:
 
     def source(self, by_area: bool) -> Finding:
         """Where the densities come from. by_area: whether components of several materials took their mean."""
-        known = [(material.name, material_density(material)) for material in self.met]
+        known = [(material.name, material_density(material)) for material in self.materials]
         known = [(name, value) for name, value in known if value is not None]
         parts = [finding("density_of_material", material=name, density=value) for name, value in known[:MAX_NAMED]]
         if len(known) > MAX_NAMED:
             parts.append(finding("and_more", count=len(known) - MAX_NAMED))
-        if self.lacking:
-            parts.append(finding("density_of_others", density=self.others))
+        if self.faces_without_density:
+            parts.append(finding("density_of_others", density=self.default_density))
         if by_area:
             parts.append(finding("density_mixed_by_area"))
         return finding("density_from_materials", materials=[part.as_record() for part in parts])
 
-    def for_solids(self, body: Body) -> Iterator[tuple[NDArray, NDArray]]:
+    def for_solids(self, body: MeasuredBody) -> Iterator[tuple[NDArray, NDArray]]:
         """The densities and the material's names of the faces of each measured surface; of one that joins all places,
         those of each place in turn."""
         names = [
@@ -175,58 +182,63 @@ class _Painted:
         if not is_joined(self.reading, body):
             yield from zip(self.values, names)
             return
-        rows, row_names = [], []
+        blocks, row_names = [], []
         for part, values, own in zip(self.reading.parts, self.values, names):
             used = part.surface.all_triangles()[1].max() + 1
-            rows += [values[:used]] * len(part.matrices)
+            blocks += [values[:used]] * len(part.matrices)
             row_names += [own[:used]] * len(part.matrices)
-        yield np.concatenate(rows), np.concatenate(row_names)
+        yield np.concatenate(blocks), np.concatenate(row_names)
 
 
-def is_joined(reading: Reading, body: Body) -> bool:
+def is_joined(reading: Reading, body: MeasuredBody) -> bool:
     """Whether the body was measured as one surface though it stands in several places."""
-    return sum(len(matrices) for _, matrices in body.solids) != reading.places
+    return sum(len(matrices) for _, matrices in body.solids) != reading.instance_count
 
 
-def _solids(
-    solid: SolidMeasure, matrices: NDArray, values: NDArray, names: NDArray
+def _solid_moments(
+    solid: SolidIntegrals, matrices: NDArray, values: NDArray, names: NDArray
 ) -> tuple[list[Moments], list[Finding], bool]:
     """∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area. values, names:
     of its mesh faces."""
-    components = solid.components()
+    components = solid.parts()
     moments, findings = [], []
-    mixed = bool(part_densities(components, values).mixed.any())
-    for places in _alike(matrices) if mixed else [matrices]:  # a mean by area is that of the areas as they are seen
-        found = part_densities(components, values, places[0, :3, :3])
-        density = found.density[components.part]
-        moments.append(map_sum(weighted_solid(components.points, components.triangles, density, solid.volume), places))
-        findings += _mixed(components, found, names)
-    if found.painted.any():
+    mixed = bool(part_densities(components, values).has_several_materials.any())
+    # a mean by area is that of the areas as they are seen
+    for matrix_group in _similarity_groups(matrices) if mixed else [matrices]:
+        part_density = part_densities(components, values, matrix_group[0, :3, :3])
+        density = part_density.density[components.part]
+        moments.append(
+            sum_of_images(
+                solid_mass_moments(components.points, components.triangles, density, solid.volume), matrix_group
+            )
+        )
+        findings += _mixed_parts_notes(components, part_density, names)
+    if part_density.has_foreign_cavity_material.any():
         findings.append(finding("cavity_material_ignored"))
     return moments, findings, mixed
 
 
-def _alike(matrices: NDArray) -> Iterator[NDArray]:
+def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
     """The (k, 4, 4) maps in groups that stretch areas alike: similarities together, then each uneven map's places."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield matrices[even]
     rest = matrices[~even]
-    for _, own in distinct_linear(rest):
-        yield rest[own]
+    for _, members in distinct_linear_parts(rest):
+        yield rest[members]
 
 
-def _mixed(parts: Components, found: PartDensities, names: NDArray) -> list[Finding]:
+def _mixed_parts_notes(parts: ClosedParts, part_density: PartDensities, names: NDArray) -> list[Finding]:
     """A finding about components whose faces have several materials, about the first face of each."""
-    which = np.flatnonzero(found.mixed)
+    which = np.flatnonzero(part_density.has_several_materials)
     if not len(which):
         return []
-    first = np.sort(found.first[which])
+    first = np.sort(part_density.first_face[which])
     if len(which) > 1:
         return [finding("mixed_material_components", first, count=len(which), total=parts.number)]
     component = int(which[0])
     faces = np.unique(parts.face[(parts.part == component) & (parts.face >= 0)])
-    materials, density = sorted(set(names[faces].tolist())), float(found.density[component])
+    materials, density = sorted(set(names[faces].tolist())), float(part_density.density[component])
     return [finding("mixed_material_component", first, materials=materials, density=density)]
 
 
@@ -234,18 +246,18 @@ def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
     """(n,) checked values of a part's vertices; those that no face uses do not count."""
     part = reading.parts[i]
     used = np.unique(part.surface.all_triangles()[0])
-    values = part.painted.vertices
+    values = part.attributes.vertex_values
     for wrong, code in (
         (~np.isfinite(values[used]), "attribute_non_finite"),
         (values[used] < 0.0, "attribute_negative"),
     ):
         if wrong.any():
             found = finding(code, used[wrong], attribute=name, count=int(wrong.sum()))
-            raise ReadError(said_of(found, part.source, reading.name))
+            raise ReadError(said_of(found, part.source_object_name, reading.name))
     return values
 
 
-def _sheets(
+def _sheet_moments(
     reading: Reading, i: int, values: NDArray, unit: float, threads: int, by_vertex: bool = False
 ) -> Iterator[Moments]:
     """∫ρ dA of a part's images. values: of its mesh faces, or of its vertices and linear between them."""
@@ -255,6 +267,6 @@ def _sheets(
         triangles, faces = surface.all_triangles()
         density = values[triangles] if by_vertex else values[faces]
         area = polyhedron_moments(surface, area_order=3, threads=threads)[1]
-        return weighted_sheet(surface.points, triangles, density, area, stored=by_vertex)
+        return sheet_mass_moments(surface.points, triangles, density, area, stored=by_vertex)
 
-    return mapped_areas(part.surface, measured(part.surface), in_metres(part.matrices, unit), measured)
+    return area_of_instances(part.surface, measured(part.surface), to_si(part.matrices, unit), measured)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import bpy
 
 from ...core.measurement import Measurement
-from ...core.numerics.float32 import decimal
+from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ..read import Reading, read_lines, read_object, shows_flat_region
 from ..read.quiet import paused
@@ -22,15 +22,15 @@ from ..read.volume import VolumeReading, volume_reading
 from ..settings.density import density_field
 from ..settings.digest import density_key, grid_key
 from ..settings.grid import GridOptions
-from ..settings.options import AS_SET, MeasureOptions, resolved
-from .body import Body
+from ..settings.options import AS_SET, MeasureOptions, with_object_settings
+from .body import MeasuredBody
 from .curve import region_body, wire_body
 from .grid import grid_body
-from .mass import Weighed, weigh
-from .measurement import _require_volume, as_measurement, to_order
+from .mass import MassResult, mass_result
+from .measurement import _require_volume, as_measurement, with_moments
 from .mesh import mesh_body
 from .nurbs import nurbs_body
-from .voxel_filled import inside_body
+from .voxel_filled import voxel_filled_body
 from .wall import Walls, find_walls
 
 THREADS = os.cpu_count() or 1  # for what takes long
@@ -42,7 +42,7 @@ class Measured:
 
     measurement: Measurement
     reading: Reading | VolumeReading
-    body: Body
+    body: MeasuredBody
     walls: Walls | None = None
 
 
@@ -59,17 +59,17 @@ def measure_object(
 def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET) -> Measured:
     """As `measure_object`, with what was read and the body that was measured."""
     scene = depsgraph.scene
-    unit = options.unit_scale or decimal(scene.unit_settings.scale_length)
+    unit = options.unit_scale or shortest_decimal(scene.unit_settings.scale_length)
     grid = GridOptions.of(obj.body_moments, options.density)
     with paused(), volume_reading(obj, depsgraph, grid.grid) as volume:
         if volume is not None:
             return _measure_grid(obj, volume, grid, options, unit)
     given = options.density is not None or options.mass is not None
-    options = resolved(options, obj, unit)
+    options = with_object_settings(options, obj, unit)
     shell = options.kind == "shell"
     try:
         density = None if given or options.kind == "wire" else density_field(obj.body_moments)
-        lines, unknown = _lines(obj, depsgraph, unit, options) if density is None else (None, None)
+        lines, unknown = _measure_curves(obj, depsgraph, unit, options) if density is None else (None, None)
         if lines is not None:
             reading, body = lines
             return _measured(obj, reading, body, options, unit)
@@ -101,16 +101,16 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
         if density is not None:
             _require_volume(body, options)
             if density.kind == "volume":
-                body, weighed = _filled(obj, body, shell, depsgraph, unit)
+                body, weighed = _with_volume_density(obj, body, shell, depsgraph, unit)
             else:
-                weighed = weigh(
+                weighed = mass_result(
                     reading,
                     body,
                     density,
                     unit=unit,
                     shell=shell,
                     thickness=options.thickness,
-                    others=options.density,
+                    default_density=options.density,
                     threads=options.threads,
                 )
                 body = replace(body, mass=weighed.mass, findings=(*body.findings, *weighed.findings))
@@ -126,20 +126,20 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
 def _measured(
     obj: bpy.types.Object,
     reading: Reading | VolumeReading,
-    body: Body,
+    body: MeasuredBody,
     options: MeasureOptions,
     unit: float,
-    weighed: Weighed | None = None,
+    weighed: MassResult | None = None,
     key: str | None = None,
 ) -> Measured:
     """As `as_measurement`, with the moments to the order that was requested."""
     measurement = as_measurement(obj, reading, body, options, unit, weighed, key)
-    return Measured(to_order(measurement, body, options), reading, body)
+    return Measured(with_moments(measurement, body, options), reading, body)
 
 
-def _lines(
+def _measure_curves(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float, options: MeasureOptions
-) -> tuple[tuple[Reading, Body] | None, Finding | None]:
+) -> tuple[tuple[Reading, MeasuredBody] | None, Finding | None]:
     """A curve object as a wire, or as the flat region that it bounds; None for what is measured by its surface, with
     the reason where that is only what Blender fills."""
     if options.kind == "wire":
@@ -167,15 +167,15 @@ def _measure_grid(
     if kind != "solid":
         raise ReadError("grid_as_shell")
     key = grid_key(obj, options.density) if obj.type == "VOLUME" else density_key(obj, ())
-    options = resolved(replace(options, kind="solid"), obj, unit)
+    options = with_object_settings(replace(options, kind="solid"), obj, unit)
     body = grid_body(volume, grid, unit, options.threads)
-    weighed = None if body.mass is None else Weighed(body.mass, finding("density_from_grid", grid=volume.grid))
+    weighed = None if body.mass is None else MassResult(body.mass, finding("density_from_grid", grid=volume.grid))
     return _measured(obj, volume, body, options, unit, weighed, key)
 
 
-def _filled(
-    obj: bpy.types.Object, body: Body, shell: bool, depsgraph: bpy.types.Depsgraph, unit: float
-) -> tuple[Body, Weighed]:
+def _with_volume_density(
+    obj: bpy.types.Object, body: MeasuredBody, shell: bool, depsgraph: bpy.types.Depsgraph, unit: float
+) -> tuple[MeasuredBody, MassResult]:
     """The solid with the density of the Volume object that its settings name."""
     if shell:
         raise ReadError("density_volume_of_shell")
@@ -185,8 +185,8 @@ def _filled(
         with paused(), volume_reading(source, depsgraph, grid.grid) as volume:
             if volume is None:
                 raise ReadError("object_without_grid")
-            body = inside_body(body, volume, grid, unit, obj.name)
-            return body, Weighed(body.mass, finding("density_from_grid_of", grid=volume.grid, object=source.name))
+            body = voxel_filled_body(body, volume, grid, unit, obj.name)
+            return body, MassResult(body.mass, finding("density_from_grid_of", grid=volume.grid, object=source.name))
     except MeasureError as error:
         if error.subject == obj.name:  # about both together
             raise

@@ -10,7 +10,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ...core.inertia.canonical_frame import ORDER
+from ...core.inertia.canonical_frame import MAX_ORDER
 from ...core.inertia.mass_properties import MassProperties
 from ...core.measurement import Measurement
 from ...core.moments.moments import Moments
@@ -20,48 +20,49 @@ from ..read.fingerprint import effective_hash, fingerprint, matrix_hash
 from ..read.volume import VolumeReading
 from ..settings.digest import density_key
 from ..settings.options import MeasureOptions
-from .body import Body
-from .mass import Weighed
+from .body import MeasuredBody
+from .mass import MassResult
 
-AT_ONCE = 20_000  # faces up to which moments of higher order, for a frame that needs them, take no time to speak of
-
-
-KNOWN = 3  # the order to which every measurement has its moments
+# faces up to which moments of higher order, for a frame that needs them, take no time to speak of
+MAX_FACES_HIGH_ORDER = 20_000
 
 
-def to_order(measurement: Measurement, body: Body, options: MeasureOptions) -> Measurement:
+KNOWN_ORDER = 3  # the order to which every measurement has its moments
+
+
+def with_moments(measurement: Measurement, body: MeasuredBody, options: MeasureOptions) -> Measurement:
     """With moments to the order that was asked for. What a measurement holds anyway is not measured again."""
     shell, order = options.kind == "shell", options.order
-    if order is None or (order < KNOWN and (shell or not options.surface)):
+    if order is None or (order < KNOWN_ORDER and (shell or not options.surface)):
         return measurement
-    if body.to_order is None:
-        if order > KNOWN or (options.surface and not shell):
-            raise ReadError("wall_order", order=KNOWN)
+    if body.moments is None:
+        if order > KNOWN_ORDER or (options.surface and not shell):
+            raise ReadError("wall_order", order=KNOWN_ORDER)
         return measurement
     with np.errstate(over="ignore", invalid="ignore"):
-        volume, area = body.to_order(order, shell or options.surface)
+        volume, area = body.moments(order, shell or options.surface)
     for moments in (volume, area):
-        if moments is not None and not np.isfinite([moments.raw, moments.error, moments.input]).all():
+        if moments is not None and not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
             raise ReadError("moments_overflow", order=order)
     return replace(measurement, volume_moments=None if shell else volume, area_moments=area or measurement.area_moments)
 
 
-def _higher(body: Body, shell: bool) -> Callable[[], Moments] | None:
+def _higher_order_moments(body: MeasuredBody, shell: bool) -> Callable[[], Moments] | None:
     """What gives the moments of higher order of what the principal frame is made from, where they are known."""
-    if body.to_order is None or body.mass is not None or body.length is not None:
+    if body.moments is None or body.mass is not None or body.length is not None:
         return None
 
     def higher() -> Moments:
         with np.errstate(over="ignore", invalid="ignore"):
-            moments = body.to_order(ORDER, shell)[1 if shell else 0]
-        if not np.isfinite([moments.raw, moments.error]).all():
+            moments = body.moments(MAX_ORDER, shell)[1 if shell else 0]
+        if not np.isfinite([moments.raw, moments.rounding_error]).all():
             raise ReadError("object_too_large")
         return moments
 
     return higher
 
 
-def _require_volume(body: Body, options: MeasureOptions) -> Moments:
+def _require_volume(body: MeasuredBody, options: MeasureOptions) -> Moments:
     """The volume, of a shell that of its sheet or wall."""
     shell = options.kind == "shell"
     volume = body.area * options.thickness if shell and body.wall is None else body.wall or body.volume
@@ -75,10 +76,10 @@ def _require_volume(body: Body, options: MeasureOptions) -> Moments:
 def as_measurement(
     obj: bpy.types.Object | None,
     reading: Reading | VolumeReading,
-    body: Body,
+    body: MeasuredBody,
     options: MeasureOptions,
     unit: float,
-    weighed: Weighed | None = None,
+    mass_result: MassResult | None = None,
     key: str | None = None,
 ) -> Measurement:
     """The results of measuring a body. obj: None for what is in a file only. options: resolved. key: in place of
@@ -97,16 +98,20 @@ def as_measurement(
     if not density > 0.0:
         raise ReadError("zero_density" if options.mass is None else "zero_mass")
     rotation, location = np.asarray(reading.rotation, np.float64), np.asarray(reading.location, np.float64) * unit
-    higher = _higher(body, shell)
-    asked = options.pose or body.faces <= AT_ONCE
+    higher = _higher_order_moments(body, shell)
+    uses_high_order = options.pose or body.face_count <= MAX_FACES_HIGH_ORDER
     properties = MassProperties.from_moments(
         moments,
         factor,
-        prefer=rotation,
-        refine=None if shell or body.mass is not None else body.refined,
-        higher=higher if asked else None,
+        preferred_axes=rotation,
+        refine=None if shell or body.mass is not None else body.third_order,
+        higher=higher if uses_high_order else None,
     )
-    frame = () if asked or higher is None or properties.principal.unique else (finding("axes_from_third_order"),)
+    frame = (
+        ()
+        if uses_high_order or higher is None or properties.principal.is_unique
+        else (finding("axes_from_third_order"),)
+    )
     given = finding("density_from_value" if options.mass is None else "density_from_mass")
 
     def bounds(of: str, delta: dict[str, float]) -> dict[str, float]:
@@ -125,9 +130,9 @@ def as_measurement(
         options.overlap.upper(),
         unit,
         options.wall.upper(),
-        (density_key(obj, weighed.materials) if weighed else "") if key is None else key,
+        (density_key(obj, mass_result.materials) if mass_result else "") if key is None else key,
     )
-    digested = [body.volume, body.area, *(one for one in (body.mass, body.length) if one is not None)]
+    digested = [body.volume, body.area, *(moments for moments in (body.mass, body.length) if moments is not None)]
     of_surface = "shell" if shell and not body.method.endswith("shell") else body.method
     return Measurement(
         name=reading.name,
@@ -149,13 +154,13 @@ def as_measurement(
         length=body.length.total if wire else None,
         display_volume=body.display_volume,
         error_bound={
-            **bounds("error", properties.error),
-            "input": bounds("input", properties.input),
+            **bounds("rounding_error", properties.rounding_error),
+            "input": bounds("input_error", properties.input_error),
             **({"estimated": True} if body.estimated else {}),
         },
         fingerprint=fingerprint(
-            b"".join(one.raw.tobytes() for one in digested), "" if obj is None else matrix_hash(obj), settings
+            b"".join(moments.raw.tobytes() for moments in digested), "" if obj is None else matrix_hash(obj), settings
         ),
-        density_from=weighed.source if weighed else given,
-        materials=weighed.materials if weighed else (),
+        density_from=mass_result.source if mass_result else given,
+        materials=mass_result.materials if mass_result else (),
     )

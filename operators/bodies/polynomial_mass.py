@@ -15,19 +15,19 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.density.polynomial_mass import graded_sum, own_fields
-from ...core.density.positivity import negative_place
+from ...core.density.polynomial_mass import local_coordinates, polynomial_mass_of_images
+from ...core.density.positivity import find_negative_point
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Moments
-from ...core.numerics.rotations import own_axes
+from ...core.numerics.rotations import polar_rotation
 from ...core.polyhedron import polyhedron_moments
 from ...core.verdict.finding import Finding, ReadError, finding
 from ..read import Reading
 from ..settings.density import DensityField
-from .body import Body
-from .instances import even_surfaces, in_metres
+from .body import MeasuredBody
+from .instances import group_by_similarity, to_si
 
-LOOKED_AT = 50  # different places whose points are looked at one by one
+MAX_CHECKED_INSTANCES = 50  # different places whose points are looked at one by one
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,18 +41,22 @@ class _Piece:
     about: NDArray[np.float64] | None = None
 
 
-def weigh(
-    reading: Reading, body: Body, density: DensityField, *, unit: float, shell: bool, threads: int
+def polynomial_mass_result(
+    reading: Reading, body: MeasuredBody, density: DensityField, *, unit: float, shell: bool, threads: int
 ) -> tuple[list[Moments], list[Finding]]:
     """The mass moments of all parts (of a shell for a thickness of one metre), and the findings.
 
     ReadError where the density is negative.
     """
     polynomial, findings = density.polynomial, []
-    pieces = list(_sheets(reading, density.in_world, unit) if shell else _solids(reading, body, density.in_world, unit))
-    if not density.in_world and any(own_axes(part.matrices)[1].any() for part in reading.parts):
+    pieces = list(
+        _sheet_pieces(reading, density.in_world, unit)
+        if shell
+        else _solid_pieces(reading, body, density.in_world, unit)
+    )
+    if not density.in_world and any(polar_rotation(part.matrices)[1].any() for part in reading.parts):
         findings.append(finding("sheared_density_axes"))
-    findings += _negative(density, pieces, shell)
+    findings += _negative_density_note(density, pieces, shell)
     parts = []
     order = 3 + polynomial.degree
     area_order = order if shell else 0 if order == 3 else None  # to third order it is found on the way
@@ -60,73 +64,77 @@ def weigh(
         volume, area = polyhedron_moments(
             piece.surface, order, area_order=area_order, about=piece.about, exact=True, threads=threads
         )
-        parts.append(graded_sum(area if shell else volume, polynomial, piece.matrices, piece.fields))
+        parts.append(polynomial_mass_of_images(area if shell else volume, polynomial, piece.matrices, piece.fields))
     return parts, findings
 
 
-def _solids(reading: Reading, body: Body, in_world: bool, unit: float) -> Iterator[_Piece]:
+def _solid_pieces(reading: Reading, body: MeasuredBody, in_world: bool, unit: float) -> Iterator[_Piece]:
     """What encloses the body, as it was repaired."""
-    together = len(body.solids) == 1 and len(body.solids[0][1]) == 1 and reading.places > 1
+    together = len(body.solids) == 1 and len(body.solids[0][1]) == 1 and reading.instance_count > 1
     if body.method == "union" or (together and in_world):
-        if reading.places > 1 and not in_world:
+        if reading.instance_count > 1 and not in_world:
             raise ReadError("density_of_united_instances")
         solid, matrices = body.solids[0]
-        place = in_metres(reading.parts[0].matrices, unit)
-        yield _Piece(solid.mended, matrices, matrices if in_world else _to_own(place) @ matrices, solid.volume.about)
+        place = to_si(reading.parts[0].matrices, unit)
+        yield _Piece(
+            solid.repaired_surface, matrices, matrices if in_world else _to_local(place) @ matrices, solid.volume.about
+        )
         return
     if together:
-        yield from _by_place(reading, body, unit)
+        yield from _pieces_by_instance(reading, body, unit)
         return
     for solid, matrices in body.solids:
-        yield _Piece(solid.mended, matrices, matrices if in_world else own_fields(matrices), solid.volume.about)
+        yield _Piece(
+            solid.repaired_surface, matrices, matrices if in_world else local_coordinates(matrices), solid.volume.about
+        )
 
 
-def _by_place(reading: Reading, body: Body, unit: float) -> Iterator[_Piece]:
+def _pieces_by_instance(reading: Reading, body: MeasuredBody, unit: float) -> Iterator[_Piece]:
     """The triangles of a body that was measured as one, by the place that they came from; caps go with their part."""
     solid, scale = body.solids[0]
-    parts = solid.components()
-    places = [matrix for part in reading.parts for matrix in part.matrices]
+    parts = solid.parts()
+    matrices = [matrix for part in reading.parts for matrix in part.matrices]
     counts = [int(part.surface.all_triangles()[1].max()) + 1 for part in reading.parts for _ in part.matrices]
     ends = np.cumsum(counts)
-    place = np.searchsorted(ends, parts.face, side="right")
-    own = parts.face >= 0
+    instance = np.searchsorted(ends, parts.face, side="right")
+    of_mesh = parts.face >= 0
     of_part = np.zeros(parts.number, np.intp)
-    of_part[parts.part[own]] = place[own]
-    place = np.where(own, place, of_part[parts.part])
-    for i, matrix in enumerate(places):
-        rows = place == i
-        if rows.any():
+    of_part[parts.part[of_mesh]] = instance[of_mesh]
+    instance = np.where(of_mesh, instance, of_part[parts.part])
+    for i, matrix in enumerate(matrices):
+        in_instance = instance == i
+        if in_instance.any():
             yield _Piece(
-                Surface(parts.points, parts.triangles[rows], moved=solid.mended.moved),
+                Surface(parts.points, parts.triangles[in_instance], displacement=solid.repaired_surface.displacement),
                 scale,
-                _to_own(in_metres(matrix[None], unit)) @ scale,
+                _to_local(to_si(matrix[None], unit)) @ scale,
                 solid.volume.about,
             )
 
 
-def _to_own(matrices: NDArray) -> NDArray[np.float64]:
+def _to_local(matrices: NDArray) -> NDArray[np.float64]:
     """(k, 4, 4) from world coordinates, in metres, to those along the axes of what stands there."""
-    axes = own_axes(matrices)[0].transpose(0, 2, 1)
+    axes = polar_rotation(matrices)[0].transpose(0, 2, 1)
     to_own = np.tile(np.eye(4), (len(matrices), 1, 1))
     to_own[:, :3, :3] = axes
     to_own[:, :3, 3] = -(axes @ matrices[:, :3, 3, None])[..., 0]
     return to_own
 
 
-def _sheets(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
+def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
     """The surfaces themselves, each under similarities only."""
     for part in reading.parts:
-        matrices = in_metres(part.matrices, unit)
-        fields, axes = own_fields(matrices), own_axes(matrices)[0]
-        for surface, places, which in even_surfaces(part.surface, matrices):
-            own = fields[which]
+        matrices = to_si(part.matrices, unit)
+        fields, axes = local_coordinates(matrices), polar_rotation(matrices)[0]
+        for surface, image_matrices, which in group_by_similarity(part.surface, matrices):
+            to_local = fields[which]
             if surface is not part.surface:  # mapped already: only the turn is left
-                own = np.tile(np.eye(4), (len(which), 1, 1))
-                own[:, :3, :3] = axes[which].transpose(0, 2, 1)
-            yield _Piece(surface, places, places if in_world else own)
+                to_local = np.tile(np.eye(4), (len(which), 1, 1))
+                to_local[:, :3, :3] = axes[which].transpose(0, 2, 1)
+            yield _Piece(surface, image_matrices, image_matrices if in_world else to_local)
 
 
-def _negative(density: DensityField, pieces: list[_Piece], shell: bool) -> list[Finding]:
+def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: bool) -> list[Finding]:
     """A finding where the density may be negative in the body; ReadError where it is."""
     polynomial = density.polynomial
     corners = np.array(list(product((0.0, 1.0), repeat=3)))
@@ -143,12 +151,14 @@ def _negative(density: DensityField, pieces: list[_Piece], shell: bool) -> list[
         triangles = piece.surface.all_triangles()[0]
         points = piece.surface.points.astype(np.float64)
         fields = piece.fields[np.unique(np.float32(piece.fields), axis=0, return_index=True)[1]]
-        left += max(len(fields) - LOOKED_AT, 0)
-        for field in fields[:LOOKED_AT]:
-            worst, doubt = negative_place(polynomial, points @ field[:3, :3].T + field[:3, 3], triangles, not shell)
+        left += max(len(fields) - MAX_CHECKED_INSTANCES, 0)
+        for field in fields[:MAX_CHECKED_INSTANCES]:
+            worst, is_undecided = find_negative_point(
+                polynomial, points @ field[:3, :3].T + field[:3, 3], triangles, not shell
+            )
             if worst is not None:
                 value, place = worst
                 point = [float(x) for x in place]
                 raise ReadError("density_negative", density=float(value), point=point, frame=density.frame)
-            doubtful += doubt
+            doubtful += is_undecided
     return [finding("density_possibly_negative")] if doubtful + left else []

@@ -19,25 +19,26 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
-from ...core.inertia.canonical_frame import ORDER
+from ...core.inertia.canonical_frame import MAX_ORDER
 from ...core.inertia.principal_frame import pose_matrix
 from ...core.measurement import Measurement
 from ...core.mesh.point_triangle import triangle_distances
-from ...core.mesh.surface import Surface, joined
+from ...core.mesh.surface import Surface, join_surfaces
 from ...core.moments.moments import Moments
 from ...core.polyhedron import polyhedron_moments
-from ...core.shape.registration import Match, match
+from ...core.shape.registration import RigidMatch, match
 from ...core.shape.signature import Signature, signature
 from ...core.shape.symmetry import symmetry
-from ...core.shape.zernike import BY_MOMENTS, ENOUGH, zernike_quadrature
+from ...core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ...core.verdict.finding import ReadError
 from ..settings.options import MeasureOptions
-from .body import Body
+from .body import MeasuredBody
 from .measure_object import THREADS, measure_body
 
-EXACT, NEAR = 1e-5, 1e-2  # of the size: between them single precision mistakes the distances of thin triangles
-SAMPLES = 1500  # points of a surface that are held against another one
-TOGETHER = 64  # points whose distances are found at once
+# of the size: between them single precision mistakes the distances of thin triangles
+EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
+SURFACE_SAMPLES = 1500  # points of a surface that are held against another one
+POINTS_PER_BATCH = 64  # points whose distances are found at once
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class Shape:
     """An object as measured, in SI units and world axes, and what its moments of higher order say."""
 
     measurement: Measurement
-    body: Body
+    body: MeasuredBody
     threads: int = 1
 
     @property
@@ -61,16 +62,16 @@ class Shape:
     @cached_property
     def moments(self) -> Moments:
         """About the center, to the order that a pose needs."""
-        return self.body.to_order(ORDER, self._sheets)[1 if self._sheets else 0].about_center()
+        return self.body.moments(MAX_ORDER, self._sheets)[1 if self._sheets else 0].about_center()
 
-    def of_pieces(self) -> Moments:
+    def piece_moments(self) -> Moments:
         """As `moments`, of the polygons alone: what has to be compared with them."""
-        if not displayed(self.measurement):
+        if not is_display_mesh(self.measurement):
             return self.moments
         volume, area = polyhedron_moments(
             self.pieces(),
-            ORDER,
-            area_order=ORDER if self._sheets else None,
+            MAX_ORDER,
+            area_order=MAX_ORDER if self._sheets else None,
             about=self.center,
             threads=self.threads,
         )
@@ -82,21 +83,21 @@ class Shape:
 
     def pieces(self) -> Iterator[Surface]:
         """The surfaces of the body, where they stand."""
-        return self.body.pieces(self._sheets)
+        return self.body.surfaces(self._sheets)
 
     def pose(self) -> dict[str, Any]:
         """The pose for a record: see DESIGN.md. Where the density varies, third moments of the mass alone are known,
         which cannot tell a symmetry."""
         body = self.measurement.mass_properties
-        pose = {"matrix": pose_matrix(body.center, body.principal.axes), "unique": body.principal.unique}
+        pose = {"matrix": pose_matrix(body.center, body.principal.axes), "unique": body.principal.is_unique}
         return {**pose, "symmetry": None if self.body.mass is not None else symmetry(self.moments).group}
 
     @property
     def has_surface(self) -> bool:
         """Whether there are polygons, which a signature and a comparison of surfaces need."""
-        return self.body.pieces is not None
+        return self.body.surfaces is not None
 
-    def signature(self, order: int = BY_MOMENTS) -> Signature:
+    def signature(self, order: int = MAX_ORDER_BY_MOMENTS) -> Signature:
         """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature.
         Needs a surface."""
         points = self.points_about_center()
@@ -107,9 +108,9 @@ class Shape:
         sheets = self._sheets
 
         def pieces() -> Iterator[Surface]:
-            return (piece.mapped(np.eye(3) / scale, -self.center / scale) for piece in self.pieces())
+            return (piece.transform(np.eye(3) / scale, -self.center / scale) for piece in self.pieces())
 
-        known = min(order, BY_MOMENTS)
+        known = min(order, MAX_ORDER_BY_MOMENTS)
         volume, area = polyhedron_moments(
             pieces(),
             known,
@@ -118,12 +119,12 @@ class Shape:
             reach=radius,
             threads=self.threads,
         )
-        found = signature(area if sheets else volume, radius)
-        if (order > BY_MOMENTS or found.error > ENOUGH) and not sheets:
-            whole = joined(list(pieces()))
+        result = signature(area if sheets else volume, radius)
+        if (order > MAX_ORDER_BY_MOMENTS or result.error > MAX_DESCRIPTOR_ERROR) and not sheets:
+            whole = join_surfaces(list(pieces()))
             triangles = whole.all_triangles()[0]
-            found = signature(volume, radius, zernike_quadrature(whole.points / radius, triangles, order))
-        return replace(found, size=scale * found.size)
+            result = signature(volume, radius, zernike_quadrature(whole.points / radius, triangles, order))
+        return replace(result, size=scale * result.size)
 
     def points_about_center(self) -> NDArray[np.float64]:
         """(n, 3) the corners of all faces."""
@@ -136,7 +137,7 @@ class Shape:
         return np.concatenate(points)
 
 
-def displayed(measurement: Measurement) -> bool:
+def is_display_mesh(measurement: Measurement) -> bool:
     """Whether a body's pieces are the display mesh of something smooth, whose moments differ a little."""
     return measurement.method.startswith("NURBS")
 
@@ -163,36 +164,36 @@ def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: Mea
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.solids:
         raise NoShapeError("shape_of_grid", measurement)
-    if body.to_order is None or body.length is not None:
+    if body.moments is None or body.length is not None:
         raise NoShapeError("shape_of_wire_or_wall", measurement)
     if measurement.method.endswith("open"):
         raise NoShapeError("shape_of_open_surface", measurement)
     shape = Shape(measurement, body, options.threads if options else 1)
-    if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT * shape.size:
+    if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
         raise NoShapeError("shape_far_from_origin", measurement)
     return shape
 
 
-class Skin:
+class SurfaceDistance:
     """A shape's surface, to hold points against, once it is grown. Lengths in metres, world axes; Blender's tree of
     triangles keeps them as float32, so about the center and by its size."""
 
     def __init__(self, shape: Shape):
-        whole = joined(list(shape.pieces()))
+        whole = join_surfaces(list(shape.pieces()))
         self._center, self._scale = shape.center, shape.size
         self._triangles = triangles = whole.all_triangles()[0]
         self._corners = (whole.points - self._center) / self._scale
         is_used = np.zeros(len(whole.points), bool)
         is_used[triangles] = True
         used = np.flatnonzero(is_used)
-        pick = np.linspace(0, len(used) - 1, min(len(used), SAMPLES // 2)).astype(int)
+        pick = np.linspace(0, len(used) - 1, min(len(used), SURFACE_SAMPLES // 2)).astype(int)
         middles = whole.points[
-            triangles[np.linspace(0, len(triangles) - 1, min(len(triangles), SAMPLES // 2)).astype(int)]
+            triangles[np.linspace(0, len(triangles) - 1, min(len(triangles), SURFACE_SAMPLES // 2)).astype(int)]
         ].mean(axis=1)
-        far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1))[-SAMPLES // 10 :]
+        far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1))[-SURFACE_SAMPLES // 10 :]
         self.points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
 
-    def grow(self) -> Iterator[float]:
+    def build(self) -> Iterator[float]:
         """Build the tree, in steps of some tenths of a second for a million triangles. Yields the share that is
         done."""
         points = _as_tuples(self._corners)
@@ -206,33 +207,42 @@ class Skin:
         """(n,) of (n, 3) points from the surface. within: where only this matters, whether they are within so much:
         what is, and what clearly is not, is told in single precision, or as infinite."""
         scaled = (points - self._center) / self._scale
-        nearest, rows = self._tree.find_nearest, scaled.tolist()
-        reach = np.inf if within is None else 1.01 * max(NEAR, within / self._scale)
-        found = np.array([nearest(row, reach)[3] for row in rows], np.float64)  # None becomes NaN
-        found[np.isnan(found)] = np.inf
-        doubtful = np.flatnonzero((found > EXACT) & (found < NEAR) & (found * self._scale > (within or 0.0)))
-        for start in range(0, len(doubtful), TOGETHER):
-            some = doubtful[start : start + TOGETHER]
-            around = [[hit[2] for hit in self._tree.find_nearest_range(rows[i], NEAR)] for i in some.tolist()]
-            which = np.repeat(some, [len(one) for one in around])
-            own = self._triangles[np.fromiter(chain.from_iterable(around), np.intp)]
-            np.minimum.at(found, which, triangle_distances(scaled[which], self._corners[own]))
-        return found * self._scale
+        nearest, queries = self._tree.find_nearest, scaled.tolist()
+        reach = np.inf if within is None else 1.01 * max(NEAR_DISTANCE, within / self._scale)
+        distances = np.array([nearest(row, reach)[3] for row in queries], np.float64)  # None becomes NaN
+        distances[np.isnan(distances)] = np.inf
+        doubtful = np.flatnonzero(
+            (distances > EXACT_DISTANCE) & (distances < NEAR_DISTANCE) & (distances * self._scale > (within or 0.0))
+        )
+        for start in range(0, len(doubtful), POINTS_PER_BATCH):
+            some = doubtful[start : start + POINTS_PER_BATCH]
+            around = [
+                [hit[2] for hit in self._tree.find_nearest_range(queries[i], NEAR_DISTANCE)] for i in some.tolist()
+            ]
+            which = np.repeat(some, [len(hits) for hits in around])
+            near_triangles = self._triangles[np.fromiter(chain.from_iterable(around), np.intp)]
+            np.minimum.at(distances, which, triangle_distances(scaled[which], self._corners[near_triangles]))
+        return distances * self._scale
 
 
-def _as_tuples(rows: NDArray) -> list[tuple]:
+def _as_tuples(array: NDArray) -> list[tuple]:
     """As `tolist`, but of tuples, which the garbage collector does not look at again and again."""
-    return list(zip(*rows.T.tolist()))
+    return list(zip(*array.T.tolist()))
 
 
-def matched(source: Shape, target: Shape, own: Skin, skin: Skin, scale: float = 1.0) -> Match:
-    """How a shape comes to lie on another one, about their centers, and what is left between their surfaces. own, skin:
-    theirs. scale: what the source is multiplied by first."""
+def register_surfaces(
+    source: Shape, target: Shape, source_skin: SurfaceDistance, target_skin: SurfaceDistance, scale: float = 1.0
+) -> RigidMatch:
+    """How a shape comes to lie on another one, about their centers, and what is left between their surfaces.
+    source_skin, target_skin: theirs. scale: what the source is multiplied by first."""
 
-    def residual(way: NDArray, few: int | None) -> NDArray[np.float64]:
-        mine, others = (one.points[:: max(1, len(one.points) // few) if few else 1] for one in (own, skin))
-        there = skin.distance(scale * (mine - source.center) @ way.T + target.center)
-        back = own.distance((others - target.center) @ way / scale + source.center)
+    def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:
+        source_points, target_points = (
+            each_skin.points[:: max(1, len(each_skin.points) // max_points) if max_points else 1]
+            for each_skin in (source_skin, target_skin)
+        )
+        there = target_skin.distance(scale * (source_points - source.center) @ way.T + target.center)
+        back = source_skin.distance((target_points - target.center) @ way / scale + source.center)
         return np.concatenate([there, scale * back])
 
     return match(source.moments, target.moments, residual, target.size)

@@ -9,22 +9,24 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.density.voxel_fill import LARGEST as MOST_VOXELS
+from ...core.density.voxel_fill import MAX_VOXELS as MOST_VOXELS
 from ...core.density.voxel_fill import inside_moments
 from ...core.moments.moments import Measure, Moments
-from ...core.solid.measure_solid import SolidMeasure
+from ...core.solid.measure_solid import SolidIntegrals
 from ...core.verdict.finding import ReadError, finding
 from ...core.verdict.tolerances import NEGLIGIBLE
 from ..read.reading import said_of
 from ..read.volume import VolumeReading
 from ..settings.grid import GridOptions
-from .body import Body
-from .mass import LARGEST
+from .body import MeasuredBody
+from .mass import MAX_MASS_MOMENT
 
-OUTSIDE = 1e-9  # of the volume: below this, rounding
+MAX_OUTSIDE_SHARE = 1e-9  # of the volume: below this, rounding
 
 
-def inside_body(body: Body, reading: VolumeReading, options: GridOptions, unit: float, name: str) -> Body:
+def voxel_filled_body(
+    body: MeasuredBody, reading: VolumeReading, options: GridOptions, unit: float, name: str
+) -> MeasuredBody:
     """The body with the mass that the grid gives its inside. unit: metres per Blender unit.
 
     name: of the object, which MeasureErrors are about that are not about the grid alone.
@@ -40,60 +42,64 @@ def inside_body(body: Body, reading: VolumeReading, options: GridOptions, unit: 
     if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
         raise ReadError("density_grid_empty", subject=name, **whose)
     inverse = np.linalg.inv(matrix)
-    triangles = np.concatenate([_corners(solid, inverse @ place) for solid, places in body.solids for place in places])
+    triangles = np.concatenate(
+        [_corners(solid, inverse @ place) for solid, matrices in body.solids for place in matrices]
+    )
     low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(np.int64)
     high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
     if np.prod((high - low).astype(float)) > MOST_VOXELS:
         raise ReadError("density_grid_too_fine", subject=name, **whose, samples=(high - low).tolist())
-    moments, volume = inside_moments(triangles - low, _filled(reading, options, low, high))
+    moments, volume = inside_moments(triangles - low, _box_densities(reading, options, low, high))
     volume *= abs(np.linalg.det(matrix[:3, :3]))
     first = np.eye(4)
     first[:3, 3] = low
-    mass = replace(replace(moments, of=Measure.VOLUME).mapped(matrix @ first), of=Measure.MASS)
-    mass = replace(mass, input=_input(body, mass))
-    if not np.abs(mass.raw).max() < LARGEST:
+    mass = replace(replace(moments, measure=Measure.VOLUME).transform(matrix @ first), measure=Measure.MASS)
+    mass = replace(mass, input_error=_input_error(body, mass))
+    if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError("mass_overflow")
-    if not mass.total > mass.error[0]:
+    if not mass.total > mass.rounding_error[0]:
         raise ReadError("density_grid_elsewhere", subject=name, **whose)
     meaning = replace(options, spline_order=1).meaning()
     findings = [
         finding("grid_density_of", **whose, cause=meaning.as_record()),
-        *options.left_empty(reading.background),
+        *options.empty_background_note(reading.background),
     ]
     outside = float(1.0 - volume / body.volume.total)
-    if outside > OUTSIDE:
+    if outside > MAX_OUTSIDE_SHARE:
         findings.append(finding("outside_grid_slightly" if outside < NEGLIGIBLE else "outside_grid", share=outside))
     return replace(
         body,
         mass=mass,
-        refined=None,
+        third_order=None,
         method="grid " + body.method,
         estimated=True,
         findings=(*body.findings, *findings, *(said_of(result, reading.name, name) for result in reading.findings)),
     )
 
 
-def _corners(solid: SolidMeasure, matrix: NDArray) -> NDArray[np.float64]:
+def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
     """(n, 3, 3) the triangles of what was measured, in the grid's coordinates, outward."""
-    surface = solid.mended.mapped(matrix[:3, :3], matrix[:3, 3])
+    surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
     return surface.points[surface.all_triangles()[0]]
 
 
-def _filled(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
+def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
     """The densities of the voxels from `low` to `high`."""
-    weigh = options.weigh(reading.background)
+    weigh = options.to_densities(reading.background)
     densities = np.zeros(high - low)
     for start, block in reading.blocks():
         start = np.array(start)
         begin, end = np.maximum(start, low), np.minimum(start + block.shape, high)
         if (begin < end).all():
-            own = tuple(slice(a, b) for a, b in zip(begin - start, end - start))
-            densities[tuple(slice(a, b) for a, b in zip(begin - low, end - low))] = weigh(block[own].astype(np.float64))
+            in_block = tuple(slice(a, b) for a, b in zip(begin - start, end - start))
+            densities[tuple(slice(a, b) for a, b in zip(begin - low, end - low))] = weigh(
+                block[in_block].astype(np.float64)
+            )
     return densities
 
 
-def _input(body: Body, mass: Moments) -> NDArray[np.float64]:
+def _input_error(body: MeasuredBody, mass: Moments) -> NDArray[np.float64]:
     """What float32 coordinates may have moved, as a share of each moment like that of the solid's own."""
-    solid = body.volume.shifted(mass.about).truncated(mass.order)
+    solid = body.volume.about_point(mass.about).truncate(mass.order)
     scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)
-    return solid.input * max(scale, mass.total / solid.total)
+    return solid.input_error * max(scale, mass.total / solid.total)

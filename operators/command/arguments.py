@@ -38,7 +38,7 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     Raises SystemExit(2) with a message on the standard error, or SystemExit(0) after --help.
     """
     parser = _parser()
-    options = parser.parse_intermixed_args(_negatives_joined(argv))
+    options = parser.parse_intermixed_args(_join_negative_values(argv))
     if file_needed and not options.files:
         parser.error(str(finding("usage_file_needed")))
     if options.surface_moments and options.order is None:
@@ -52,7 +52,7 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     return options
 
 
-def _negatives_joined(argv: list[str]) -> list[str]:
+def _join_negative_values(argv: list[str]) -> list[str]:
     """With `--origin -1,2,3` as `--origin=-1,2,3`: the parser would take what begins with a minus for an option."""
     joined: list[str] = []
     for word in argv:

@@ -42,14 +42,14 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
 }
 
 
-def suffix(path: str) -> str:
+def file_suffix(path: str) -> str:
     """What the file's name ends with, in lower case."""
-    return scans.suffix(path) or Path(path.lower()).suffix
+    return scans.scan_suffix(path) or Path(path.lower()).suffix
 
 
 def open_file(path: str) -> None:
     """Make a file the open scene. Raises FileError."""
-    kind = suffix(path)
+    kind = file_suffix(path)
     _check(path, kind)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     absolute = os.path.abspath(path)

@@ -12,14 +12,14 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.fourier.wave_vectors import Grid, wave_vectors
+from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
 from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
 from ..bodies.fourier import object_transform
 from ..settings.options import MeasureOptions
 from ..write import spectrum
 from .results import guard
 
-LARGEST_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
+MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 
 
 def add_options(parser: ArgumentParser, positive: Callable[[str], float]) -> None:
@@ -60,21 +60,23 @@ def check(options: Namespace, parser: ArgumentParser) -> None:
         parser.error(str(finding("usage_folder_missing", option="fourier", folder=str(target.parent))))
     if target.is_dir():
         parser.error(str(finding("usage_is_folder", option="fourier", path=str(target))))
-    for one, other in ((target, options.q), (target, options.output), (options.output, options.q)):
-        if one is not None and other is not None and one.resolve() == other.resolve():
-            parser.error(str(finding("usage_path_twice", path=str(one))))
+    for first, second in ((target, options.q), (target, options.output), (options.output, options.q)):
+        if first is not None and second is not None and first.resolve() == second.resolve():
+            parser.error(str(finding("usage_path_twice", path=str(first))))
     try:
-        options.waves = Grid(options.grid, options.qmax) if options.q is None else _listed(options.q)
+        options.waves = (
+            FrequencyGrid(options.grid, options.qmax) if options.q is None else _read_wave_vectors(options.q)
+        )
     except MeasureError as error:
         parser.error(
             str(finding("usage_value", option="grid" if options.q is None else "q", cause=error.finding.as_record()))
         )
 
 
-def write(obj: bpy.types.Object, options: Namespace, wanted: MeasureOptions) -> tuple[Finding, ...]:
+def write(obj: bpy.types.Object, options: Namespace, measure_options: MeasureOptions) -> tuple[Finding, ...]:
     """Transform the object and write the file. Returns the decisions taken. Raises MeasureError and OSError."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    under_way = object_transform(obj, depsgraph, wanted, options.waves, frame=options.frame)
+    under_way = object_transform(obj, depsgraph, measure_options, options.waves, frame=options.frame)
     for _ in under_way.steps():
         pass
     transform, findings = under_way.result()
@@ -82,7 +84,7 @@ def write(obj: bpy.types.Object, options: Namespace, wanted: MeasureOptions) -> 
     return findings
 
 
-def _listed(path: Path) -> NDArray[np.float64]:
+def _read_wave_vectors(path: Path) -> NDArray[np.float64]:
     try:
         array = np.load(path, allow_pickle=False)
     except (OSError, ValueError, EOFError) as error:
@@ -98,6 +100,6 @@ def _count(text: str) -> int:
         value = int(text)
     except ValueError:
         value = 0
-    if not 2 <= value <= LARGEST_GRID:
-        raise ArgumentTypeError(str(finding("usage_frequency_count", text=text, limit=LARGEST_GRID)))
+    if not 2 <= value <= MAX_GRID:
+        raise ArgumentTypeError(str(finding("usage_frequency_count", text=text, limit=MAX_GRID)))
     return value

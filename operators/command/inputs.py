@@ -15,7 +15,7 @@ from pathlib import Path
 
 import bpy
 
-from ...core.scans.nrrd import HEADER
+from ...core.scans.nrrd import MAX_HEADER_BYTES
 from ...core.verdict.finding import MeasureError
 from .files import open_file
 
@@ -64,7 +64,7 @@ def _tiles(path: Path) -> Iterable[Path]:
 
 def _of_nrrd(path: Path) -> Iterator[str]:
     with open(path, "rb") as file:
-        head = file.read(HEADER).decode("latin-1")
+        head = file.read(MAX_HEADER_BYTES).decode("latin-1")
     yield from re.findall(r"(?im)^data ?file:[ \t]*(.+?)\s*$", head)
 
 

@@ -31,13 +31,13 @@ from ..bodies.measure_object import THREADS, measure_object
 from ..bodies.shape import NoShapeError, shape_of
 from ..read import measurable, measurable_objects
 from ..read.total_caveats import open_body_caveats, total_caveats
-from ..session.staleness import settle
+from ..session.staleness import mark_up_to_date
 from ..settings import properties as settings
 from ..settings.options import MeasureOptions
 from ..write import record
 from ..write.properties import store
 from . import fourier
-from .files import BLEND, UNITLESS, open_file, suffix
+from .files import BLEND, UNITLESS, file_suffix, open_file
 from .saving import Place, reserved
 
 _OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale")
@@ -48,17 +48,19 @@ _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 class Run:
     """One command line at work.
 
-    documents: one for each file, in order. faults: how many of their errors are our own.
+    documents: one for each file, in order. internal_errors: how many of their errors are our own.
     """
 
     options: Namespace
     documents: list[dict[str, Any]] = field(default_factory=list)
-    faults: int = 0
+    internal_errors: int = 0
 
     def __post_init__(self) -> None:
-        wanted = {name: getattr(self.options, name) for name in ("kind", "density", "mass", "thickness", "overlap")}
-        self._wanted = MeasureOptions(
-            **wanted,
+        measure_options = {
+            name: getattr(self.options, name) for name in ("kind", "density", "mass", "thickness", "overlap")
+        }
+        self._measure_options = MeasureOptions(
+            **measure_options,
             order=self.options.order,
             surface=self.options.surface_moments,
             threads=THREADS,
@@ -75,16 +77,16 @@ class Run:
         return sum(len(document["errors"]) for document in self.documents)
 
     def _document(self, path: str | None) -> dict[str, Any]:
-        file = path or bpy.data.filepath or _asked_for()
+        file = path or bpy.data.filepath or _requested_file()
         with self._place(path) as place:
             return self._measured(path, file, place)
 
     def _place(self, path: str | None) -> AbstractContextManager[Place | None]:
         """Where --write is going to store the results."""
         target = path or bpy.data.filepath
-        if not self.options.write or path is not None and suffix(path) != BLEND or not os.path.isfile(target):
+        if not self.options.write or path is not None and file_suffix(path) != BLEND or not os.path.isfile(target):
             return nullcontext()
-        asked = _asked_for() if path is None else None
+        asked = _requested_file() if path is None else None
         at_start = asked is not None and os.path.realpath(asked) == os.path.realpath(target)
         return reserved(target, path is None, at_start)
 
@@ -92,24 +94,24 @@ class Run:
         measured: list[tuple[str, bpy.types.Object, Measurement]] = []
         objects, errors, caveats = [], [], []
         try:
-            if path is not None and scans.suffix(path):
-                objects, measured, errors = self._array(path)
-                wanted = self._wanted
+            if path is not None and scans.scan_suffix(path):
+                objects, measured, errors = self._measure_array_file(path)
+                wanted = self._measure_options
             else:
-                self._open(path, file)
+                self._measure_open_file(path, file)
                 of_file = (*_unit_findings(path, self.options.unit_scale), *_unused_array_options(self.options))
                 # Not by way of the scene, whose unit scale is a float32 with limits.
                 unit = (self.options.unit_scale or 1.0) if _unitless(path) else None
-                wanted = replace(self._wanted, unit_scale=unit)
-                chosen, errors = _chosen(self.options.object)
+                wanted = replace(self._measure_options, unit_scale=unit)
+                chosen, errors = _objects_to_measure(self.options.object)
                 errors.extend(_missing_links())
                 for label, obj in chosen:
                     try:
-                        one, entry = self._recorded(label, obj, wanted, of_file, errors)
+                        one, entry = self._measure_record(label, obj, wanted, of_file, errors)
                     except MeasureError as refusal:
                         errors.append(_error(label, refusal.finding))
                     except Exception as error:
-                        errors.append(self._fault(label, error))
+                        errors.append(self._internal_error(label, error))
                     else:
                         objects.append(entry)
                         measured.append((label, obj, one))
@@ -125,7 +127,7 @@ class Run:
         except MeasureError as refusal:
             errors.append(_error(None, refusal.finding))
         except Exception as error:
-            errors.append(self._fault(None, error))
+            errors.append(self._internal_error(None, error))
         for one in errors:
             where = [text for text in ("body_moments", file, one["name"]) if text]
             sys.stderr.write("{}: {}\n".format(": ".join(where), one["reason"]))
@@ -138,11 +140,11 @@ class Run:
             frame=self.options.frame,
         )
 
-    def _recorded(
+    def _measure_record(
         self,
         label: str,
         obj: bpy.types.Object,
-        wanted: MeasureOptions,
+        measure_options: MeasureOptions,
         findings: tuple[Finding, ...],
         errors: list[dict[str, Any]],
     ) -> tuple[Measurement, dict[str, Any]]:
@@ -151,47 +153,49 @@ class Run:
         """
         order = self.options.order
         try:
-            one, more, of_shape = self._measure(obj, wanted)
+            measurement, more, of_shape = self._measure(obj, measure_options)
         except MeasureError as refusal:
             if order is None:
                 raise
-            one, more, of_shape = self._measure(obj, replace(wanted, order=None, surface=False))
+            measurement, more, of_shape = self._measure(obj, replace(measure_options, order=None, surface=False))
             errors.append(_error(label, finding("moments_unavailable", cause=refusal.finding.as_record())))
             order = None
-        surface = one.area_moments if self.options.surface_moments and order is not None else None
-        findings = (*one.findings, *of_shape, *findings, *self._unused_options(one))
-        named = replace(one, name=label, findings=findings)
-        return one, record.record(named, self.options.frame, order, surface, more)
+        surface = measurement.area_moments if self.options.surface_moments and order is not None else None
+        findings = (*measurement.findings, *of_shape, *findings, *self._unused_options(measurement))
+        named = replace(measurement, name=label, findings=findings)
+        return measurement, record.record(named, self.options.frame, order, surface, more)
 
-    def _unused_options(self, one: Measurement) -> Iterator[Finding]:
-        if self.options.thickness is not None and one.kind != "shell":
+    def _unused_options(self, measurement: Measurement) -> Iterator[Finding]:
+        if self.options.thickness is not None and measurement.kind != "shell":
             yield finding("thickness_option_unused")
 
-    def _array(self, path: str) -> tuple[list, list, list]:
+    def _measure_array_file(self, path: str) -> tuple[list, list, list]:
         """The records, measurements and errors of a scan or an array, which is one body, called like
         its file.
         """
-        name = os.path.basename(path)[: -len(scans.suffix(path))]
+        name = os.path.basename(path)[: -len(scans.scan_suffix(path))]
         names = [name] if self.options.object is None else self.options.object
-        errors = [_error(one, finding("object_not_in_file")) for one in names if one != name]
+        errors = [_error(measurement, finding("object_not_in_file")) for measurement in names if measurement != name]
         if self.options.fourier:
             errors.append(_error(None, finding("fourier_of_array")))
         if name not in names:
             return [], [], errors
-        taken = {one: getattr(self.options, one) for one in (*_OF_ARRAYS, "unit_scale")}
-        array = ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
+        taken = {measurement: getattr(self.options, measurement) for measurement in (*_OF_ARRAYS, "unit_scale")}
+        array = ArrayOptions(**{measurement: value for measurement, value in taken.items() if value is not None})
         try:
-            one = measure_array(path, name, array, self._wanted)
+            measurement = measure_array(path, name, array, self._measure_options)
         except MeasureError as refusal:
             return [], [], [*errors, _error(None, refusal.finding)]
-        asked = [more for more in ("pose", "signature") if getattr(self.options, more)]
-        surface = one.area_moments if self.options.surface_moments else None
-        shapeless = [finding("shape_of_grid")] if asked else []
-        one = replace(one, findings=(*one.findings, *self._unused_options(one), *shapeless))
-        entry = record.record(one, self.options.frame, self.options.order, surface, dict.fromkeys(asked))
-        return [entry], [(name, None, one)], errors
+        requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
+        surface = measurement.area_moments if self.options.surface_moments else None
+        shapeless = [finding("shape_of_grid")] if requested else []
+        measurement = replace(
+            measurement, findings=(*measurement.findings, *self._unused_options(measurement), *shapeless)
+        )
+        entry = record.record(measurement, self.options.frame, self.options.order, surface, dict.fromkeys(requested))
+        return [entry], [(name, None, measurement)], errors
 
-    def _open(self, path: str | None, file: str | None) -> None:
+    def _measure_open_file(self, path: str | None, file: str | None) -> None:
         if path is not None:
             open_file(path)
         elif file and not bpy.data.filepath:
@@ -200,7 +204,7 @@ class Run:
     def _fourier(
         self,
         chosen: list[tuple[str, bpy.types.Object]],
-        wanted: MeasureOptions,
+        measure_options: MeasureOptions,
         objects: list[dict[str, Any]],
     ) -> Iterator[dict[str, Any]]:
         """Write the Fourier transform of the one object that was measured, and add what was decided on the way to
@@ -213,28 +217,28 @@ class Run:
             return  # the reason is among the errors already
         (label, obj), (entry,) = chosen[0], objects
         try:
-            record.add_findings(entry, fourier.write(obj, self.options, wanted))
+            record.add_findings(entry, fourier.write(obj, self.options, measure_options))
         except MeasureError as refusal:
             yield _error(label, finding("fourier_failed", cause=refusal.finding.as_record()))
         except OSError as error:
             yield _error(label, finding("fourier_not_written", error=error.strerror or str(error)))
         except Exception as error:
-            yield self._fault(label, error)
+            yield self._internal_error(label, error)
 
     def _measure(
-        self, obj: bpy.types.Object, wanted: MeasureOptions
+        self, obj: bpy.types.Object, measure_options: MeasureOptions
     ) -> tuple[Measurement, dict[str, Any], tuple[Finding, ...]]:
         """The object's measurement, its pose and signature where they are asked for, and findings about these. Pose and
         signature are None for what has no shape of its own, which is measured all the same.
         """
         depsgraph = bpy.context.evaluated_depsgraph_get()
-        asked = [name for name in ("pose", "signature") if getattr(self.options, name)]
-        if not asked:
-            return measure_object(obj, depsgraph, wanted), {}, ()
+        requested = [name for name in ("pose", "signature") if getattr(self.options, name)]
+        if not requested:
+            return measure_object(obj, depsgraph, measure_options), {}, ()
         try:
-            shape = shape_of(obj, depsgraph, wanted)
+            shape = shape_of(obj, depsgraph, measure_options)
         except NoShapeError as refusal:
-            return refusal.measurement, dict.fromkeys(asked), (refusal.finding,)
+            return refusal.measurement, dict.fromkeys(requested), (refusal.finding,)
         more = {"pose": shape.pose()} if self.options.pose else {}
         findings = ()
         if self.options.signature and shape.has_surface:
@@ -246,8 +250,8 @@ class Run:
             findings = (finding("signature_needs_polygons"),)
         return shape.measurement, more, findings
 
-    def _fault(self, name: str | None, error: Exception) -> dict[str, Any]:
-        self.faults += 1
+    def _internal_error(self, name: str | None, error: Exception) -> dict[str, Any]:
+        self.internal_errors += 1
         return _error(name, internal_error.finding_of(error))
 
     def _store(
@@ -259,26 +263,26 @@ class Run:
         """Store the results, once all of them are there: drivers may read them and change what is
         measured next. The settings that were given go with them, or the results would be out of date.
         """
-        if path is not None and suffix(path) != BLEND:
+        if path is not None and file_suffix(path) != BLEND:
             raise FileError("results_need_blend")
         if not bpy.data.filepath:
             raise FileError("scene_never_saved")
         for label, obj, one in measured:
             try:
                 store(obj, one)
-                settings.keep(obj.body_moments, wanted, bpy.context.scene)
+                settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
             except MeasureError as refusal:
                 yield _error(label, refusal.finding)
             except Exception as error:
-                yield self._fault(label, error)
-        settle(bpy.context, [obj for _, obj, _ in measured])
+                yield self._internal_error(label, error)
+        mark_up_to_date(bpy.context, [obj for _, obj, _ in measured])
 
 
 def _error(name: str | None, reason: Finding) -> dict[str, Any]:
     return {"name": name, "reason": str(reason)}
 
 
-def _chosen(
+def _objects_to_measure(
     names: list[str] | None,
 ) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]]]:
     """The objects to measure, each under a name of its own, and an error for each name of none.
@@ -290,14 +294,14 @@ def _chosen(
     # A linked object may have a local one's name; the full name tells the library too.
     labels = {obj: obj.name if same[obj.name] == 1 else obj.name_full for obj in scene.objects}
     if names is None:
-        wanted = {*measurable_objects(layer), *_excluded(scene, layer)}
-        return [(label, obj) for obj, label in labels.items() if obj in wanted], []
+        candidates = {*measurable_objects(layer), *_excluded(scene, layer)}
+        return [(label, obj) for obj, label in labels.items() if obj in candidates], []
     chosen, errors = [], []
     for name in names:
-        found = [(label, obj) for obj, label in labels.items() if label == name]
-        found = found or [(label, obj) for obj, label in labels.items() if obj.name == name]
-        chosen += [pair for pair in found if pair not in chosen]
-        if not found:
+        matches = [(label, obj) for obj, label in labels.items() if label == name]
+        matches = matches or [(label, obj) for obj, label in labels.items() if obj.name == name]
+        chosen += [pair for pair in matches if pair not in chosen]
+        if not matches:
             errors.append(_error(name, finding("object_not_in_scene")))
     return chosen, errors
 
@@ -324,12 +328,12 @@ def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.typ
 def _other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
     """That a file holds more than its open scene, where it does."""
     here = {*scene.objects}
-    others = [other.name for other in bpy.data.scenes if any(measurable(obj) for obj in {*other.objects} - here)]
-    if others:
-        yield finding("other_scenes", scene=scene.name, scenes=others)
+    other_scenes = [other.name for other in bpy.data.scenes if any(measurable(obj) for obj in {*other.objects} - here)]
+    if other_scenes:
+        yield finding("other_scenes", scene=scene.name, scenes=other_scenes)
 
 
-def _asked_for() -> str | None:
+def _requested_file() -> str | None:
     """The .blend file that Blender was started with. It runs a command on its start-up scene when
     it cannot open it.
     """
@@ -342,7 +346,7 @@ def _asked_for() -> str | None:
 
 
 def _unitless(path: str | None) -> bool:
-    return path is not None and suffix(path) in UNITLESS
+    return path is not None and file_suffix(path) in UNITLESS
 
 
 def _unit_findings(path: str | None, scale: float | None) -> Iterator[Finding]:

@@ -8,7 +8,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from ...core.shape.library import Entry, nearest, read_library, verdict
+from ...core.shape.library import Entry, classify, rank, read_library
 from ...core.verdict.finding import QueryError, finding
 from ..write.messages import SIMILARITY
 
@@ -47,28 +47,28 @@ def _count(text: str) -> int:
 
 def answer(options: argparse.Namespace) -> tuple[str, int]:
     """The table, and how many records could not be compared. Raises MeasureError."""
-    entries, faults = [], []
+    entries, failures = [], []
     for path in options.libraries:
         try:
             readable, missing = read_library(path)
         except OSError as error:
             raise QueryError("library_unreadable", file=str(path), error=error.strerror or str(error)) from error
         entries += readable
-        faults += missing
-    for fault in faults:
-        sys.stderr.write("body_moments: {}\n".format(fault))
-    wanted = _named(entries, options.to)
-    rows = [_COLUMNS.format("distance", "size", "", "name")]
-    others = [entry for entry in entries if entry is not wanted]
-    ranked = nearest(wanted.signature, others, options.any_size, options.any_hand)
+        failures += missing
+    for failure in failures:
+        sys.stderr.write("body_moments: {}\n".format(failure))
+    query = _entry_by_name(entries, options.to)
+    lines = [_COLUMNS.format("distance", "size", "", "name")]
+    others = [entry for entry in entries if entry is not query]
+    ranked = rank(query.signature, others, options.any_size, options.any_hand)
     for entry, likeness in ranked[: options.count]:
         distance = "{:.3e}".format(likeness.distance(options.any_size, options.any_hand))
-        similarity = SIMILARITY[verdict(likeness)]
-        rows.append(_COLUMNS.format(distance, "{:.4g}".format(likeness.scale), similarity, entry.label))
-    return "".join(rows), len(faults)
+        similarity = SIMILARITY[classify(likeness)]
+        lines.append(_COLUMNS.format(distance, "{:.4g}".format(likeness.scale), similarity, entry.label))
+    return "".join(lines), len(failures)
 
 
-def _named(entries: list[Entry], name: str) -> Entry:
+def _entry_by_name(entries: list[Entry], name: str) -> Entry:
     named = [entry for entry in entries if entry.name == name] or [entry for entry in entries if entry.label == name]
     if not named:
         raise QueryError("name_not_in_library", name=name)

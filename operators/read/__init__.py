@@ -3,11 +3,11 @@
 """Blender in: evaluated objects as arrays, with their places and a finding for each decision."""
 
 from .objects import read_lines, read_object, read_patches
-from .reading import Painted, Part, Reading, SplineReading
+from .reading import FaceAttributes, Part, Reading, SplineReading
 from .visibility import measurable, measurable_objects, shows_flat_region
 
 __all__ = [
-    "Painted",
+    "FaceAttributes",
     "Part",
     "Reading",
     "SplineReading",

@@ -13,18 +13,19 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.numerics.bspline import Space
+from ...core.numerics.bspline import SplineSpace
 from ...core.nurbs.blender_knots import blender_space
 from ...core.nurbs.curve import Curve
 from ...core.verdict.finding import Finding, ReadError, finding
-from .deformation import deformed, is_deformed, spline_modifiers
+from .deformation import deform, is_deformed, spline_modifiers
 from .splines import weighted_points
 from .visibility import evaluated_geometry
 
-STRAIGHT = 1e-6  # of a spline's length: what float32 leaves of a straight line
+STRAIGHT_RTOL = 1e-6  # of a spline's length: what float32 leaves of a straight line
 TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # of a geometry set's curves, by their number
-CUSTOM = 4  # the mode of knots that are none of those that the flags make
-STEPS, SAME_LENGTH, AGREE = 8, 1e-4, 1e-7  # a point; of the length; of the largest coordinate, at each step
+CUSTOM_KNOTS_MODE = 4  # the mode of knots that are none of those that the flags make
+# a point; of the length; of the largest coordinate, at each step
+STEPS_PER_POINT, SAME_LENGTH_RTOL, AGREEMENT_RTOL = 8, 1e-4, 1e-7
 
 
 def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
@@ -60,7 +61,7 @@ def is_round(obj) -> bool:
         return True
     shapes = [curve.bevel_object if curve.bevel_mode == "OBJECT" else None, curve.taper_object]
     return not all(
-        _is_straight(spline) for data in (curve, *(one.data for one in shapes if one)) for spline in data.splines
+        _is_straight(spline) for data in (curve, *(other.data for other in shapes if other)) for spline in data.splines
     )
 
 
@@ -79,34 +80,34 @@ def _is_straight(spline) -> bool:
         return True
     longest = np.take_along_axis(arms, lengths.argmax(axis=1)[:, None, None], axis=1)
     beside = np.linalg.norm(np.cross(arms, longest), axis=2)
-    return bool((beside <= STRAIGHT * lengths.max(axis=1, keepdims=True) ** 2).all())
+    return bool((beside <= STRAIGHT_RTOL * lengths.max(axis=1, keepdims=True) ** 2).all())
 
 
 def _control_points(spline) -> NDArray[np.float64]:
     """(n, 3) in the order in which Blender counts them; of a Bézier point both handles, around it."""
     if spline.type != "BEZIER":
         return weighted_points(spline)[:, :3].astype(np.float64)
-    rows = np.empty((3, 3 * len(spline.bezier_points)), np.float32)
-    for row, name in zip(rows, ("handle_left", "co", "handle_right")):
+    coordinates = np.empty((3, 3 * len(spline.bezier_points)), np.float32)
+    for row, name in zip(coordinates, ("handle_left", "co", "handle_right")):
         spline.bezier_points.foreach_get(name, row)
-    return rows.reshape(3, -1, 3).swapaxes(0, 1).reshape(-1, 3).astype(np.float64)
+    return coordinates.reshape(3, -1, 3).swapaxes(0, 1).reshape(-1, 3).astype(np.float64)
 
 
 def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
     """Those of the splines, None for what is no curve, as shape keys and hooks move them."""
     name, splines = evaluated.original.name, list(evaluated.data.splines)
-    rows = [_control_points(spline) for spline in splines]
-    places = np.concatenate(rows) if rows else np.zeros((0, 3))
+    control_points = [_control_points(spline) for spline in splines]
+    points = np.concatenate(control_points) if control_points else np.zeros((0, 3))
     if is_deformed(evaluated):
-        places = deformed(evaluated, places, depsgraph)
-    _require_finite(places, name)
+        points = deform(evaluated, points, depsgraph)
+    _require_finite(points, name)
     start = 0
-    for spline, row in zip(splines, rows):
+    for spline, row in zip(splines, control_points):
         kind = (spline.type, spline.use_cyclic_u, spline.order_u, spline.use_bezier_u, spline.use_endpoint_u)
         weights = weighted_points(spline)[:, 3].astype(np.float64) if spline.type == "NURBS" else None
         if spline.type == "NURBS" and not _has_known_knots(spline, _curve(*kind, row, weights)):
             raise ReadError("unknown_knots", subject=name)
-        yield _curve(*kind, places[start : start + len(row)], weights)
+        yield _curve(*kind, points[start : start + len(row)], weights)
         start += len(row)
 
 
@@ -115,33 +116,35 @@ def _has_known_knots(spline, curve: Curve | None) -> bool:
     if curve is None:
         return True
     low, high = curve.space.domain
-    steps = STEPS * len(spline.points) if spline.use_cyclic_u else STEPS * (len(spline.points) - 1) - 1
-    points = curve.at(low + (high - low) * np.arange(steps + 1) / steps)
+    steps = (
+        STEPS_PER_POINT * len(spline.points) if spline.use_cyclic_u else STEPS_PER_POINT * (len(spline.points) - 1) - 1
+    )
+    points = curve.evaluate(low + (high - low) * np.arange(steps + 1) / steps)
     length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
-    unsure = SAME_LENGTH * length + AGREE * steps * float(np.abs(points).max())
-    return bool(abs(spline.calc_length(resolution=STEPS) - length) <= unsure)
+    unsure = SAME_LENGTH_RTOL * length + AGREEMENT_RTOL * steps * float(np.abs(points).max())
+    return bool(abs(spline.calc_length(resolution=STEPS_PER_POINT) - length) <= unsure)
 
 
 def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
     """Those of a geometry set, None for what is no curve."""
-    places = _values(curves, "position", "vector", 3, 0.0)
+    positions = _values(curves, "position", "vector", 3, 0.0)
     left, right = (_values(curves, side, "vector", 3, 0.0) for side in ("handle_left", "handle_right"))
     weights = _values(curves, "nurbs_weight", "value", 1, 1.0)[:, 0]
     types, cyclic, orders, knots = (
         _values(curves, attribute, "value", 1, default, len(curves.curves))[:, 0].astype(int).tolist()
         for attribute, default in (("curve_type", 0), ("cyclic", 0), ("nurbs_order", 4), ("knots_mode", 0))
     )
-    _require_finite(places, name)
+    _require_finite(positions, name)
     for number, curve in enumerate(curves.curves):
-        own = slice(curve.first_point_index, curve.first_point_index + curve.points_length)
-        kind, points = TYPES[types[number]], places[own]
-        if kind == "NURBS" and knots[number] == CUSTOM:
+        of_curve = slice(curve.first_point_index, curve.first_point_index + curve.points_length)
+        kind, points = TYPES[types[number]], positions[of_curve]
+        if kind == "NURBS" and knots[number] == CUSTOM_KNOTS_MODE:
             raise ReadError("unknown_knots", subject=name)
         if kind == "CATMULL_ROM":
             arms = _catmull_rom(points, bool(cyclic[number]))
             kind, points = "BEZIER", np.stack([points - arms, points, points + arms], axis=1).reshape(-1, 3)
         elif kind == "BEZIER":
-            points = np.stack([left[own], points, right[own]], axis=1).reshape(-1, 3)
+            points = np.stack([left[of_curve], points, right[of_curve]], axis=1).reshape(-1, 3)
             _require_finite(points, name)
         yield _curve(
             kind,
@@ -150,7 +153,7 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
             bool(knots[number] & 2),
             bool(knots[number] & 1),
             points,
-            weights[own],
+            weights[of_curve],
         )
 
 
@@ -175,8 +178,8 @@ def _values(curves, name: str, item: str, width: int, default: float, count: int
     return values.reshape(count, width).astype(np.float64)
 
 
-def _require_finite(places: NDArray, name: str) -> None:
-    if not np.isfinite(places).all():
+def _require_finite(positions: NDArray, name: str) -> None:
+    if not np.isfinite(positions).all():
         raise ReadError("non_finite_control_points", subject=name)
 
 
@@ -186,27 +189,27 @@ def _curve(
     order: int,
     bezier: bool,
     endpoint: bool,
-    places: NDArray[np.float64],
+    points: NDArray[np.float64],
     weights: NDArray | None,
 ) -> Curve | None:
-    """places: (n, 3), of a Bézier curve three for each point."""
+    """points: (n, 3), of a Bézier curve three for each point."""
     if kind == "NURBS":
-        space = blender_space(len(places), order, cyclic, bezier, endpoint)
-        return None if space is None else Curve(space, places, weights)
+        space = blender_space(len(points), order, cyclic, bezier, endpoint)
+        return None if space is None else Curve(space, points, weights)
     if kind == "BEZIER":
-        knots = places.reshape(-1, 3, 3)
+        knots = points.reshape(-1, 3, 3)
         if cyclic:
             knots = np.concatenate([knots, knots[:1]])
-        places, order = knots.reshape(-1, 3)[1:-1], 4
+        points, order = knots.reshape(-1, 3)[1:-1], 4
     else:
-        places, order = np.concatenate([places, places[:1]]) if cyclic else places, 2
-    pieces = (len(places) - 1) // (order - 1)
+        points, order = np.concatenate([points, points[:1]]) if cyclic else points, 2
+    pieces = (len(points) - 1) // (order - 1)
     if pieces < 1:
         return None
-    return Curve(Space(tuple(_joined_knots(pieces, order)), order, len(places)), places)
+    return Curve(SplineSpace(tuple(_join_knots(pieces, order)), order, len(points)), points)
 
 
-def _joined_knots(pieces: int, order: int) -> Iterator[float]:
+def _join_knots(pieces: int, order: int) -> Iterator[float]:
     """Knots of Bézier pieces that follow each other."""
     yield 0.0
     for piece in range(pieces + 1):

@@ -10,26 +10,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...core.numerics.float32 import decimal
+from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, finding
 from .curves import is_round
 from .deformation import spline_modifiers
-from .instances import Gathered, shows_itself, visible_objects
+from .instances import InstanceCollector, shows_itself, visible_objects
 from .reading import said_of
-from .splines import weightless
+from .splines import nonpositive_weights
 from .visibility import blends_keys, edit_modifiers, hidden_reason, instanced_by_parent, measurable, metaball_families
 
 LINES_ONLY = {"CURVE": "lines_only_curve", "FONT": "lines_only_text"}
 
 
-def why_empty(obj, gathered: Gathered, depsgraph) -> Finding:
+def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
     """Why nothing of the object has a face."""
     vertices, edges = gathered.faceless
     if obj.type == "META":
         mother = _family(obj, depsgraph)[0]
         if mother != obj:
             return finding("metaball_of_family", object=mother.name)
-    if gathered.vanished:
+    if gathered.vanished_count:
         return finding("no_visible_instances")
     if obj.type == "FONT" and not obj.data.body.strip():
         return finding("empty_text")
@@ -52,7 +52,7 @@ def why_empty(obj, gathered: Gathered, depsgraph) -> Finding:
     return finding("no_geometry")
 
 
-def decisions(obj, gathered: Gathered, depsgraph) -> Iterator[Finding]:
+def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Finding]:
     """A finding for each thing that was decided while reading."""
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
@@ -63,36 +63,36 @@ def decisions(obj, gathered: Gathered, depsgraph) -> Iterator[Finding]:
         for result in _spline_findings(evaluated, splines):
             yield said_of(result, evaluated.original.name, obj.name)
     if obj.type == "META":
-        others = _family(obj, depsgraph)[1:]
-        if others:
-            yield finding("metaball_family", objects=_names(others))
+        family_members = _family(obj, depsgraph)[1:]
+        if family_members:
+            yield finding("metaball_family", objects=_names(family_members))
     yield from _polygons(obj, gathered.drawn)
-    yield from _mode(obj)
+    yield from _mode_findings(obj)
     exact = {evaluated.original for evaluated, splines in gathered.splines.items() if splines}
     for source in (obj, *(source for source in gathered.sources if source != obj)):
-        for result in _rendered(source, depsgraph.scene, source in exact):
+        for result in _render_findings(source, depsgraph.scene, source in exact):
             yield said_of(result, source.name, obj.name)
-    yield from _members(gathered.collections)
+    yield from _member_findings(gathered.collections)
     yield from _node_errors(obj)
-    if gathered.vanished:
-        yield finding("instances_vanished", count=gathered.vanished)
+    if gathered.vanished_count:
+        yield finding("instances_vanished", count=gathered.vanished_count)
     if gathered.left_out:
         yield finding("surfaceless_left_out", kinds=_kinds(gathered.left_out))
 
 
-def modifier_decisions(obj, scene) -> Iterator[Finding]:
+def modifier_findings(obj, scene) -> Iterator[Finding]:
     """The same of what the object's modifiers made, whatever that is."""
-    yield from _rendered(obj, scene)
+    yield from _render_findings(obj, scene)
     yield from _node_errors(obj)
 
 
-def _rendered(obj, scene, exact: bool = False) -> Iterator[Finding]:
+def _render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
     differences = [difference.as_record() for difference in _render_differences(obj, scene, exact)]
     if differences:
         yield finding("render_differs", differences=differences)
 
 
-def _members(collections) -> Iterator[Finding]:
+def _member_findings(collections) -> Iterator[Finding]:
     """The members of instanced collections that only the viewport or only the render shows."""
     shown, rendered = (
         {
@@ -132,7 +132,7 @@ def _polygons(obj, drawn) -> Iterator[Finding]:
             yield said_of(finding("curves_drawn_as_polygons"), source.name, obj.name)
 
 
-def _mode(obj) -> Iterator[Finding]:
+def _mode_findings(obj) -> Iterator[Finding]:
     if obj.type == "MESH" and obj.data.is_editmode:
         acting = edit_modifiers(obj)
         if acting:
@@ -155,7 +155,7 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
     if splines is not None:
         yield from splines.findings
         return
-    meshed, count = spline_modifiers(evaluated.original)[1], weightless(evaluated.data.splines)
+    meshed, count = spline_modifiers(evaluated.original)[1], nonpositive_weights(evaluated.data.splines)
     if meshed:
         yield finding("display_mesh_for_modifiers", modifiers=_names(meshed))
     elif count:
@@ -188,7 +188,9 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
             yield finding(code, viewport=shown, render=rendered)
     if obj.type == "META" and data.resolution != data.render_resolution:
         yield finding(
-            "render_resolution_differs", viewport=decimal(data.resolution), render=decimal(data.render_resolution)
+            "render_resolution_differs",
+            viewport=shortest_decimal(data.resolution),
+            render=shortest_decimal(data.render_resolution),
         )
 
 

@@ -73,20 +73,20 @@ def is_deformed(evaluated) -> bool:
     )
 
 
-def deformed(evaluated, points: NDArray, depsgraph) -> NDArray[np.float64]:
+def deform(evaluated, points: NDArray, depsgraph) -> NDArray[np.float64]:
     """(n, 3) the control points, of all splines in turn, of an evaluated object once shape keys and hooks have moved
     them; what other modifiers do is left out. ReadError where a hook cannot be followed."""
     points = np.asarray(points, np.float64)
     keys = evaluated.data.shape_keys
     if keys is not None and evaluated.original.mode != "EDIT" and len(keys.key_blocks):
-        points = _keyed(evaluated, keys, points)
+        points = _apply_shape_keys(evaluated, keys, points)
     for modifier in spline_modifiers(evaluated.original)[0]:
         if modifier.type == "HOOK":
-            points = _hooked(evaluated, modifier, points, depsgraph)
+            points = _apply_hook(evaluated, modifier, points, depsgraph)
     return points
 
 
-def _keyed(evaluated, keys, points: NDArray) -> NDArray[np.float64]:
+def _apply_shape_keys(evaluated, keys, points: NDArray) -> NDArray[np.float64]:
     blocks = list(keys.key_blocks)
     if evaluated.original.show_only_shape_key:
         return _block_points(blocks[evaluated.original.active_shape_key_index], len(points))
@@ -101,22 +101,22 @@ def _keyed(evaluated, keys, points: NDArray) -> NDArray[np.float64]:
 
 
 def _block_points(block, count: int) -> NDArray[np.float64]:
-    rows = []
+    coordinates = []
     for item in block.data:
         if hasattr(item, "handle_left"):
-            rows += [item.handle_left[:], item.co[:], item.handle_right[:]]
+            coordinates += [item.handle_left[:], item.co[:], item.handle_right[:]]
         else:
-            rows.append(item.co[:3])
-    points = np.array(rows, np.float64).reshape(-1, 3)
+            coordinates.append(item.co[:3])
+    points = np.array(coordinates, np.float64).reshape(-1, 3)
     # A key that was made for another number of points moves none.
     return points if len(points) == count else np.zeros((count, 3))
 
 
-def _hooked(evaluated, modifier, points: NDArray, depsgraph) -> NDArray[np.float64]:
-    rows = np.array(list(modifier.vertex_indices), np.intp)
-    if modifier.object is None or not len(rows):
+def _apply_hook(evaluated, modifier, points: NDArray, depsgraph) -> NDArray[np.float64]:
+    indices = np.array(list(modifier.vertex_indices), np.intp)
+    if modifier.object is None or not len(indices):
         return points
-    rows = rows[rows < len(points)]
+    indices = indices[indices < len(points)]
     target = modifier.object.evaluated_get(depsgraph)
     matrix = float64_matrix(target.matrix_world)
     if modifier.subtarget and target.pose and modifier.subtarget in target.pose.bones:
@@ -126,8 +126,8 @@ def _hooked(evaluated, modifier, points: NDArray, depsgraph) -> NDArray[np.float
     except np.linalg.LinAlgError:
         raise ReadError("scale_zero_axis", subject=evaluated.original.name) from None
     matrix = to_object @ matrix @ float64_matrix(modifier.matrix_inverse)
-    before = points[rows]
-    share = np.full(len(rows), float(modifier.strength))
+    before = points[indices]
+    share = np.full(len(indices), float(modifier.strength))
     if modifier.falloff_type in FALLOFFS and modifier.falloff_radius != 0.0:
         center = np.array(modifier.center[:], np.float64)
         arms = before - center
@@ -137,5 +137,5 @@ def _hooked(evaluated, modifier, points: NDArray, depsgraph) -> NDArray[np.float
         share = np.where(distance <= 1.0, share * FALLOFFS[modifier.falloff_type](np.minimum(distance, 1.0)), 0.0)
     after = before @ matrix[:3, :3].T + matrix[:3, 3]
     result = points.copy()
-    result[rows] = before + share[:, None] * (after - before)
+    result[indices] = before + share[:, None] * (after - before)
     return result

@@ -12,7 +12,7 @@ from ...core.verdict.finding import ReadError
 from .mesh import mesh_surface
 from .visibility import evaluated_geometry
 
-MOST = 50_000  # faces: reading and digesting them takes 2 ms
+MAX_DIGESTED_FACES = 50_000  # faces: reading and digesting them takes 2 ms
 
 
 def shape_digest(obj, depsgraph) -> bytes | None:
@@ -31,7 +31,7 @@ def shape_digest(obj, depsgraph) -> bytes | None:
         geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
     except ReadError:
         return None
-    if geometry.mesh is None or len(geometry.mesh.polygons) > MOST:
+    if geometry.mesh is None or len(geometry.mesh.polygons) > MAX_DIGESTED_FACES:
         return None
     surface = mesh_surface(geometry.mesh, edges=False)
     digest = hashlib.blake2b(digest_size=16)

@@ -14,7 +14,7 @@ import hashlib
 import bpy
 import numpy as np
 
-from ...core.numerics.float32 import decimal
+from ...core.numerics.float32 import shortest_decimal
 from ..settings.digest import density_key
 
 VERSION = "v1"
@@ -41,13 +41,13 @@ def scale_hash(obj: bpy.types.Object) -> str:
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     """A digest of the settings that the numbers of this object depend on."""
     settings = obj.body_moments
-    unit = decimal(scene.unit_settings.scale_length)
+    unit = shortest_decimal(scene.unit_settings.scale_length)
     given = settings.linear_density if settings.kind == "WIRE" else settings.density
     return effective_hash(
         "SOLID" if obj.type == "VOLUME" else settings.kind,
-        decimal(given) if settings.mass_from == "DENSITY" else None,
-        decimal(settings.mass) if settings.mass_from == "MASS" else None,
-        decimal(settings.thickness) * unit,
+        shortest_decimal(given) if settings.mass_from == "DENSITY" else None,
+        shortest_decimal(settings.mass) if settings.mass_from == "MASS" else None,
+        shortest_decimal(settings.thickness) * unit,
         settings.overlap,
         unit,
         settings.wall,
@@ -68,7 +68,8 @@ def effective_hash(
     """A digest of settings as they were used; what a kind has no use for does not count. varying: `density_key`, which
     takes the place of the density."""
     density = None if varying else density
-    density, mass = (None if value is None else decimal(value) for value in (density, mass))  # as a setting holds it
+    # as a setting holds it
+    density, mass = (None if value is None else shortest_decimal(value) for value in (density, mass))
     used = [
         kind,
         density,

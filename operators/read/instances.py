@@ -25,25 +25,25 @@ from numpy.typing import NDArray
 from ...core.mesh.surface import Surface
 from ...core.verdict.finding import MeasureError, ReadError
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
-from .reading import Painted, Part, SplineReading, float64_matrix
+from .reading import FaceAttributes, Part, SplineReading, float64_matrix
 from .splines import spline_reading
 from .visibility import GEOMETRY_TYPES, blends_keys, edit_modifiers, evaluated_geometry
 
 # Blender stops here too (MAX_DUPLI_RECUR).
-DEEPEST = 8
+MAX_DEPTH = 8
 
 
-class ByBlender(Exception):
+class _NeedsInstanceList(Exception):
     """The instances are of a kind that only Blender's own list of instances tells."""
 
 
-class Gathered:
+class InstanceCollector:
     """The surfaces found so far with all their places, and what had to be left out.
 
     faceless: (vertices, edges) of the meshes without a face.
     left_out: how many of each kind of thing that has no surface, by the code that names the kind.
     sources: the original objects that were read, without the first.
-    vanished: how many instances are scaled to nothing.
+    vanished_count: how many instances are scaled to nothing.
     splines: of each evaluated surface object that was read, its patches, None where its mesh has to do.
     drawn: the original objects of other kinds than meshes whose own polygons were read.
     collections: the original collections that it instances, as far as Blender's own list was not needed.
@@ -58,30 +58,30 @@ class Gathered:
         # A geometry set owns the meshes that it hands out, and the keys are their addresses.
         self._owners: list[object] = []
         self.collections: dict[object, None] = {}
-        self._forget()
+        self._reset()
 
-    def _forget(self) -> None:
+    def _reset(self) -> None:
         self.faceless = (0, 0)
         self.left_out: Counter[str] = Counter()
         self.sources: dict[object, None] = {}
         self.drawn: dict[object, None] = {}
-        self.vanished = 0
+        self.vanished_count = 0
         self._surfaces: dict[Hashable, Surface] = {}
         self.splines: dict[Hashable, SplineReading | None] = {}
-        self._painted: dict[Hashable, Painted] = {}
+        self._attributes: dict[Hashable, FaceAttributes] = {}
         self._patches: dict[Hashable, SplineReading | None] = {}
-        self._places: dict[Hashable, list[NDArray[np.float64]]] = {}
+        self._matrices: dict[Hashable, list[NDArray[np.float64]]] = {}
         self._names: dict[Hashable, str] = {}
         self._path: list[object] = []
 
-    def gather(self) -> None:
+    def collect(self) -> None:
         """Read the root object and its instances."""
         place = float64_matrix(self.root.matrix_world)[None]
         try:
-            self._object(self.root, place)
-        except ByBlender:
-            self._forget()
-            self._listed(place)
+            self._add_object(self.root, place)
+        except _NeedsInstanceList:
+            self._reset()
+            self._add_listed_instances(place)
 
     def parts(self) -> list[Part]:
         """One part for each surface, its matrices finite.
@@ -90,11 +90,11 @@ class Gathered:
         counted.
         """
         parts = []
-        for key, places in self._places.items():
+        for key, matrix_blocks in self._matrices.items():
             surface = self._surfaces[key]
             if not len(surface.triangles) and not len(surface.quads):
                 continue
-            matrices = np.concatenate(places)
+            matrices = np.concatenate(matrix_blocks)
             finite = np.isfinite(matrices).all(axis=(1, 2))
             if not finite.all():
                 raise ReadError(
@@ -105,33 +105,33 @@ class Gathered:
                 )
             there = matrices[:, :3, :3].any(axis=(1, 2))
             if len(matrices) > 1 and not there.all():
-                self.vanished += int((~there).sum())
+                self.vanished_count += int((~there).sum())
                 matrices = matrices[there]
             if len(matrices):
-                parts.append(Part(surface, matrices, self._painted[key], self._patches.get(key), self._names[key]))
+                parts.append(Part(surface, matrices, self._attributes[key], self._patches.get(key), self._names[key]))
         return parts
 
-    def _object(self, evaluated, places: NDArray) -> None:
-        """An object standing at `places` instead of its own matrix, with its instances."""
+    def _add_object(self, evaluated, matrices: NDArray) -> None:
+        """An object standing at `matrices` instead of its own matrix, with its instances."""
         original = evaluated.original
-        if original in self._path or len(self._path) > DEEPEST:
+        if original in self._path or len(self._path) > MAX_DEPTH:
             return
-        if _listed_only(original):
-            raise ByBlender
+        if _needs_instance_list(original):
+            raise _NeedsInstanceList
         if self._path:
             if original.type == "META":
-                self.left_out["kind_metaballs"] += len(places)
+                self.left_out["kind_metaballs"] += len(matrices)
                 return
             self.sources[original] = None
         self._path.append(original)
         instanced = False
         if original.type in GEOMETRY_TYPES:
             geometry = self._geometry(evaluated)
-            instanced = self._instances(geometry, places)
+            instanced = self._add_instances(geometry, matrices)
             if shows_itself(original, instanced):
-                self._own(evaluated, geometry, places)
+                self._add_own_geometry(evaluated, geometry, matrices)
         if not instanced and original.instance_type == "COLLECTION" and evaluated.instance_collection:
-            self._collection(evaluated.instance_collection, places)
+            self._add_collection(evaluated.instance_collection, matrices)
         self._path.pop()
 
     def _geometry(self, evaluated):
@@ -139,27 +139,27 @@ class Gathered:
         self._owners.append(geometry)
         return geometry
 
-    def _own(self, evaluated, geometry, places: NDArray) -> None:
+    def _add_own_geometry(self, evaluated, geometry, matrices: NDArray) -> None:
         original = evaluated.original
         if original.type != "MESH":
             if original.type == "SURFACE" and evaluated not in self.splines:
                 self.splines[evaluated] = spline_reading(evaluated, self.depsgraph, geometry.mesh)
-                self._patches[self._key(evaluated, evaluated)] = self.splines[evaluated]
-            self._mesh(evaluated, geometry.mesh, places, evaluated)
+                self._patches[self._surface_key(evaluated, evaluated)] = self.splines[evaluated]
+            self._add_mesh(evaluated, geometry.mesh, matrices, evaluated)
         elif original.data.is_editmode:
-            self._add(evaluated, lambda: self._edited(evaluated), places, evaluated)
+            self._add_surface(evaluated, lambda: self._edit_mode_surface(evaluated), matrices, evaluated)
         else:
             # Objects that share a mesh and do not modify it share its evaluated data too.
-            self._mesh(evaluated.data, geometry.mesh, places, evaluated)
-        self._count_surfaceless(geometry, len(places))
+            self._add_mesh(evaluated.data, geometry.mesh, matrices, evaluated)
+        self._count_surfaceless(geometry, len(matrices))
 
-    def _set(self, geometry, places: NDArray) -> None:
+    def _add_geometry_set(self, geometry, matrices: NDArray) -> None:
         self._owners.append(geometry)
-        self._mesh(geometry.mesh, geometry.mesh, places)
-        self._count_surfaceless(geometry, len(places))
-        self._instances(geometry, places)
+        self._add_mesh(geometry.mesh, geometry.mesh, matrices)
+        self._count_surfaceless(geometry, len(matrices))
+        self._add_instances(geometry, matrices)
 
-    def _instances(self, geometry, places: NDArray) -> bool:
+    def _add_instances(self, geometry, matrices: NDArray) -> bool:
         """Add what the geometry set instances at every place of it; whether there was anything."""
         cloud = geometry.instances_pointcloud()
         count = len(cloud.points) if cloud is not None else 0
@@ -178,25 +178,25 @@ class Gathered:
             if start == end or reference is None:
                 continue
             with np.errstate(invalid="ignore", over="ignore"):  # parts() counts what is not finite
-                placed = (places[:, None] @ transforms[order[start:end]][None]).reshape(-1, 4, 4)
+                placed = (matrices[:, None] @ transforms[order[start:end]][None]).reshape(-1, 4, 4)
             if isinstance(reference, bpy.types.Object):
-                self._object(reference.evaluated_get(self.depsgraph), placed)
+                self._add_object(reference.evaluated_get(self.depsgraph), placed)
             elif isinstance(reference, bpy.types.Collection):
-                self._collection(reference, placed)
+                self._add_collection(reference, placed)
             else:
-                self._set(reference, placed)
+                self._add_geometry_set(reference, placed)
         return True
 
-    def _collection(self, collection, places: NDArray) -> None:
+    def _add_collection(self, collection, matrices: NDArray) -> None:
         self.collections[collection.original] = None
         shift = np.eye(4)
         shift[:3, 3] = -np.array(collection.instance_offset[:], np.float64)
-        places = places @ shift
+        matrices = matrices @ shift
         for member in visible_objects(collection):
             evaluated = member.evaluated_get(self.depsgraph)
-            self._object(evaluated, places @ float64_matrix(evaluated.matrix_world))
+            self._add_object(evaluated, matrices @ float64_matrix(evaluated.matrix_world))
 
-    def _listed(self, place: NDArray) -> None:
+    def _add_listed_instances(self, instance_matrix: NDArray) -> None:
         """The root and its instances as `depsgraph.object_instances` has them."""
         original = self.root.original
         if not original.visible_get(view_layer=self.depsgraph.view_layer):
@@ -204,7 +204,7 @@ class Gathered:
         if original.type in GEOMETRY_TYPES:
             geometry = self._geometry(self.root)
             if shows_itself(original, True):
-                self._own(self.root, geometry, place)
+                self._add_own_geometry(self.root, geometry, instance_matrix)
         for instance in self.depsgraph.object_instances:
             if not instance.is_instance or instance.parent != self.root:
                 continue
@@ -213,33 +213,33 @@ class Gathered:
             source, mesh = instance.instance_object, instance.object.data
             matrix = float64_matrix(instance.matrix_world)[None]
             self.sources[source.original] = None
-            key = self._key(mesh, source)
+            key = self._surface_key(mesh, source)
             if key in self._surfaces:
-                self._places[key].append(matrix)
+                self._matrices[key].append(matrix)
             elif source.type == "MESH" and source.data == mesh:
                 # Not the mesh itself: its subdivision may have been left to the graphics card.
-                self._mesh(mesh, self._geometry(source).mesh, matrix, source)
+                self._add_mesh(mesh, self._geometry(source).mesh, matrix, source)
             else:
-                self._mesh(mesh, mesh, matrix, source)
+                self._add_mesh(mesh, mesh, matrix, source)
 
-    def _mesh(self, key: Hashable, mesh, places: NDArray, owner=None) -> None:
+    def _add_mesh(self, key: Hashable, mesh, matrices: NDArray, owner=None) -> None:
         """Add a mesh; owner: the evaluated object whose material slots it is shown with."""
         if mesh is not None:
             if owner is not None and owner.original.type != "MESH" and len(mesh.polygons):
                 self.drawn[owner.original] = None
-            self._add(self._key(key, owner), lambda: self._read(mesh, owner), places, owner)
+            self._add_surface(self._surface_key(key, owner), lambda: self._read(mesh, owner), matrices, owner)
 
-    def _key(self, key: Hashable, owner) -> Hashable:
+    def _surface_key(self, key: Hashable, owner) -> Hashable:
         """One mesh is several surfaces where objects show it with materials of their own."""
-        return (key, _of_object(owner)) if self.materials and owner is not None else key
+        return (key, _object_slots(owner)) if self.materials and owner is not None else key
 
-    def _read(self, mesh, owner) -> tuple[Surface, Painted]:
+    def _read(self, mesh, owner) -> tuple[Surface, FaceAttributes]:
         if not len(mesh.polygons):
             vertices, edges = self.faceless
             self.faceless = (vertices + len(mesh.vertices), edges + len(mesh.edges))
-        return mesh_surface(mesh, edges=self.edges), self._paint(mesh, owner)
+        return mesh_surface(mesh, edges=self.edges), self._read_attributes(mesh, owner)
 
-    def _paint(self, mesh, owner) -> Painted:
+    def _read_attributes(self, mesh, owner) -> FaceAttributes:
         vertices = None
         if self.attribute is not None and len(mesh.polygons):
             try:
@@ -248,13 +248,13 @@ class Gathered:
                 error.about(self.root.name)
                 raise
         if not self.materials:
-            return Painted(vertices=vertices)
+            return FaceAttributes(vertex_values=vertices)
         slots = _slots(mesh, owner)
         # Blender shows a face that names a slot beyond the last one with the last one's material.
         faces = np.clip(face_slots(mesh), 0, len(slots) - 1) if slots else np.full(len(mesh.polygons), -1)
-        return Painted(slots, faces, vertices)
+        return FaceAttributes(slots, faces, vertices)
 
-    def _edited(self, evaluated) -> tuple[Surface, Painted]:
+    def _edit_mode_surface(self, evaluated) -> tuple[Surface, FaceAttributes]:
         """The surface of an object whose mesh is in Edit Mode, with what acts there."""
         if not edit_modifiers(evaluated.original) and not blends_keys(evaluated.original):
             return from_edit_mesh(evaluated.original.data, lambda copy: self._read(copy, evaluated))
@@ -263,11 +263,13 @@ class Gathered:
         evaluated.to_mesh_clear()
         return read
 
-    def _add(self, key: Hashable, read: Callable[[], tuple[Surface, Painted]], places: NDArray, owner) -> None:
+    def _add_surface(
+        self, key: Hashable, read: Callable[[], tuple[Surface, FaceAttributes]], matrices: NDArray, owner
+    ) -> None:
         if key not in self._surfaces:
-            self._surfaces[key], self._painted[key] = read()
+            self._surfaces[key], self._attributes[key] = read()
             self._names[key] = (self._path[-1] if owner is None else owner.original).name
-        self._places.setdefault(key, []).append(places)
+        self._matrices.setdefault(key, []).append(matrices)
 
     def _count_surfaceless(self, geometry, count: int) -> None:
         if geometry.curves is not None and len(geometry.curves.curves):
@@ -278,7 +280,7 @@ class Gathered:
             self.left_out["kind_volumes"] += count
 
 
-def _of_object(owner) -> tuple:
+def _object_slots(owner) -> tuple:
     """What an object's own material slots put in place of its data's."""
     return tuple(
         (i, slot.material.original if slot.material else None)
@@ -293,7 +295,7 @@ def _slots(mesh, owner) -> tuple:
     if owner is not None:
         if not slots:  # a copy of an edit mesh has none of its own
             slots = list(getattr(owner.original.data, "materials", None) or ())
-        for i, material in _of_object(owner):
+        for i, material in _object_slots(owner):
             slots += [None] * (i + 1 - len(slots))
             slots[i] = material
     return tuple(material.original if material else None for material in slots)
@@ -305,7 +307,7 @@ def shows_itself(obj, instanced: bool) -> bool:
     return obj.show_instancer_for_viewport or not instancer
 
 
-def _listed_only(obj) -> bool:
+def _needs_instance_list(obj) -> bool:
     if obj.instance_type in {"VERTS", "FACES"}:
         return True
     return any(
@@ -319,14 +321,14 @@ def _listed_only(obj) -> bool:
 def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:
     """The collection's objects and those of its children, each once, without those disabled in viewports, or with
     `hide_render` in renders."""
-    seen = set()
+    visited = set()
     pending = [collection]
     while pending:
         current = pending.pop()
         if getattr(current, switch):
             continue
         for obj in current.objects:
-            if not getattr(obj, switch) and obj not in seen:
-                seen.add(obj)
+            if not getattr(obj, switch) and obj not in visited:
+                visited.add(obj)
                 yield obj
         pending.extend(reversed(current.children))

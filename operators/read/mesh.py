@@ -4,7 +4,7 @@
 
 Blender 4.5 stores a mesh as attributes, and `foreach_get` on an attribute's data is one memory copy
 as long as the buffer has the attribute's own type: float32 for positions, int32 for indices. The
-same numbers through `vertices`, `loops` and `loop_triangles` cost 10 to 100 times as much.
+same numbers through `vertex_values`, `loops` and `loop_triangles` cost 10 to 100 times as much.
 
 The sizes of the faces come from the tessellation (a face of n corners has n - 2 triangles), whose
 `loop_triangle_polygons` is such an attribute too. Triangles and quads are then rows of the corners;
@@ -27,9 +27,9 @@ from ...core.mesh.surface import NO_QUADS, NO_TRIANGLES, Surface
 from ...core.verdict.finding import ReadError
 
 # One triangle read by its index costs as much as about five in a `foreach_get` of all of them.
-SINGLE_COST = 5
+SINGLE_ACCESS_COST = 5
 # Faces at a time, so that what is computed of them stays in the cache.
-BLOCK = 1 << 15
+FACES_PER_BLOCK = 1 << 15
 Read = TypeVar("Read")
 
 
@@ -66,9 +66,9 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
     three, four = np.flatnonzero(sizes == 3), np.flatnonzero(sizes == 4)
     triangles, triangle_faces = corners[starts[three][:, None] + np.arange(3)], three
     if len(three) + len(four) < faces:
-        rows = np.flatnonzero(sizes[owners] > 4)
-        triangles = np.concatenate([triangles, _loop_triangles(mesh, rows)])
-        triangle_faces = np.concatenate([three, owners[rows]])
+        ngon_triangles = np.flatnonzero(sizes[owners] > 4)
+        triangles = np.concatenate([triangles, _loop_triangles(mesh, ngon_triangles)])
+        triangle_faces = np.concatenate([three, owners[ngon_triangles]])
     return {
         "triangles": triangles if len(triangles) else NO_TRIANGLES,
         "triangle_faces": triangle_faces.astype(np.int32),
@@ -124,16 +124,16 @@ def _in_pairs(owners: NDArray[np.int32]) -> bool:
     """Whether these are 0, 0, 1, 1, 2, 2, …"""
     # Two at once: the even places alone would accept a triangle followed by a pentagon.
     pairs, step = owners.view(np.int64), (1 << 32) + 1
-    count = np.arange(min(BLOCK, len(pairs))) * step
+    count = np.arange(min(FACES_PER_BLOCK, len(pairs))) * step
     return all(
-        np.array_equal(pairs[start : start + BLOCK] - start * step, count[: len(pairs) - start])
-        for start in range(0, len(pairs), BLOCK)
+        np.array_equal(pairs[start : start + FACES_PER_BLOCK] - start * step, count[: len(pairs) - start])
+        for start in range(0, len(pairs), FACES_PER_BLOCK)
     )
 
 
-def _loop_triangles(mesh, rows: NDArray) -> NDArray[np.int32]:
+def _loop_triangles(mesh, indices: NDArray) -> NDArray[np.int32]:
     triangles = mesh.loop_triangles
-    if SINGLE_COST * len(rows) < len(triangles):
-        vertices = chain.from_iterable(triangles[row].vertices for row in rows.tolist())
-        return np.fromiter(vertices, np.int32, 3 * len(rows)).reshape(-1, 3)
-    return _array(triangles, "vertices", (len(triangles), 3), np.int32)[rows]
+    if SINGLE_ACCESS_COST * len(indices) < len(triangles):
+        vertices = chain.from_iterable(triangles[row].vertices for row in indices.tolist())
+        return np.fromiter(vertices, np.int32, 3 * len(indices)).reshape(-1, 3)
+    return _array(triangles, "vertices", (len(triangles), 3), np.int32)[indices]

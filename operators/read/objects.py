@@ -15,11 +15,11 @@ from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import rotation_matrix
 from ...core.verdict.finding import ReadError, finding
 from .curves import read_curves
-from .decisions import decisions, why_empty
+from .decisions import reading_findings, why_empty
 from .deformation import is_deformed
-from .instances import Gathered
+from .instances import InstanceCollector
 from .reading import Part, Reading, float64_matrix, said_of
-from .splines import spline_reading, weightless
+from .splines import nonpositive_weights, spline_reading
 from .visibility import evaluated_geometry, require_kind, why_not_evaluated
 
 
@@ -36,15 +36,15 @@ def read_object(
     """
     obj = obj.original
     require_kind(obj)
-    reading = placed(obj, depsgraph)
-    gathered = Gathered(obj.evaluated_get(depsgraph), depsgraph, materials, attribute, edges)
-    gathered.gather()
+    reading = locate(obj, depsgraph)
+    gathered = InstanceCollector(obj.evaluated_get(depsgraph), depsgraph, materials, attribute, edges)
+    gathered.collect()
     parts = gathered.parts()
     if not parts:
         raise ReadError(why_empty(obj, gathered, depsgraph), subject=obj.name)
     for part in parts:
         _require_finite(obj, part)
-    reading.parts, reading.findings = parts, list(decisions(obj, gathered, depsgraph))
+    reading.parts, reading.findings = parts, list(reading_findings(obj, gathered, depsgraph))
     return reading
 
 
@@ -56,7 +56,7 @@ def read_lines(obj, depsgraph) -> Reading:
     obj = obj.original
     if obj.type != "CURVE":
         raise ReadError("only_curves_are_wires", subject=obj.name)
-    reading = placed(obj, depsgraph)
+    reading = locate(obj, depsgraph)
     reading.curves, reading.findings = read_curves(obj, depsgraph)
     return reading
 
@@ -66,7 +66,7 @@ def read_patches(obj, depsgraph) -> Reading | None:
     compared with it, and no finding about the render. None where it shows more, or has to be measured by its mesh.
     """
     obj = obj.original
-    reading = placed(obj, depsgraph)
+    reading = locate(obj, depsgraph)
     if obj.type != "SURFACE" or obj.instance_type != "NONE" or len(obj.particle_systems):
         return None
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
@@ -79,7 +79,7 @@ def read_patches(obj, depsgraph) -> Reading | None:
     return reading
 
 
-def placed(obj, depsgraph) -> Reading:
+def locate(obj, depsgraph) -> Reading:
     """An evaluated object's name and place, with nothing read of it yet.
 
     Raises ReadError where Blender has not evaluated it, or its transform is not finite.
@@ -104,9 +104,9 @@ def _require_finite(obj, part: Part) -> None:
     surface = part.surface
     if np.isfinite(surface.box).all():
         return
-    if obj.type == "SURFACE" and weightless(obj.data.splines):
+    if obj.type == "SURFACE" and nonpositive_weights(obj.data.splines):
         raise ReadError("non_positive_weights", subject=obj.name)
     points = surface.points
     misplaced = np.flatnonzero(~np.isfinite(points).all(axis=1))
     found = finding("non_finite_vertices", misplaced, count=len(misplaced), total=len(points))
-    raise ReadError(said_of(found, part.source, obj.name), subject=obj.name)
+    raise ReadError(said_of(found, part.source_object_name, obj.name), subject=obj.name)

@@ -9,27 +9,27 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.mesh.surface import Surface, joined
+from ...core.mesh.surface import Surface, join_surfaces
 from ...core.nurbs.curve import Curve
 from ...core.nurbs.patch import Patch
 from ...core.verdict.finding import Finding
 
 # Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
 # float32 entries alone may have made it: such a matrix cannot be told from one that flattens.
-FLAT = 4.0 * float(np.finfo(np.float32).eps)
+SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 
 
 @dataclass(frozen=True, eq=False)
-class Painted:
+class FaceAttributes:
     """What the faces and vertices of a surface carry.
 
-    materials: the original materials of its slots, None for empty ones. faces: (f,) the slot of each
-    mesh face, -1 where there are no slots. vertices: (n,) values of the attribute that was asked for.
+    materials: the original materials of its slots, None for empty ones. face_slots: (f,) the slot of each
+    mesh face, -1 where there are no slots. vertex_values: (n,) values of the attribute that was asked for.
     """
 
     materials: tuple = ()
-    faces: NDArray[np.integer] | None = None
-    vertices: NDArray[np.float64] | None = None
+    face_slots: NDArray[np.integer] | None = None
+    vertex_values: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,16 +48,17 @@ class Part:
 
     matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column
     vectors.
-    painted: what its faces and vertices carry, where that was asked for.
-    source: the name of the object whose surface it is, or whose nodes made it; empty for the one that was read.
+    attributes: what its faces and vertices carry, where that was asked for.
+    source_object_name: the name of the object whose surface it is, or whose nodes made it; empty for the one that was
+    read.
     splines: where `surface` is but the display mesh of B-spline patches, those.
     """
 
     surface: Surface
     matrices: NDArray[np.float64]
-    painted: Painted | None = None
+    attributes: FaceAttributes | None = None
     splines: SplineReading | None = None
-    source: str = ""
+    source_object_name: str = ""
 
 
 @dataclass
@@ -69,8 +70,9 @@ class Reading:
     rotation: (3, 3), orthonormal to float64, and location: (3,), Blender units, as
         `matrix_world.decompose()` gives them: the object frame.
     curves: of a curve object that is read as lines, in its own coordinates; else none.
-    flattened: how many of the places have a matrix that flattens the surface, so that it encloses nothing.
-    singular: all of them have. places: how many surfaces stand where, instances counted each.
+    singular_instance_count: how many of the places have a matrix that flattens the surface, so that it encloses
+    nothing.
+    all_singular: all of them have. instance_count: how many surfaces stand where, instances counted each.
     findings: one for each decision that was taken.
     """
 
@@ -89,26 +91,26 @@ class Reading:
         return any(part.splines is not None for part in self.parts)
 
     @property
-    def flat(self) -> bool:
+    def is_singular(self) -> bool:
         """Whether the object's own matrix flattens."""
-        return bool(flattens(self.matrix[None])[0])
+        return bool(are_singular(self.matrix[None])[0])
 
     @property
-    def flattened(self) -> int:
-        return sum(int(flattens(part.matrices).sum()) for part in self.parts)
+    def singular_instance_count(self) -> int:
+        return sum(int(are_singular(part.matrices).sum()) for part in self.parts)
 
     @property
-    def singular(self) -> bool:
-        return self.flattened == self.places
+    def all_singular(self) -> bool:
+        return self.singular_instance_count == self.instance_count
 
     @property
-    def places(self) -> int:
+    def instance_count(self) -> int:
         return sum(len(part.matrices) for part in self.parts)
 
-    def joined(self) -> Surface:
+    def join(self) -> Surface:
         """All parts, wherever they stand, as one surface of triangles in the world, float64."""
-        return joined(
-            [part.surface.mapped(matrix[:3, :3], matrix[:3, 3]) for part in self.parts for matrix in part.matrices]
+        return join_surfaces(
+            [part.surface.transform(matrix[:3, :3], matrix[:3, 3]) for part in self.parts for matrix in part.matrices]
         )
 
 
@@ -118,22 +120,22 @@ def said_of(result: Finding, source: str, whole: str) -> Finding:
     return result if source in ("", whole) else result.of_sources([source])
 
 
-def flattens(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:
+def are_singular(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:
     """(k,) whether each of the (k, 4, 4) maps is singular, as far as entries that were float32 can
     tell."""
     columns = matrices[:, :3, :3].transpose(1, 2, 0).copy()
     # By the largest entry first, so that no square of a very small or large scale leaves the range
     # of float64.
-    columns /= _or_one(np.abs(columns).max(axis=0))
-    columns /= _or_one(np.sqrt((columns * columns).sum(axis=0)))
+    columns /= _nonzero_lengths(np.abs(columns).max(axis=0))
+    columns /= _nonzero_lengths(np.sqrt((columns * columns).sum(axis=0)))
     x, y, z = columns
     volume = (
         x[0] * (y[1] * z[2] - z[1] * y[2]) + y[0] * (z[1] * x[2] - x[1] * z[2]) + z[0] * (x[1] * y[2] - y[1] * x[2])
     )
-    return np.abs(volume) <= FLAT
+    return np.abs(volume) <= SINGULAR_RTOL
 
 
-def _or_one(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+def _nonzero_lengths(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.where(lengths > 0.0, lengths, 1.0)
 
 

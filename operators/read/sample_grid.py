@@ -21,8 +21,8 @@ from ...core.mesh.surface import Surface
 from ...core.verdict.finding import ReadError
 from .reading import float64_matrix
 
-BLOCK = 1 << 21  # voxels that are sampled at a time
-MOST = 1 << 29  # voxels that are sampled at all
+VOXELS_PER_BLOCK = 1 << 21  # voxels that are sampled at a time
+MAX_VOXELS = 1 << 29  # voxels that are sampled at all
 KINDS = {
     "FLOAT": ("FLOAT", np.float32),
     "INT": ("INT", np.int32),
@@ -48,14 +48,14 @@ class SampledGrid:
         index = (corners - self.to_object[:3, 3]) @ np.linalg.inv(self.to_object[:3, :3]).T
         low, high = np.floor(index.min(axis=0)).astype(np.int64) - 1, np.ceil(index.max(axis=0)).astype(np.int64) + 1
         self.low, self.shape = low, high - low + 1
-        if np.prod(self.shape.astype(float)) > MOST:
+        if np.prod(self.shape.astype(float)) > MAX_VOXELS:
             raise ReadError("grid_too_large_without_openvdb", grid=grid.name, samples=self.shape.tolist())
         with self._sampler() as sample:
             self.background = float(sample(low - 2, (1, 1, 1))[0, 0, 0])
 
     def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
         """The voxels of the box, as blocks, each with where it begins in the box."""
-        planes = max(1, BLOCK // int(np.prod(self.shape[1:])))
+        planes = max(1, VOXELS_PER_BLOCK // int(np.prod(self.shape[1:])))
         with self._sampler() as sample:
             for start in range(0, int(self.shape[0]), planes):
                 shape = (min(planes, int(self.shape[0]) - start), *self.shape[1:].tolist())
@@ -85,14 +85,14 @@ class SampledGrid:
 
             def sample(first: NDArray, shape: tuple[int, int, int]) -> NDArray:
                 count = int(np.prod(shape))
-                places = np.empty((*shape, 3), np.float32)
+                positions = np.empty((*shape, 3), np.float32)
                 steps = np.ogrid[tuple(slice(a, a + n) for a, n in zip(first.tolist(), shape))]
                 for axis, (*row, offset) in enumerate(self.to_object[:3]):
-                    places[..., axis] = sum(factor * step for factor, step in zip(row, steps)) + offset
+                    positions[..., axis] = sum(factor * step for factor, step in zip(row, steps)) + offset
                 if len(mesh.vertices) != count:
                     mesh.clear_geometry()
                     mesh.vertices.add(count)
-                mesh.attributes["position"].data.foreach_set("vector", places.reshape(-1))
+                mesh.attributes["position"].data.foreach_set("vector", positions.reshape(-1))
                 mesh.update_tag()
                 mesh.update()
                 layer.update()

@@ -18,29 +18,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
-from ...core.numerics.rotations import own_axes
+from ...core.numerics.rotations import polar_rotation
 from ...core.verdict.finding import Finding, ReadError, finding
 from .mesh import from_edit_mesh, mesh_surface
-from .objects import placed, read_object
+from .objects import locate, read_object
 from .reading import Reading
 
 SECTION_TYPES = {"MESH", "CURVE", "FONT"}
-ZERO = 1e-17  # a scale that `decompose()` takes for zero
+ZERO_SCALE = 1e-17  # a scale that `decompose()` takes for zero
 
 
 @dataclass
 class SectionReading:
     """Faces or outlines as arrays, in the world, Blender units.
 
-    what: of what object or part, in words. points: (n, 3). triangles: (m, 3), facing as drawn, and faces: (m,) the face
-    of each; for outlines fans that tell the plane, with loops: the points of each closed outline, in order.
+    description: of what object or part, in words. points: (n, 3). triangles: (m, 3), facing as drawn, and faces: (m,)
+    the face of each; for outlines fans that tell the plane, with loops: the points of each closed outline, in order.
     facing: (3,) where the plane has to look, None where the triangles tell. error: how far float32 storage may have
-    moved a point. drawn: the area that Blender fills, of outlines in a plane. rotation, location: the object frame, or
-    where a zero scale leaves `decompose()` without a rotation, the right-angled axes that are left.
+    moved a point. drawn_area: the area that Blender fills, of outlines in a plane. rotation, location: the object
+    frame, or where a zero scale leaves `decompose()` without a rotation, the right-angled axes that are left.
     """
 
     name: str
-    what: str
+    description: str
     points: NDArray[np.float64]
     triangles: NDArray[np.integer]
     faces: NDArray[np.integer]
@@ -49,7 +49,7 @@ class SectionReading:
     location: NDArray[np.float64]
     loops: list[NDArray[np.integer]] | None = None
     facing: NDArray[np.float64] | None = None
-    drawn: float | None = None
+    drawn_area: float | None = None
     findings: list[Finding] = field(default_factory=list)
 
 
@@ -67,7 +67,7 @@ def read_section(obj, depsgraph) -> SectionReading:
     findings = list(reading.findings)
     if obj.type in {"CURVE", "FONT"}:
         findings.append(finding("section_modified_fill"))
-    surface = reading.joined()
+    surface = reading.join()
     return SectionReading(
         obj.name,
         "All Faces",
@@ -83,7 +83,7 @@ def read_section(obj, depsgraph) -> SectionReading:
 
 def _axes(reading: Reading) -> NDArray[np.float64]:
     shortest = np.sqrt((reading.matrix[:3, :3] ** 2).sum(axis=0)).min()
-    return own_axes(reading.matrix[None])[0][0] if shortest < ZERO else reading.rotation
+    return polar_rotation(reading.matrix[None])[0][0] if shortest < ZERO_SCALE else reading.rotation
 
 
 def _selected_faces(obj, depsgraph) -> SectionReading:
@@ -95,8 +95,8 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     chosen, surface = from_edit_mesh(obj.data, selected)
     if not chosen.any():
         raise ReadError("section_no_selected_face", subject=obj.name)
-    place = placed(obj, depsgraph)
-    surface = surface.mapped(place.matrix[:3, :3], place.matrix[:3, 3])
+    place = locate(obj, depsgraph)
+    surface = surface.transform(place.matrix[:3, :3], place.matrix[:3, 3])
     inside = chosen[surface.triangle_faces]
     triangles = surface.triangles[inside]
     _require_finite(obj, surface.points[triangles])
@@ -120,26 +120,26 @@ def _outlines(obj, depsgraph) -> SectionReading:
     _require_flat_outlines(obj)
     if obj.mode == "EDIT":
         obj.update_from_editmode()
-    local, loops, open_splines = _wire(obj)
+    local, loops, open_splines = _spline_outlines(obj)
     if not loops:
         code = "section_no_outline_text" if obj.type == "FONT" else "section_no_outline_curve"
         raise ReadError(code, subject=obj.name)
-    place = placed(obj, depsgraph)
+    place = locate(obj, depsgraph)
     linear = place.matrix[:3, :3]
     facing = np.cross(linear[:, 0], linear[:, 1]) * np.sign(np.linalg.det(linear) or 1.0)
-    filled = _filled(obj, depsgraph)
+    filled = _fill_area(obj, depsgraph)
     findings = list(_outline_findings(obj, sum(map(len, loops)), open_splines))
     drawn = None
     if obj.type == "FONT" and obj.data.follow_curve is not None:
         # Only the evaluated text follows its curve, and only its fill is there to be read.
         if filled is None:
             raise ReadError("section_text_on_curve", subject=obj.name)
-        surface, loops = filled.mapped(linear, place.matrix[:3, 3]), None
+        surface, loops = filled.transform(linear, place.matrix[:3, 3]), None
         triangles, faces = surface.triangles, surface.triangle_faces
     else:
-        surface = Surface(local).mapped(linear, place.matrix[:3, 3])
-        rows = [np.stack([np.full(len(loop) - 2, loop[0]), loop[1:-1], loop[2:]], axis=1) for loop in loops]
-        triangles = np.concatenate(rows)
+        surface = Surface(local).transform(linear, place.matrix[:3, 3])
+        fans = [np.stack([np.full(len(loop) - 2, loop[0]), loop[1:-1], loop[2:]], axis=1) for loop in loops]
+        triangles = np.concatenate(fans)
         faces = np.arange(len(triangles))
         if filled is not None:
             a, b, c = (filled.points.astype(np.float64)[filled.all_triangles()[0][:, i], :2] for i in range(3))
@@ -185,7 +185,7 @@ def _require_flat_outlines(obj) -> None:
         raise ReadError("section_offset", subject=obj.name)
 
 
-def _wire(obj) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
+def _spline_outlines(obj) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
     """(n, 3) the points of the object's splines, those of each closed one, and how many are open."""
     data = obj.data.copy()
     data.fill_mode = "NONE"
@@ -213,7 +213,7 @@ def _wire(obj) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
     return points, loops, loose
 
 
-def _filled(obj, depsgraph) -> Surface | None:
+def _fill_area(obj, depsgraph) -> Surface | None:
     evaluated = obj.evaluated_get(depsgraph)
     mesh = evaluated.to_mesh()
     try:

@@ -15,17 +15,17 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.moments.moments import HALF_ULP
-from ...core.numerics.bspline import Space
+from ...core.moments.moments import FLOAT32_HALF_ULP
+from ...core.numerics.bspline import SplineSpace
 from ...core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from ...core.nurbs.patch import Patch
 from ...core.verdict.finding import ReadError, finding
-from .deformation import deformed, is_deformed, spline_modifiers
+from .deformation import deform, is_deformed, spline_modifiers
 from .reading import SplineReading
 
-AGREE = 4e-6  # of the largest coordinate: float32 evaluation, of order 6 by order 6
-RECOVERED = 1e-6  # of the size: what control points that were solved for may be off by
-LARGEST_SOLVED = 1e4  # condition of a direction's samples
+AGREEMENT_RTOL = 4e-6  # of the largest coordinate: float32 evaluation, of order 6 by order 6
+RECOVERY_RTOL = 1e-6  # of the size: what control points that were solved for may be off by
+MAX_CONDITION = 1e4  # condition of a direction's samples
 
 
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
@@ -39,17 +39,17 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     splines = [spline for spline in evaluated.data.splines if spline.type == "NURBS"]
     if not splines or len(splines) < len(evaluated.data.splines):
         return None
-    rows = [weighted_points(spline) for spline in splines]
-    coordinates = np.concatenate(rows)
-    places = coordinates[:, :3].astype(np.float64)
+    control_points = [weighted_points(spline) for spline in splines]
+    coordinates = np.concatenate(control_points)
+    points = coordinates[:, :3].astype(np.float64)
     if is_deformed(evaluated):
         try:
-            places = deformed(evaluated, places, depsgraph)
+            points = deform(evaluated, points, depsgraph)
         except ReadError:
             return None
-    if weightless(splines) or not np.isfinite(coordinates).all() or not np.isfinite(places).all():
+    if nonpositive_weights(splines) or not np.isfinite(coordinates).all() or not np.isfinite(points).all():
         return None
-    starts = np.cumsum([0] + [len(row) for row in rows])
+    starts = np.cumsum([0] + [len(row) for row in control_points])
     patches, samples, left_out = [], [], 0
     for spline, start, end in zip(splines, starts[:-1], starts[1:]):
         spaces = _spaces(spline)
@@ -60,7 +60,7 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
         patches.append(
             Patch(
                 spaces,
-                places[start:end].reshape(*shape, 3),
+                points[start:end].reshape(*shape, 3),
                 coordinates[start:end, 3].astype(np.float64).reshape(shape),
             )
         )
@@ -72,25 +72,27 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
         )
     if not patches:
         return None
-    largest = float(np.abs(places).max())
-    size = float(np.ptp(places, axis=0).max())
-    stored = HALF_ULP * (1.8 * largest + (2.0 * size if any(patch.weights is not None for patch in patches) else 0.0))
+    largest = float(np.abs(points).max())
+    size = float(np.ptp(points, axis=0).max())
+    stored = FLOAT32_HALF_ULP * (
+        1.8 * largest + (2.0 * size if any(patch.weights is not None for patch in patches) else 0.0)
+    )
     findings = []
     if left_out:
         findings.append(finding("splines_left_out", count=left_out, total=len(splines)))
     if mesh is not None:
         shown = np.empty(3 * len(mesh.vertices), np.float32)
         mesh.attributes["position"].data.foreach_get("vector", shown)
-        proved = _proved(patches, samples, shown.reshape(-1, 3), AGREE * largest)
+        proved = _verified(patches, samples, shown.reshape(-1, 3), AGREEMENT_RTOL * largest)
         if proved is None:
             return None
         if proved is not patches:
-            patches, stored = proved, stored + RECOVERED * size
+            patches, stored = proved, stored + RECOVERY_RTOL * size
             findings.append(finding("control_points_recovered"))
     return SplineReading(tuple(patches), stored, tuple(findings))
 
 
-def weightless(splines) -> int:
+def nonpositive_weights(splines) -> int:
     """How many control points have a weight that is not positive, for which the display mesh has to be measured."""
     return sum(int((~(weighted_points(spline)[:, 3] > 0.0)).sum()) for spline in splines if spline.type == "NURBS")
 
@@ -102,7 +104,7 @@ def weighted_points(spline) -> NDArray[np.float32]:
     return row.reshape(-1, 4)
 
 
-def _spaces(spline) -> tuple[Space, Space] | None:
+def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
     """The spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
     spaces = (
         blender_space(
@@ -115,7 +117,7 @@ def _spaces(spline) -> tuple[Space, Space] | None:
     return None if None in spaces else spaces
 
 
-def _proved(
+def _verified(
     patches: list[Patch], samples: list[tuple[NDArray, NDArray]], shown: NDArray, tolerance: float
 ) -> list[Patch] | None:
     """The patches where they agree with the display mesh, else those that do, else None."""
@@ -129,22 +131,22 @@ def _proved(
     ]
     if all(_agrees(patch, sample, piece, tolerance) for patch, sample, piece in zip(patches, samples, pieces)):
         return patches
-    solved = [_solved(patch, sample, piece) for patch, sample, piece in zip(patches, samples, pieces)]
+    solved = [_interpolating_patch(patch, sample, piece) for patch, sample, piece in zip(patches, samples, pieces)]
     if None in solved or not all(_agrees(*row, tolerance) for row in zip(solved, samples, pieces)):
         return None
     return solved
 
 
 def _agrees(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray, tolerance: float) -> bool:
-    return bool(np.abs(patch.combined(*sample) - piece).max() <= tolerance)
+    return bool(np.abs(patch.apply_weights(*sample) - piece).max() <= tolerance)
 
 
-def _solved(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray) -> Patch | None:
+def _interpolating_patch(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray) -> Patch | None:
     """The patch of the same spaces and weights that goes through the samples; None where they do not tell it."""
     inverses = []
     for table in sample:
         acting = table.any(axis=0)
-        if len(table) < acting.sum() or np.linalg.cond(table[:, acting]) > LARGEST_SOLVED:
+        if len(table) < acting.sum() or np.linalg.cond(table[:, acting]) > MAX_CONDITION:
             return None
         inverses.append(np.linalg.pinv(table))
     if patch.weights is not None:

@@ -50,8 +50,8 @@ def union_surface(surface: Surface) -> Surface:
         for data in reversed(made):
             _remove(data)
     # Blender rounds the points to float32 before its boolean and after it, and the points themselves were rounded once.
-    united = united.mapped(scale * np.eye(3), middle)
-    return replace(united, moved=2.0 * united.coordinate_error + surface.coordinate_error)
+    united = united.transform(scale * np.eye(3), middle)
+    return replace(united, displacement=2.0 * united.coordinate_error + surface.coordinate_error)
 
 
 def _mesh(points: np.ndarray, triangles: np.ndarray) -> bpy.types.Mesh:

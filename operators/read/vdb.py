@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 from ...core.mesh.surface import Surface
 from ...core.verdict.finding import ReadError
 
-NODE = 128  # voxels along a side of the blocks that are read
-ROOT = 4096  # along a side of the largest nodes
-MOST_ROOTS = 100_000
-FARTHEST = 1 << 29  # an index from which on the module fails without a word
+NODE_VOXELS = 128  # voxels along a side of the blocks that are read
+ROOT_VOXELS = 4096  # along a side of the largest nodes
+MAX_ROOTS = 100_000
+MAX_INDEX = 1 << 29  # an index from which on the module fails without a word
 DTYPES = {"float": np.float32, "double": np.float64, "int32": np.int32, "int64": np.int64, "bool": np.bool_}
 
 
@@ -71,25 +71,25 @@ class VdbGrid:
         if self._grid.activeVoxelCount() == 0:
             low, high = np.zeros(3, np.int64), np.full(3, -1)
         self.low, self.shape = low, high - low + 1
-        if np.prod(high // ROOT - low // ROOT + 1.0) > MOST_ROOTS:
+        if np.prod(high // ROOT_VOXELS - low // ROOT_VOXELS + 1.0) > MAX_ROOTS:
             raise ReadError("grid_too_sparse", grid=name, samples=self.shape.tolist())
-        if np.abs([low, high]).max() > FARTHEST:
+        if np.abs([low, high]).max() > MAX_INDEX:
             raise ReadError("grid_far_from_origin", grid=name)
 
     def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
         """The voxels that are there, as blocks, each with where it begins in the box."""
         values = self._grid.getConstAccessor()
         end = self.low + self.shape
-        for first in _cells(self.low, end, ROOT):
+        for first in _cells(self.low, end, ROOT_VOXELS):
             depth = values.getValueDepth(first)
             if depth < 1 and values.getValue(first) == self._grid.background:
                 continue
             start = np.array(first)
-            for corner in _cells(np.maximum(start, self.low), np.minimum(start + ROOT, end), NODE):
+            for corner in _cells(np.maximum(start, self.low), np.minimum(start + ROOT_VOXELS, end), NODE_VOXELS):
                 if values.getValueDepth(corner) < 2 and values.getValue(corner) == self._grid.background:
                     continue
                 begin = np.maximum(corner, self.low)
-                array = np.zeros(np.minimum(np.array(corner) + NODE, end) - begin, self._dtype)
+                array = np.zeros(np.minimum(np.array(corner) + NODE_VOXELS, end) - begin, self._dtype)
                 self._grid.copyToArray(array, ijk=tuple(begin.tolist()))
                 used = array != self._dtype(self._grid.background)
                 for axis in range(3):  # a node may be empty but for a corner

@@ -110,7 +110,7 @@ def evaluated_geometry(obj, depsgraph, reader):
     Raises ReadError about `reader`, the object for which `obj` is read, where Blender has not
     evaluated `obj` in full.
     """
-    reason = _sculpted(obj)
+    reason = _sculpt_mode_reason(obj)
     if reason is None:
         try:
             return obj.evaluated_get(depsgraph).evaluated_geometry()
@@ -126,7 +126,7 @@ def why_not_evaluated(obj, depsgraph) -> Finding:
     return hidden_reason(obj, depsgraph) or finding("not_evaluated")
 
 
-def _sculpted(obj) -> Finding | None:
+def _sculpt_mode_reason(obj) -> Finding | None:
     """Why what the viewport shows of an object in Sculpt Mode is not its evaluated mesh; None where it is."""
     if obj.mode != "SCULPT":
         return None

@@ -20,10 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
-from ...core.numerics.float32 import decimal
+from ...core.numerics.float32 import shortest_decimal
 from ...core.numerics.rotations import rotation_matrix
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
-from .decisions import modifier_decisions
+from .decisions import modifier_findings
 from .reading import float64_matrix
 from .sample_grid import SampledGrid
 from .vdb import VdbGrid, openvdb
@@ -76,15 +76,15 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
     if not np.isfinite(matrix).all():
         raise ReadError("non_finite_transform", subject=obj.name)
     findings: list[Finding] = []
-    chosen = _chosen(obj, volume, grid, findings)
+    chosen = _choose_grid(obj, volume, grid, findings)
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
         findings.append(finding("hidden_object_measured", cause=hidden.as_record()))
-    findings.extend(modifier_decisions(obj, depsgraph.scene))
+    findings.extend(modifier_findings(obj, depsgraph.scene))
     if volume.geometry.instances_pointcloud() is not None:
         findings.append(finding("instances_beside_volume"))
     try:
-        with _opened(obj, volume, chosen, depsgraph, findings) as source:
+        with _open_grid(obj, volume, chosen, depsgraph, findings) as source:
             location, rotation, _ = evaluated.matrix_world.decompose()
             yield VolumeReading(
                 obj.name,
@@ -134,18 +134,18 @@ def _volume(obj, depsgraph):
         if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:
             return None
         raise ReadError("volume_without_grids", subject=obj.name)
-    return _Kept(geometry, volume)
+    return _OwnedVolume(geometry, volume)
 
 
 @dataclass
-class _Kept:
+class _OwnedVolume:
     """A volume with the geometry set that may own it."""
 
     geometry: object
     data: object
 
 
-def _chosen(obj, volume: _Kept, name: str, findings: list[Finding]):
+def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):
     """The grid of that name, or the one that is meant most likely."""
     grids = {grid.name: grid for grid in volume.data.grids}
     if len(grids) < len(volume.data.grids):
@@ -156,7 +156,7 @@ def _chosen(obj, volume: _Kept, name: str, findings: list[Finding]):
         if grids[name].data_type not in SCALARS:
             raise ReadError("grid_type", subject=obj.name, grid=name)
         return grids[name]
-    scalars = {one: grid for one, grid in grids.items() if grid.data_type in SCALARS}
+    scalars = {grid_name: grid for grid_name, grid in grids.items() if grid.data_type in SCALARS}
     if not scalars:
         raise ReadError("no_scalar_grid", subject=obj.name, grids=list(grids))
     chosen = scalars.get(PREFERRED) or next(iter(scalars.values()))
@@ -167,11 +167,11 @@ def _chosen(obj, volume: _Kept, name: str, findings: list[Finding]):
 
 
 @contextmanager
-def _opened(obj, volume: _Kept, grid, depsgraph, findings: list[Finding]) -> Iterator[VdbGrid | SampledGrid]:
+def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Finding]) -> Iterator[VdbGrid | SampledGrid]:
     path = "" if openvdb() is None else _unchanged_file(obj, volume)
     render = depsgraph.scene.render
     if not path and render.use_simplify and render.simplify_volumes < 1.0:
-        findings.append(finding("grid_simplified", share=decimal(render.simplify_volumes)))
+        findings.append(finding("grid_simplified", share=shortest_decimal(render.simplify_volumes)))
     if openvdb() is None:
         yield SampledGrid(obj, depsgraph, grid, obj.evaluated_get(depsgraph).bound_box)
         return
@@ -185,7 +185,7 @@ def _opened(obj, volume: _Kept, grid, depsgraph, findings: list[Finding]) -> Ite
         yield VdbGrid(path, grid.name)
 
 
-def _unchanged_file(obj, volume: _Kept) -> str:
+def _unchanged_file(obj, volume: _OwnedVolume) -> str:
     """The file that the grids are read from, where nothing has changed them since; else ""."""
     if obj.type != "VOLUME" or any(modifier.show_viewport for modifier in obj.modifiers):
         return ""

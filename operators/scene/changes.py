@@ -16,12 +16,12 @@ import bpy
 from bpy.types import ID, Context, Depsgraph, Object
 
 Planned = TypeVar("Planned")
-Change = Generator[None, Depsgraph, None]  # yields once before it does anything
+SceneChange = Generator[None, Depsgraph, None]  # yields once before it does anything
 # What objects refer to each other by: a curve by its bevel, shape keys by drivers, particles by what they show.
-BETWEEN = {"ARMATURE", "COLLECTION", "CURVE", "KEY", "LATTICE", "MESH", "META", "NODETREE", "PARTICLE", "TEXTURE"}
+LINKING_TYPES = {"ARMATURE", "COLLECTION", "CURVE", "KEY", "LATTICE", "MESH", "META", "NODETREE", "PARTICLE", "TEXTURE"}
 
 
-def carry_out(context: Context, change: Change) -> None:
+def run_change(context: Context, change: SceneChange) -> None:
     """Run a change to its end, or to the exception that it raises, and evaluate the scene."""
     try:
         next(change)
@@ -35,7 +35,7 @@ def carry_out(context: Context, change: Change) -> None:
         context.view_layer.update()
 
 
-def side_by_side(changes: Iterable[Change]) -> Change:
+def run_together(changes: Iterable[SceneChange]) -> SceneChange:
     """Several changes as one."""
     waiting = list(changes)
     try:
@@ -43,13 +43,13 @@ def side_by_side(changes: Iterable[Change]) -> Change:
             next(change)
         while waiting:
             depsgraph = yield
-            waiting = [change for change in waiting if _goes_on(change, depsgraph)]
+            waiting = [change for change in waiting if _advance(change, depsgraph)]
     finally:
         for change in waiting:  # where one fails, the others put back what they have changed
             change.close()
 
 
-def _goes_on(change: Change, depsgraph: Depsgraph) -> bool:
+def _advance(change: SceneChange, depsgraph: Depsgraph) -> bool:
     try:
         change.send(depsgraph)
     except StopIteration:
@@ -57,29 +57,29 @@ def _goes_on(change: Change, depsgraph: Depsgraph) -> bool:
     return True
 
 
-def rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[Planned]]:
+def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[Planned]]:
     """Changes, each with what it may touch, in the rounds in which they can be made: after all earlier ones that touch
     the same, beside others."""
     last: dict[ID, int] = {}
-    found: dict[int, list[Planned]] = {}
+    by_round: dict[int, list[Planned]] = {}
     for change, touched in changes:
-        number = 1 + max((last.get(one, -1) for one in touched), default=-1)
+        number = 1 + max((last.get(data, -1) for data in touched), default=-1)
         last.update(dict.fromkeys(touched, number))
-        found.setdefault(number, []).append(change)
-    return list(found.values())
+        by_round.setdefault(number, []).append(change)
+    return list(by_round.values())
 
 
 def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
     """For each object itself and all that refer to it, directly or through others: what may look different while it
     is being changed."""
-    users = users_of(objects, {"OBJECT", *BETWEEN})
+    users = users_of(objects, {"OBJECT", *LINKING_TYPES})
 
     def reached(obj: Object) -> set[Object]:
-        found, front = {obj}, {obj}
+        reachable, front = {obj}, {obj}
         while front:
-            front = {user for one in front for user in users[one]} - found
-            found |= front
-        return {one for one in found if isinstance(one, Object)}  # lying in one collection ties nothing
+            front = {user for data in front for user in users[data]} - reachable
+            reachable |= front
+        return {data for data in reachable if isinstance(data, Object)}  # lying in one collection ties nothing
 
     return {obj: reached(obj) for obj in objects}
 
@@ -89,7 +89,7 @@ def users_of(objects: Iterable[Object], through: set[str]) -> dict[ID, set[ID]]:
     users: dict[ID, set[ID]] = {}
     new: set[ID] = set(objects)
     while new:
-        users |= bpy.data.user_map(subset=new, value_types={"OBJECT", *BETWEEN})
-        new = {user for one in new for user in users[one]} - users.keys()
+        users |= bpy.data.user_map(subset=new, value_types={"OBJECT", *LINKING_TYPES})
+        new = {user for data in new for user in users[data]} - users.keys()
         new = {user for user in new if user.id_type in through}
     return users

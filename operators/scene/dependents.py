@@ -16,30 +16,30 @@ from numpy.typing import NDArray
 
 from ...core.verdict.finding import EditRefusedError, Finding, ReadError, finding
 from ..read import measurable, read_object
-from .changes import BETWEEN, users_of
+from .changes import LINKING_TYPES, users_of
 from .transforms import FLOAT32, Matrix4, world
 
 # Of the size: what rounding in a chain of modifiers may move, and far less than anyone can see.
-SAME_SHAPE = 1e-5
+SAME_SHAPE_RTOL = 1e-5
 # Points compared in each of many instances; the first instance is compared point by point.
 SAMPLES = 64
-ALONG = np.array([1.0, 0.7548776662, 0.5698402910])  # a direction along which hardly anything is symmetric
+SORT_DIRECTION = np.array([1.0, 0.7548776662, 0.5698402910])  # a direction along which hardly anything is symmetric
 
 Shape = list[tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 
 def referring(objects: set[Object]) -> dict[Object, set[Object]]:
     """For each object the other objects that refer to it, directly or through data and collections."""
-    found = users_of(objects, BETWEEN)
+    users = users_of(objects, LINKING_TYPES)
 
-    def through(one: ID, seen: set[ID]) -> set[Object]:
+    def through(data: ID, visited: set[ID]) -> set[Object]:
         reached = set()
-        for user in found[one] - seen:
+        for user in users[data] - visited:
             if isinstance(user, Object):
                 reached.add(user)
             else:
-                seen.add(user)
-                reached |= through(user, seen)
+                visited.add(user)
+                reached |= through(user, visited)
         return reached
 
     return {obj: through(obj, {obj}) for obj in objects}
@@ -55,15 +55,15 @@ def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
     shapes = []
     for part in reading.parts:
         points = np.asarray(part.surface.points, np.float64)
-        few = np.linspace(0, len(points) - 1, min(SAMPLES, len(points))).astype(int)
+        sample_index = np.linspace(0, len(points) - 1, min(SAMPLES, len(points))).astype(int)
         linear, offset = part.matrices[:, :3, :3], part.matrices[:, :3, 3]
         first = points @ linear[0].T + offset[0]
-        rest = np.einsum("kij,nj->kni", linear[1:], points[few]) + offset[1:, None]
+        rest = np.einsum("kij,nj->kni", linear[1:], points[sample_index]) + offset[1:, None]
         shapes.append((first, rest))
     return shapes
 
 
-def mapped(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape | None:
+def transform_shape(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape | None:
     """The shape as it is where its object went with all of it. was, now: (4, 4) the object's matrices."""
     way = now @ np.linalg.pinv(was)
     return before and [tuple(points @ way[:3, :3].T + way[:3, 3] for points in pair) for pair in before]
@@ -73,35 +73,38 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
     """Whether two shapes are the same, to what rounding can do to a body of this size."""
     if before is None or after is None:
         return before is None and after is None
-    pairs = [pair for one, other in zip(before, after) for pair in zip(one, other)]
-    if len(before) == len(after) and all(one.shape == other.shape for one, other in pairs):
-        return all(_close(*pair, size) for pair in pairs)
+    pairs = [pair for first, second in zip(before, after) for pair in zip(first, second)]
+    if len(before) == len(after) and all(first.shape == second.shape for first, second in pairs):
+        return all(_nearly_equal(*pair, size) for pair in pairs)
     # Objects that shared a mesh are parts of their own once one of them has got a copy.
-    before, after = _by_place(before), _by_place(after)
-    return before.keys() == after.keys() and all(_close(before[count], after[count], size) for count in before)
+    before, after = _sample_instances(before), _sample_instances(after)
+    return before.keys() == after.keys() and all(_nearly_equal(before[count], after[count], size) for count in before)
 
 
-def _by_place(shape: Shape) -> dict[int, NDArray[np.float64]]:
+def _sample_instances(shape: Shape) -> dict[int, NDArray[np.float64]]:
     """Some points of each place, whichever part it is of, in the order of their centers along a line: for each number
     of points (k, few, 3)."""
-    found: dict[int, list[NDArray[np.float64]]] = {}
+    by_count: dict[int, list[NDArray[np.float64]]] = {}
     for first, rest in shape:
-        few = np.linspace(0, len(first) - 1, rest.shape[1]).astype(int)
-        found.setdefault(len(first), []).append(np.concatenate([first[few][None], rest]))
-    every = {count: np.concatenate(places) for count, places in found.items()}
-    return {count: places[np.argsort(places.mean(axis=1) @ ALONG)] for count, places in every.items()}
+        sample_index = np.linspace(0, len(first) - 1, rest.shape[1]).astype(int)
+        by_count.setdefault(len(first), []).append(np.concatenate([first[sample_index][None], rest]))
+    every = {count: np.concatenate(instance_points) for count, instance_points in by_count.items()}
+    return {
+        count: instance_points[np.argsort(instance_points.mean(axis=1) @ SORT_DIRECTION)]
+        for count, instance_points in every.items()
+    }
 
 
-def _close(one: NDArray, other: NDArray, size: float) -> bool:
-    if one.shape != other.shape:
+def _nearly_equal(first: NDArray, second: NDArray, size: float) -> bool:
+    if first.shape != second.shape:
         return False  # more or fewer places
-    if not one.size:
+    if not first.size:
         return True
-    limit = SAME_SHAPE * size + 16.0 * FLOAT32 * np.abs(one).max()
-    return bool(np.abs(one - other).max() <= limit)
+    limit = SAME_SHAPE_RTOL * size + 16.0 * FLOAT32 * np.abs(first).max()
+    return bool(np.abs(first - second).max() <= limit)
 
 
-class Surroundings:
+class DependentsGuard:
     """Objects that refer to the changed ones: children are held in place, the others are
     watched.
     """
@@ -114,25 +117,34 @@ class Surroundings:
     ) -> None:
         self.findings: list[Finding] = []
         self.changed = {obj: world(obj) for obj in objects}
-        others = sorted(
-            {user for obj in objects for user in users.get(obj, ())} - set(objects), key=lambda other: other.name_full
+        dependents = sorted(
+            {user for obj in objects for user in users.get(obj, ())} - set(objects),
+            key=lambda dependent: dependent.name_full,
         )
-        linked = [other for other in others if other.library is not None and other.parent in self.changed]
+        linked = [
+            dependent for dependent in dependents if dependent.library is not None and dependent.parent in self.changed
+        ]
         if linked:
             raise EditRefusedError("child_linked", object=linked[0].name)
         self.children = {
-            other: np.array(other.matrix_parent_inverse, np.float64) for other in others if other.parent in self.changed
+            dependent: np.array(dependent.matrix_parent_inverse, np.float64)
+            for dependent in dependents
+            if dependent.parent in self.changed
         }
         self.anchors = [
             (constraint, np.array(constraint.inverse_matrix, np.float64))
-            for other in others
-            for constraint in _child_of(other)
+            for dependent in dependents
+            for constraint in _child_of(dependent)
             if constraint.target in self.changed
         ]
-        self.places = {other: world(other) for other in others}
-        self.shapes = {other: shape(other, depsgraph) for other in others if _is_made(other) and measurable(other)}
+        self.places = {dependent: world(dependent) for dependent in dependents}
+        self.shapes = {
+            dependent: shape(dependent, depsgraph)
+            for dependent in dependents
+            if _has_derived_shape(dependent) and measurable(dependent)
+        }
 
-    def hold(self) -> None:
+    def compensate(self) -> None:
         """Give children parent inverses, and Child Of constraints inverses, that keep them where
         they were, now that the changed objects' matrices are evaluated.
         """
@@ -142,27 +154,27 @@ class Surroundings:
         for constraint, inverse in self.anchors:
             constraint.inverse_matrix = Matrix(held[constraint.target] @ inverse)
 
-    def check(self, depsgraph: Depsgraph, size: float) -> None:
+    def verify(self, depsgraph: Depsgraph, size: float) -> None:
         """EditRefusedError where a child or another object's shape moved; followers by constraint are only noted."""
-        for other, place in self.places.items():
-            moved = self._moved(place, world(other), size)
-            if moved and other in self.children:
-                raise EditRefusedError("child_not_held", object=other.name)
+        for dependent, place in self.places.items():
+            moved = self._moved(place, world(dependent), size)
+            if moved and dependent in self.children:
+                raise EditRefusedError("child_not_held", object=dependent.name)
             if moved:
-                self.findings.append(finding("follower_moved", object=other.name))
-        for other, before in self.shapes.items():
-            if self._moved(self.places[other], world(other), size):
+                self.findings.append(finding("follower_moved", object=dependent.name))
+        for dependent, before in self.shapes.items():
+            if self._moved(self.places[dependent], world(dependent), size):
                 continue
-            if not same_shape(before, shape(other, depsgraph), size):
-                code = "dependent_shape_changes" if other.modifiers else "dependent_curve_changes"
-                raise EditRefusedError(code, object=other.name)
+            if not same_shape(before, shape(dependent, depsgraph), size):
+                code = "dependent_shape_changes" if dependent.modifiers else "dependent_curve_changes"
+                raise EditRefusedError(code, object=dependent.name)
 
     def _moved(self, before: NDArray, now: NDArray, size: float) -> bool:
         changed = [np.abs(was[:3, 3]).max() for was in self.changed.values()]
         reach = max(np.abs(before[:3, 3]).max(), *changed)
         off = np.abs(now - before)
         return bool(
-            off[:3, 3].max() > SAME_SHAPE * size + 16.0 * FLOAT32 * reach
+            off[:3, 3].max() > SAME_SHAPE_RTOL * size + 16.0 * FLOAT32 * reach
             or off[:3, :3].max() > 1e-5 * np.abs(before[:3, :3]).max()
         )
 
@@ -173,7 +185,7 @@ class Surroundings:
             constraint.inverse_matrix = Matrix(inverse)
 
 
-def _is_made(obj: Object) -> bool:
+def _has_derived_shape(obj: Object) -> bool:
     """Whether its shape is more than its own data, and so may come from other objects."""
     return bool(obj.modifiers or obj.type in {"CURVE", "FONT"} or getattr(obj.data, "shape_keys", None))
 

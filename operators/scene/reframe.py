@@ -28,13 +28,22 @@ from numpy.typing import NDArray
 
 from ...core.verdict import internal_error
 from ...core.verdict.finding import EditRefusedError, Finding, finding
-from ..settings.density import fixed_to
-from .changes import Change, carry_out, dependents, rounds, side_by_side
-from .dependents import SAME_SHAPE, Surroundings, mapped, referring, same_shape, shape
-from .transforms import FLOAT32, Channels, Matrix4, basis, lineage, set_location, set_rotation_and_scale, world
+from ..settings.density import density_anchor
+from .changes import SceneChange, dependents, independent_rounds, run_change, run_together
+from .dependents import SAME_SHAPE_RTOL, DependentsGuard, referring, same_shape, shape, transform_shape
+from .transforms import (
+    FLOAT32,
+    Matrix4,
+    TransformChannels,
+    ancestors,
+    basis,
+    set_location,
+    set_rotation_and_scale,
+    world,
+)
 
 # What these do does not depend on where an object's origin is, nor on its axes.
-INDIFFERENT = {
+FRAME_INDEPENDENT_MODIFIERS = {
     "ARMATURE",
     "BOOLEAN",
     "DATA_TRANSFER",
@@ -82,11 +91,11 @@ def check(obj: Object) -> None:
     unseen = [
         modifier.name
         for modifier in obj.modifiers
-        if modifier.show_render and not modifier.show_viewport and modifier.type not in INDIFFERENT
+        if modifier.show_render and not modifier.show_viewport and modifier.type not in FRAME_INDEPENDENT_MODIFIERS
     ]
     if unseen:
         raise EditRefusedError("render_only_modifier", modifier=unseen[0])
-    if fixed_to(obj) == "own":
+    if density_anchor(obj) == "own":
         raise EditRefusedError("density_in_object_coordinates")
     if abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
         raise EditRefusedError("scale_zero_axis")
@@ -101,10 +110,10 @@ def reframe(
     refused: dict[Object, Finding] = {}
     done = 0
 
-    def attempt(group: list[Plan], again: list[list[Plan]] | None = None) -> Change:
+    def attempt(group: list[Plan], again: list[list[Plan]] | None = None) -> SceneChange:
         nonlocal done
         try:
-            yield from _reframed(group, users)
+            yield from _reframe_group(group, users)
         except Exception as error:
             if again is not None:
                 again.append(group)
@@ -113,16 +122,16 @@ def reframe(
         done += len(group)
         progress(done)
 
-    for beside in rounds(
+    for beside in independent_rounds(
         (group, {plan.obj.data for plan in group}.union(*(touched[plan.obj] for plan in group)))
         for group in _groups(plans)
     ):
         again: list[list[Plan]] = []
-        carry_out(context, side_by_side(attempt(group, again if len(beside) > 1 else None) for group in beside))
+        run_change(context, run_together(attempt(group, again if len(beside) > 1 else None) for group in beside))
         for group in again:
             for plan in group:
                 plan.findings.clear()
-            carry_out(context, attempt(group))
+            run_change(context, attempt(group))
     return [plan for plan in plans if plan.obj not in refused], list(refused.items())
 
 
@@ -135,65 +144,65 @@ def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
     for plan in plans:
         change = np.linalg.solve(plan.target, world(plan.obj))
         reach = np.abs(np.array(plan.obj.bound_box)).max()
-        above = set(lineage(plan.obj))
-        others = sharing.setdefault(plan.obj.data, [])
-        for other, members in others:
+        above = set(ancestors(plan.obj))
+        data_groups = sharing.setdefault(plan.obj.data, [])
+        for group_change, members in data_groups:
             if (
                 not above & {member.obj for member in members}
-                and _moves(change, other, reach) <= SAME_SHAPE * plan.size
+                and _largest_move(change, group_change, reach) <= SAME_SHAPE_RTOL * plan.size
             ):
                 members.append(plan)
                 break
         else:
-            others.append((change, [plan]))
-            groups.append(others[-1][1])
+            data_groups.append((change, [plan]))
+            groups.append(data_groups[-1][1])
     return groups
 
 
-def _moves(one: Matrix4, other: Matrix4, reach: float) -> float:
-    difference = np.abs(one - other)
+def _largest_move(first: Matrix4, second: Matrix4, reach: float) -> float:
+    difference = np.abs(first - second)
     return difference[:3, :3].sum() * reach + difference[:3, 3].max()
 
 
-def _reframed(group: list[Plan], users: dict[Object, set[Object]]) -> Change:
+def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> SceneChange:
     depsgraph = yield
     objects = [plan.obj for plan in group]
     data = group[0].obj.data
     before = {obj: shape(obj, depsgraph) for obj in objects}
-    around = Surroundings(objects, users, depsgraph)
+    around = DependentsGuard(objects, users, depsgraph)
     was = {obj: world(obj) for obj in objects}
-    channels = [Channels(obj) for obj in objects]
+    channels = [TransformChannels(obj) for obj in objects]
     trial = None
-    kept = False
+    succeeded = False
     try:
-        yield from side_by_side(reached(plan) for plan in group)
-        change = _exact_change(group[0], was[group[0].obj])
+        yield from run_together(set_world_matrix(plan) for plan in group)
+        change = _data_change(group[0], was[group[0].obj])
         trial = data.copy()
         transform_data(trial, change)
         for obj in objects:
             obj.data = trial
-        around.hold()
+        around.compensate()
         depsgraph = yield
         for plan in group:
             if not same_shape(before[plan.obj], shape(plan.obj, depsgraph), plan.size):
-                raise EditRefusedError(_blame(plan.obj))
-        around.check(depsgraph, min(plan.size for plan in group))
+                raise EditRefusedError(_overriding_cause(plan.obj))
+        around.verify(depsgraph, min(plan.size for plan in group))
         group[0].findings += around.findings
-        kept = True
+        succeeded = True
     finally:
-        if not kept:
+        if not succeeded:
             for obj in objects:
                 obj.data = data
             for saved in channels:
                 saved.restore()
             around.restore()
-        if trial is not None and (not kept or data.users - data.use_fake_user == 0):
-            if kept:  # nobody else uses the data: the change is made on the data itself
+        if trial is not None and (not succeeded or data.users - data.use_fake_user == 0):
+            if succeeded:  # nobody else uses the data: the change is made on the data itself
                 for obj in objects:
                     obj.data = data
                 transform_data(data, change)
             bpy.data.batch_remove([trial])
-        elif kept:
+        elif succeeded:
             for plan in group:
                 plan.findings.append(finding("data_copied"))
 
@@ -202,23 +211,25 @@ def check_movable(obj: Object) -> None:
     """EditRefusedError where the object cannot be moved as a whole and stay the body that it is."""
     if obj.library is not None:
         raise EditRefusedError("linked_object")
-    if fixed_to(obj) == "world":
+    if density_anchor(obj) == "world":
         raise EditRefusedError("density_in_world_coordinates")
     bound = [modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE" and modifier.show_viewport]
     if obj.parent_type == "ARMATURE":
         bound.append(obj.parent)
     for armature in bound:  # in its rest pose it deforms nothing yet
-        if armature is not None and obj not in lineage(armature):
+        if armature is not None and obj not in ancestors(armature):
             raise EditRefusedError("bound_to_armature", armature=armature.name)
 
 
 def move(context: Context, plan: Plan) -> None:
-    """As `reached`, as the body that it is, or leave the object where it was."""
-    obj, saved = plan.obj, Channels(plan.obj)
+    """As `set_world_matrix`, as the body that it is, or leave the object where it was."""
+    obj, saved = plan.obj, TransformChannels(plan.obj)
     was, before = world(obj), shape(obj, context.evaluated_depsgraph_get())
     try:
-        carry_out(context, reached(plan))
-        if not same_shape(mapped(before, was, world(obj)), shape(obj, context.evaluated_depsgraph_get()), plan.size):
+        run_change(context, set_world_matrix(plan))
+        if not same_shape(
+            transform_shape(before, was, world(obj)), shape(obj, context.evaluated_depsgraph_get()), plan.size
+        ):
             names = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
             raise (
                 EditRefusedError("shape_depends_on_location", modifiers=names)
@@ -231,27 +242,27 @@ def move(context: Context, plan: Plan) -> None:
         raise
 
 
-def reached(plan: Plan) -> Change:
+def set_world_matrix(plan: Plan) -> SceneChange:
     """Set the channels so that the evaluated matrix becomes the target; EditRefusedError where something else holds
     it."""
     yield
     obj = plan.obj
-    outer = _outer(obj)
+    outer = _parent_matrix(obj)
     if not abs(np.linalg.det(outer[:3, :3])) > 0.0:
         raise EditRefusedError("parent_scale_zero")
-    slack = location_tolerance(obj, plan.size) / np.cbrt(abs(np.linalg.det(outer[:3, :3])))
-    wanted = plan.target
+    tolerance = location_tolerance(obj, plan.size) / np.cbrt(abs(np.linalg.det(outer[:3, :3])))
+    target = plan.target
     for _ in range(3):  # what the parents' float32 matrices round is corrected once it is known
-        local = np.linalg.solve(outer, wanted)
-        set_location(obj, local[:3, 3], slack)
+        local = np.linalg.solve(outer, target)
+        set_location(obj, local[:3, 3], tolerance)
         if not plan.move_only:
             set_rotation_and_scale(obj, local[:3, :3])
         yield
         off = plan.target[:3, 3] - world(obj)[:3, 3]
         if np.abs(off).max() <= FLOAT32 * np.abs(plan.target[:3, 3]).max():
             break
-        wanted = wanted.copy()
-        wanted[:3, 3] += off
+        target = target.copy()
+        target[:3, 3] += off
     now = world(obj)
     if np.abs(now[:3, 3] - plan.target[:3, 3]).max() > location_tolerance(obj, plan.size):
         raise EditRefusedError("location_constrained")
@@ -260,19 +271,19 @@ def reached(plan: Plan) -> Change:
         raise EditRefusedError("rotation_constrained")
 
 
-def _outer(obj: Object) -> Matrix4:
+def _parent_matrix(obj: Object) -> Matrix4:
     """(4, 4) what parents multiply the basis with."""
     if obj.parent is None:
         return np.eye(4)
     if obj.parent_type in {"OBJECT", "ARMATURE", "LATTICE"}:
         return world(obj.parent) @ np.array(obj.matrix_parent_inverse, np.float64)
-    own = basis(obj)
-    if abs(np.linalg.det(own[:3, :3])) == 0.0:
+    local = basis(obj)
+    if abs(np.linalg.det(local[:3, :3])) == 0.0:
         raise EditRefusedError("scale_zero_axis")
-    return np.linalg.solve(own.T, world(obj).T).T
+    return np.linalg.solve(local.T, world(obj).T).T
 
 
-def _exact_change(plan: Plan, was: Matrix4) -> Matrix4:
+def _data_change(plan: Plan, was: Matrix4) -> Matrix4:
     now = world(plan.obj)
     change = np.linalg.solve(now, was)
     if plan.move_only:
@@ -286,7 +297,7 @@ def location_tolerance(obj: Object, size: float) -> float:
     """How near to a point an origin can be known to be: some float32 steps of every location on
     the way to the world.
     """
-    reach = max(np.abs(world(one)[:3, 3]).max() for one in lineage(obj))
+    reach = max(np.abs(world(ancestor)[:3, 3]).max() for ancestor in ancestors(obj))
     return 4e-7 * size + 4.0 * FLOAT32 * reach
 
 
@@ -299,7 +310,7 @@ def transform_data(data: ID, change: Matrix4) -> None:
     if isinstance(data, bpy.types.Mesh):
         _transform_mesh(data, change)
     elif isinstance(data, bpy.types.TextCurve):
-        _move_text(data, change)
+        _translate_text(data, change)
     elif isinstance(data, bpy.types.Curve):
         data.transform(Matrix(change), shape_keys=True)
     else:
@@ -307,9 +318,9 @@ def transform_data(data: ID, change: Matrix4) -> None:
 
 
 def _transform_mesh(mesh: bpy.types.Mesh, change: Matrix4) -> None:
-    exact = _mapped(mesh.attributes["position"].data, "vector", change) if mesh.vertices else None
+    exact = _transform_points(mesh.attributes["position"].data, "vector", change) if mesh.vertices else None
     keys = [block.data for block in mesh.shape_keys.key_blocks] if mesh.shape_keys else []
-    exact_keys = [_mapped(key, "co", change) for key in keys]
+    exact_keys = [_transform_points(key, "co", change) for key in keys]
     # Blender's own transform also turns custom normals; its float32 coordinates are replaced by the
     # exact ones.
     mesh.transform(Matrix(change), shape_keys=True)
@@ -322,14 +333,14 @@ def _transform_mesh(mesh: bpy.types.Mesh, change: Matrix4) -> None:
     mesh.update()
 
 
-def _mapped(collection, name: str, change: Matrix4) -> NDArray[np.float32]:
+def _transform_points(collection, name: str, change: Matrix4) -> NDArray[np.float32]:
     points = np.empty(3 * len(collection), np.float32)
     collection.foreach_get(name, points)
     points = points.reshape(-1, 3).astype(np.float64) @ change[:3, :3].T + change[:3, 3]
     return np.ascontiguousarray(points, np.float32).ravel()
 
 
-def _move_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
+def _translate_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
     offset = change[:3, 3]
     if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(np.abs(offset).max(), text.size):
         raise EditRefusedError("text_off_plane")
@@ -337,8 +348,12 @@ def _move_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
     text.offset_y += offset[1]
 
 
-def _blame(obj: Object) -> Finding:
-    names = [modifier.name for modifier in obj.modifiers if modifier.show_viewport and modifier.type not in INDIFFERENT]
+def _overriding_cause(obj: Object) -> Finding:
+    names = [
+        modifier.name
+        for modifier in obj.modifiers
+        if modifier.show_viewport and modifier.type not in FRAME_INDEPENDENT_MODIFIERS
+    ]
     if names:
         return finding("shape_depends_on_origin", modifiers=names)
     return finding("shape_depends_on_origin_unknown")

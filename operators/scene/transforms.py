@@ -35,7 +35,7 @@ def require_editable(obj: Object) -> None:
         raise EditRefusedError("linked_object")
 
 
-def require_own(obj: Object, code: str) -> None:
+def require_storable_data(obj: Object, code: str) -> None:
     """EditRefusedError for a linked object, and with this code for a library override."""
     require_editable(obj)
     if obj.override_library is not None:  # of which a file keeps only what Blender lets be overridden
@@ -116,10 +116,10 @@ def basis(obj: Object) -> Matrix4:
     return matrix
 
 
-def set_location(obj: Object, location: NDArray, slack: float) -> None:
-    """Put the origin of the basis at `location`; locked axes may move by no more than `slack`."""
-    wanted = location - np.array(obj.delta_location, np.float64)
-    _assign(obj, "location", wanted, obj.lock_location, slack)
+def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
+    """Put the origin of the basis at `location`; locked axes may move by no more than `tolerance`."""
+    channel_location = location - np.array(obj.delta_location, np.float64)
+    _assign(obj, "location", channel_location, obj.lock_location, tolerance)
 
 
 def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
@@ -132,10 +132,10 @@ def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
     sign[sign == 0.0] = 1.0
     if np.prod(sign) * np.linalg.det(linear) < 0.0:
         sign[0] = -sign[0]
-    turned = linear / (length * sign)
-    if np.abs(turned.T @ turned - np.eye(3)).max() > 2e-6:
+    unscaled = linear / (length * sign)
+    if np.abs(unscaled.T @ unscaled - np.eye(3)).max() > 2e-6:
         raise EditRefusedError("parent_shears")
-    u, _, vt = np.linalg.svd(turned)
+    u, _, vt = np.linalg.svd(unscaled)
     _assign(obj, "scale", length * sign / delta_scale, obj.lock_scale)
     rotation = _delta_rotation(obj).T @ (u @ vt)
     mode = obj.rotation_mode
@@ -155,9 +155,9 @@ def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
     _assign(obj, "rotation_euler", euler_angles(rotation, mode, near), obj.lock_rotation)
 
 
-def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], slack: float = 1e-6) -> None:
+def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], tolerance: float = 1e-6) -> None:
     before = np.array(getattr(obj, channel), np.float64)
-    moved = np.abs(value - before) > max(slack, 1e-6 * np.abs(before).max())
+    moved = np.abs(value - before) > max(tolerance, 1e-6 * np.abs(before).max())
     if np.any(moved & np.array(locks, bool)):
         raise EditRefusedError("channel_locked", channel=channel.split("_")[0])
     if np.any(moved) and channel in driven_channels(obj):
@@ -184,7 +184,7 @@ def driven_channels(obj: Object) -> set[str]:
     return paths
 
 
-class Channels:
+class TransformChannels:
     """The channels of an object as they were, to put them back."""
 
     NAMES = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
@@ -199,7 +199,7 @@ class Channels:
                 setattr(self.obj, name, value)
 
 
-def lineage(obj: Object | None) -> Iterator[Object]:
+def ancestors(obj: Object | None) -> Iterator[Object]:
     """The object, its parent, that one's parent, and so on."""
     while obj is not None:
         yield obj

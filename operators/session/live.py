@@ -20,23 +20,23 @@ from bpy.app.handlers import persistent
 from bpy.types import Depsgraph, Object, Scene
 
 from ...core.measurement import Measurement
-from ...core.numerics.float32 import decimal
-from ...core.nurbs.tracked_solid import FollowedBody
+from ...core.numerics.float32 import shortest_decimal
+from ...core.nurbs.tracked_solid import TrackedSolid
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError
-from ..bodies.body import Body
+from ..bodies.body import MeasuredBody
 from ..bodies.measure_object import measure_object
 from ..bodies.measurement import as_measurement
 from ..read import read_patches
 from ..read.fingerprint import settings_hash
 from ..settings.density import density_field
-from ..settings.options import MeasureOptions, resolved
+from ..settings.options import MeasureOptions, with_object_settings
 
-LONGEST_WAIT = 2.0  # s between two measurements of a body that takes long
+MAX_WAIT = 2.0  # s between two measurements of a body that takes long
 
 
 @dataclass(frozen=True, eq=False)
-class Live:
+class LiveResult:
     """What an object's numbers are now. measurement: None where there are none; refusal: then why. seconds: what it
     took. settings: the digest of those that it was measured with."""
 
@@ -48,9 +48,9 @@ class Live:
 
 # by session uid; none of it outlives the file
 _live: set[int] = set()
-_due: set[int] = set()
-_shown: dict[int, Live] = {}
-_followed: dict[int, FollowedBody] = {}
+_pending: set[int] = set()
+_results: dict[int, LiveResult] = {}
+_tracked: dict[int, TrackedSolid] = {}
 
 
 def is_live(obj: Object) -> bool:
@@ -58,38 +58,38 @@ def is_live(obj: Object) -> bool:
     return obj.session_uid in _live
 
 
-def shown(obj: Object) -> Live | None:
+def current_numbers(obj: Object) -> LiveResult | None:
     """The numbers of an object with Live on, None before they were first measured."""
-    return _shown.get(obj.session_uid) if is_live(obj) else None
+    return _results.get(obj.session_uid) if is_live(obj) else None
 
 
-def is_outdated(obj: Object, scene: Scene) -> bool:
+def is_stale(obj: Object, scene: Scene) -> bool:
     """Whether settings were changed since the live numbers were measured: Blender does not report every such change."""
-    now = shown(obj)
+    now = current_numbers(obj)
     return now is not None and now.settings != settings_hash(obj, scene)
 
 
-def follow(obj: Object, depsgraph: Depsgraph) -> Live:
+def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Measure an object as it is now, and keep the outcome to be shown."""
     start = time.perf_counter()
     measurement, refusal = None, None
     try:
-        measurement = _measured(obj, depsgraph)
+        measurement = _measure(obj, depsgraph)
     except MeasureError as error:
         refusal = error.finding
     except Exception as error:
         refusal = internal_error.finding_of(error)
-        _followed.pop(obj.session_uid, None)  # what is half followed is no start for the next edit
-    found = _shown[obj.session_uid] = Live(
+        _tracked.pop(obj.session_uid, None)  # what is half followed is no start for the next edit
+    result = _results[obj.session_uid] = LiveResult(
         measurement, refusal, time.perf_counter() - start, settings_hash(obj, depsgraph.scene)
     )
-    return found
+    return result
 
 
-def start(obj: Object, depsgraph: Depsgraph) -> Live:
+def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Let the object's numbers follow its edits; the first of them."""
     _live.add(obj.session_uid)
-    return follow(obj, depsgraph)
+    return update(obj, depsgraph)
 
 
 def stop(obj: Object) -> None:
@@ -97,51 +97,51 @@ def stop(obj: Object) -> None:
     _forget(obj.session_uid)
 
 
-def _measured(obj: Object, depsgraph: Depsgraph) -> Measurement:
-    unit = decimal(depsgraph.scene.unit_settings.scale_length)
+def _measure(obj: Object, depsgraph: Depsgraph) -> Measurement:
+    unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
     plain = MeasureOptions(compare=False)
-    options = resolved(plain, obj, unit)
+    options = with_object_settings(plain, obj, unit)
     followed = options.kind == "solid" and options.overlap == "signed" and density_field(obj.body_moments) is None
     reading = read_patches(obj, depsgraph) if followed else None
-    if reading is None or reading.singular:
+    if reading is None or reading.all_singular:
         return measure_object(obj, depsgraph, plain)
     (part,) = reading.parts
     matrix = part.matrices[0].copy()
     matrix[:3] *= unit
-    patches = [patch.mapped(matrix) for patch in part.splines.patches]
+    patches = [patch.transform(matrix) for patch in part.splines.patches]
     if np.linalg.det(matrix) < 0.0:
-        patches = [patch.turned() for patch in patches]
+        patches = [patch.reverse_orientation() for patch in patches]
     stored = part.splines.stored * float(np.linalg.norm(matrix[:3, :3], 2))
-    body = _followed.get(obj.session_uid)
+    body = _tracked.get(obj.session_uid)
     if body is None:
-        body = _followed[obj.session_uid] = FollowedBody(patches, stored)
+        body = _tracked[obj.session_uid] = TrackedSolid(patches, stored)
     else:
-        body.follow(patches, stored)
+        body.update(patches, stored)
     measure = body.measure
-    found = Body(
+    measured_body = MeasuredBody(
         measure.volume,
         measure.area,
         measure.health,
         "NURBS " + measure.method,
         (*part.splines.findings, *measure.findings),
-        refined=lambda: measure.volume,
+        third_order=lambda: measure.volume,
         estimated=True,
     )
-    return as_measurement(obj, reading, found, options, unit)
+    return as_measurement(obj, reading, measured_body, options, unit)
 
 
 @persistent
-def _note(_scene: Scene, depsgraph: Depsgraph | None = None) -> None:
+def _on_depsgraph_update(_scene: Scene, depsgraph: Depsgraph | None = None) -> None:
     if depsgraph is None or depsgraph.mode != "VIEWPORT":
         return
     for update in depsgraph.updates:
         if isinstance(update.id, Object) and (update.is_updated_geometry or update.is_updated_transform):
             obj = update.id.original
             if is_live(obj):
-                _due.add(obj.session_uid)
-    if _due and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
-        slowest = max((_shown[uid].seconds for uid in _due if uid in _shown), default=0.0)
-        bpy.app.timers.register(_tick, first_interval=min(2.0 * slowest, LONGEST_WAIT))
+                _pending.add(obj.session_uid)
+    if _pending and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
+        slowest = max((_results[uid].seconds for uid in _pending if uid in _results), default=0.0)
+        bpy.app.timers.register(_tick, first_interval=min(2.0 * slowest, MAX_WAIT))
 
 
 def _tick() -> float | None:
@@ -149,10 +149,10 @@ def _tick() -> float | None:
         return 0.5
     layer = bpy.context.view_layer
     depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
-    due = [obj for obj in layer.objects if obj.session_uid in _due]
-    _due.clear()
+    due = [obj for obj in layer.objects if obj.session_uid in _pending]
+    _pending.clear()
     for obj in due:
-        follow(obj, depsgraph)
+        update(obj, depsgraph)
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type in {"VIEW_3D", "PROPERTIES"}:
@@ -161,19 +161,23 @@ def _tick() -> float | None:
 
 
 def _forget(uid: int) -> None:
-    for kept in (_live, _due):
-        kept.discard(uid)
-    for kept in (_shown, _followed):
-        kept.pop(uid, None)
+    for cache in (_live, _pending):
+        cache.discard(uid)
+    for cache in (_results, _tracked):
+        cache.pop(uid, None)
 
 
 @persistent
-def _load(*_args) -> None:
-    for kept in (_live, _due, _shown, _followed):
-        kept.clear()
+def _on_load(*_args) -> None:
+    for cache in (_live, _pending, _results, _tracked):
+        cache.clear()
 
 
-HANDLERS = (("depsgraph_update_post", _note), ("frame_change_post", _note), ("load_post", _load))
+HANDLERS = (
+    ("depsgraph_update_post", _on_depsgraph_update),
+    ("frame_change_post", _on_depsgraph_update),
+    ("load_post", _on_load),
+)
 
 
 def register() -> None:
@@ -186,4 +190,4 @@ def unregister() -> None:
         getattr(bpy.app.handlers, name).remove(function)
     if bpy.app.timers.is_registered(_tick):
         bpy.app.timers.unregister(_tick)
-    _load()
+    _on_load()

@@ -25,20 +25,20 @@ from ..read.fingerprint import matrix_hash, settings_hash
 from ..write.units import number
 from . import staleness
 
-SHOWN = 4  # the highest order whose moments a panel shows one by one
+MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
 
 
-KEPT = 16  # objects
+MAX_CACHED_OBJECTS = 16  # objects
 
 
-NOISE = 1e-12  # of the largest moment of a degree: shown as 0
+ZERO_DISPLAY_RTOL = 1e-12  # of the largest moment of a degree: shown as 0
 
 
-POWERS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True, eq=False)
-class Computed:
+class ComputedMoments:
     """One object's moments, SI, world axes. volume: of a shell those of its thin volume. rotation, location: the object
     frame. key: what they were computed from."""
 
@@ -63,25 +63,25 @@ class Degree:
     rows: tuple[tuple[str, str, str], ...]
 
 
-_kept: OrderedDict[int, Computed] = OrderedDict()
+_cache: OrderedDict[int, ComputedMoments] = OrderedDict()
 
 
-def keep(obj: Object, computed: Computed) -> None:
+def cache_moments(obj: Object, computed: ComputedMoments) -> None:
     """Remember what was computed for an object."""
-    _kept.pop(obj.session_uid, None)
-    _kept[obj.session_uid] = computed
-    while len(_kept) > KEPT:
-        _kept.popitem(last=False)
+    _cache.pop(obj.session_uid, None)
+    _cache[obj.session_uid] = computed
+    while len(_cache) > MAX_CACHED_OBJECTS:
+        _cache.popitem(last=False)
 
 
-def found(obj: Object) -> Computed | None:
+def computed_moments(obj: Object) -> ComputedMoments | None:
     """What was computed for an object; None where nothing was."""
-    return _kept.get(obj.session_uid)
+    return _cache.get(obj.session_uid)
 
 
-def outdated(obj: Object, scene: Scene) -> str | None:
+def stale_reason(obj: Object, scene: Scene) -> str | None:
     """The code of why what was computed does not hold any more; None where it does, or there is nothing."""
-    computed = found(obj)
+    computed = computed_moments(obj)
     if computed is None:
         return None
     matrix, settings, geometry = computed.key
@@ -92,53 +92,55 @@ def outdated(obj: Object, scene: Scene) -> str | None:
     return "stale_transform" if matrix != matrix_hash(obj) else None
 
 
-def shown(obj: Object, scene: Scene) -> tuple[tuple[Degree, ...], Finding | None]:
+def current_numbers(obj: Object, scene: Scene) -> tuple[tuple[Degree, ...], Finding | None]:
     """The moments to order SHOWN as the scene's settings want them, and where there are none, why."""
     settings = scene.body_moments
-    return _shown(found(obj), settings.moments_of, settings.moments_about, settings.frame)
+    return _displayed_degrees(computed_moments(obj), settings.moments_of, settings.moments_about, settings.frame)
 
 
 @lru_cache(maxsize=32)
-def _shown(computed: Computed, of: str, about: str, frame: str) -> tuple[tuple[Degree, ...], Finding | None]:
+def _displayed_degrees(
+    computed: ComputedMoments, of: str, about: str, frame: str
+) -> tuple[tuple[Degree, ...], Finding | None]:
     try:
-        moments = placed(computed, of, about, frame, min(computed.order, SHOWN))
+        moments = in_frame(computed, of, about, frame, min(computed.order, MAX_SHOWN_ORDER))
     except MeasureError as error:
         return (), error.finding
     degrees = []
     for degree in range(moments.order + 1):
         part = slice(monomial_count(degree - 1), monomial_count(degree))
         values = moments.raw[part]
-        noise = np.maximum(moments.error[part], NOISE * np.abs(values).max())
+        noise = np.maximum(moments.rounding_error[part], ZERO_DISPLAY_RTOL * np.abs(values).max())
         texts = [number(0.0 if abs(value) <= least else float(value)) for value, least in zip(values, noise)]
-        rows = zip(map(label, monomials(degree)[part].tolist()), texts, (repr(float(value)) for value in values))
-        degrees.append(Degree(degree, unit(of, about, degree), tuple(rows)))
+        cells = zip(map(label, monomials(degree)[part].tolist()), texts, (repr(float(value)) for value in values))
+        degrees.append(Degree(degree, unit(of, about, degree), tuple(cells)))
     return tuple(degrees), None
 
 
-def placed(computed: Computed, of: str, about: str, frame: str, order: int) -> Moments:
+def in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
     """The moments along the axes of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or
     "NORMALIZED", as `normalize` by size. MeasureError where that cannot be, or leaves the range of numbers."""
     with np.errstate(over="ignore", invalid="ignore"):
-        moments = _placed(computed, of, about, frame, order)
-    if not np.isfinite([moments.raw, moments.error, moments.input]).all():
+        moments = _in_frame(computed, of, about, frame, order)
+    if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
         raise ReadError("moments_overflow_at_origin", order=order)
     return moments
 
 
-def _placed(computed: Computed, of: str, about: str, frame: str, order: int) -> Moments:
-    moments = (computed.volume if of == "VOLUME" else computed.area).truncated(order)
+def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
+    moments = (computed.volume if of == "VOLUME" else computed.area).truncate(order)
     rotation = np.eye(3) if frame == "WORLD" else computed.rotation
     origin = moments.center if about != "ORIGIN" else np.zeros(3) if frame == "WORLD" else computed.location
     if frame == "OBJECT":
         moments = moments.in_frame(rotation, origin)
     if about == "NORMALIZED":
         return normalize(moments)
-    return moments if frame == "OBJECT" else moments.shifted(origin)
+    return moments if frame == "OBJECT" else moments.about_point(origin)
 
 
 def label(powers: list[int]) -> str:
     """x²z, or 1."""
-    factors = [axis + str(power).translate(POWERS) * (power > 1) for axis, power in zip("xyz", powers) if power]
+    factors = [axis + str(power).translate(SUPERSCRIPTS) * (power > 1) for axis, power in zip("xyz", powers) if power]
     return "".join(factors) or "1"
 
 
@@ -146,12 +148,12 @@ def unit(of: str, about: str, degree: int) -> str:
     """m⁵, or nothing for normalized ones."""
     if about == "NORMALIZED":
         return ""
-    return "m" + str(degree + (3 if of == "VOLUME" else 2)).translate(POWERS)
+    return "m" + str(degree + (3 if of == "VOLUME" else 2)).translate(SUPERSCRIPTS)
 
 
-def as_csv(computed: Computed, of: str, about: str, frame: str) -> str:
+def as_csv(computed: ComputedMoments, of: str, about: str, frame: str) -> str:
     """All of them: a comment that says what they are, and a row for each with its bounds."""
-    moments = placed(computed, of, about, frame, computed.order)
+    moments = in_frame(computed, of, about, frame, computed.order)
     text = io.StringIO()
     text.write(
         "# {:s}: {:s} moments, {:s} frame, {:s}\n".format(
@@ -167,8 +169,13 @@ def as_csv(computed: Computed, of: str, about: str, frame: str) -> str:
     )
     table = csv.writer(text, lineterminator="\n")
     table.writerow(["p", "q", "r", "moment", "rounding", "float32"])
-    rows = zip(monomials(computed.order).tolist(), moments.raw.tolist(), moments.error.tolist(), moments.input.tolist())
-    table.writerows([*powers, *values] for powers, *values in rows)
+    values = zip(
+        monomials(computed.order).tolist(),
+        moments.raw.tolist(),
+        moments.rounding_error.tolist(),
+        moments.input_error.tolist(),
+    )
+    table.writerows([*powers, *values] for powers, *values in values)
     return text.getvalue()
 
 
@@ -178,5 +185,5 @@ def register() -> None:
 
 def unregister() -> None:
     """Forget everything."""
-    _kept.clear()
-    _shown.cache_clear()
+    _cache.clear()
+    _displayed_degrees.cache_clear()

@@ -17,8 +17,8 @@ import bpy
 from bpy.types import Context, Object, Scene
 from mathutils import Matrix
 
-from ...core.inertia.mass_properties import MassProperties, combined
-from ...core.numerics.float32 import decimal
+from ...core.inertia.mass_properties import MassProperties, combine
+from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError
 from ..bodies.measure_object import Measured
 from ..read.fingerprint import settings_hash
@@ -30,18 +30,18 @@ from . import live, staleness, walls
 @dataclass(frozen=True, eq=False)
 class Total:
     """Selected objects as one body, SI, world axes. count: objects with results; body: None where they have no mass;
-    missing, outdated: names of others; findings: on what may be no part of it."""
+    missing, stale: names of others; findings: on what may be no part of it."""
 
     count: int
     volume: float
     area: float
     body: MassProperties | None
     missing: tuple[str, ...]
-    outdated: tuple[str, ...]
+    stale: tuple[str, ...]
     findings: tuple[Finding, ...]
 
 
-_refusals: dict[int, tuple[Finding, str]] = {}  # session uid → why, and the digest of the settings of then
+_failures: dict[int, tuple[Finding, str]] = {}  # session uid → why, and the digest of the settings of then
 _total: tuple[tuple, Total] | None = None  # what the last total was computed for, and that total
 
 
@@ -49,36 +49,38 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
     """Write what was measured on the object, and remember what its sliders need. EditRefusedError where the object
     cannot hold results."""
     properties.store(obj, measured.measurement)
-    walls.keep(obj, measured, _unit(scene))
+    walls.cache_walls(obj, measured, _unit(scene))
 
 
-def refuse(obj: Object, reason: Finding | None) -> None:
+def remember_failure(obj: Object, reason: Finding | None) -> None:
     """Keep, until Blender ends, why the object could not be measured; None forgets it."""
-    _refusals.pop(obj.session_uid, None)
+    _failures.pop(obj.session_uid, None)
     if reason is not None:
-        _refusals[obj.session_uid] = reason, settings_hash(obj, bpy.context.scene)
+        _failures[obj.session_uid] = reason, settings_hash(obj, bpy.context.scene)
 
 
-def refusal(obj: Object) -> Finding | None:
+def failure(obj: Object) -> Finding | None:
     """Why the object could not be measured when that was last tried with these settings, or nothing."""
-    if obj.session_uid not in _refusals:
+    if obj.session_uid not in _failures:
         return None
-    reason, settings = _refusals[obj.session_uid]
+    reason, settings = _failures[obj.session_uid]
     return reason if settings == settings_hash(obj, bpy.context.scene) else None
 
 
-def of_object(obj: Object, scene: Scene) -> properties.Stored | None:
+def of_object(obj: Object, scene: Scene) -> properties.StoredProperties | None:
     """The results in the frame that the scene shows: the live ones where they are on, else those that are stored; None
     where there are none, or not all of them."""
-    now = live.shown(obj)
+    now = live.current_numbers(obj)
     if now is not None and now.measurement is not None:
-        one = now.measurement
-        body = one.in_object_frame() if scene.body_moments.frame == "OBJECT" else one.mass_properties
-        return properties.Stored(one.density, one.volume, one.area, body, one.error_bound)
-    rows = properties.numbers(obj)
-    if rows is None:
+        measurement = now.measurement
+        body = measurement.in_object_frame() if scene.body_moments.frame == "OBJECT" else measurement.mass_properties
+        return properties.StoredProperties(
+            measurement.density, measurement.volume, measurement.area, body, measurement.error_bound
+        )
+    numbers = properties.numbers(obj)
+    if numbers is None:
         return None
-    return _in_frame(rows, None if scene.body_moments.frame == "OBJECT" else _place(obj), _unit(scene))
+    return _in_frame(numbers, None if scene.body_moments.frame == "OBJECT" else _world_matrix(obj), _unit(scene))
 
 
 def total(context: Context) -> Total:
@@ -92,43 +94,43 @@ def total(context: Context) -> Total:
 
 def _sum(context: Context) -> Total:
     scene = context.scene
-    found, counted, missing, outdated = [], [], [], []
+    stored, counted, missing, stale = [], [], [], []
     for obj in context.view_layer.objects.selected:
-        rows = properties.numbers(obj)
-        if rows is None:
+        numbers = properties.numbers(obj)
+        if numbers is None:
             missing.append(obj.name)
             continue
-        found.append(_in_frame(rows, _place(obj), _unit(scene)))
+        stored.append(_in_frame(numbers, _world_matrix(obj), _unit(scene)))
         counted.append(obj)
-        if staleness.reason(obj, scene):
-            outdated.append(obj.name)
+        if staleness.stale_reason(obj, scene):
+            stale.append(obj.name)
     caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
     body = None
-    if found:
+    if stored:
         with suppress(MeasureError):  # together they have no mass
-            body = combined([(one.body.as_moments(), 1.0) for one in found])
+            body = combine([(body_stored.body.as_moments(), 1.0) for body_stored in stored])
     return Total(
-        len(found),
-        sum(one.volume for one in found),
-        sum(one.area for one in found),
+        len(stored),
+        sum(body_stored.volume for body_stored in stored),
+        sum(body_stored.area for body_stored in stored),
         body,
         tuple(missing),
-        tuple(outdated),
+        tuple(stale),
         (*caveats, *total_caveats(counted, context.view_layer)),
     )
 
 
 @lru_cache(maxsize=512)
-def _in_frame(rows: tuple, place: tuple[float, ...] | None, unit: float) -> properties.Stored:
-    found = properties.stored(rows)
+def _in_frame(numbers: tuple, place: tuple[float, ...] | None, unit: float) -> properties.StoredProperties:
+    stored = properties.from_numbers(numbers)
     if place is None:
-        return found
-    return found.in_world(Matrix([place[i : i + 4] for i in range(0, 16, 4)]), unit)
+        return stored
+    return stored.in_world(Matrix([place[i : i + 4] for i in range(0, 16, 4)]), unit)
 
 
-def _place(obj: Object) -> tuple[float, ...]:
+def _world_matrix(obj: Object) -> tuple[float, ...]:
     return tuple(chain.from_iterable(obj.matrix_world))
 
 
 def _unit(scene: Scene) -> float:
-    return decimal(scene.unit_settings.scale_length)
+    return shortest_decimal(scene.unit_settings.scale_length)

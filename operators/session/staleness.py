@@ -31,50 +31,50 @@ from ..read.fingerprint import VERSION, matrix_hash, scale_hash, settings_hash
 from ..read.quiet import is_paused, paused
 from ..write import section
 
-EDITED = "edited"
+EDITED_REASON = "edited"
 
 _settings: dict[int, str] = {}  # session uid → digest of the settings at the last update
 _edited: dict[int, set[str]] = {}  # session uid → the fingerprints that were current when the geometry changed
 _changes: dict[int, int] = {}  # session uid → how often its geometry changed
 _shapes: dict[str, bytes] = {}  # fingerprint → digest of what was shown when it was stored, where there is one
-_undone = False
+_undo_pending = False
 _generation = 0
 
 
-def settle(context: Context, objects: list[Object]) -> None:
+def mark_up_to_date(context: Context, objects: list[Object]) -> None:
     """Call after results were stored: evaluates what storing itself has tagged, then takes the
     objects as up to date.
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
-        mark_fresh(obj)
-        _keep_shape(obj, str(obj.get("body_fingerprint", "")), depsgraph)
+        mark_object(obj)
+        _remember_shape(obj, str(obj.get("body_fingerprint", "")), depsgraph)
 
 
-def settle_marks(context: Context, marks: Iterable[tuple[Object, str]]) -> None:
+def mark_fingerprints(context: Context, marks: Iterable[tuple[Object, str]]) -> None:
     """Call after other things were stored with these fingerprints, and nothing else was changed: takes those as up to
     date.
     """
     with paused():
         depsgraph = context.evaluated_depsgraph_get()
     for obj, mark in marks:
-        _forget(obj, mark)
-        _keep_shape(obj, mark, depsgraph)
+        _clear_mark(obj, mark)
+        _remember_shape(obj, mark, depsgraph)
 
 
-def mark_fresh(obj: Object) -> None:
+def mark_object(obj: Object) -> None:
     """The object's stored numbers are those of its geometry as it is now."""
-    _forget(obj, str(obj.get("body_fingerprint", "")))
+    _clear_mark(obj, str(obj.get("body_fingerprint", "")))
     _settings.pop(obj.session_uid, None)
 
 
-def _forget(obj: Object, mark: str) -> None:
+def _clear_mark(obj: Object, mark: str) -> None:
     global _generation
     _generation += 1
     _edited.get(obj.session_uid, set()).discard(mark)
 
 
-def _keep_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
+def _remember_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
     shape = _shape(obj, depsgraph)
     if shape is not None:  # else what another object with these very numbers showed still holds
         _shapes[mark] = shape
@@ -87,13 +87,13 @@ def _shape(obj: Object, depsgraph: Depsgraph) -> bytes | None:
     return shape_digest(obj, depsgraph)
 
 
-def mark_retold(obj: Object) -> None:
-    """As `mark_fresh`, from within the update of a setting: what Blender reports next is that update."""
-    mark_fresh(obj)
+def mark_from_setting_update(obj: Object) -> None:
+    """As `mark_object`, from within the update of a setting: what Blender reports next is that update."""
+    mark_object(obj)
     _settings[obj.session_uid] = ""
 
 
-def mark_turned(objects: Iterable[Object]) -> None:
+def mark_axes_changed(objects: Iterable[Object]) -> None:
     """The objects have other axes than before: directions that are stored in these no longer hold."""
     for obj in objects:
         if mark := _symmetry_mark(obj):
@@ -118,13 +118,13 @@ def is_edited(obj: Object) -> bool:
     parts = stored.split(":")
     return (
         len(parts) != 4
-        or parts[1] == EDITED
+        or parts[1] == EDITED_REASON
         or stored in _edited.get(obj.session_uid, ())
         or parts[2] != matrix_hash(obj)
     )
 
 
-def reason(obj: Object, scene: Scene) -> str | None:
+def stale_reason(obj: Object, scene: Scene) -> str | None:
     """The code of why the stored numbers are out of date, None where they are not or there are none."""
     stored = str(obj.get("body_fingerprint", ""))
     parts = stored.split(":")
@@ -132,28 +132,28 @@ def reason(obj: Object, scene: Scene) -> str | None:
         return "stale_fingerprint" if "body_mass" in obj else None
     if parts[3] != settings_hash(obj, scene):
         return "stale_settings"
-    if parts[1] == EDITED or stored in _edited.get(obj.session_uid, ()):
+    if parts[1] == EDITED_REASON or stored in _edited.get(obj.session_uid, ()):
         return "stale_geometry"
     return "stale_transform" if parts[2] != matrix_hash(obj) else None
 
 
-def section_reason(obj: Object) -> str | None:
+def section_stale_reason(obj: Object) -> str | None:
     """The code of why the stored section is out of date, None where it is not or there is none."""
     parts = section.fingerprint(obj).split(":")
     if len(parts) != 4:
         return None
-    if parts[1] == EDITED or section.fingerprint(obj) in _edited.get(obj.session_uid, ()):
+    if parts[1] == EDITED_REASON or section.fingerprint(obj) in _edited.get(obj.session_uid, ()):
         return "stale_geometry"
     return "stale_transform" if parts[2] != matrix_hash(obj) else None
 
 
-def symmetry_reason(obj: Object) -> str | None:
+def symmetry_stale_reason(obj: Object) -> str | None:
     """The code of why the symmetry that was found is out of date, None where it is not or there is none."""
     stored = _symmetry_mark(obj)
     parts = stored.split(":")
     if len(parts) != 4:
         return None
-    if parts[1] == EDITED or stored in _edited.get(obj.session_uid, ()):
+    if parts[1] == EDITED_REASON or stored in _edited.get(obj.session_uid, ()):
         return "stale_geometry"
     return "stale_scale" if parts[2] != scale_hash(obj) else None
 
@@ -163,7 +163,7 @@ def _symmetry_mark(obj: Object) -> str:
     return obj.body_moments_symmetry.fingerprint if obj.is_property_set("body_moments_symmetry") else ""
 
 
-def _settings_edited(obj: Object, fingerprint: str, scene: Scene) -> bool:
+def _is_settings_update(obj: Object, fingerprint: str, scene: Scene) -> bool:
     """Whether this update is one of the object's settings: Blender reports those as changes of its geometry."""
     now = settings_hash(obj, scene)
     before = _settings.get(obj.session_uid, fingerprint.rpartition(":")[2])
@@ -171,7 +171,7 @@ def _settings_edited(obj: Object, fingerprint: str, scene: Scene) -> bool:
     return now != before
 
 
-def _filled_from(updated: Iterable[Object]) -> Iterator[Object]:
+def _volume_filled_objects(updated: Iterable[Object]) -> Iterator[Object]:
     """Those with stored numbers whose density comes from one of these objects' voxels."""
     sources = {obj for obj in updated if obj.type == "VOLUME"}
     if not sources:
@@ -183,7 +183,7 @@ def _filled_from(updated: Iterable[Object]) -> Iterator[Object]:
                 yield obj
 
 
-def _instancing(updated: list[Object], collections: set[Collection]) -> Iterator[Object]:
+def _instancing_objects(updated: list[Object], collections: set[Collection]) -> Iterator[Object]:
     """Those that show what was updated as instances, which Blender reports of collections only."""
     above: set[Object] = set()
     for obj in updated:
@@ -201,18 +201,18 @@ def _instancing(updated: list[Object], collections: set[Collection]) -> Iterator
             obj.instance_type == "COLLECTION"
             and obj.instance_collection in collections
             or emitted
-            and any(one.settings in emitted for one in obj.particle_systems)
+            and any(system.settings in emitted for system in obj.particle_systems)
         ):
             yield obj
 
 
 @persistent
-def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
-    global _generation, _undone
+def _on_depsgraph_update(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
+    global _generation, _undo_pending
     _generation += 1
     if is_paused() or depsgraph is None or depsgraph.mode != "VIEWPORT":
         return
-    undone, _undone = _undone, False
+    undone, _undo_pending = _undo_pending, False
     updated: dict[Object, None] = {}
     moved: list[Object] = []
     collections: set[Collection] = set()
@@ -225,19 +225,21 @@ def _note(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
                 moved.append(data.original)
         elif reshaped and isinstance(data, Collection):
             collections.add(data.original)
-    updated |= dict.fromkeys(_instancing([*updated, *moved], collections))
+    updated |= dict.fromkeys(_instancing_objects([*updated, *moved], collections))
     for obj in updated:
         _changes[obj.session_uid] = _changes.get(obj.session_uid, 0) + 1
-    for obj in updated | dict.fromkeys(_filled_from(updated)):
-        found = [
+    for obj in updated | dict.fromkeys(_volume_filled_objects(updated)):
+        marks = [
             str(mark) for mark in (obj.get("body_fingerprint"), section.fingerprint(obj), _symmetry_mark(obj)) if mark
         ]
-        if found:
+        if marks:
             came_back = undone and not (obj.mode == "SCULPT" or getattr(obj.data, "is_editmode", False))
-            _judge(obj, found, depsgraph, undone, heard=not came_back and not _settings_edited(obj, found[0], scene))
+            _update_staleness(
+                obj, marks, depsgraph, undone, heard=not came_back and not _is_settings_update(obj, marks[0], scene)
+            )
 
 
-def _judge(obj: Object, marks: list[str], depsgraph: Depsgraph, undone: bool, heard: bool) -> None:
+def _update_staleness(obj: Object, marks: list[str], depsgraph: Depsgraph, undone: bool, heard: bool) -> None:
     """Note a change of the object's geometry, or that there is none any more. undone: whether undo or redo evaluated
     it, heard: whether what could never be compared has changed."""
     noted = _edited.setdefault(obj.session_uid, set())
@@ -250,17 +252,17 @@ def _judge(obj: Object, marks: list[str], depsgraph: Depsgraph, undone: bool, he
 
 
 @persistent
-def _undo(*_args) -> None:
-    global _generation, _undone
+def _on_undo(*_args) -> None:
+    global _generation, _undo_pending
     _generation += 1
-    _undone = True
+    _undo_pending = True
 
 
 @persistent
-def _load(*_args) -> None:
-    global _generation, _undone
+def _on_load(*_args) -> None:
+    global _generation, _undo_pending
     _generation += 1
-    _undone = False
+    _undo_pending = False
     _edited.clear()
     _shapes.clear()
     _settings.clear()
@@ -268,7 +270,7 @@ def _load(*_args) -> None:
 
 
 @persistent
-def _save(*_args) -> None:
+def _on_save(*_args) -> None:
     for obj in bpy.data.objects:
         edited = _edited.get(obj.session_uid, ())
         if not edited or not obj.is_editable:
@@ -279,19 +281,19 @@ def _save(*_args) -> None:
         ):
             parts = stored.split(":")
             if len(parts) == 4 and stored in edited:
-                group[key] = ":".join([parts[0], EDITED, *parts[2:]])
+                group[key] = ":".join([parts[0], EDITED_REASON, *parts[2:]])
         parts = _symmetry_mark(obj).split(":")
         if len(parts) == 4 and _symmetry_mark(obj) in edited:
-            obj.body_moments_symmetry.fingerprint = ":".join([parts[0], EDITED, *parts[2:]])
+            obj.body_moments_symmetry.fingerprint = ":".join([parts[0], EDITED_REASON, *parts[2:]])
 
 
 HANDLERS = (
-    ("depsgraph_update_post", _note),
-    ("frame_change_post", _note),
-    ("undo_post", _undo),
-    ("redo_post", _undo),
-    ("load_post", _load),
-    ("save_pre", _save),
+    ("depsgraph_update_post", _on_depsgraph_update),
+    ("frame_change_post", _on_depsgraph_update),
+    ("undo_post", _on_undo),
+    ("redo_post", _on_undo),
+    ("load_post", _on_load),
+    ("save_pre", _on_save),
 )
 
 
@@ -301,7 +303,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    _save()  # whoever enables the add-on again has the same file
+    _on_save()  # whoever enables the add-on again has the same file
     for name, function in reversed(HANDLERS):
         getattr(bpy.app.handlers, name).remove(function)
-    _load()
+    _on_load()

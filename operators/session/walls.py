@@ -14,24 +14,24 @@ from dataclasses import dataclass, replace
 
 from bpy.types import Context, Object, PropertyGroup
 
-from ...core.numerics.float32 import decimal
+from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import MeasureError
 from ..bodies.measure_object import Measured
 from ..bodies.measurement import as_measurement
 from ..bodies.wall import Walls
 from ..read import Reading
 from ..settings import hooks
-from ..settings.options import MeasureOptions, resolved
+from ..settings.options import MeasureOptions, with_object_settings
 from ..write import properties
 from . import staleness
 
-KEPT = 64  # objects
+MAX_CACHED_OBJECTS = 64  # objects
 
-_kept: OrderedDict[int, _Kept] = OrderedDict()  # by session uid, the last one measured last
+_cache: OrderedDict[int, _CachedWalls] = OrderedDict()  # by session uid, the last one measured last
 
 
 @dataclass(frozen=True)
-class _Kept:
+class _CachedWalls:
     """What was measured of one object, and the fingerprint that it was given."""
 
     reading: Reading
@@ -41,44 +41,44 @@ class _Kept:
     unit: float
 
 
-def keep(obj: Object, measured: Measured, unit: float) -> None:
+def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
     """Remember the walls that an object was measured with, if any. unit: metres per Blender unit."""
     if measured.walls is None:
         return
     _, geometry, matrix, _ = measured.measurement.fingerprint.split(":")
     reading = replace(measured.reading, parts=[])
-    _kept[obj.session_uid] = _Kept(reading, measured.walls.without_surfaces(), geometry, matrix, unit)
-    _kept.move_to_end(obj.session_uid)
-    while len(_kept) > KEPT:
-        _kept.popitem(last=False)
+    _cache[obj.session_uid] = _CachedWalls(reading, measured.walls.drop_arrays(), geometry, matrix, unit)
+    _cache.move_to_end(obj.session_uid)
+    while len(_cache) > MAX_CACHED_OBJECTS:
+        _cache.popitem(last=False)
 
 
-def largest(obj: Object) -> float | None:
+def max_thickness(obj: Object) -> float | None:
     """From which thickness in m the object's wall folds over, where that is known and there is such a thickness."""
-    kept = _current(obj)
-    if kept is None or obj.body_moments.wall == "THIN":
+    cached = _current_walls(obj)
+    if cached is None or obj.body_moments.wall == "THIN":
         return None
-    limit = _on_side(kept, obj).largest
+    limit = _walls_on_side(cached, obj).max_thickness
     return limit if limit < float("inf") else None
 
 
-def folds(obj: Object) -> bool:
+def is_too_thick(obj: Object) -> bool:
     """Whether the thickness that is set is known to be too large."""
-    limit = largest(obj)
-    return limit is not None and not decimal(obj.body_moments.thickness) * _kept[obj.session_uid].unit < limit
+    limit = max_thickness(obj)
+    return limit is not None and not shortest_decimal(obj.body_moments.thickness) * _cache[obj.session_uid].unit < limit
 
 
-def changed(settings: PropertyGroup, context: Context) -> None:
+def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
     """What a change of the wall or its thickness does to the stored numbers."""
     obj = settings.id_data
-    kept = _current(obj)
+    cached = _current_walls(obj)
     scene = context.scene
     if (
-        kept is None
+        cached is None
         or settings.kind != "SHELL"
         or settings.wall == "THIN"
         or scene is None
-        or decimal(scene.unit_settings.scale_length) != kept.unit
+        or shortest_decimal(scene.unit_settings.scale_length) != cached.unit
         or staleness.is_edited(obj)
         or settings.mass_from == "DENSITY"
         and settings.density_from != "VALUE"
@@ -86,31 +86,31 @@ def changed(settings: PropertyGroup, context: Context) -> None:
         or obj.override_library is not None
     ):
         return
-    options = resolved(MeasureOptions(), obj, kept.unit)
+    options = with_object_settings(MeasureOptions(), obj, cached.unit)
     try:
-        body = _on_side(kept, obj).body(options.thickness, looked=False)
-        measurement = as_measurement(obj, kept.reading, body, options, kept.unit)
+        body = _walls_on_side(cached, obj).body(options.thickness, check_overlap=False)
+        measurement = as_measurement(obj, cached.reading, body, options, cached.unit)
     except MeasureError:  # the panel shows how thick it may be
         return
     properties.store(obj, measurement)
-    staleness.mark_retold(obj)
+    staleness.mark_from_setting_update(obj)
 
 
-def _on_side(kept: _Kept, obj: Object) -> Walls:
-    return replace(kept.walls, side=obj.body_moments.wall.lower())
+def _walls_on_side(cached: _CachedWalls, obj: Object) -> Walls:
+    return replace(cached.walls, side=obj.body_moments.wall.lower())
 
 
-def _current(obj: Object) -> _Kept | None:
+def _current_walls(obj: Object) -> _CachedWalls | None:
     """What is kept of an object, where its stored numbers are of the same geometry and transform."""
-    kept = _kept.get(obj.session_uid)
+    cached = _cache.get(obj.session_uid)
     parts = str(obj.get("body_fingerprint", "")).split(":")
-    return kept if kept is not None and parts[1:3] == [kept.geometry, kept.matrix] else None
+    return cached if cached is not None and parts[1:3] == [cached.geometry, cached.matrix] else None
 
 
 def register() -> None:
-    hooks.on_wall_change.append(changed)
+    hooks.on_wall_change.append(on_wall_setting)
 
 
 def unregister() -> None:
-    hooks.on_wall_change.remove(changed)
-    _kept.clear()
+    hooks.on_wall_change.remove(on_wall_setting)
+    _cache.clear()

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import bpy
 
 from ...core.density.polynomial import Polynomial, parse
-from ...core.numerics.float32 import decimal
+from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 
 
@@ -56,11 +56,11 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
 
 def material_density(material: bpy.types.Material | None) -> float | None:
     """kg/m³; None where there is no material, or it has no density."""
-    density = 0.0 if material is None else decimal(material.body_moments.density)
+    density = 0.0 if material is None else shortest_decimal(material.body_moments.density)
     return density if density > 0.0 else None
 
 
-def fixed_to(obj: bpy.types.Object) -> str:
+def density_anchor(obj: bpy.types.Object) -> str:
     """What the object's density is fixed to, where it changes as the object moves or gets other axes: "own" or "world"
     coordinates; "" else."""
     settings = obj.body_moments

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 import bpy
 
-from ...core.numerics.float32 import decimal
+from ...core.numerics.float32 import shortest_decimal
 from .density import material_density
 from .grid import GridOptions
 
@@ -39,5 +39,7 @@ def density_key(obj: bpy.types.Object, used: Iterable[str]) -> str:
         return repr(settings.density_attribute)
     slots = [slot.material for slot in obj.material_slots]
     names = {*used, *(material.name_full for material in slots if material)}
-    densities = {one.name_full: material_density(one) for one in bpy.data.materials if one.name_full in names}
-    return repr((decimal(settings.density), sorted(names), sorted(densities.items())))
+    densities = {
+        material.name_full: material_density(material) for material in bpy.data.materials if material.name_full in names
+    }
+    return repr((shortest_decimal(settings.density), sorted(names), sorted(densities.items())))

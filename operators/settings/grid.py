@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.density.transfer_function import parse_table
-from ...core.numerics.float32 import decimal
+from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 
 
@@ -38,7 +38,7 @@ class GridOptions:
         return cls(
             settings.grid,
             settings.grid_as == "SOLID",
-            decimal(settings.value_density if density is None else density),
+            shortest_decimal(settings.value_density if density is None else density),
             table,
             settings.spline_order,
         )
@@ -49,7 +49,7 @@ class GridOptions:
         values = (self.grid, "solid") if self.solid else (self.grid, self.table or self.value_density)
         return (*values, self.spline_order)
 
-    def weigh(self, background: float | None) -> Callable[[NDArray], NDArray]:
+    def to_densities(self, background: float | None) -> Callable[[NDArray], NDArray]:
         """What makes densities in kg/m³ of values, and raises ReadError where it cannot. The background, if any, is
         empty, whatever its value."""
         pairs = parse_table(self.table) if self.table else None
@@ -66,7 +66,7 @@ class GridOptions:
 
         return weighed
 
-    def left_empty(self, background: float | None) -> tuple[Finding, ...]:
+    def empty_background_note(self, background: float | None) -> tuple[Finding, ...]:
         """A finding where the background would have a density if it did not count as empty."""
         if background is None or not np.isfinite(background):
             return ()

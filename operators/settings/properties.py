@@ -13,14 +13,14 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty,
 from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
 from ...core.density.materials import BY_NAME
-from ...core.density.transfer_function import CT
-from ...core.numerics.float32 import decimal
+from ...core.density.transfer_function import CT_DENSITIES
+from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import MAX_ORDER
 from .hooks import wall_changed
 
 TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Blender's own translations
 
-COPIED = (
+COPIED_PROPERTIES = (
     *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
     *("density_from", "density_polynomial", "density_frame", "density_attribute"),
     *("density_volume", "grid", "grid_as", "values_from", "value_density", "transfer_table", "spline_order"),
@@ -214,7 +214,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
             "Pairs of a grid value and a density in kg/m³, separated by commas. Linear in between, constant beyond. "
             "The default converts CT numbers to tissue densities"
         ),
-        default=CT,
+        default=CT_DENSITIES,
     )
     spline_order: IntProperty(
         name="Spline Order",
@@ -300,7 +300,7 @@ class BodyMomentsSceneSettings(PropertyGroup):
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
     """Copy every setting; whether anything was different."""
     changed = False
-    for name in COPIED:
+    for name in COPIED_PROPERTIES:
         value = getattr(source, name)
         if getattr(target, name) != value:
             setattr(target, name, value)
@@ -308,7 +308,7 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
     return changed
 
 
-def keep(settings: PropertyGroup, options, scene: Scene) -> None:
+def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
     """Make the options (`measure.MeasureOptions`, SI) that are not None the object's settings."""
     for name in ("kind", "overlap"):
         if getattr(options, name) is not None:
@@ -321,7 +321,7 @@ def keep(settings: PropertyGroup, options, scene: Scene) -> None:
     if options.mass is not None:
         settings.mass_from, settings.mass = "MASS", options.mass
     if options.thickness is not None:
-        settings.thickness = options.thickness / decimal(scene.unit_settings.scale_length)
+        settings.thickness = options.thickness / shortest_decimal(scene.unit_settings.scale_length)
 
 
 CLASSES = (BodyMomentsObjectSettings, BodyMomentsMaterialSettings, BodyMomentsSceneSettings)

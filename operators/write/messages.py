@@ -57,7 +57,7 @@ def _item(item: Any) -> str:
     return "“{}”".format(item) if isinstance(item, str) else "{}".format(item)
 
 
-def listed(items: Sequence[Any], count: int | None = None) -> str:
+def truncate_list(items: Sequence[Any], count: int | None = None) -> str:
     """The first items, names in quotation marks, and how many more there are. count: of all, where `items` are only the
     first of them."""
     shown = [_item(item) for item in items[:MAX_LISTED]]
@@ -89,7 +89,7 @@ class _Formatter(string.Formatter):
         if isinstance(value, (list, tuple)) or hasattr(value, "tolist") and getattr(value, "ndim", 0):
             if len(value) and isinstance(value[0], Mapping):
                 return self._joined([self.format_field(finding, "") for finding in value])
-            return listed(value)
+            return truncate_list(value)
         return super().format_field(value, format_spec)
 
     @staticmethod
@@ -105,9 +105,9 @@ def sentence(
     in meters, by default in meters."""
     entry, values = MESSAGES[finding.code], finding.values
     template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
-    elements = listed(finding.elements, values.get("count"))
+    elements = truncate_list(finding.elements, values.get("count"))
     text = _Formatter(translate, lengths).vformat(translate(template), (), {**values, "elements": elements})
-    return "{}: {}".format(listed(values["sources"]), text) if values.get("sources") else text
+    return "{}: {}".format(truncate_list(values["sources"]), text) if values.get("sources") else text
 
 
 def severity(finding: Finding) -> Severity:

@@ -61,12 +61,12 @@ LENGTHS = {
     "body_error_bound": 8,
 }
 OPTIONAL = ("body_length", "body_display_volume")  # of wires, and of what was measured without its display mesh
-BOUNDED = ("volume", "area", "center_of_mass", "inertia")
+BOUND_KEYS = ("volume", "area", "center_of_mass", "inertia")
 ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
 
 
 @dataclass(frozen=True, eq=False)
-class Stored:
+class StoredProperties:
     """What an object carries, SI. body: in the object frame, or where `in_world` has put it.
     error_bound: as in `Measurement`."""
 
@@ -76,7 +76,7 @@ class Stored:
     body: MassProperties
     error_bound: dict
 
-    def in_world(self, matrix_world, unit: float) -> Stored:
+    def in_world(self, matrix_world, unit: float) -> StoredProperties:
         """The same in the world frame. matrix_world: of the object; unit: metres per Blender unit."""
         location, turn, _ = matrix_world.decompose()
         to_object = rotation_matrix(turn).T
@@ -100,7 +100,7 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
         "body_inertia_products": entries[3:],
         "body_principal_moments": body.principal.moments.tolist(),
         "body_principal_axes": quaternion(body.principal.axes).tolist(),
-        "body_error_bound": [float(source[name]) for source in (bound, bound["input"]) for name in BOUNDED],
+        "body_error_bound": [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
         "body_method": str(measurement.method),
         "body_warnings": warning_lines(measurement.findings),
         "body_findings": findings_text(measurement.findings),
@@ -110,7 +110,7 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     values |= {key: value for key, value in optional.items() if value is not None}
     varying = (
         {}
-        if measurement.one_density
+        if measurement.has_uniform_density
         else {"body_density_from": str(measurement.density_from), "body_materials": "\n".join(measurement.materials)}
     )
     values |= {key: value for key, value in varying.items() if value}
@@ -121,7 +121,7 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     except BaseException:
         _write(obj, before)
         raise
-    follow(obj)
+    retrigger_drivers(obj)
 
 
 def _write(obj: bpy.types.Object, values: dict) -> None:
@@ -149,11 +149,11 @@ def clear(obj: bpy.types.Object) -> bool:
     for key in present:
         del obj[key]
     if present:
-        follow(obj)
+        retrigger_drivers(obj)
     return bool(present)
 
 
-def follow(obj: bpy.types.Object) -> None:
+def retrigger_drivers(obj: bpy.types.Object) -> None:
     """Makes Blender evaluate the drivers that read what was stored, and nothing else.
 
     Tags do more: TIME evaluates the object's animation, which puts back whatever was changed and not keyed yet; OBJECT,
@@ -229,7 +229,7 @@ def density_from(obj: bpy.types.Object) -> str:
 
 def numbers(obj: bpy.types.Object) -> tuple[tuple[float, ...], ...] | None:
     """The stored numbers as they are, in the order of LENGTHS; None where one is missing or is no finite number."""
-    rows = []
+    values = []
     for key, length in LENGTHS.items():
         value = obj.get(key)
         try:
@@ -238,24 +238,24 @@ def numbers(obj: bpy.types.Object) -> tuple[tuple[float, ...], ...] | None:
             return None
         if len(row) != max(length, 1) or not (key == "body_error_bound" or all(map(isfinite, row))):
             return None
-        rows.append(row)
-    return tuple(rows)
+        values.append(row)
+    return tuple(values)
 
 
-def stored(rows: tuple[tuple[float, ...], ...]) -> Stored:
+def from_numbers(numbers_read: tuple[tuple[float, ...], ...]) -> StoredProperties:
     """The results that `numbers` has read, in the object frame."""
-    (mass,), (density,), (volume,), (area,), center, entries, moments, turn, bounds = rows
+    (mass,), (density,), (volume,), (area,), center, entries, moments, turn, bounds = numbers_read
     tensor = np.zeros((3, 3))
     tensor[ROWS, COLUMNS] = tensor[COLUMNS, ROWS] = entries
     axes = rotation_matrix(turn) if any(turn) else np.eye(3)
-    rounding, inputs = (dict(zip(BOUNDED, bounds[i : i + 4])) for i in (0, 4))
-    frame = PrincipalFrame(np.array(moments), axes, symmetry="", unique=False, finding=None)
+    rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
+    frame = PrincipalFrame(np.array(moments), axes, symmetry="", is_unique=False, finding=None)
     error, moved = (
         {"mass": bound["volume"] * density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
         for bound in (rounding, inputs)
     )
     body = MassProperties(mass, np.array(center), tensor, frame, error, moved)
-    return Stored(density, volume, area, body, {**rounding, "input": inputs})
+    return StoredProperties(density, volume, area, body, {**rounding, "input": inputs})
 
 
 def tensor_entries(tensor: NDArray) -> NDArray[np.float64]:

@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from ...core.inertia.mass_properties import MassProperties, combined
+from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.measurement import Measurement
 from ...core.moments.moments import Moments, monomials
 from ...core.verdict.finding import Finding, MeasureError, Severity
@@ -38,7 +38,7 @@ TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), 
 
 # An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break,
 # so none matches.
-_SPREAD = re.compile(r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|null))*)\n\s*\]")
+_NUMBER_ROWS = re.compile(r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|null))*)\n\s*\]")
 
 
 def record(
@@ -61,7 +61,7 @@ def record(
         "kind": measurement.kind,
         "method": measurement.method,
         "density": measurement.density,
-        **({} if measurement.one_density else {"density_from": str(measurement.density_from)}),
+        **({} if measurement.has_uniform_density else {"density_from": str(measurement.density_from)}),
         "mass": properties.mass,
         "volume": measurement.volume,
         "area": measurement.area,
@@ -131,14 +131,14 @@ def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ())
     theorem. findings: about the total.
     """
     entry = {
-        "mass": math.fsum(one.mass_properties.mass for one in measurements),
-        "volume": math.fsum(one.volume for one in measurements),
-        "area": math.fsum(one.area for one in measurements),
+        "mass": math.fsum(measurement.mass_properties.mass for measurement in measurements),
+        "volume": math.fsum(measurement.volume for measurement in measurements),
+        "area": math.fsum(measurement.area for measurement in measurements),
         **dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry")),
     }
     if measurements:
         with suppress(MeasureError):  # together they have no mass, and so no center
-            entry.update(_inertial(combined([one.mass_moments for one in measurements])))
+            entry.update(_inertial(combine([measurement.mass_moments for measurement in measurements])))
     return plain(entry) | described(findings)
 
 
@@ -173,28 +173,32 @@ def to_json(documents: Sequence[dict[str, Any]]) -> str:
     """
     value = documents[0] if len(documents) == 1 else list(documents)
     text = json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False)
-    return _SPREAD.sub(lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text) + "\n"
+    return _NUMBER_ROWS.sub(lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text) + "\n"
 
 
 def to_json_lines(documents: Iterable[dict[str, Any]]) -> str:
     """One document a line."""
-    return "".join(json.dumps(one, ensure_ascii=False, allow_nan=False) + "\n" for one in documents)
+    return "".join(json.dumps(entry, ensure_ascii=False, allow_nan=False) + "\n" for entry in documents)
 
 
 def to_csv(documents: Iterable[dict[str, Any]]) -> str:
     """One row an object under one header. What could not be measured is a row too, with its reason
     under `error`.
     """
-    rows = []
-    for one in documents:
-        place = {"file": one["file"], "frame": one["frame"]}
-        rows += [{**place, **_columns(entry)} for entry in one["objects"]]
-        rows += [{**place, "name": entry["name"], "error": entry["reason"]} for entry in one["errors"]]
-    header = list(dict.fromkeys([*_COLUMNS, *(name for row in rows for name in row if name not in _LAST), *_LAST]))
+    records = []
+    for file_document in documents:
+        place = {"file": file_document["file"], "frame": file_document["frame"]}
+        records += [{**place, **_columns(entry)} for entry in file_document["objects"]]
+        records += [{**place, "name": entry["name"], "error": entry["reason"]} for entry in file_document["errors"]]
+    header = list(
+        dict.fromkeys(
+            [*_COLUMNS, *(name for row in records for name in row if name not in _LAST_COLUMNS), *_LAST_COLUMNS]
+        )
+    )
     text = io.StringIO()
     table = csv.DictWriter(text, header, lineterminator="\n")
     table.writeheader()
-    table.writerows({name: _cell(value) for name, value in row.items()} for row in rows)
+    table.writerows({name: _cell(value) for name, value in row.items()} for row in records)
     return text.getvalue()
 
 
@@ -226,17 +230,17 @@ def _inertial(properties: MassProperties) -> dict[str, Any]:
         "principal_moments": principal.moments,
         "principal_axes": principal.axes,
         "symmetry": principal.symmetry,
-        "principal_axes_unique": principal.unique,
+        "principal_axes_unique": principal.is_unique,
     }
 
 
 def _about_origin(moments: Moments, order: int, measurement: Measurement, frame: str) -> dict[str, float]:
     """World-frame moments by exponents, about the origin of the frame and along its axes."""
-    moments = moments.truncated(order)
+    moments = moments.truncate(order)
     if frame == "object":
         moments = moments.in_frame(measurement.rotation, measurement.location)
     else:
-        moments = moments.shifted(np.zeros(3))
+        moments = moments.about_point(np.zeros(3))
     return {",".join(map(str, powers)): value for powers, value in zip(monomials(order), moments.raw, strict=True)}
 
 
@@ -248,13 +252,13 @@ _COLUMNS = (
     *(f"principal_axis_{number}_{axis}" for number in (1, 2, 3) for axis in "xyz"),
     "symmetry",
 )  # fmt: skip
-_SOMETIMES = ("density_from", "thickness", "length", "linear_density", "principal_axes_unique")
-_LAST = ("warnings", "error")  # notes and findings stand before them
+_OPTIONAL_COLUMNS = ("density_from", "thickness", "length", "linear_density", "principal_axes_unique")
+_LAST_COLUMNS = ("warnings", "error")  # notes and findings stand before them
 
 
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
     """A record as one flat row; what a list or a table holds gets a column each."""
-    row = {name: entry[name] for name in (*_COLUMNS, *_SOMETIMES) if name in entry}
+    row = {name: entry[name] for name in (*_COLUMNS, *_OPTIONAL_COLUMNS) if name in entry}
     row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["center_of_mass"], strict=True)}
     row |= {f"inertia_{name}": entry["inertia"][i][j] for name, i, j in TENSOR}
     for number in range(3):

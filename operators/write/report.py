@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from ...core.inertia.mass_properties import MassProperties, combined
-from ...core.numerics.float32 import decimal
+from ...core.inertia.mass_properties import MassProperties, combine
+from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from . import properties
 from .messages import HEALTH, METHODS
@@ -25,7 +25,7 @@ from .record import TENSOR, described, document, plain
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
 DIGITS = 7  # as many as float32 coordinates carry
-NOISE = 2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; shown as 0
+ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; shown as 0
 INDENT = "  "
 WIDTH = 22
 
@@ -39,14 +39,14 @@ def report_text(
     caveats: about their total.
     """
     scene = context.scene
-    unit, frame = decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
+    unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
     entries, bodies, errors = [], [], []
     for obj in objects:
-        rows = properties.numbers(obj)
-        if rows is None:
+        numbers = properties.numbers(obj)
+        if numbers is None:
             errors.append({"name": obj.name, "reason": ReadError("no_stored_results").reason})
             continue
-        stored = properties.stored(rows)
+        stored = properties.from_numbers(numbers)
         world = stored.in_world(obj.matrix_world, unit)
         bodies.append(world.body)
         entries.append(_stored_record(obj, world if frame == "world" else stored, obj.name in outdated))
@@ -66,7 +66,9 @@ def text(document: dict[str, Any]) -> str:
         lines += ["", heading, *_body(document["total"], "world")]
     if document["errors"]:
         lines += ["", "Not measured"]
-        lines += ["{}{}: {}".format(INDENT, one["name"] or "File", one["reason"]) for one in document["errors"]]
+        lines += [
+            "{}{}: {}".format(INDENT, failure["name"] or "File", failure["reason"]) for failure in document["errors"]
+        ]
     return "\n".join(lines) + "\n"
 
 
@@ -180,10 +182,10 @@ def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | No
     size.
     """
     largest = max([size, *(abs(value) for value in values if value is not None)])
-    return [0.0 if value is not None and abs(value) <= NOISE * largest else value for value in values]
+    return [0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value for value in values]
 
 
-def _stored_record(obj: Any, stored: properties.Stored, outdated: bool) -> dict[str, Any]:
+def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool) -> dict[str, Any]:
     """A record without health, which is not stored."""
     method, findings = properties.method(obj), properties.findings(obj)
     source = properties.density_from(obj)
@@ -220,7 +222,7 @@ def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[MassProper
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
     if bodies:
         with suppress(MeasureError):  # together they have no mass
-            whole = combined([(body.as_moments(), 1.0) for body in bodies])
+            whole = combine([(body.as_moments(), 1.0) for body in bodies])
             total |= {"center_of_mass": whole.center, "inertia": whole.inertia}
             total |= {"principal_moments": whole.principal.moments}
             total |= {"symmetry": whole.principal.symmetry}

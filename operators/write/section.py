@@ -21,7 +21,7 @@ from .messages import sentence, severity
 from .properties import findings_in, findings_text, warning_lines
 
 KEY = "body_section"
-BOUNDED = ("area", "perimeter", "centroid", "second")
+BOUND_KEYS = ("area", "perimeter", "centroid", "second")
 LENGTHS = {
     "area": 1,
     "perimeter": 1,
@@ -36,10 +36,10 @@ LENGTHS = {
     "input": 4,
     "unit": 1,
 }
-WORDS = ("what", "named", "findings", "fingerprint")
+SIDE_DESCRIPTIONS = ("what", "named", "findings", "fingerprint")
 ABOUT = ("x", "y", "1", "2")
 DIGITS = 7
-NOISE = 2.5e-7  # beside the largest of several values: what float32 leaves of a zero
+ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest of several values: what float32 leaves of a zero
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ class StoredSection:
     """unit: metres per Blender unit when it was measured."""
 
     section: Section
-    what: str
+    description: str
     findings: tuple[Finding, ...]
     fingerprint: str
     unit: float
@@ -63,16 +63,16 @@ def store(
         "perimeter": [section.perimeter],
         "origin": plane.origin.tolist(),
         "axes": plane.axes.T.ravel().tolist(),
-        "off": [plane.off],
+        "off": [plane.out_of_plane],
         "centroid": section.centroid.tolist(),
         "second": section.second.tolist(),
         "reach": section.reach.tolist(),
         "counts": [float(section.outlines), float(section.holes)],
-        "error": [section.error[name] for name in BOUNDED],
-        "input": [section.input[name] for name in BOUNDED],
+        "error": [section.rounding_error[name] for name in BOUND_KEYS],
+        "input": [section.input_error[name] for name in BOUND_KEYS],
         "unit": [unit],
         "what": what,
-        "named": plane.named,
+        "named": plane.x_axis_name,
         "warnings": warning_lines(findings),
         "findings": findings_text(findings),
         "fingerprint": fingerprint,
@@ -92,12 +92,12 @@ def stored(obj: bpy.types.Object) -> StoredSection | None:
         return None
     try:
         numbers = tuple(tuple(float(value) for value in group[key]) for key in LENGTHS)
-        words = tuple(str(group.get(key, "") if key == "findings" else group[key]) for key in WORDS)
+        words = tuple(str(group.get(key, "") if key == "findings" else group[key]) for key in SIDE_DESCRIPTIONS)
     except (KeyError, TypeError, ValueError):
         return None
     if tuple(map(len, numbers)) != tuple(LENGTHS.values()):
         return None
-    return _made(numbers, words)
+    return _from_keys(numbers, words)
 
 
 def clear(obj: bpy.types.Object) -> bool:
@@ -109,44 +109,47 @@ def clear(obj: bpy.types.Object) -> bool:
 
 
 @lru_cache(maxsize=64)
-def _made(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> StoredSection:
-    found, (what, named, findings, fingerprint) = dict(zip(LENGTHS, numbers)), words
-    plane = Plane(np.array(found["origin"]), np.array(found["axes"]).reshape(3, 3).T, found["off"][0], named)
+def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> StoredSection:
+    values, (what, named, findings, fingerprint) = dict(zip(LENGTHS, numbers)), words
+    plane = Plane(np.array(values["origin"]), np.array(values["axes"]).reshape(3, 3).T, values["off"][0], named)
     section = Section(
         plane,
-        found["area"][0],
-        found["perimeter"][0],
-        np.array(found["centroid"]),
-        np.array(found["second"]),
-        np.array(found["reach"]),
-        *map(int, found["counts"]),
-        dict(zip(BOUNDED, found["error"])),
-        dict(zip(BOUNDED, found["input"])),
+        values["area"][0],
+        values["perimeter"][0],
+        np.array(values["centroid"]),
+        np.array(values["second"]),
+        np.array(values["reach"]),
+        *map(int, values["counts"]),
+        dict(zip(BOUND_KEYS, values["error"])),
+        dict(zip(BOUND_KEYS, values["input"])),
     )
-    return StoredSection(section, what, findings_in(findings), fingerprint, found["unit"][0])
+    return StoredSection(section, what, findings_in(findings), fingerprint, values["unit"][0])
 
 
-def text(name: str, found: StoredSection, outdated: Finding | None = None) -> str:
+def text(name: str, section: StoredSection, outdated: Finding | None = None) -> str:
     """A report that a person reads, in SI units. outdated: why the section no longer holds."""
-    return "\n".join(_lines(name, found, outdated)) + "\n"
+    return "\n".join(_lines(name, section, outdated)) + "\n"
 
 
-def _lines(name: str, found: StoredSection, outdated: Finding | None) -> Iterator[str]:
-    section, plane = found.section, found.section.plane
+def _lines(name: str, stored_section: StoredSection, outdated: Finding | None) -> Iterator[str]:
+    section, plane = stored_section.section, stored_section.section.plane
     x, y, normal = plane.axes.T
     yield "Section properties, SI units, world frame"
     yield ""
     yield name
     if outdated:
         yield _line("Out of date", str(outdated))
-    yield _line("Measured", "{}; outer outlines {}, holes {}".format(found.what, section.outlines, section.holes))
+    yield _line(
+        "Measured",
+        "{}; outer outlines {}, holes {}".format(stored_section.description, section.outlines, section.holes),
+    )
     yield _line("Area", "{} m²".format(_number(section.area)))
     yield _line("Perimeter", "{} m".format(_number(section.perimeter)))
     yield _line("Centroid", "{} m".format(_vector(section.center, section.area**0.5)))
     yield _line(
         "Plane",
         "normal {}, x {}, y {}; x nearest to the object's {} axis".format(
-            _vector(normal, 1.0), _vector(x, 1.0), _vector(y, 1.0), plane.named
+            _vector(normal, 1.0), _vector(x, 1.0), _vector(y, 1.0), plane.x_axis_name
         ),
     )
     yield _line(
@@ -164,20 +167,20 @@ def _lines(name: str, found: StoredSection, outdated: Finding | None) -> Iterato
             _number(first),
             _number(second),
             "every axis through the centroid is principal"
-            if section.free
+            if section.axes_undetermined
             else "axis 1 at {}° from x towards y".format(_number(degrees(section.angle))),
         ),
     )
-    yield _line("Radii of gyration", _each("i", section.radii) + " m")
-    yield _line("Section moduli", _each("W", section.moduli) + " m³ (elastic, outermost corner)")
-    for label, bound in (("Rounding, at most", section.error), ("float32 coordinates", section.input)):
+    yield _line("Radii of gyration", _labeled_values("i", section.radii) + " m")
+    yield _line("Section moduli", _labeled_values("W", section.moduli) + " m³ (elastic, outermost corner)")
+    for label, bound in (("Rounding, at most", section.rounding_error), ("float32 coordinates", section.input_error)):
         yield _line(
             label,
             "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} m⁴".format(
-                *(bound[name] for name in BOUNDED)
+                *(bound[name] for name in BOUND_KEYS)
             ),
         )
-    for finding in found.findings:
+    for finding in stored_section.findings:
         yield _line("Note" if severity(finding) == Severity.NOTE else "Warning", sentence(finding))
 
 
@@ -190,12 +193,12 @@ def _number(value: float) -> str:
 
 
 def _clean(values, size: float) -> list[float]:
-    return [0.0 if abs(value) <= NOISE * size else float(value) for value in values]
+    return [0.0 if abs(value) <= ZERO_DISPLAY_RTOL * size else float(value) for value in values]
 
 
 def _vector(values, size: float) -> str:
     return "({})".format(", ".join(_number(value) for value in _clean(values, size)))
 
 
-def _each(letter: str, values) -> str:
+def _labeled_values(letter: str, values) -> str:
     return ", ".join("{}{} {}".format(letter, about, _number(value)) for about, value in zip(ABOUT, values))

@@ -15,9 +15,9 @@ from ...core.fourier.spectrum import Spectrum
 from .whole_file import whole_file
 
 ARRAYS = ("q", "F", "error", "input", "method", "frame")  # what a file holds
-MARK = "body_fourier"  # on the images that are ours to overwrite: their name
+IMAGE_MARK = "body_fourier"  # on the images that are ours to overwrite: their name
 DECADES = 6.0  # from white to black
-GAP = 2  # pixels between slices
+SLICE_GAP = 2  # pixels between slices
 
 
 def save(path: Path, spectrum: Spectrum, frame: str, check: Callable[[Path], None] | None = None) -> None:
@@ -30,7 +30,7 @@ def save(path: Path, spectrum: Spectrum, frame: str, check: Callable[[Path], Non
             **dict(
                 zip(
                     ARRAYS,
-                    (spectrum.q, spectrum.values, spectrum.error, spectrum.input, spectrum.method, frame),
+                    (spectrum.q, spectrum.values, spectrum.error, spectrum.input_error, spectrum.method, frame),
                     strict=True,
                 )
             ),
@@ -46,16 +46,16 @@ def picture(name: str, values: NDArray[np.complex128], count: int) -> bpy.types.
     half = count // 2
     size = np.abs(values).reshape(count, count, count)
     largest = size.max() or 1.0
-    gray = np.zeros((count, 3 * count + 2 * GAP))
+    gray = np.zeros((count, 3 * count + 2 * SLICE_GAP))
     for i, slice_ in enumerate((size[:, :, half], size[:, half, :], size[half, :, :])):
         decades = np.log10(np.maximum(slice_.T / largest, 10.0**-DECADES))
-        gray[:, i * (count + GAP) :][:, :count] = 1.0 + decades / DECADES
+        gray[:, i * (count + SLICE_GAP) :][:, :count] = 1.0 + decades / DECADES
     pixels = np.ones((*gray.shape, 4), np.float32)
     pixels[..., :3] = gray[..., None]
-    image = next((image for image in bpy.data.images if image.get(MARK) == name and image.is_editable), None)
+    image = next((image for image in bpy.data.images if image.get(IMAGE_MARK) == name and image.is_editable), None)
     if image is None:
         image = bpy.data.images.new(name, gray.shape[1], count)
-        image[MARK] = name
+        image[IMAGE_MARK] = name
     elif tuple(image.size) != (gray.shape[1], count):
         image.scale(gray.shape[1], count)
     image.pixels.foreach_set(pixels.ravel())

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
-from ...core.numerics.float32 import decimal
+from ...core.numerics.float32 import shortest_decimal
 
 FOOT = 0.3048
 POUND = 0.45359237
@@ -93,7 +93,7 @@ class Units:
             settings.system,
             settings.length_unit,
             settings.mass_unit,
-            decimal(settings.scale_length),
+            shortest_decimal(settings.scale_length),
         )
 
     def text(self, quantity: str, value: float) -> str:
@@ -134,14 +134,14 @@ class Units:
         table = LENGTHS[self.system]
         if self.length != "ADAPTIVE":
             return table[self.length]
-        return _fitting([table[key] for key in ADAPTIVE_LENGTHS[self.system]], value, _base(table))
+        return _fitting_unit([table[key] for key in ADAPTIVE_LENGTHS[self.system]], value, _base(table))
 
     def _mass(self, value: float) -> tuple[float, str]:
         table = MASSES[self.system]
         if self.mass != "ADAPTIVE":
             return table[self.mass]
         base = table["KILOGRAMS" if self.system == "METRIC" else "POUNDS"]
-        return _fitting([table[key] for key in ADAPTIVE_MASSES[self.system]], value, base)
+        return _fitting_unit([table[key] for key in ADAPTIVE_MASSES[self.system]], value, base)
 
     def _density(self) -> tuple[float, str]:
         """As densities are tabulated and typed, whatever a scene's lengths are: kg/mm³ helps nobody."""
@@ -155,14 +155,14 @@ class Units:
             mass = masses.get(self.mass, masses.get("KILOGRAMS", masses.get("POUNDS")))
             length = lengths.get(self.length, _base(lengths))
             return mass[0] * length[0] ** 2, "{:s}·{:s}²".format(mass[1], length[1])
-        return _fitting(ADAPTIVE_INERTIAS[self.system], value, ADAPTIVE_INERTIAS[self.system][0])
+        return _fitting_unit(ADAPTIVE_INERTIAS[self.system], value, ADAPTIVE_INERTIAS[self.system][0])
 
 
 def _base(table: dict[str, tuple[float, str]]) -> tuple[float, str]:
     return table["METERS"] if "METERS" in table else table["FEET"]
 
 
-def _fitting(units: Sequence[tuple[float, str]], value: float, base: tuple[float, str]) -> tuple[float, str]:
+def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[float, str]) -> tuple[float, str]:
     """The largest unit of which there is at least one, the smallest where there is none, the
     base for zero.
     """

@@ -116,7 +116,7 @@ def run(*words):
 def document(*words):
     """The document of one file, in which nothing went wrong that was not foreseen."""
     line = run(*words)
-    assert line.faults == 0
+    assert line.internal_errors == 0
     (found,) = line.documents
     return found
 

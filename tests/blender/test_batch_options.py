@@ -455,7 +455,7 @@ def test_a_fault_of_our_own_stops_nothing_else(monkeypatch, capsys):
 
     monkeypatch.setattr(module, "measure_object", failing)
     line = run()
-    assert line.faults == 1 and names(line.documents[0]) == ["b"]
+    assert line.internal_errors == 1 and names(line.documents[0]) == ["b"]
     assert "surprise" in errors(line.documents[0])["a"]
     assert "Traceback" in capsys.readouterr().err
 

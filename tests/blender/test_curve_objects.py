@@ -100,7 +100,7 @@ def test_moments_of_higher_order_of_a_region_are_exact_too():
     obj = circle()
     obj.body_moments.kind = "SHELL"
     found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=6))
-    assert found.area_moments.shifted(np.zeros(3))[6, 0, 0] == pytest.approx(5.0 * np.pi / 64.0, rel=1e-7)
+    assert found.area_moments.about_point(np.zeros(3))[6, 0, 0] == pytest.approx(5.0 * np.pi / 64.0, rel=1e-7)
 
 
 def test_moments_of_a_region_beyond_the_range_of_numbers_are_refused():
@@ -283,7 +283,7 @@ def test_a_wire_has_its_linear_density_and_is_up_to_date_whatever_its_density_co
     obj.body_moments.kind, obj.body_moments.density_from = "WIRE", source
     obj.select_set(True)
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
-    assert staleness.reason(obj, bpy.context.scene) is None
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
 
 
 def test_a_hook_on_a_flattened_wire_is_refused():

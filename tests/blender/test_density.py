@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.density.polynomial import parse
-from body_moments.core.inertia.mass_properties import combined
+from body_moments.core.inertia.mass_properties import combine
 from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.session import staleness
@@ -72,7 +72,7 @@ def test_a_dumbbell_of_two_materials():
     assert body.center == pytest.approx([(STEEL * 0.5 + CORK * 4.5) / mass, 0.5, 0.5], rel=1e-14)
     arm = STEEL * CORK / mass * 16.0
     assert np.diag(body.inertia) == pytest.approx([mass / 6, mass / 6 + arm, mass / 6 + arm], rel=1e-13)
-    assert found.mass_moments[0].of == "mass" and found.volume == pytest.approx(2.0)
+    assert found.mass_moments[0].measure == "mass" and found.volume == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize(
@@ -87,10 +87,16 @@ def test_materials_follow_every_transform(transform):
     for low, density in (((0, 0, 0), STEEL), ((4, 0, 0), CORK)):
         high = tuple(value + 1 for value in low)
         parts.append(measure(add(box(low, high), **transform), density=density).mass_moments)
-    truth = combined(parts)
-    assert abs(found.mass - truth.mass) <= found.error["mass"] + truth.error["mass"] < 1e-12 * truth.mass
-    assert np.linalg.norm(found.center - truth.center) <= found.error["center"] + truth.error["center"] < 1e-9
-    bound = found.error["inertia"] + truth.error["inertia"]
+    truth = combine(parts)
+    assert (
+        abs(found.mass - truth.mass) <= found.rounding_error["mass"] + truth.rounding_error["mass"] < 1e-12 * truth.mass
+    )
+    assert (
+        np.linalg.norm(found.center - truth.center)
+        <= found.rounding_error["center"] + truth.rounding_error["center"]
+        < 1e-9
+    )
+    bound = found.rounding_error["inertia"] + truth.rounding_error["inertia"]
     assert np.linalg.norm(found.inertia - truth.inertia) <= bound < 1e-9 * np.trace(truth.inertia)
 
 
@@ -296,10 +302,10 @@ def test_a_material_that_a_modifier_sets_is_read_and_makes_the_numbers_out_of_da
     assert measure(obj).mass_properties.mass == pytest.approx(STEEL, rel=1e-14)
     obj.select_set(True)
     bpy.ops.object.body_moments_measure()
-    assert staleness.reason(obj, bpy.context.scene) is None
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
     steel.body_moments.density = 8000.0
     bpy.context.view_layer.update()
-    assert staleness.reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
 
 
 def test_geometry_nodes_instances_bring_their_materials():
@@ -615,7 +621,7 @@ def test_out_of_date_names_settings_materials_and_slots():
 
     def reason():
         bpy.context.view_layer.update()
-        return staleness.reason(obj, scene)
+        return staleness.stale_reason(obj, scene)
 
     bpy.ops.object.body_moments_measure()
     assert reason() is None and obj["body_materials"] == "Cork\nSteel"
@@ -687,7 +693,7 @@ def test_the_command_lines_density_makes_the_setting_one_value():
     from body_moments.operators.settings import properties as settings
 
     obj = by_polynomial(add(box()), "1000 + z")
-    settings.keep(obj.body_moments, MeasureOptions(density=5.0), bpy.context.scene)
+    settings.apply_options(obj.body_moments, MeasureOptions(density=5.0), bpy.context.scene)
     assert measure(obj).density_from.code == "density_from_value" and measure(obj).density == pytest.approx(5.0)
 
 

@@ -187,7 +187,7 @@ def test_instances_are_phases_and_maps():
 
 def test_a_large_grid_is_approximate_and_says_so(monkeypatch, tmp_path):
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
-    monkeypatch.setattr(fourier_body, "CLOSED_FORM", 0.0)
+    monkeypatch.setattr(fourier_body, "MAX_CLOSED_FORM_PAIRS", 0.0)
     entry = measured("--fourier", tmp_path / "out.npz", "--grid", 24, "--qmax", 12)
     assert [one["values"] for one in entry["findings"] if one["code"] == "fourier_approximate"] == [{"share": 1e-7}]
     with np.load(tmp_path / "out.npz") as found:
@@ -206,7 +206,7 @@ def test_one_object_is_needed_and_a_refusal_is_an_error(tmp_path, wave_vectors):
     mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
     bodies.add(mesh, "Flat")
     line = run("--fourier", out, "--q", wave_vectors, "--object", "Flat")
-    assert line.errors == 1 and line.faults == 0 and not out.exists()
+    assert line.errors == 1 and line.internal_errors == 0 and not out.exists()
 
 
 def test_a_file_that_cannot_be_written_is_an_error(tmp_path, wave_vectors, monkeypatch):
@@ -234,7 +234,7 @@ def test_a_file_that_cannot_be_written_is_an_error(tmp_path, wave_vectors, monke
         ["--fourier", "OUT", "--q", "Q", "--qmax", "1"],
         ["--fourier", "OUT", "--grid", "1", "--qmax", "1"],
         ["--fourier", "OUT", "--grid", "x", "--qmax", "1"],
-        ["--fourier", "OUT", "--grid", str(command.LARGEST_GRID + 1), "--qmax", "1"],
+        ["--fourier", "OUT", "--grid", str(command.MAX_GRID + 1), "--qmax", "1"],
         ["--fourier", "OUT", "--grid", "8", "--qmax", "0"],
         ["--fourier", "OUT", "--grid", "8", "--qmax", "inf"],
         ["--fourier", "OUT", "--q", "none.npy"],
@@ -278,7 +278,7 @@ def test_the_operator_writes_the_file_and_an_image(tmp_path):
     path = tmp_path / "body.npz"
     result = bpy.ops.object.body_moments_fourier(filepath=str(path.with_suffix("")), count=12)
     assert result == {"FINISHED"}
-    expected, _ = transform(box, lambda size: fourier_body.Grid(12, np.pi / size * 6))
+    expected, _ = transform(box, lambda size: fourier_body.FrequencyGrid(12, np.pi / size * 6))
     with np.load(path) as found:
         assert np.array_equal(found["q"], expected.q)
         assert np.array_equal(found["F"], expected.values)
@@ -328,5 +328,5 @@ def test_an_archive_in_place_of_an_array_is_closed_again(tmp_path, monkeypatch):
     archive = np.load(tmp_path / "q.npz")
     monkeypatch.setattr(np, "load", lambda *_args, **_options: archive)
     with refused("wave_vectors_archive"):
-        command._listed(tmp_path / "q.npz")
+        command._read_wave_vectors(tmp_path / "q.npz")
     assert archive.zip is None

@@ -120,15 +120,15 @@ def test_stored_numbers_know_when_the_grid_moves(tmp_path):
     box.body_moments.density_from = "VOLUME"
     box.body_moments.density_volume = volume
     properties.store(box, measure(box))
-    staleness.settle(bpy.context, [box])
-    assert staleness.reason(box, bpy.context.scene) is None
+    staleness.mark_up_to_date(bpy.context, [box])
+    assert staleness.stale_reason(box, bpy.context.scene) is None
     volume.body_moments.value_density = 5.0
-    assert staleness.reason(box, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(box, bpy.context.scene) == "stale_settings"
     volume.body_moments.value_density = 1.0
-    assert staleness.reason(box, bpy.context.scene) is None
+    assert staleness.stale_reason(box, bpy.context.scene) is None
     volume.location.x = 1.0
     bpy.context.view_layer.update()
-    assert staleness.reason(box, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(box, bpy.context.scene) == "stale_settings"
 
 
 def test_stored_numbers_know_when_the_voxels_change(tmp_path):
@@ -139,20 +139,20 @@ def test_stored_numbers_know_when_the_voxels_change(tmp_path):
     plain = cube(location=(9, 0, 0))
     for obj in (box, plain):
         properties.store(obj, measure(obj))
-    staleness.settle(bpy.context, [box, plain])
-    assert staleness.reason(box, bpy.context.scene) is None
+    staleness.mark_up_to_date(bpy.context, [box, plain])
+    assert staleness.stale_reason(box, bpy.context.scene) is None
     fog.body_moments.value_density = 5.0  # a setting is no change of voxels
     bpy.context.view_layer.update()
     fog.body_moments.value_density = 1.0
     bpy.context.view_layer.update()
-    assert staleness.reason(box, bpy.context.scene) is None
+    assert staleness.stale_reason(box, bpy.context.scene) is None
     fog.modifiers[0].density = 3.0
     bpy.context.view_layer.update()
-    assert staleness.reason(box, bpy.context.scene) == "stale_geometry"
-    assert staleness.reason(plain, bpy.context.scene) is None
+    assert staleness.stale_reason(box, bpy.context.scene) == "stale_geometry"
+    assert staleness.stale_reason(plain, bpy.context.scene) is None
     properties.store(box, measure(box))
-    staleness.settle(bpy.context, [box])
-    assert staleness.reason(box, bpy.context.scene) is None
+    staleness.mark_up_to_date(bpy.context, [box])
+    assert staleness.stale_reason(box, bpy.context.scene) is None
 
 
 def chosen(tmp_path):
@@ -170,11 +170,11 @@ def test_the_button_stores_a_clouds_numbers_and_they_stay_fresh(tmp_path):
     found = measure(obj)
     assert obj["body_mass"] == found.mass_properties.mass
     assert obj["body_method"] == "grid exact"
-    assert staleness.reason(obj, bpy.context.scene) is None
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
     obj.body_moments.density = 5.0  # not what a grid weighs by
-    assert staleness.reason(obj, bpy.context.scene) is None
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
     obj.body_moments.value_density = 5.0
-    assert staleness.reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
 
 
 def test_snapping_of_a_cloud(tmp_path):

@@ -147,7 +147,7 @@ def test_reading_leaves_nothing_behind(tmp_path, monkeypatch, nodes):
     if nodes:
         by_nodes(monkeypatch)
     properties.store(obj, measure(obj))
-    staleness.settle(bpy.context, [obj])
+    staleness.mark_up_to_date(bpy.context, [obj])
     before, scene = snapshot(), bpy.context.scene
     measure(obj)
     with pytest.raises(RuntimeError, match="stop"), volume_reading(obj, depsgraph()) as reading:
@@ -155,7 +155,7 @@ def test_reading_leaves_nothing_behind(tmp_path, monkeypatch, nodes):
         raise RuntimeError("stop")
     assert snapshot() == before
     assert bpy.context.scene == scene
-    assert staleness.reason(obj, scene) is None
+    assert staleness.stale_reason(obj, scene) is None
 
 
 def test_the_temporary_folder_is_empty_afterwards(tmp_path, monkeypatch):
@@ -386,14 +386,14 @@ def test_a_mesh_that_its_nodes_turn_into_a_volume():
     assert found.method == "grid exact"
     assert found.mass_properties.center == pytest.approx([0, 0, 0], abs=0.05)
     properties.store(cube, found)
-    staleness.settle(bpy.context, [cube])
-    assert staleness.reason(cube, bpy.context.scene) is None
+    staleness.mark_up_to_date(bpy.context, [cube])
+    assert staleness.stale_reason(cube, bpy.context.scene) is None
 
 
 def test_higher_orders_of_the_voxels_that_are_not_empty(tmp_path):
     obj = volume_object(tmp_path / "a.vdb", vdb_grid(np.full((4, 2, 6), 0.5, np.float32)))
     found = measure(obj, order=4, surface=True)
-    moments = found.volume_moments.shifted([1.5, 0.5, 2.5])
+    moments = found.volume_moments.about_point([1.5, 0.5, 2.5])
     assert moments[4, 0, 0] == pytest.approx(2 * 2**5 / 5 * 2 * 6, rel=1e-13)
     assert moments[0, 2, 2] == pytest.approx(4 * (2 / 3) * (2 * 27 / 3), rel=1e-13)
     assert not found.area_moments.raw.any()

@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.scans.formats import placed, read_scan
+from body_moments.core.scans.formats import read_scan, sample_matrix
 from body_moments.operators.bodies.array import ArrayOptions, measure_array
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read.volume import volume_reading
@@ -106,7 +106,7 @@ def test_it_is_in_the_import_menu():
 
 def test_reading_back_needs_no_scan(tmp_path):
     path = written(tmp_path / "a.nrrd", nrrd(samples(), "spacings: 1 2 3"))
-    matrix, _ = placed(read_scan(path), None, None, None)
+    matrix, _ = sample_matrix(read_scan(path), None, None, None)
     obj = imported(path)
     path.unlink()
     bpy.context.view_layer.update()

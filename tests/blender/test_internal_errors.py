@@ -46,7 +46,7 @@ OPERATORS = {
 
 @pytest.fixture(autouse=True)
 def in_steps(monkeypatch):
-    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.AT_ONCE", 0)
+    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 0)
 
 
 def three(flat=False):
@@ -109,7 +109,7 @@ def test_the_error_of_one_object_ends_no_other(name, error, monkeypatch, reporte
     if name not in {"cursor", "similar", "empty"}:
         assert after[2] != before[2] and (name == "match" or after[0] != before[0])
     if name == "empty":
-        assert {one[empty.OF].name for one in bpy.data.objects if empty.OF in one} == {"a", "c"}
+        assert {one[empty.OBJECT_KEY].name for one in bpy.data.objects if empty.OBJECT_KEY in one} == {"a", "c"}
 
 
 def test_measure_keeps_the_error_for_the_panel_and_stores_the_others(monkeypatch):
@@ -118,14 +118,14 @@ def test_measure_keeps_the_error_for_the_panel_and_stores_the_others(monkeypatch
         plant(planted, TypeError("several\nlines. "), "a", "b")
         operator, window = pressed(OBJECT_OT_body_moments_measure)
         assert finished(operator, window) == {"FINISHED"}
-    first, second, third = [results.refusal(body) for body in bodies]
+    first, second, third = [results.failure(body) for body in bodies]
     assert third is None and first == second and first.code == "internal_error"
     assert first.values["error"] == "several lines"
     assert [properties.is_stored(body) for body in bodies] == [False, False, True]
     ((kind, text),) = operator.reports
     assert kind == "WARNING" and text.startswith("Measured 1 of 3 objects. a: Internal error: TypeError")
     assert finished(*pressed(OBJECT_OT_body_moments_measure)) == {"FINISHED"}
-    assert not any(results.refusal(body) for body in bodies)
+    assert not any(results.failure(body) for body in bodies)
 
 
 def test_an_interrupt_ends_all_and_stores_nothing(monkeypatch):
@@ -173,19 +173,19 @@ def test_live_goes_on_with_the_others(monkeypatch):
         spheres.append(bpy.context.object)
         spheres[-1].name = name
         bpy.ops.object.body_moments_live()
-    before = live.shown(spheres[1]).measurement.volume
+    before = live.current_numbers(spheres[1]).measurement.volume
     for sphere in spheres:
         sphere.scale.x = 2.0
     bpy.context.view_layer.update()
     with monkeypatch.context() as planted:
         plant(planted, TypeError("planted"), "a", module=live, function="read_patches")
         live._tick()
-    assert live.shown(spheres[0]).refusal.code == "internal_error"
-    assert live.shown(spheres[1]).measurement.volume == pytest.approx(2.0 * before, rel=1e-6)
-    assert set(live._followed) == {spheres[1].session_uid}
-    live._due.add(spheres[0].session_uid)
+    assert live.current_numbers(spheres[0]).refusal.code == "internal_error"
+    assert live.current_numbers(spheres[1]).measurement.volume == pytest.approx(2.0 * before, rel=1e-6)
+    assert set(live._tracked) == {spheres[1].session_uid}
+    live._pending.add(spheres[0].session_uid)
     live._tick()
-    assert live.shown(spheres[0]).measurement.volume == pytest.approx(2.0 * before, rel=1e-6)
+    assert live.current_numbers(spheres[0]).measurement.volume == pytest.approx(2.0 * before, rel=1e-6)
 
 
 @pytest.mark.parametrize("name", ["align", "match", "origin", "axes"])
@@ -214,7 +214,7 @@ def test_an_empty_that_failed_on_its_way_is_as_it_was(there, monkeypatch):
             body.data.vertices[0].co.x -= 1.0
             body.data.update()
     bpy.context.view_layer.update()
-    empties = {one[empty.OF].name: one for one in bpy.data.objects if empty.OF in one}
+    empties = {one[empty.OBJECT_KEY].name: one for one in bpy.data.objects if empty.OBJECT_KEY in one}
     before = {name: place(one).tolist() for name, one in empties.items()}
     real, seen = empty._is_there, []
 
@@ -226,7 +226,7 @@ def test_an_empty_that_failed_on_its_way_is_as_it_was(there, monkeypatch):
 
     monkeypatch.setattr(empty, "_is_there", failing)
     assert bpy.ops.object.body_moments_add_empty() == {"FINISHED"}
-    found = {one[empty.OF].name: place(one).tolist() for one in bpy.data.objects if empty.OF in one}
+    found = {one[empty.OBJECT_KEY].name: place(one).tolist() for one in bpy.data.objects if empty.OBJECT_KEY in one}
     assert seen.count("b") == 2 and found.get("b") == before.get("b")
     assert found["a"] != before.get("a") and found["c"] != before.get("c")
 
@@ -256,7 +256,7 @@ def test_the_command_line_writes_the_others_into_the_file(tmp_path, monkeypatch)
             "body_moments.operators.command.run.measure_object", lambda *args: measure.measure_body(*args).measurement
         )
         line = files.run(path, "--density", "500", "--write")
-    assert line.faults == 1
+    assert line.internal_errors == 1
     ((error,),) = [document["errors"] for document in line.documents]
     assert error["name"] == "b" and error["reason"].startswith("Internal error: TypeError")
     bpy.ops.wm.open_mainfile(filepath=path)

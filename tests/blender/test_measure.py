@@ -392,7 +392,7 @@ def test_out_of_date_names_what_has_changed():
 
     def reason():
         bpy.context.view_layer.update()
-        return staleness.reason(obj, scene)
+        return staleness.stale_reason(obj, scene)
 
     assert reason() is None
     obj.body_moments.density = 500.0

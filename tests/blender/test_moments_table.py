@@ -50,7 +50,7 @@ def rows():
 
     group = bpy.context.scene.body_moments
     text = moments_table.as_csv(
-        moments_table.found(bpy.context.object), group.moments_of, group.moments_about, group.frame
+        moments_table.computed_moments(bpy.context.object), group.moments_of, group.moments_about, group.frame
     )
     comment, *lines = text.splitlines()
     assert comment.startswith("# ")
@@ -122,7 +122,7 @@ def test_what_was_computed_is_called_out_of_date_when_the_object_changes(box):
 
     def reason():
         bpy.context.view_layer.update()
-        return moments_table.outdated(box, bpy.context.scene)
+        return moments_table.stale_reason(box, bpy.context.scene)
 
     compute()
     assert reason() is None
@@ -197,12 +197,12 @@ def test_a_wall_s_moments_end_at_order_three(box, reported):
 def test_only_the_last_objects_are_kept(box, monkeypatch):
     from body_moments.operators.session import moments as moments_table
 
-    monkeypatch.setattr(moments_table, "KEPT", 2)
+    monkeypatch.setattr(moments_table, "MAX_CACHED_OBJECTS", 2)
     others = [files.add_box(center=(5 * i, 0, 0)) for i in range(3)]
     for obj in others:
         bpy.context.view_layer.objects.active = obj
         compute(1)
-    assert [moments_table.found(obj) is not None for obj in others] == [False, True, True]
+    assert [moments_table.computed_moments(obj) is not None for obj in others] == [False, True, True]
 
 
 def test_a_script_gets_the_moments_of_an_object_as_the_readme_says(box):
@@ -259,5 +259,5 @@ def test_moments_of_what_undo_took_back_are_out_of_date(box):
         assert bpy.ops.ed.undo() == {"FINISHED"}
     obj = bpy.data.objects[name]
     bpy.context.view_layer.update()
-    assert moments_table.found(obj).volume.total == pytest.approx(48.0)
-    assert moments_table.outdated(obj, bpy.context.scene) == "stale_geometry"
+    assert moments_table.computed_moments(obj).volume.total == pytest.approx(48.0)
+    assert moments_table.stale_reason(obj, bpy.context.scene) == "stale_geometry"

@@ -80,7 +80,7 @@ def test_the_display_mesh_is_reproduced_for_all_flags_orders_and_weights(along_u
                 display_table(space, display_parameters(space, resolution))
                 for space, resolution in zip(spaces, (spline.resolution_v, spline.resolution_u))
             ]
-            found = Patch(spaces, points, weights).combined(*tables).swapaxes(0, 1).reshape(-1, 3)
+            found = Patch(spaces, points, weights).apply_weights(*tables).swapaxes(0, 1).reshape(-1, 3)
             assert np.abs(found - vertices).max() <= 2e-6
         bpy.data.objects.remove(obj)
     assert valid >= 5
@@ -118,7 +118,7 @@ def test_an_uneven_mirrored_transform_maps_the_body(name):
     plain = measured(obj)
     obj.location, obj.rotation_euler, obj.scale = (5.0, -2.0, 8.0), (0.3, -1.0, 2.0), (1.0, 2.0, -0.5)
     moved = measured(obj)
-    expected = plain.volume_moments.mapped(place(obj)).shifted(moved.volume_moments.about)
+    expected = plain.volume_moments.transform(place(obj)).about_point(moved.volume_moments.about)
     assert moved.method == plain.method and said(moved).keys() == said(plain).keys()
     assert np.abs(moved.volume_moments.raw - expected.raw).max() <= 1e-12 * expected.total
     assert moved.area != pytest.approx(plain.area, rel=1e-2)
@@ -169,7 +169,7 @@ def test_moments_of_higher_order_of_a_thin_shell():
     obj = primitive("sphere")
     obj.body_moments.kind = "SHELL"
     found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=4))
-    assert found.area_moments.shifted(np.zeros(3))[4, 0, 0] == pytest.approx(4.0 * np.pi / 5.0, rel=2e-6)
+    assert found.area_moments.about_point(np.zeros(3))[4, 0, 0] == pytest.approx(4.0 * np.pi / 5.0, rel=2e-6)
 
 
 def test_a_wall_follows_the_scale_of_the_surface_but_keeps_its_thickness():
@@ -193,9 +193,9 @@ def test_moments_of_higher_order_are_exact_too():
     obj = primitive("sphere")
     options = MeasureOptions(order=6, surface=True)
     found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), options)
-    sixth = found.volume_moments.shifted(np.zeros(3))[6, 0, 0]
+    sixth = found.volume_moments.about_point(np.zeros(3))[6, 0, 0]
     assert sixth == pytest.approx(4.0 * np.pi / 63.0, rel=2e-6)
-    assert found.area_moments.shifted(np.zeros(3))[0, 4, 0] == pytest.approx(4.0 * np.pi / 5.0, rel=2e-6)
+    assert found.area_moments.about_point(np.zeros(3))[0, 4, 0] == pytest.approx(4.0 * np.pi / 5.0, rel=2e-6)
 
 
 def test_shape_keys_move_the_surface():
@@ -402,9 +402,9 @@ def test_numbers_follow_an_edit_while_live_is_on():
     obj = primitive("torus")
     bpy.ops.object.body_moments_measure()
     stored = obj["body_volume"]
-    assert live.shown(obj) is None
+    assert live.current_numbers(obj) is None
     bpy.ops.object.body_moments_live()
-    assert live.shown(obj).measurement.volume == pytest.approx(stored, rel=1e-12)
+    assert live.current_numbers(obj).measurement.volume == pytest.approx(stored, rel=1e-12)
     rng = np.random.default_rng(0)
     points = np.array([point.co[:3] for point in obj.data.splines[0].points])
     weights = np.array([point.co[3] for point in obj.data.splines[0].points])
@@ -412,15 +412,15 @@ def test_numbers_follow_an_edit_while_live_is_on():
         points[rng.integers(64)] += rng.uniform(-0.1, 0.1, 3)
         set_points(obj.data.splines[0], points[None], weights)
         bpy.context.view_layer.update()
-        assert obj.session_uid in live._due
-        found = live.follow(obj, bpy.context.evaluated_depsgraph_get()).measurement
+        assert obj.session_uid in live._pending
+        found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
         now = measured(obj)
         assert found.method == now.method == "NURBS exact"
         assert found.volume == pytest.approx(now.volume, rel=1e-12)
         assert np.allclose(found.mass_properties.inertia, now.mass_properties.inertia, rtol=1e-11, atol=1e-9)
     assert obj["body_volume"] == stored  # shown, never stored
     bpy.ops.object.body_moments_live()
-    assert live.shown(obj) is None
+    assert live.current_numbers(obj) is None
 
 
 def test_live_numbers_follow_hooks_keys_transforms_and_frames():
@@ -436,12 +436,12 @@ def test_live_numbers_follow_hooks_keys_transforms_and_frames():
     bpy.ops.object.body_moments_live()
     for frame in (1, 6, 11):
         bpy.context.scene.frame_set(frame)
-        assert obj.session_uid in live._due
-        found = live.follow(obj, bpy.context.evaluated_depsgraph_get()).measurement
+        assert obj.session_uid in live._pending
+        found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
         assert found.volume == pytest.approx(BALL * STORED * hook.scale.z, rel=1e-8)
     obj.scale = (1.0, 2.0, -1.0)
     bpy.context.view_layer.update()
-    found = live.follow(obj, bpy.context.evaluated_depsgraph_get()).measurement
+    found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
     assert found.volume == pytest.approx(measured(obj).volume, rel=1e-12)
     bpy.ops.object.body_moments_live()
 
@@ -463,7 +463,7 @@ def test_live_numbers_follow_what_was_renamed_and_the_linked_one_of_two_with_one
     own.name = "Renamed"
     live._tick()
     for obj in (own, linked):
-        assert live.shown(obj).measurement.volume == pytest.approx(2.0 * BALL * STORED, rel=1e-8)
+        assert live.current_numbers(obj).measurement.volume == pytest.approx(2.0 * BALL * STORED, rel=1e-8)
 
 
 def test_live_numbers_of_other_settings_are_out_of_date():
@@ -475,9 +475,9 @@ def test_live_numbers_of_other_settings_are_out_of_date():
         (scene.unit_settings, "scale_length", 0.5),
     ):
         setattr(data, name, value)
-        assert live.is_outdated(obj, scene)
-        live.follow(obj, bpy.context.evaluated_depsgraph_get())
-        assert not live.is_outdated(obj, scene)
+        assert live.is_stale(obj, scene)
+        live.update(obj, bpy.context.evaluated_depsgraph_get())
+        assert not live.is_stale(obj, scene)
     bpy.ops.object.body_moments_live()
 
 
@@ -489,20 +489,20 @@ def test_live_numbers_follow_undo_and_stop_at_a_file_and_when_unregistered(tmp_p
     obj.data.update_tag()
     bpy.context.view_layer.update()
     bpy.ops.ed.undo_push(message="After")
-    live._due.clear()
+    live._pending.clear()
     bpy.ops.ed.undo()
     bpy.context.view_layer.update()
     obj = bpy.context.object
-    assert live.is_live(obj) and obj.session_uid in live._due
+    assert live.is_live(obj) and obj.session_uid in live._pending
     path = str(tmp_path / "live.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
-    assert not live.is_live(bpy.context.object) and not live._shown and not live._due
+    assert not live.is_live(bpy.context.object) and not live._results and not live._pending
     bpy.ops.object.body_moments_live()
     live.unregister()
     live.register()
-    assert not live._live and not live._followed
-    assert bpy.app.handlers.depsgraph_update_post.count(live._note) == 1
+    assert not live._live and not live._tracked
+    assert bpy.app.handlers.depsgraph_update_post.count(live._on_depsgraph_update) == 1
 
 
 def test_a_hook_under_a_flattened_object_leaves_the_display_mesh():

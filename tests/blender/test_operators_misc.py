@@ -188,7 +188,7 @@ def test_no_faults_in_edit_mode_leaves_mode_and_selection_as_they_were():
     assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
     assert bpy.context.mode == "EDIT_MESH" and "body_volume" in obj
     assert [vertex.index for vertex in bmesh.from_edit_mesh(obj.data).verts if vertex.select] == [2]
-    assert staleness.reason(obj, bpy.context.scene) is None
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
@@ -279,7 +279,7 @@ def test_faults_of_a_result_of_modifiers_are_not_selected_in_the_mesh():
 
 def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets_it():
     from body_moments.core.density.materials import BY_NAME
-    from body_moments.core.numerics.float32 import decimal
+    from body_moments.core.numerics.float32 import shortest_decimal
 
     one, other = add(mesh_body(), "One"), add(mesh_body(), "Other")
     only(one, other)
@@ -287,7 +287,7 @@ def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets
     assert bpy.ops.object.body_moments_set_material(material="Water") == {"FINISHED"}
     for obj in (one, other):
         assert obj.body_moments.material == "Water" and obj.body_moments.mass_from == "DENSITY"
-        assert decimal(obj.body_moments.density) == BY_NAME["Water"].density
+        assert shortest_decimal(obj.body_moments.density) == BY_NAME["Water"].density
     assert bpy.ops.object.body_moments_set_material(material="Water") == {"CANCELLED"}
     one.body_moments.density = 500.0
     assert one.body_moments.material == ""
@@ -317,7 +317,7 @@ def test_ones_own_presets_are_kept_loaded_and_removed():
 
 def test_presets_keep_every_setting_that_is_no_object():
     from body_moments.core.density.materials import MATERIALS
-    from body_moments.operators.settings.properties import COPIED
+    from body_moments.operators.settings.properties import COPIED_PROPERTIES
 
     changed = {
         "kind": "WIRE",
@@ -340,7 +340,7 @@ def test_presets_keep_every_setting_that_is_no_object():
         "transfer_table": "0, 1, 2, 3",
         "spline_order": 4,
     }
-    assert {*changed, "density_volume"} == {*COPIED}
+    assert {*changed, "density_volume"} == {*COPIED_PROPERTIES}
     one = add(mesh_body())
     for name, value in changed.items():
         setattr(one.body_moments, name, value)

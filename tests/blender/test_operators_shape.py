@@ -238,13 +238,13 @@ def test_copies_whose_hands_rounding_hides_are_held_against_the_surface():
     wanted = prism("Wanted", [(0, 0), (3, 0), (1, 1)])
     prism("Copy", [(0, 0), (3, 0), (1, 1)], location=(9, 0, 0))
     only(wanted)
-    from body_moments.core.shape.library import verdict
-    from body_moments.core.shape.signature import compared
+    from body_moments.core.shape.library import classify
+    from body_moments.core.shape.signature import similarity
     from body_moments.operators.bodies.shape import surface_shape_of
 
     depsgraph = bpy.context.evaluated_depsgraph_get()
     first, second = (surface_shape_of(bpy.data.objects[name], depsgraph).signature(12) for name in ("Wanted", "Copy"))
-    assert verdict(compared(first, second)) == "copy_or_mirror"
+    assert classify(similarity(first, second)) == "copy_or_mirror"
     assert run("find_similar") == {"FINISHED"}
     assert found() == {"Copy": "copy"} and selected() == {"Wanted", "Copy"}
 
@@ -352,17 +352,17 @@ def test_a_symmetry_is_out_of_date_after_an_edit_and_not_after_a_motion():
     run("measure")
     run("find_symmetry")
     scene = bpy.context.scene
-    assert staleness.symmetry_reason(obj) is None and staleness.reason(obj, scene) is None
+    assert staleness.symmetry_stale_reason(obj) is None and staleness.stale_reason(obj, scene) is None
     obj.location.x, obj.rotation_euler.y, obj.scale = 3.0, 1.0, (2, 2, 2)
     bpy.context.view_layer.update()
-    assert staleness.symmetry_reason(obj) is None
+    assert staleness.symmetry_stale_reason(obj) is None
     obj.scale.x = 1.5
     bpy.context.view_layer.update()
-    assert staleness.symmetry_reason(obj) == "stale_scale"
+    assert staleness.symmetry_stale_reason(obj) == "stale_scale"
     obj.data.vertices[0].co.x += 0.5
     obj.data.update()
     bpy.context.view_layer.update()
-    assert staleness.symmetry_reason(obj) == "stale_geometry"
+    assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
     assert obj.body_moments_symmetry.group == "C1"
 
 
@@ -408,12 +408,12 @@ def test_a_shell_has_a_pose_and_a_signature_of_its_sheet():
     obj.body_moments.kind = "SHELL"
     bpy.context.view_layer.update()
     shape = shape_of(obj, bpy.context.evaluated_depsgraph_get())
-    assert shape.moments.of == "area" and shape.pose()["symmetry"] == "C1"
+    assert shape.moments.measure == "area" and shape.pose()["symmetry"] == "C1"
     assert len(shape.signature(6).fourier) == 0 and len(shape.signature(6).zernike) == 16
 
 
 def test_instances_are_part_of_the_shape():
-    from body_moments.core.shape.signature import compared
+    from body_moments.core.shape.signature import similarity
     from body_moments.operators.bodies.shape import shape_of
 
     obj = wedge()
@@ -429,7 +429,7 @@ def test_instances_are_part_of_the_shape():
     bpy.context.view_layer.update()
     depsgraph = bpy.context.evaluated_depsgraph_get()
     one, other = (shape_of(thing, depsgraph).signature(8) for thing in (obj, empty))
-    assert compared(one, other).distance() < 1e-4
+    assert similarity(one, other).distance() < 1e-4
 
 
 def test_clearing_takes_the_symmetry_away():
@@ -444,7 +444,7 @@ def test_clearing_takes_the_symmetry_away():
 @pytest.mark.parametrize("body", ["wedge", "sliver", "sphere"])
 def test_distances_from_a_skin_are_those_from_all_triangles_and_decide_alike(body):
     from body_moments.core.mesh.point_triangle import triangle_distances
-    from body_moments.operators.bodies.shape import Skin, shape_of
+    from body_moments.operators.bodies.shape import SurfaceDistance, shape_of
 
     if body == "sphere":
         bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, location=(1, 2, 3))
@@ -454,8 +454,8 @@ def test_distances_from_a_skin_are_those_from_all_triangles_and_decide_alike(bod
         obj.scale.z = 1.0 if body == "wedge" else 1e-3
         bpy.context.view_layer.update()
     shape = shape_of(obj, bpy.context.evaluated_depsgraph_get())
-    skin = Skin(shape)
-    assert list(skin.grow())[-1] == 1.0
+    skin = SurfaceDistance(shape)
+    assert list(skin.build())[-1] == 1.0
     (piece,) = shape.pieces()
     corners = piece.points[piece.all_triangles()[0]]
     rng = np.random.default_rng(0)

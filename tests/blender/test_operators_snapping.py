@@ -542,7 +542,7 @@ def test_stored_results_are_kept_up_to_date():
     obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.1, 0.2, 0.3))
     bpy.ops.object.body_moments_measure()
     assert run(AXES) == {"FINISHED"}
-    assert not staleness.reason(obj, bpy.context.scene)
+    assert not staleness.stale_reason(obj, bpy.context.scene)
     assert np.abs(np.array(obj["body_center_of_mass"])).max() < TOLERANCE
     assert np.abs(np.abs(obj["body_principal_axes"][0]) - 1.0) < 1e-6
 
@@ -606,7 +606,7 @@ def test_faces_change_neither_the_frame_that_is_snapped_to_nor_what_is_reported_
     from body_moments.operators.write import properties
 
     unasked = finding("axes_from_third_order")
-    monkeypatch.setattr(measure, "AT_ONCE", 100)
+    monkeypatch.setattr(measure, "MAX_FACES_HIGH_ORDER", 100)
     bpy.ops.mesh.primitive_cube_add(location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
     obj = bpy.context.object
     bpy.ops.object.mode_set(mode="EDIT")

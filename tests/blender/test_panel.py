@@ -299,9 +299,9 @@ def test_totals_have_parallel_axis_terms():
     add(mesh_body(), "Not Measured")
     for obj in objects:
         obj.select_set(True)
-    from body_moments.core.inertia.mass_properties import combined
+    from body_moments.core.inertia.mass_properties import combine
 
-    truth = combined([measured(obj).mass_moments for obj in objects])
+    truth = combine([measured(obj).mass_moments for obj in objects])
     total = results.total(bpy.context)
     assert total.count == 3 and total.missing == ("Not Measured",)
     assert abs(total.body.mass / truth.mass - 1.0) < 1e-12
@@ -430,7 +430,7 @@ def test_sentences_fit_into_the_narrowest_sidebar():
     for scale in (1.0, 2.0):
         preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=scale), ui_styles=[style])
         context = SimpleNamespace(region=SimpleNamespace(width=184 * scale), preferences=preferences)
-        assert 0 < rows._width(context)[0] <= (184 - rows.MARGIN) * scale
+        assert 0 < rows._width(context)[0] <= (184 - rows.REGION_MARGIN) * scale
 
 
 def test_numbers_are_whole_in_the_narrowest_sidebar(monkeypatch):
@@ -451,10 +451,10 @@ def test_numbers_are_whole_in_the_narrowest_sidebar(monkeypatch):
     for width in (300, None):  # None: without a window
         record, shared = shown(width)
         assert labels(record) == ["Volume", "0.182213 m³", "2", "0.0000", "−0.9877", "0.1566"]
-        assert shared == [rows.LABEL, rows.INDEX]
+        assert shared == [rows.LABEL_SHARE, rows.INDEX_LABEL_SHARE]
     record, shared = shown(184)
     assert labels(record) == ["Volume", "0.182213 m³", "2 x", "0.0000", "2 y", "−0.9877", "2 z", "0.1566"]
-    assert shared == [rows.SHORT] * 3  # the volume has a row of its own
+    assert shared == [rows.SHORT_LABEL_SHARE] * 3  # the volume has a row of its own
     assert copied(record, "") == ["-0.0", "-0.98765432", "0.1566"]
 
 
@@ -674,4 +674,4 @@ def test_a_wall_of_real_thickness_is_called_so_whatever_the_setting_is_now():
 def largest(obj):
     from body_moments.operators.session import walls
 
-    return walls.largest(obj)
+    return walls.max_thickness(obj)

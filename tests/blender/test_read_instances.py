@@ -319,7 +319,7 @@ def test_instances_scaled_to_nothing_are_left_out_and_said():
     reading = read_object(host, depsgraph())
     assert [len(part.matrices) for part in reading.parts] == [3]
     assert said(reading) == {"instances_vanished": {"count": 1}}
-    assert not reading.singular
+    assert not reading.all_singular
 
 
 def left_out(obj):

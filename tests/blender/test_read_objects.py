@@ -202,7 +202,7 @@ def test_a_curve_that_only_carries_instances_has_no_polygons_to_speak_of():
         return made.outputs[0]
 
     nodes(obj, build)
-    assert read(obj).places == 10 and not drawn(obj)
+    assert read(obj).instance_count == 10 and not drawn(obj)
 
 
 def test_the_metaball_with_the_lowest_number_holds_its_familys_polygons():
@@ -438,7 +438,7 @@ def test_members_of_an_instanced_collection_that_only_the_viewport_or_the_render
         one.hide_viewport = True
     unused.hide_render = cutter.hide_render = inner.hide_viewport = True
     reading = read(obj)
-    assert reading.places == 2
+    assert reading.instance_count == 2
     cutter = {"viewport_only_members": {"objects": ["Cutter"]}}
     assert said(reading) == {"render_only_members": {"objects": ["Off", "Spare"]}, **cutter}
     inner.hide_render = True
@@ -477,7 +477,7 @@ def test_a_sheared_and_mirrored_transform_is_the_matrix_as_it_is():
     linear = reading.matrix[:3, :3]
     assert np.linalg.det(linear) < 0.0
     assert abs(linear[:, 0] @ linear[:, 1]) > 0.1
-    assert not reading.singular
+    assert not reading.all_singular
 
 
 def test_the_rotation_is_decomposed_and_orthonormal_to_the_last_digits():
@@ -508,7 +508,7 @@ def test_the_rotation_is_decomposed_and_orthonormal_to_the_last_digits():
 def test_a_transform_that_flattens_is_told_from_one_that_is_small(scale, singular):
     obj = cube()
     obj.scale, obj.rotation_euler = scale, (0.4, 0.5, 0.6)
-    assert read(obj).singular == singular
+    assert read(obj).all_singular == singular
 
 
 def test_a_shear_that_flattens_is_singular():
@@ -517,7 +517,7 @@ def test_a_shear_that_flattens_is_singular():
     matrix[0][:3], matrix[1][:3] = (0.1, 0.2, 0.3), (0.2, 0.4, 0.6)
     parent = link("Parent")
     obj.parent, obj.matrix_parent_inverse = parent, matrix
-    assert read(obj).singular
+    assert read(obj).all_singular
 
 
 def test_a_transform_that_is_not_finite_is_refused():

@@ -380,7 +380,7 @@ def test_a_refusal_does_not_make_stored_numbers_out_of_date():
     bpy.context.scene.cursor.location = (3.0, 0.0, 0.0)
     assert balance() == {"CANCELLED"}
     bpy.context.view_layer.update()
-    assert staleness.reason(obj, bpy.context.scene) is None
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
 
 
 def test_undo_brings_the_vertices_back():

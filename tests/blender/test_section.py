@@ -78,7 +78,7 @@ def stored(obj):
 def outdated(obj):
     from body_moments.operators.actions.measure import section
 
-    return section.outdated(obj, bpy.context.scene, stored(obj))
+    return section.stale_reason(obj, bpy.context.scene, stored(obj))
 
 
 @pytest.mark.parametrize("data", [lambda: flat_mesh(I_BEAM), lambda: curve_of(I_BEAM), lambda: curve_of(I_BEAM[::-1])])
@@ -89,7 +89,7 @@ def test_an_i_beam_is_that_of_the_tables(data):
     assert section.principal == pytest.approx((I_X, I_Y), rel=1e-13) and section.angle == 0.0
     assert section.center == pytest.approx((1, 2, 3), abs=1e-14)
     assert section.moduli[:2] == pytest.approx((I_X / Y, I_Y / X), rel=1e-13)
-    assert section.plane.axes == pytest.approx(np.eye(3), abs=1e-15) and section.plane.named == "X"
+    assert section.plane.axes == pytest.approx(np.eye(3), abs=1e-15) and section.plane.x_axis_name == "X"
     assert findings == ()
 
 
@@ -122,7 +122,7 @@ def test_an_object_that_a_zero_scale_has_flattened_keeps_its_own_axes(data, heig
     """`decompose()` has no rotation for it, and Blender's answer is no axis of the object."""
     section, _, _ = section_of(add(data(), rotation=(0.3, 0.4, 0.5), scale=(1, 1, height)))
     assert section.second == pytest.approx((I_X, I_Y, 0.0), rel=1e-6, abs=1e-6 * I_X)
-    assert section.plane.named == "X"
+    assert section.plane.x_axis_name == "X"
 
 
 def test_a_sheared_object_is_measured_as_it_is_seen():
@@ -148,7 +148,7 @@ def test_a_polygon_tends_to_the_circle():
     for n in (32, 64):
         angle = 2 * np.pi * np.arange(n) / n
         section, _, _ = section_of(add(flat_mesh(list(zip(np.cos(angle), np.sin(angle))))))
-        assert section.free
+        assert section.axes_undetermined
         shares.append([1 - section.area / math.pi, 1 - section.polar / (math.pi / 2)])
     assert np.array(shares[0]) / shares[1] == pytest.approx([4.0, 4.0], rel=0.02)
 
@@ -184,7 +184,7 @@ def test_holes_of_letters_count_and_letters_add_up():
     obj.data.body = "AA"
     both, _, _ = section_of(obj)
     assert both.area == pytest.approx(2 * single.area, rel=1e-6) and both.holes == 2
-    assert both.input["area"] < 1e-5 * both.area
+    assert both.input_error["area"] < 1e-5 * both.area
 
 
 def test_a_text_on_a_curve_is_measured_where_it_is():
@@ -228,7 +228,7 @@ def test_points_of_an_outline_that_are_there_twice_change_nothing(at):
 def test_lines_between_faces_that_share_no_corners_are_no_perimeter():
     found, _, findings = section_of(add(flat_mesh(square(0, 0, 2), square(2, 0, 1), square(2, 1, 1))))
     assert found.perimeter == pytest.approx(10.0, abs=1e-14) and found.area == 6.0 and not findings
-    assert found.error["perimeter"] < 1e-11
+    assert found.rounding_error["perimeter"] < 1e-11
     found = section_of(add(curve_of(square(0, 0, 4), square(0, 1, 2))))[0]  # a hole that touches from within
     assert found.perimeter == pytest.approx(20.0, abs=1e-14)
 
@@ -331,7 +331,7 @@ def test_selected_faces_of_a_body_are_a_section_in_any_plane():
     selected(obj, lambda face: face.normal.z < -0.9)
     assert section_of(obj)[0].plane.axes[:, 2] == pytest.approx(-np.array(obj.matrix_world)[:3, 2], abs=1e-6)
     selected(obj, lambda face: face.normal.x < -0.9)
-    assert section_of(obj)[0].plane.named == "Y"  # the x axis stands upright on that side
+    assert section_of(obj)[0].plane.x_axis_name == "Y"  # the x axis stands upright on that side
     selected(obj, lambda face: abs(face.normal.z) > 0.9)
     assert refused(obj, "section_not_flat")
     selected(obj, lambda face: False)
@@ -398,8 +398,19 @@ def test_the_operator_stores_the_section_and_reads_it_back_to_the_last_digit():
     truth, what, findings = section_of(obj)
     assert bpy.ops.object.body_moments_measure_section() == {"FINISHED"}
     found = stored(obj)
-    assert (found.what, found.findings) == (what, findings)
-    for name in ("area", "perimeter", "angle", "principal", "polar", "outlines", "holes", "error", "input", "free"):
+    assert (found.description, found.findings) == (what, findings)
+    for name in (
+        "area",
+        "perimeter",
+        "angle",
+        "principal",
+        "polar",
+        "outlines",
+        "holes",
+        "rounding_error",
+        "input_error",
+        "axes_undetermined",
+    ):
         assert getattr(found.section, name) == getattr(truth, name)
     for name in ("second", "centroid", "center", "radii", "moduli"):
         assert np.array_equal(getattr(found.section, name), getattr(truth, name))
@@ -457,10 +468,10 @@ def test_body_and_section_grow_old_apart():
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
     update()
-    assert staleness.reason(obj, scene) == outdated(obj) == "stale_geometry"
+    assert staleness.stale_reason(obj, scene) == outdated(obj) == "stale_geometry"
     bpy.ops.object.body_moments_measure()
     update()
-    assert staleness.reason(obj, scene) is None and outdated(obj) == "stale_geometry"
+    assert staleness.stale_reason(obj, scene) is None and outdated(obj) == "stale_geometry"
     selected(obj, lambda face: face.normal.z > 0.9)
     bpy.ops.object.body_moments_measure_section()
     assert outdated(obj) is None
@@ -476,7 +487,7 @@ def test_a_section_that_is_refused_leaves_results_up_to_date():
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
     assert bpy.ops.object.body_moments_measure_section() == {"CANCELLED"}
     bpy.context.view_layer.update()
-    assert staleness.reason(obj, bpy.context.scene) is None
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
 
 
 def test_measuring_the_body_does_not_put_its_section_out_of_date():

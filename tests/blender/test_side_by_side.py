@@ -106,7 +106,7 @@ def test_what_shows_the_others_through_a_collection_is_changed_after_them():
     bpy.context.view_layer.update()
     touched = side_by_side.dependents([*members, shower])
     assert shower in touched[members[0]] and members[0] not in touched[shower]
-    assert side_by_side.rounds(touched.items()) == [[members[0]], [members[1]], [shower]]
+    assert side_by_side.independent_rounds(touched.items()) == [[members[0]], [members[1]], [shower]]
 
 
 def beveled_by(obj):
@@ -192,14 +192,14 @@ def test_one_that_is_refused_beside_another_is_tried_again_alone(monkeypatch):
     first, second = bodies(2)
     wrap_around(second, first)
     monkeypatch.setattr(reframe, "dependents", lambda objects: {obj: {obj} for obj in objects})
-    reached = reframe.reached
+    reached = reframe.set_world_matrix
 
     def slower(plan):
         yield from reached(plan)
         if plan.obj == first:
             yield  # moved, and its data is not yet
 
-    monkeypatch.setattr(reframe, "reached", slower)
+    monkeypatch.setattr(reframe, "set_world_matrix", slower)
     before, was = seen(second), place(second)
     only(first, second)
     assert run("origin_to_center") == {"FINISHED"}
@@ -221,7 +221,7 @@ def test_where_one_fails_without_a_reason_the_others_are_put_back():
             put_back.append(fails)
 
     with pytest.raises(ZeroDivisionError):
-        side_by_side.carry_out(bpy.context, side_by_side.side_by_side([change(False), change(True), change(False)]))
+        side_by_side.run_change(bpy.context, side_by_side.run_together([change(False), change(True), change(False)]))
     assert sorted(put_back) == [False, False, True]
 
 

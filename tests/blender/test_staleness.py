@@ -21,7 +21,7 @@ def update():
 
 
 def reason(obj):
-    return staleness.reason(obj, bpy.context.scene)
+    return staleness.stale_reason(obj, bpy.context.scene)
 
 
 def measure(*objects):
@@ -107,7 +107,7 @@ def test_what_blender_evaluates_again_and_shows_as_before_is_up_to_date():
     for objects in evaluated_anew(obj):
         update()
         assert [reason(one) for one in objects] == [None] * len(objects)
-        assert [staleness.symmetry_reason(one) for one in objects] == [None] * len(objects)
+        assert [staleness.symmetry_stale_reason(one) for one in objects] == [None] * len(objects)
         if len(objects) == 2:
             edit(objects[1]) if objects[1].data != obj.data else bpy.data.objects.remove(objects[1])
     assert reason(bpy.data.objects["Body.001"]) == "stale_geometry"
@@ -181,7 +181,7 @@ def edited_vertices(obj):
 @pytest.mark.parametrize("change", [grown_by_nodes, made_large, edited_in_edit_mode])
 def test_an_edit_that_redo_brings_back_is_noticed_where_it_cannot_be_compared(change, monkeypatch):
     obj = add(mesh_body())
-    monkeypatch.setattr(digest, "MOST", len(obj.data.polygons))
+    monkeypatch.setattr(digest, "MAX_DIGESTED_FACES", len(obj.data.polygons))
     measure(obj)
     bpy.ops.ed.undo_push(message="Measured")
     change(obj)
@@ -228,11 +228,11 @@ def test_the_symmetry_of_an_object_that_got_other_axes_is_out_of_date():
     only(obj)
     assert bpy.ops.object.body_moments_find_symmetry() == {"FINISHED"}
     assert bpy.ops.object.body_moments_origin_to_center() == {"FINISHED"}
-    assert staleness.symmetry_reason(obj) is None
+    assert staleness.symmetry_stale_reason(obj) is None
     assert bpy.ops.object.body_moments_axes_to_principal() == {"FINISHED"}
-    assert staleness.symmetry_reason(obj) is not None
+    assert staleness.symmetry_stale_reason(obj) is not None
     assert bpy.ops.object.body_moments_find_symmetry() == {"FINISHED"}
-    assert staleness.symmetry_reason(obj) is None
+    assert staleness.symmetry_stale_reason(obj) is None
 
 
 @pytest.mark.parametrize("source", ["MATERIALS", "ATTRIBUTE"])
@@ -262,19 +262,19 @@ def test_numbers_of_before_an_edit_are_out_of_date_when_the_add_on_is_enabled_ag
     body_moments.unregister()
     body_moments.register()
     assert (reason(obj), reason(other)) == ("stale_geometry",) * 2
-    assert staleness.symmetry_reason(other) == "stale_geometry"
+    assert staleness.symmetry_stale_reason(other) == "stale_geometry"
 
 
 def test_measuring_does_not_make_the_symmetry_of_another_shape_hold_again():
     obj = add(mesh_body())
     measure(obj)
     bpy.ops.object.body_moments_find_symmetry()
-    assert staleness.symmetry_reason(obj) is None
+    assert staleness.symmetry_stale_reason(obj) is None
     edit(obj)
     measure(obj)
-    assert staleness.symmetry_reason(obj) == "stale_geometry"
+    assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
     bpy.ops.object.body_moments_find_symmetry()
-    assert staleness.symmetry_reason(obj) is None and reason(obj) is None
+    assert staleness.symmetry_stale_reason(obj) is None and reason(obj) is None
 
 
 def test_a_symmetry_found_again_after_an_edit_and_back_holds():
@@ -286,7 +286,7 @@ def test_a_symmetry_found_again_after_an_edit_and_back_holds():
     obj.data.update()
     update()
     bpy.ops.object.body_moments_find_symmetry()
-    assert staleness.symmetry_reason(obj) is None
+    assert staleness.symmetry_stale_reason(obj) is None
 
 
 @pytest.mark.parametrize("nested", [False, True])
@@ -444,10 +444,13 @@ def test_the_symmetry_and_the_moments_of_an_instancer_are_out_of_date_too():
     only(shown)
     bpy.ops.object.body_moments_find_symmetry()
     assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
-    assert (staleness.symmetry_reason(shown), moments_table.outdated(shown, bpy.context.scene)) == (None, None)
+    assert (staleness.symmetry_stale_reason(shown), moments_table.stale_reason(shown, bpy.context.scene)) == (
+        None,
+        None,
+    )
     edit(member)
-    assert staleness.symmetry_reason(shown) == "stale_geometry"
-    assert moments_table.outdated(shown, bpy.context.scene) == "stale_geometry"
+    assert staleness.symmetry_stale_reason(shown) == "stale_geometry"
+    assert moments_table.stale_reason(shown, bpy.context.scene) == "stale_geometry"
 
 
 def test_becoming_a_rigid_body_is_no_change_of_the_shape():

@@ -50,7 +50,7 @@ class Window:
 
 @pytest.fixture(autouse=True)
 def one_step_at_a_time(monkeypatch):
-    monkeypatch.setattr(stepwise, "SLICE", 0.0)
+    monkeypatch.setattr(stepwise, "STEP_SECONDS", 0.0)
 
 
 def pressed(cls, **settings):
@@ -91,7 +91,7 @@ OPERATORS = [
 
 @pytest.mark.parametrize(("cls", "settings"), OPERATORS)
 def test_esc_between_two_objects_leaves_everything_as_it_was(cls, settings, monkeypatch):
-    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.AT_ONCE", 1)
+    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 1)
     bodies = three()
     before = [place(body) for body in bodies]
     operator, window = pressed(cls, **settings)
@@ -143,26 +143,26 @@ def test_an_active_object_that_has_no_shape_is_reported_and_ends_it(cls):
 
 
 def test_esc_leaves_what_was_said_of_objects_that_could_not_be_measured(monkeypatch):
-    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.AT_ONCE", 1)
+    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 1)
     bodies = three()
     whole, nothing = bodies[0].data, bpy.data.meshes.new("Nothing")
     for body in bodies:
         body.data = nothing
     assert finished(*pressed(OBJECT_OT_body_moments_measure)) == {"CANCELLED"}
-    refusals = [results.refusal(body) for body in bodies]
+    refusals = [results.failure(body) for body in bodies]
     assert {refusal.code for refusal in refusals} == {"no_geometry"}
     for body in bodies:
         body.data = whole
     operator, window = pressed(OBJECT_OT_body_moments_measure)
     assert operator.modal(window, TIMER) == {"RUNNING_MODAL"}
     assert operator.modal(window, ESC) == {"CANCELLED"}
-    assert [results.refusal(body) for body in bodies] == refusals
+    assert [results.failure(body) for body in bodies] == refusals
     assert finished(*pressed(OBJECT_OT_body_moments_measure)) == {"FINISHED"}
-    assert not any(results.refusal(body) for body in bodies)
+    assert not any(results.failure(body) for body in bodies)
 
 
 def test_one_object_with_warnings_is_not_counted(monkeypatch):
-    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.AT_ONCE", 0)
+    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 0)
     text = bpy.data.objects.new("Text", bpy.data.curves.new("Text", "FONT"))
     text.data.body, text.data.extrude, text.data.render_resolution_u = "o", 0.1, 30
     bpy.context.scene.collection.objects.link(text)
@@ -174,7 +174,7 @@ def test_one_object_with_warnings_is_not_counted(monkeypatch):
 
 @pytest.mark.parametrize(("cls", "settings"), OPERATORS)
 def test_a_fault_in_a_step_gives_the_window_back(cls, settings, monkeypatch):
-    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.AT_ONCE", 1)
+    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 1)
     three()
     operator, window = pressed(cls, **settings)
 

@@ -86,7 +86,7 @@ def keyed(channel):
 
 def is_right(obj):
     """Whether the stored numbers are those of what is shown, or are said not to be."""
-    before = staleness.reason(obj, bpy.context.scene)
+    before = staleness.stale_reason(obj, bpy.context.scene)
     now = measured(obj)
     return (
         before
@@ -107,7 +107,7 @@ def test_what_is_not_keyed_yet_stays(channel, name):
     assert value(obj, channel) == CHANGED
     assert name == "clear" or is_right(obj)
     if name == "measure":
-        assert staleness.reason(obj, bpy.context.scene) is None
+        assert staleness.stale_reason(obj, bpy.context.scene) is None
 
 
 def test_drivers_follow_what_was_stored_and_cleared_and_no_geometry_is_evaluated():
@@ -162,9 +162,9 @@ def test_live_keeps_what_is_not_keyed_yet_and_comes_to_rest():
     bpy.ops.object.body_moments_measure()
     live._tick()
     bpy.context.view_layer.update()
-    assert obj.scale.x == 2.0 and not live._due
-    assert live.shown(obj).measurement.volume == pytest.approx(obj["body_volume"], rel=1e-9)
-    assert live.shown(obj).measurement.volume == pytest.approx(measured(obj).volume, rel=1e-9)
+    assert obj.scale.x == 2.0 and not live._pending
+    assert live.current_numbers(obj).measurement.volume == pytest.approx(obj["body_volume"], rel=1e-9)
+    assert live.current_numbers(obj).measurement.volume == pytest.approx(measured(obj).volume, rel=1e-9)
 
 
 def test_the_slider_of_a_wall_keeps_what_is_not_keyed_yet():
@@ -177,7 +177,7 @@ def test_the_slider_of_a_wall_keeps_what_is_not_keyed_yet():
     obj.body_moments.thickness = 0.02
     bpy.context.view_layer.update()
     assert obj["body_mass"] > 1.5 * before and value(obj, "rotation") == CHANGED
-    assert staleness.reason(obj, bpy.context.scene) is None and is_right(obj)
+    assert staleness.stale_reason(obj, bpy.context.scene) is None and is_right(obj)
 
 
 @pytest.mark.parametrize("frame, subframe", [(7, 0.25), (-3, 0.0)])

@@ -258,7 +258,7 @@ def test_the_command_line_uses_the_objects_wall_and_its_own_thickness():
 
 
 def stored(obj):
-    return properties.stored(properties.numbers(obj))
+    return properties.from_numbers(properties.numbers(obj))
 
 
 def press(obj):
@@ -272,9 +272,9 @@ def test_a_new_thickness_is_stored_at_once_and_is_what_measuring_gives():
     for thickness in (0.0625, 0.2, 0.3125):
         obj.body_moments.thickness = thickness
         kept = properties.numbers(obj)
-        assert staleness.reason(obj, bpy.context.scene) is None
+        assert staleness.stale_reason(obj, bpy.context.scene) is None
         bpy.context.view_layer.update()
-        assert staleness.reason(obj, bpy.context.scene) is None
+        assert staleness.stale_reason(obj, bpy.context.scene) is None
         press(obj)
         for one, other in zip(kept, properties.numbers(obj)):
             assert np.abs(np.array(one) - other).max() <= 1e-13 * max(1.0, np.abs(other).max())
@@ -285,9 +285,9 @@ def test_another_side_is_stored_at_once_too():
     press(obj)
     obj.body_moments.wall = "OUTWARD"
     assert abs(stored(obj).volume - (1.25**3 - 1)) < 1e-13
-    assert staleness.reason(obj, bpy.context.scene) is None
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
     obj.body_moments.wall = "THIN"
-    assert staleness.reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
 
 
 @pytest.mark.parametrize("change", ["edited", "turned"])
@@ -303,17 +303,17 @@ def test_what_was_changed_since_is_not_stored_as_if_it_were_measured(change):
     before = properties.numbers(obj)
     obj.body_moments.thickness = 0.2
     assert properties.numbers(obj) == before
-    assert staleness.reason(obj, bpy.context.scene)
+    assert staleness.stale_reason(obj, bpy.context.scene)
 
 
 def test_a_thickness_that_folds_leaves_the_numbers_and_says_how_thick_it_may_be():
     obj = box()
     press(obj)
     before = properties.numbers(obj)
-    assert wall_slider.largest(obj) == pytest.approx(0.5) and not wall_slider.folds(obj)
+    assert wall_slider.max_thickness(obj) == pytest.approx(0.5) and not wall_slider.is_too_thick(obj)
     obj.body_moments.thickness = 0.75
-    assert properties.numbers(obj) == before and wall_slider.folds(obj)
-    assert staleness.reason(obj, bpy.context.scene) == "stale_settings"
+    assert properties.numbers(obj) == before and wall_slider.is_too_thick(obj)
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
     obj.body_moments.thickness = 0.25
     assert abs(stored(obj).volume - (1 - 0.5**3)) < 1e-13
 
@@ -335,9 +335,9 @@ def test_after_loading_a_file_the_slider_waits_for_measure(tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     obj = bpy.data.objects["Box"]
-    assert obj.body_moments.wall == "INWARD" and staleness.reason(obj, bpy.context.scene) is None
+    assert obj.body_moments.wall == "INWARD" and staleness.stale_reason(obj, bpy.context.scene) is None
     obj.body_moments.thickness = 0.2
-    assert staleness.reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
     press(obj)
     assert abs(stored(obj).volume - (1 - 0.6**3)) < 1e-6
 
@@ -351,7 +351,7 @@ def test_an_edit_after_the_slider_is_noticed():
     obj.data.update()
     obj.update_tag(refresh={"DATA"})
     bpy.context.view_layer.update()
-    assert staleness.reason(obj, bpy.context.scene) == "stale_geometry"
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_geometry"
 
 
 @pytest.mark.parametrize("size", [(1.0, 2.0, 0.5), (0.3, 0.3, 4.0)])
@@ -406,9 +406,13 @@ def test_just_below_the_largest_thickness_there_is_a_wall_and_from_it_on_none():
     refusals = 0
     for scale in np.random.default_rng(1).uniform(0.1, 10.0, 300):
         scaled = replace(walls, pieces=tuple(replace(piece, scale=scale) for piece in walls.pieces))
-        for thickness in (np.nextafter(scaled.largest, 0.0), scaled.largest, np.nextafter(scaled.largest, np.inf)):
+        for thickness in (
+            np.nextafter(scaled.max_thickness, 0.0),
+            scaled.max_thickness,
+            np.nextafter(scaled.max_thickness, np.inf),
+        ):
             try:
-                assert scaled.body(float(thickness), looked=False).wall.total > 0.0
+                assert scaled.body(float(thickness), check_overlap=False).wall.total > 0.0
             except MeasureError as error:
                 refusals += error.finding.code == "wall_folds"
     assert 300 <= refusals < 900

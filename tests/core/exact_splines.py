@@ -11,14 +11,14 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
-from body_moments.core.numerics.bspline import Space
+from body_moments.core.numerics.bspline import SplineSpace
 from body_moments.core.nurbs.blender_knots import blender_space
 from body_moments.core.nurbs.patch import Patch
 
 HALF = np.sqrt(0.5)
 
 
-def span_polynomials(space: Space, j: int) -> list[list[Fraction]]:
+def span_polynomials(space: SplineSpace, j: int) -> list[list[Fraction]]:
     """The coefficients, lowest first, in the parameter itself, of the functions that act in span j."""
     knots = [Fraction(knot) for knot in space.knots]
     rows = {j: [Fraction(1)]}
@@ -48,10 +48,10 @@ def flux_moment(patch: Patch, exponents: tuple[int, int, int]) -> Fraction:
     s_space, t_space = patch.spaces
     for j in s_space.spans:
         s_basis = span_polynomials(s_space, int(j))
-        rows = s_space.controls(np.array([j]))[0]
+        rows = s_space.controls_of_spans(np.array([j]))[0]
         for k in t_space.spans:
             t_basis = span_polynomials(t_space, int(k))
-            columns = t_space.controls(np.array([k]))[0]
+            columns = t_space.controls_of_spans(np.array([k]))[0]
             x, y, z = (_surface(patch.points[..., axis], rows, columns, s_basis, t_basis) for axis in range(3))
             integrand = _minus(_times(_derived(x, 0), _derived(y, 1)), _times(_derived(x, 1), _derived(y, 0)))
             for factor, power in ((x, p), (y, q), (z, r + 1)):

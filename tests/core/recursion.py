@@ -6,7 +6,7 @@
 from math import factorial
 
 import numpy as np
-from body_moments.core.moments.moments import Moments, index, monomials
+from body_moments.core.moments.moments import Moments, monomial_index, monomials
 
 
 def moments(part, order, about=None):
@@ -14,14 +14,14 @@ def moments(part, order, about=None):
     about = points.mean(axis=0) if about is None else np.asarray(about, float)
     corners = [(points - about)[triangles[:, k]].T for k in range(3)]
     det = np.einsum("in,in->n", corners[0], np.cross(corners[1].T, corners[2].T).T)
-    table = np.zeros((index(0, 0, order) + 1, len(triangles)))
+    table = np.zeros((monomial_index(0, 0, order) + 1, len(triangles)))
     table[0] = 1.0
     for corner in corners:
         for row in monomials(order)[1:]:
             for axis in np.flatnonzero(row):
                 lower = row.copy()
                 lower[axis] -= 1
-                table[index(*row)] += corner[axis] * table[index(*lower)]
+                table[monomial_index(*row)] += corner[axis] * table[monomial_index(*lower)]
     weight = [
         factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 3) for p, q, r in monomials(order).tolist()
     ]

@@ -122,7 +122,7 @@ def test_willing_vertices_move_more():
     part = bodies.sphere(3)
     everything = np.arange(len(part[0]))
     willing = np.where(part[0][:, 0] > 0, 1.0, 0.1)
-    found = balance(bodies.surface(part), everything, (0.01, 0.0, 0.0), willing=willing)
+    found = balance(bodies.surface(part), everything, (0.01, 0.0, 0.0), weights=willing)
     lengths = np.linalg.norm(found.points - part[0], axis=1)
     assert lengths[part[0][:, 0] > 0.5].mean() > 5 * lengths[part[0][:, 0] < -0.5].mean()
 
@@ -197,7 +197,7 @@ def test_a_face_that_is_not_convex_pulls_as_it_is(shell):
     triangles = np.concatenate([cut[:, ::-1], cut + 5, bodies.split(faces[2:])])
     owner = np.array([0] * 3 + [1] * 3 + [2, 2, 3, 3, 4, 4, 5, 5, 6, 6])
     fans = _Fans(Surface(points, triangles, triangle_faces=owner), shell)
-    assert fans.against.sum() > 0 or not shell
+    assert fans.opposed.sum() > 0 or not shell
     middle = center(points, triangles, shell)
     total = fans.center_gradient(middle).sum(axis=0)
     assert np.abs(total - np.eye(3)).max() < 1e-14  # moving everything moves the center as far

@@ -7,8 +7,8 @@ from math import comb
 
 import numpy as np
 import pytest
-from body_moments.core.numerics.bspline import Space, clamped
-from body_moments.core.numerics.quadrature import gauss
+from body_moments.core.numerics.bspline import SplineSpace, clamped_space
+from body_moments.core.numerics.quadrature import gauss_legendre
 from body_moments.core.nurbs import bezier
 from body_moments.core.nurbs.bezier import cells_of
 from body_moments.core.nurbs.blender_knots import blender_space
@@ -17,8 +17,8 @@ from body_moments.core.nurbs.patch_moments import flux_sums
 
 from tests.core.exact_splines import span_polynomials
 
-SPACES = [clamped(order, (0.25, 0.5, 0.5)) for order in range(1, 7)] + [
-    Space((0.0, 0.5, 1.0, 1.5, 3.0, 3.25, 4.0), 3, 4),
+SPACES = [clamped_space(order, (0.25, 0.5, 0.5)) for order in range(1, 7)] + [
+    SplineSpace((0.0, 0.5, 1.0, 1.5, 3.0, 3.25, 4.0), 3, 4),
     blender_space(6, 4, True, False, False),
     blender_space(3, 3, True, False, False),
     blender_space(5, 3, True, False, True),
@@ -29,7 +29,7 @@ ABOUT = np.array([0.25, -0.5, 0.125])
 @pytest.mark.parametrize("space", SPACES)
 def test_blossoms_are_the_bernstein_coefficients_of_the_exact_polynomials(space):
     n = space.order - 1
-    for found, j in zip(space.blossoms, space.spans):
+    for found, j in zip(space.bezier_extraction, space.spans):
         low, high = Fraction(space.knots[j]), Fraction(space.knots[j + 1])
         for column, row in zip(found.T, span_polynomials(space, int(j))):
             # in u, t = low + (high - low) u, and from powers to Bernstein's polynomials
@@ -54,17 +54,17 @@ def patch_of(spaces, weighted, seed=0):
 @pytest.mark.parametrize("few", [0, 1000])  # about their own first points, and about the common one
 @pytest.mark.parametrize("spaces", [(SPACES[3], SPACES[7]), (SPACES[8], SPACES[1]), (SPACES[9], SPACES[6])])
 def test_values_and_derivatives_are_those_of_the_patch(spaces, few, weighted, monkeypatch):
-    monkeypatch.setattr(bezier, "FEW", few)
+    monkeypatch.setattr(bezier, "SMALL_CELL_COUNT", few)
     patch = patch_of(spaces, weighted)
-    nodes, step = gauss(5)[0], 1e-4
+    nodes, step = gauss_legendre(5)[0], 1e-4
     (cells,) = cells_of([patch], ABOUT)
-    (s, *first, ss, st, tt), _ = cells.at(((5,), (5,)), 2)
+    (s, *first, ss, st, tt), _ = cells.evaluate(((5,), (5,)), 2)
     count = 0
     for a, b in spaces[0].intervals:
         for c, d in spaces[1].intervals:
             u, v = a + (b - a) * nodes, c + (d - c) * nodes
             grid = [
-                patch.grid(u + (b - a) * i * step, v + (d - c) * j * step) - ABOUT
+                patch.evaluate_grid(u + (b - a) * i * step, v + (d - c) * j * step) - ABOUT
                 for i, j in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1))
             ]
             assert np.abs(s[:, :, count].transpose(1, 2, 0) - grid[0]).max() <= 1e-14
@@ -85,7 +85,7 @@ def test_values_and_derivatives_are_those_of_the_patch(spaces, few, weighted, mo
 @pytest.mark.parametrize("weighted", [False, True])
 @pytest.mark.parametrize("few", [0, 1000])
 def test_quarters_of_cells_are_the_same_surface(few, weighted, monkeypatch):
-    monkeypatch.setattr(bezier, "FEW", few)
+    monkeypatch.setattr(bezier, "SMALL_CELL_COUNT", few)
     (cells,) = cells_of([patch_of((SPACES[3], SPACES[2]), weighted)], ABOUT)
     whole, parts = (flux_sums(own, ((24,), (24,)), 2)[0].sum(axis=1)[:-1] for own in (cells, cells.split().split()))
     assert len(cells.split()) == 4 * len(cells)
@@ -102,11 +102,11 @@ def test_rules_side_by_side_give_what_each_gives_alone():
 
 
 def test_patches_of_the_same_orders_are_evaluated_together_and_some_at_a_time(monkeypatch):
-    spaces = [(SPACES[3], SPACES[2]), (clamped(4), clamped(3, (0.1, 0.7))), (SPACES[3], SPACES[2])]
+    spaces = [(SPACES[3], SPACES[2]), (clamped_space(4), clamped_space(3, (0.1, 0.7))), (SPACES[3], SPACES[2])]
     patches = [patch_of(own, False, seed) for seed, own in enumerate(spaces)]
     alone = [flux_sums(next(cells_of([patch], ABOUT)), ((6,), (5,)), 2)[0].sum(axis=1) for patch in patches]
     assert len(list(cells_of(patches, ABOUT))) == 1
-    monkeypatch.setattr(bezier, "MOST_CELLS", 5)
+    monkeypatch.setattr(bezier, "MAX_CELLS", 5)
     parts = list(cells_of(patches, ABOUT))
     assert len(parts) > 2 and max(map(len, parts)) < 15
     together = sum(flux_sums(part, ((6,), (5,)), 2)[0].sum(axis=1) for part in parts)

@@ -23,16 +23,18 @@ def test_boxes_meet_where_comparing_all_says_so(seed, piece, monkeypatch):
     truth = any(
         (low[i] < high[j]).all() and (low[j] < high[i]).all() for i in range(count) for j in range(i + 1, count)
     )
-    assert boxes.boxes_meet(centers, extents) == truth
+    assert boxes.boxes_overlap(centers, extents) == truth
 
 
 def test_boxes_that_share_a_side_do_not_meet_and_a_flat_one_meets_what_it_cuts():
     grid = np.stack(np.meshgrid(*[np.arange(4.0)] * 3), axis=-1).reshape(-1, 3)
     half = np.full((64, 3), 0.5)
     for unit in (1.0, 0.1, 0.7):  # rounded, some would overlap
-        assert not boxes.boxes_meet(unit * grid, unit * half)
-        assert boxes.boxes_meet(unit * grid, 1.001 * unit * half)
-    assert boxes.boxes_meet(np.array([[0.0, 0.0, 0.0], [0.3, 0.0, 0.1]]), np.array([[1.0, 1.0, 1.0], [2.0, 2.0, 0.0]]))
+        assert not boxes.boxes_overlap(unit * grid, unit * half)
+        assert boxes.boxes_overlap(unit * grid, 1.001 * unit * half)
+    assert boxes.boxes_overlap(
+        np.array([[0.0, 0.0, 0.0], [0.3, 0.0, 0.1]]), np.array([[1.0, 1.0, 1.0], [2.0, 2.0, 0.0]])
+    )
 
 
 @pytest.mark.parametrize("size", [1, 4, 1000])

@@ -7,16 +7,16 @@ from itertools import product
 
 import numpy as np
 import pytest
-from body_moments.core.numerics.bspline import Space, clamped
-from body_moments.core.numerics.quadrature import gauss
+from body_moments.core.numerics.bspline import SplineSpace, clamped_space
+from body_moments.core.numerics.quadrature import gauss_legendre
 from body_moments.core.nurbs.blender_knots import blender_knots, blender_space, is_valid
 
 from tests.core.exact_splines import span_polynomials
 
-SPACES = [clamped(order, (0.25, 0.5, 0.5)) for order in range(2, 7)] + [
-    Space((0.0, 0.5, 1.0, 1.5, 3.0, 3.25, 4.0), 3, 4),
+SPACES = [clamped_space(order, (0.25, 0.5, 0.5)) for order in range(2, 7)] + [
+    SplineSpace((0.0, 0.5, 1.0, 1.5, 3.0, 3.25, 4.0), 3, 4),
     blender_space(6, 4, True, False, False),
-    Space((1e6, 1e6, 1e6, 1e6 + 0.5, 1e6 + 1, 1e6 + 1, 1e6 + 1), 3, 4),
+    SplineSpace((1e6, 1e6, 1e6, 1e6 + 0.5, 1e6 + 1, 1e6 + 1, 1e6 + 1), 3, 4),
 ]
 
 
@@ -40,14 +40,14 @@ def test_values_and_derivatives_are_those_of_the_exact_polynomials(space):
 
 @pytest.mark.parametrize("space", SPACES)
 def test_weights_of_control_points_add_up_to_one_all_over_the_domain(space):
-    table = space.matrix(np.linspace(*space.domain, 41))
+    table = space.collocation_matrix(np.linspace(*space.domain, 41))
     assert np.abs(table.sum(axis=1) - 1.0).max() <= 4e-16 * space.order
     assert (table >= 0.0).all()
 
 
 def test_a_cyclic_direction_ends_as_it_begins():
     space = blender_space(7, 5, True, False, False)
-    first, last = space.matrix(np.array(space.domain))
+    first, last = space.collocation_matrix(np.array(space.domain))
     assert np.abs(first - last).max() <= 4e-16
 
 
@@ -57,12 +57,12 @@ def test_a_cyclic_direction_ends_as_it_begins():
 )
 def test_knots_that_make_no_space_are_refused(knots, order, count):
     with pytest.raises(ValueError):
-        Space(tuple(float(knot) for knot in knots), order, count)
+        SplineSpace(tuple(float(knot) for knot in knots), order, count)
 
 
 @pytest.mark.parametrize("points", [1, 2, 5, 12, 27])
 def test_gauss_is_exact_to_its_degree_and_not_beyond(points):
-    nodes, weights = gauss(points)
+    nodes, weights = gauss_legendre(points)
     for degree in range(2 * points):
         assert abs(weights @ nodes**degree - 1.0 / (degree + 1)) <= 1e-15
     if points <= 5:

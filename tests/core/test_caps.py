@@ -40,11 +40,11 @@ def test_a_flat_loop_that_is_not_convex_has_its_true_area_and_no_height(seed):
         float,
     )
     loops = polygon(comb @ rotation(seed).T + [3, 4, 5])
-    assert len(loops.flat) == 1 and loops.complete[0]
-    assert loops.flat[0] == pytest.approx(11.0, rel=1e-14)
-    assert loops.cone[0] > 12.0  # the cone folds over
+    assert len(loops.planar_area) == 1 and loops.complete[0]
+    assert loops.planar_area[0] == pytest.approx(11.0, rel=1e-14)
+    assert loops.cone_area[0] > 12.0  # the cone folds over
     assert loops.perimeter[0] == pytest.approx(24.0, rel=1e-14)
-    assert loops.height[0] < 1e-14
+    assert loops.out_of_plane[0] < 1e-14
 
 
 def test_the_centroid_of_a_loop_in_a_plane_of_constant_z_lies_exactly_in_it():
@@ -56,9 +56,9 @@ def test_the_centroid_of_a_loop_in_a_plane_of_constant_z_lies_exactly_in_it():
 def test_a_bent_loop_has_the_area_of_its_cone_and_a_height():
     loops = polygon([[0, 0, 0], [1, 0, 1], [1, 1, 0], [0, 1, 1]])
     np.testing.assert_allclose(loops.centroid[0], [0.5, 0.5, 0.5], rtol=1e-15)
-    assert loops.flat[0] == pytest.approx(1.0, rel=1e-15)
-    assert loops.height[0] == pytest.approx(0.5, rel=1e-15)
-    assert loops.cone[0] == pytest.approx(np.sqrt(2.0), rel=1e-14)  # four triangles of √2/4
+    assert loops.planar_area[0] == pytest.approx(1.0, rel=1e-15)
+    assert loops.out_of_plane[0] == pytest.approx(0.5, rel=1e-15)
+    assert loops.cone_area[0] == pytest.approx(np.sqrt(2.0), rel=1e-14)  # four triangles of √2/4
 
 
 def test_an_edge_and_the_shorter_ones_that_run_back_along_it_make_a_loop_without_area():
@@ -73,11 +73,11 @@ def test_an_edge_and_the_shorter_ones_that_run_back_along_it_make_a_loop_without
         sides += [(b, n - 1), (n - 1, n - 2), (n - 2, a)]
     for directed in (True, False):
         loops = loops_of(points, sides, directed)
-        assert len(loops.cone) == 4 and loops.complete.all()
-        assert np.all(loops.cone < 1e-15)
+        assert len(loops.cone_area) == 4 and loops.complete.all()
+        assert np.all(loops.cone_area < 1e-15)
     # Where the shorter ones run the same way, the loops are the same, and the links say that the two sides disagree.
     flipped = [side if k % 4 == 0 else side[::-1] for k, side in enumerate(sides)]
-    assert len(loops_of(points, flipped, directed=False).cone) == 4
+    assert len(loops_of(points, flipped, directed=False).cone_area) == 4
     start, stop = np.array(flipped).T
     points = np.array(points)
     one, other, follows = join_sides(points[start], points[stop], start, stop, directed=False)
@@ -89,7 +89,7 @@ def test_two_holes_that_meet_in_a_vertex_lose_no_side():
     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, 0, 0], [-1, -1, 0], [0, -1, 0]]
     loops = loops_of(points, [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (4, 5), (5, 6), (6, 0)])
     assert loops.complete.all()
-    assert loops.flat.sum() == pytest.approx(2.0, rel=1e-15)
+    assert loops.planar_area.sum() == pytest.approx(2.0, rel=1e-15)
 
 
 def test_hundreds_of_sides_at_one_vertex_are_joined_in_pairs():
@@ -99,14 +99,14 @@ def test_hundreds_of_sides_at_one_vertex_are_joined_in_pairs():
     sides = [side for k in range(n) for side in ((0, 2 * k + 1), (2 * k + 1, 2 * k + 2), (2 * k + 2, 0))]
     loops = loops_of(points, sides)
     assert loops.complete.all()
-    assert loops.flat.sum() == pytest.approx(n * np.sin(np.pi / n) / 2.0, rel=1e-12)
+    assert loops.planar_area.sum() == pytest.approx(n * np.sin(np.pi / n) / 2.0, rel=1e-12)
 
 
 def test_more_pairs_than_allowed_are_joined_in_order(monkeypatch):
-    monkeypatch.setattr("body_moments.core.solid.holes.MOST_PAIRS", 1)
+    monkeypatch.setattr("body_moments.core.solid.holes.MAX_END_PAIRS", 1)
     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [-1, 0, 0], [-1, -1, 0]]
     loops = loops_of(points, [(0, 1), (1, 2), (2, 0), (0, 3), (3, 4), (4, 0)])
-    assert loops.flat.sum() == pytest.approx(1.0, rel=1e-15)
+    assert loops.planar_area.sum() == pytest.approx(1.0, rel=1e-15)
 
 
 def test_a_chain_with_ends_is_not_complete():

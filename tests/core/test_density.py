@@ -7,8 +7,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.density import spline_grid as density
-from body_moments.core.density.spline_grid import Trivariate, density_moments, grid_moments
-from body_moments.core.density.spline_tables import Axis
+from body_moments.core.density.spline_grid import TrivariateSpline, density_moments, grid_moments
+from body_moments.core.density.spline_tables import SplineAxis
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.moments.moments import monomials
 from body_moments.tests.core.trivariate import exact_moments
@@ -22,9 +22,9 @@ def knots(rng, order: int, count: int) -> np.ndarray:
 
 def spline(orders, seed=0, signed=False, clipped=False):
     rng = np.random.default_rng(seed)
-    axes = [Axis(knots(rng, order, 4 + i), order) for i, order in enumerate(orders)]
+    axes = [SplineAxis(knots(rng, order, 4 + i), order) for i, order in enumerate(orders)]
     if clipped:
-        axes = [axis.clipped() if axis.knots[axis.order - 1] < axis.knots[axis.count] else axis for axis in axes]
+        axes = [axis.clip() if axis.knots[axis.order - 1] < axis.knots[axis.count] else axis for axis in axes]
     coefficients = rng.integers(-9 if signed else 0, 9, [axis.count for axis in axes]) / 8.0
     return coefficients, axes
 
@@ -34,7 +34,9 @@ def check(moments, coefficients, axes, relative=1e-13):
     exact = exact_moments(coefficients, axes, moments.order, moments.about)
     size = exact_moments(np.abs(coefficients), axes, 0, moments.about)[0]
     reach = max(axis.reach(center) for axis, center in zip(axes, moments.about))
-    for value, bound, truth, degree in zip(moments.raw, moments.error, exact, monomials(moments.order).sum(axis=1)):
+    for value, bound, truth, degree in zip(
+        moments.raw, moments.rounding_error, exact, monomials(moments.order).sum(axis=1)
+    ):
         off = abs(float(Fraction(value) - truth))
         assert off <= bound
         assert off <= relative * float(size) * reach**degree
@@ -56,8 +58,8 @@ def test_high_orders_of_moments():
 def test_bounds_are_not_wild():
     coefficients, axes = spline((4, 4, 4))
     moments = density_moments(coefficients, axes, 2)
-    assert moments.error[0] < 1e-13 * moments.total
-    assert moments.error[[4, 7, 9]].max() < 1e-11 * moments.raw[[4, 7, 9]].min()
+    assert moments.rounding_error[0] < 1e-13 * moments.total
+    assert moments.rounding_error[[4, 7, 9]].max() < 1e-11 * moments.raw[[4, 7, 9]].min()
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.uint8, np.int16, np.int64, np.bool_, ">f4", ">i2"])
@@ -65,7 +67,7 @@ def test_bounds_are_not_wild():
 def test_any_type_and_layout_gives_the_same_numbers(dtype, layout):
     rng = np.random.default_rng(1)
     values = rng.integers(0, 2, (5, 6, 7))
-    axes = [Axis.uniform(count, 4, 0.5, 3.0) for count in values.shape]
+    axes = [SplineAxis.uniform(count, 4, 0.5, 3.0) for count in values.shape]
     array = np.asarray(values, dtype, order="F" if layout == "F" else "C")
     if layout == "reversed":
         array = np.ascontiguousarray(array[::-1, :, ::-1])[::-1, :, ::-1]
@@ -73,17 +75,17 @@ def test_any_type_and_layout_gives_the_same_numbers(dtype, layout):
         array = np.repeat(np.repeat(array, 2, axis=1), 3, axis=2)[:, ::2, ::3]
     expected = density_moments(values.astype(float), axes)
     found = density_moments(array, axes)
-    assert (np.abs(found.raw - expected.raw) <= found.error + expected.error).all()
+    assert (np.abs(found.raw - expected.raw) <= found.rounding_error + expected.rounding_error).all()
     check(found, values, axes)
 
 
 def test_blocks_are_the_whole(monkeypatch):
     coefficients, axes = spline((2, 4, 3), 5)
     whole = density_moments(coefficients, axes)
-    monkeypatch.setattr(density, "BLOCK", 7)
+    monkeypatch.setattr(density, "COEFFICIENTS_PER_BLOCK", 7)
     parts = [((0, 0, 0), coefficients[:2]), ((2, 1, 0), coefficients[2:, 1:]), ((2, 0, 0), coefficients[2:, :1])]
     for found in (density_moments(coefficients, axes), density_moments(lambda: parts, axes)):
-        assert (np.abs(found.raw - whole.raw) <= found.error + whole.error).all()
+        assert (np.abs(found.raw - whole.raw) <= found.rounding_error + whole.rounding_error).all()
         check(found, coefficients, axes)
 
 
@@ -92,7 +94,7 @@ def test_a_memory_map_is_measured_slab_by_slab(tmp_path, monkeypatch):
     np.save(tmp_path / "grid.npy", values)
     mapped = np.load(tmp_path / "grid.npy", mmap_mode="r")
     expected = grid_moments(values, values.shape, np.eye(4))
-    monkeypatch.setattr(density, "BLOCK", 600)
+    monkeypatch.setattr(density, "COEFFICIENTS_PER_BLOCK", 600)
     largest = 0
     contract = density._contract
 
@@ -141,7 +143,7 @@ def test_smoothing_adds_mass_times_k_twelfths_of_the_spacing_squared(order, scal
 def test_a_sheared_and_mirrored_grid_is_a_parallelepiped():
     matrix = np.array([[-1.0, 0.5, 0.0, 9.0], [0.0, 2.0, 0.25, -4.0], [0.0, 0.0, 3.0, 1.0], [0, 0, 0, 1]])
     found = grid_moments(np.full((4, 4, 4), 5.0), (4, 4, 4), matrix)
-    box = Axis.uniform(1, 1, 4.0)
+    box = SplineAxis.uniform(1, 1, 4.0)
     one = density_moments(np.full((1, 1, 1), 5.0), [box] * 3)
     to_box = matrix.copy()
     to_box[:3, 3] += matrix[:3, :3] @ [1.5, 1.5, 1.5]
@@ -155,7 +157,7 @@ def test_a_sheared_and_mirrored_grid_is_a_parallelepiped():
 
 def test_one_coefficient_changes_the_moments_as_if_all_were_summed_anew():
     coefficients, axes = spline((4, 4, 4), 3, signed=True)
-    live = Trivariate(coefficients, axes, 3)
+    live = TrivariateSpline(coefficients, axes, 3)
     rng = np.random.default_rng(4)
     for _ in range(50):
         place = tuple(rng.integers(0, coefficients.shape))
@@ -165,7 +167,7 @@ def test_one_coefficient_changes_the_moments_as_if_all_were_summed_anew():
 
 def test_a_block_changes_them_too():
     coefficients, axes = spline((2, 3, 4), 3)
-    live = Trivariate(coefficients, axes, 3)
+    live = TrivariateSpline(coefficients, axes, 3)
     live.set_block((1, 2, 0), np.arange(12.0).reshape(2, 2, 3) / 4)
     live.set_block((0, 0, 0), np.zeros((1, 1, 1)))
     assert live.coefficients[2, 3, 2] == 11.0 / 4
@@ -176,7 +178,7 @@ def test_a_block_changes_them_too():
 
 def test_a_change_that_does_not_fit_changes_nothing():
     coefficients, axes = spline((2, 2, 2))
-    live = Trivariate(coefficients, axes)
+    live = TrivariateSpline(coefficients, axes)
     before = live.moments.raw
     for start, values in (
         ((3, 0, 0), np.ones((2, 1, 1))),
@@ -200,7 +202,7 @@ def test_values_that_are_not_finite_are_refused():
 
 
 def test_shapes_and_transforms_that_do_not_fit_are_refused():
-    axes = [Axis.uniform(2)] * 3
+    axes = [SplineAxis.uniform(2)] * 3
     with pytest.raises(ValueError, match="2, 2, 3"):
         density_moments(np.ones((2, 2, 3)), axes)
     with refused("grid_transform_singular"):

@@ -78,7 +78,7 @@ def test_boxes_are_exact(low, high):
     found, volume = inside_moments(box(low, high), densities, 4)
     exact = exact_box(low, high, densities, 4, found.about)
     off = np.array([abs(float(Fraction(value) - truth)) for value, truth in zip(found.raw, exact)])
-    assert (off <= found.error).all()
+    assert (off <= found.rounding_error).all()
     assert off.max() <= 1e-12 * max(abs(float(truth)) for truth in exact)
     inner = [max(0, min(b, n) - max(a, 0)) for a, b, n in zip(low, high, densities.shape)]
     assert volume == pytest.approx(np.prod(inner), rel=1e-13)
@@ -101,14 +101,14 @@ def blob(seed=0, count=24):
 
 @pytest.mark.parametrize("pieces", [50, 1 << 17])
 def test_a_uniform_density_is_the_solid(monkeypatch, pieces):
-    monkeypatch.setattr(density_inside, "PIECES", pieces)
+    monkeypatch.setattr(density_inside, "PIECES_PER_BATCH", pieces)
     triangles = blob()
     found, volume = inside_moments(triangles, np.full((7, 7, 7), 2.5))
     points = triangles.reshape(-1, 3)
     solid = polyhedron_moments(Surface(points, np.arange(len(points), dtype=np.int32).reshape(-1, 3)))[0]
-    expected = 2.5 * solid.shifted(found.about)
+    expected = 2.5 * solid.about_point(found.about)
     assert volume == pytest.approx(solid.total, rel=1e-12)
-    assert (np.abs(found.raw - expected.raw) <= found.error + 1e-12 * np.abs(expected.raw).max()).all()
+    assert (np.abs(found.raw - expected.raw) <= found.rounding_error + 1e-12 * np.abs(expected.raw).max()).all()
     assert found.total == pytest.approx(2.5 * solid.total, rel=1e-12)
 
 
@@ -144,7 +144,7 @@ def test_an_inverted_surface_counts_negative_and_a_far_one_nothing():
     for offset in ((50, 0, 0), (0, -50, 0), (0, 0, 50), (0, 0, -50)):
         away, volume = inside_moments(triangles + offset, densities)
         assert abs(volume) < 1e-10
-        assert np.abs(away.raw).max() <= away.error.max() + 1e-9
+        assert np.abs(away.raw).max() <= away.rounding_error.max() + 1e-9
 
 
 def test_values_that_are_not_finite_are_refused():

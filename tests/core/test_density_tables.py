@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.density.spline_tables import Axis, full_supports
+from body_moments.core.density.spline_tables import SplineAxis, full_support_integrals
 from body_moments.core.moments.moments import U
 from body_moments.core.papers.soldea_elber_rivlin_2002_theorem_4_2 import integral_of_basis
 from body_moments.tests.core.trivariate import integral
@@ -35,7 +35,7 @@ def knots_of(kind: str, order: int) -> list[float]:
 KINDS = ("uniform", "random", "repeated", "clamped")
 
 
-def worst(axis: Axis, center: float) -> tuple[float, float]:
+def worst(axis: SplineAxis, center: float) -> tuple[float, float]:
     """The largest error over the natural size of an entry, and over its stated bound."""
     table = axis.table(DEGREE, center)
     knots = [Fraction(knot) - Fraction(center) for knot in axis.knots.tolist()]
@@ -48,7 +48,7 @@ def worst(axis: Axis, center: float) -> tuple[float, float]:
             off = abs(float(Fraction(table[power, i]) - integral(knots, i, axis.order, power, *domain)))
             if size:
                 error = max(error, off / size)
-                excess = max(excess, off / (size * axis.roundings(DEGREE) * U))
+                excess = max(excess, off / (size * axis.rounding_counts(DEGREE) * U))
             else:
                 assert off == 0.0
     return error, excess
@@ -57,7 +57,7 @@ def worst(axis: Axis, center: float) -> tuple[float, float]:
 @pytest.mark.parametrize("order", range(1, 7))
 @pytest.mark.parametrize("kind", KINDS)
 def test_full_supports_are_exact_to_rounding(kind, order):
-    error, excess = worst(Axis(np.array(knots_of(kind, order)), order), 0.375)
+    error, excess = worst(SplineAxis(np.array(knots_of(kind, order)), order), 0.375)
     assert error < 1e-14
     assert excess < 1.0
 
@@ -66,15 +66,15 @@ def test_full_supports_are_exact_to_rounding(kind, order):
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_domain_cuts_supports_where_it_ends(kind, order):
     knots = knots_of(kind, order)
-    inside = Axis(np.array(knots), order, (knots[1] - 0.0625, (knots[-3] + knots[-2]) / 2 + 0.03125))
-    for axis in (inside, Axis(np.array(knots), order).clipped()):
+    inside = SplineAxis(np.array(knots), order, (knots[1] - 0.0625, (knots[-3] + knots[-2]) / 2 + 0.03125))
+    for axis in (inside, SplineAxis(np.array(knots), order).clip()):
         error, excess = worst(axis, 0.375)
         assert error < 1e-14
         assert excess < 1.0
 
 
 def test_functions_sum_to_one_in_the_clipped_domain():
-    axis = Axis(np.array(random_knots(4, 3)), 4).clipped()
+    axis = SplineAxis(np.array(random_knots(4, 3)), 4).clip()
     low, high = axis.domain
     total = axis.table(3, 0.0).sum(axis=1)
     assert total == pytest.approx([(high**n - low**n) / n for n in range(1, 5)], rel=1e-13)
@@ -100,7 +100,7 @@ def test_theorem_4_2_with_repeated_knots():
 @pytest.mark.parametrize("order", range(1, 7))
 def test_production_agrees_with_the_theorem(order):
     knots = random_knots(order, 11)
-    table = full_supports(knots, order, 3)
+    table = full_support_integrals(knots, order, 3)
     exact = [Fraction(knot) for knot in knots]
     for power in range(4):
         for i in range(2):
@@ -110,7 +110,7 @@ def test_production_agrees_with_the_theorem(order):
 
 @pytest.mark.parametrize("order", range(1, 7))
 def test_a_uniform_function_has_variance_k_twelfths(order):
-    table = Axis.uniform(1, order, spacing=0.5, origin=7.0).table(4, 7.0)[:, 0]
+    table = SplineAxis.uniform(1, order, spacing=0.5, origin=7.0).table(4, 7.0)[:, 0]
     k, g = order, 0.5
     assert table == pytest.approx([g, 0.0, g * k * g**2 / 12, 0.0, g * g**4 * k * (5 * k - 2) / 240], rel=1e-14)
 
@@ -127,4 +127,4 @@ def test_a_uniform_function_has_variance_k_twelfths(order):
 )
 def test_impossible_knots_are_refused(knots, order, domain, text):
     with pytest.raises(ValueError, match=text):
-        Axis(np.array(knots), order, domain)
+        SplineAxis(np.array(knots), order, domain)

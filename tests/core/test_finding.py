@@ -12,7 +12,7 @@ import numpy as np
 from body_moments.core.shape.library import Similarity
 from body_moments.core.verdict import finding as module
 from body_moments.core.verdict.finding import Finding, MeasureError, ReadError, Severity, finding, unique
-from body_moments.core.verdict.health import Faults
+from body_moments.core.verdict.health import DefectiveElements
 from body_moments.operators.write.messages import MESSAGES, of_severity, sentence, severity
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -96,4 +96,4 @@ def test_every_code_that_is_made_has_a_message():
 
 def test_every_kind_of_shape_and_of_defect_that_can_be_counted_has_a_message():
     kinds = {"shapes_" + similarity for similarity in Similarity} - {"shapes_different"}
-    assert kinds | {"defect_" + field.name for field in fields(Faults)} <= MESSAGES.keys()
+    assert kinds | {"defect_" + field.name for field in fields(DefectiveElements)} <= MESSAGES.keys()

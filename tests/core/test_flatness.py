@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.planarity import FLAT, NO_AREA, Witness
+from body_moments.core.mesh.planarity import PLANAR_RTOL, ZERO_AREA_RTOL, PlanarityAccumulator
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.polyhedron import third_order as polyhedron
@@ -36,9 +36,9 @@ def one_by_one(surface, error):
         normal = cross(first, second)
         square, longest = float(dot(normal, normal)), float(max(dot(first, first), dot(second, second)))
         volume = abs(dot(span(b, a), normal)) if len(corners) == 4 else 0
-        if square <= longest * (error**2 + NO_AREA**2 * longest):
+        if square <= longest * (error**2 + ZERO_AREA_RTOL**2 * longest):
             bare.append(face)
-        elif volume > square**0.5 * (8.0 * error + FLAT * square**0.25):
+        elif volume > square**0.5 * (8.0 * error + PLANAR_RTOL * square**0.25):
             bent, spread = bent + 1, spread + volume / 6
     return bent, float(spread), bare
 
@@ -72,20 +72,20 @@ def quads(kind, dtype):
 
 def told(surface, seen, threads=1):
     error = float(np.linalg.norm(surface.coordinate_error))
-    witness = Witness(surface, error)
+    witness = PlanarityAccumulator(surface, error)
     if seen:
         polyhedron_moments(surface, area_order=0, threads=threads, planarity=witness)
         assert sum(block.count for block in witness.quads.values()) == len(surface.quads)
         assert sum(block.count for block in witness.triangles.values()) == len(surface.triangles)
-    found = witness.flatness()
-    return found.not_flat, found.spread, found.without_area.tolist(), error
+    found = witness.planarity()
+    return found.non_planar_count, found.volume_ambiguity, found.degenerate_faces.tolist(), error
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("kind", ["flat", "bent", "some", "all sorts"])
 def test_what_the_sums_show_is_what_looking_at_each_face_gives(kind, dtype, monkeypatch):
-    monkeypatch.setattr(polyhedron, "LEAST", 64)
-    monkeypatch.setattr(polyhedron, "BLOCK", 512)
+    monkeypatch.setattr(polyhedron, "MIN_TRIANGLES_PER_THREAD", 64)
+    monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_PER_BLOCK", 512)
     surface = quads(kind, dtype)
     for seen, threads in ((False, 1), (True, 1), (True, 3)):
         *found, error = told(surface, seen, threads)
@@ -121,21 +121,21 @@ def test_in_a_large_mesh_a_face_without_area_has_its_own_number_and_polygons_the
     points = np.concatenate([points, [(points[h] + points[e]) / 2.0]])
     surface = mesh(points, faces)
     error = 0.0
-    plain = Witness(surface, error).flatness()
+    plain = PlanarityAccumulator(surface, error).planarity()
     found = measure_solid(surface).health
-    assert (found.non_planar_faces, found.faults.degenerate_faces.tolist()) == (plain.not_flat, [])
-    assert found.volume_spread == pytest.approx(plain.spread, rel=1e-13)
+    assert (found.non_planar_faces, found.defective_elements.degenerate_faces.tolist()) == (plain.non_planar_count, [])
+    assert found.volume_spread == pytest.approx(plain.volume_ambiguity, rel=1e-13)
     flat = points.copy()
     flat[d] = points[a]
-    assert measure_solid(replace(surface, points=flat)).health.faults.degenerate_faces.tolist() == [701]
+    assert measure_solid(replace(surface, points=flat)).health.defective_elements.degenerate_faces.tolist() == [701]
 
 
 @pytest.mark.parametrize("scale", [2.0**-120, 2.0**120])
 def test_sizes_beyond_the_range_of_the_sums_do_not_matter(scale):
     surface = quads("some", np.float64)
-    plain, scaled = (Witness(replace(surface, points=surface.points * s), 0.0) for s in (1.0, scale))
+    plain, scaled = (PlanarityAccumulator(replace(surface, points=surface.points * s), 0.0) for s in (1.0, scale))
     for witness in (plain, scaled):
         polyhedron_moments(witness.surface, area_order=0, planarity=witness)
-    plain, scaled = plain.flatness(), scaled.flatness()
-    assert scaled.not_flat == plain.not_flat > 200
-    assert scaled.spread == pytest.approx(plain.spread * scale**3, rel=1e-12)
+    plain, scaled = plain.planarity(), scaled.planarity()
+    assert scaled.non_planar_count == plain.non_planar_count > 200
+    assert scaled.volume_ambiguity == pytest.approx(plain.volume_ambiguity * scale**3, rel=1e-12)

@@ -9,8 +9,8 @@ import pytest
 from body_moments.core.fourier import grid as fourier_grid
 from body_moments.core.fourier.grid import GridTransform
 from body_moments.core.fourier.nufft import Spreading, aliasing
-from body_moments.core.fourier.transform import finished, solid_transform, surface_transform
-from body_moments.core.fourier.wave_vectors import Grid
+from body_moments.core.fourier.transform import run_to_completion, solid_transform, surface_transform
+from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.numerics.quadrature import triangle_rule
 from body_moments.core.polyhedron import polyhedron_moments
 
@@ -59,10 +59,10 @@ def cube(n):
 
 LOPSIDED = bodies.moved(bodies.torus(36, 16), [[1, 0.2, 0], [0, 0.7, 0], [0.1, 0, 1.5]], (3, -2, 5))
 CASES = {
-    "torus": (LOPSIDED, Grid(18, 18.0), (1e-4, 1e-7)),
-    "torus, low": (LOPSIDED, Grid(17, 0.5), (1e-4, 1e-7)),
-    "cube, waves as long as its squares": (cube(12), Grid(24, 2 * np.pi * 12 / 2), (1e-4, 1e-6)),
-    "sphere, waves shorter than its triangles": (bodies.sphere(3), Grid(20, 60.0), (1e-3, 1e-4)),
+    "torus": (LOPSIDED, FrequencyGrid(18, 18.0), (1e-4, 1e-7)),
+    "torus, low": (LOPSIDED, FrequencyGrid(17, 0.5), (1e-4, 1e-7)),
+    "cube, waves as long as its squares": (cube(12), FrequencyGrid(24, 2 * np.pi * 12 / 2), (1e-4, 1e-6)),
+    "sphere, waves shorter than its triangles": (bodies.sphere(3), FrequencyGrid(20, 60.0), (1e-3, 1e-4)),
 }
 
 
@@ -75,7 +75,7 @@ def test_a_grid_is_right_to_the_tolerance_at_every_frequency(name):
     volume = exact.values[np.abs(exact.q).sum(axis=1).argmin()].real
     for tolerance in tolerances:
         transform = GridTransform(surface, grid, "volume", tolerance * volume)
-        found = finished(transform)
+        found = run_to_completion(transform)
         assert transform.fine and found.method == "approximate"
         assert np.array_equal(found.q, exact.q)
         error = np.abs(found.values - exact.values)
@@ -88,27 +88,27 @@ def test_the_share_that_is_done_grows_from_the_start_to_the_end_and_all_work_is_
     transform = GridTransform(bodies.surface(part), grid, "volume", tolerance)
     shares = list(transform.steps())
     assert shares == sorted(shares) and shares[0] == 0.0 and shares[-1] == 1.0
-    assert sum(0.0 < share < fourier_grid.SHARING for share in shares) > 1
+    assert sum(0.0 < share < fourier_grid.SHARING_TIME for share in shares) > 1
     monkeypatch.delattr(fourier_grid.Transform, "steps")  # what `result` would have to wait for
     assert transform.result().method == "approximate"
 
 
 def test_the_area_and_an_open_surface_are_right_to_the_tolerance():
     surface = bodies.surface(bodies.without(LOPSIDED, *range(300)))
-    exact = surface_transform(surface, Grid(15, 18.0))
+    exact = surface_transform(surface, FrequencyGrid(15, 18.0))
     total = polyhedron_moments(surface, area_order=0)[1].total
     for tolerance in (1e-3, 1e-6):
-        transform = GridTransform(surface, Grid(15, 18.0), "area", tolerance * total)
-        found = finished(transform)
+        transform = GridTransform(surface, FrequencyGrid(15, 18.0), "area", tolerance * total)
+        found = run_to_completion(transform)
         assert transform.fine
         assert np.abs(found.values - exact.values).max() <= tolerance * total
 
 
 def test_large_and_small_triangles_go_together():
     part = bodies.joined(bodies.box((-3, -3, -3), (-2, 5, 4)), bodies.sphere(3))
-    grid = Grid(22, 9.0)
+    grid = FrequencyGrid(22, 9.0)
     transform = GridTransform(bodies.surface(part), grid, "volume", 1e-4)
-    found = finished(transform)
+    found = run_to_completion(transform)
     assert len(transform.direct.triangles) == 12 and sum(len(rows) for _, rows in transform.fine) == 512
     exact = solid_transform(bodies.surface(part), grid)
     assert np.abs(found.values - exact.values).max() <= 1e-4
@@ -116,22 +116,22 @@ def test_large_and_small_triangles_go_together():
 
 def test_few_triangles_take_the_closed_form():
     surface = bodies.surface(bodies.box())
-    found = finished(GridTransform(surface, Grid(12, 200.0), "volume", 1e-7))
+    found = run_to_completion(GridTransform(surface, FrequencyGrid(12, 200.0), "volume", 1e-7))
     assert found.method == "exact"
-    assert np.array_equal(found.values, solid_transform(surface, Grid(12, 200.0)).values)
+    assert np.array_equal(found.values, solid_transform(surface, FrequencyGrid(12, 200.0)).values)
 
 
 def test_what_cannot_be_reached_is_refused():
     with pytest.raises(ValueError, match="tolerance"):
-        GridTransform(bodies.surface(bodies.sphere(3)), Grid(20, 20.0), "volume", 1e-16)
+        GridTransform(bodies.surface(bodies.sphere(3)), FrequencyGrid(20, 20.0), "volume", 1e-16)
     with refused("fourier_of_open_surface"):
-        GridTransform(bodies.surface(bodies.without(LOPSIDED, 1)), Grid(20, 20.0), "volume", 1e-6)
+        GridTransform(bodies.surface(bodies.without(LOPSIDED, 1)), FrequencyGrid(20, 20.0), "volume", 1e-6)
 
 
 @pytest.mark.parametrize("count, largest", [(1, 1.0), (0, 1.0), (8, 0.0), (8, -1.0), (8, np.nan), (8, np.inf)])
 def test_grids_that_are_none_are_refused(count, largest):
     with refused("frequency_count", "frequency_range"):
-        Grid(count, largest)
+        FrequencyGrid(count, largest)
 
 
 @pytest.mark.parametrize("n", range(1, 25))
@@ -153,7 +153,7 @@ def test_the_bound_of_the_points_holds():
             bounded = [
                 tolerance
                 for tolerance in 10.0 ** np.arange(-14, 3)
-                if fourier_grid._points(np.array([span]), tolerance)[0] <= n
+                if fourier_grid._points_per_side(np.array([span]), tolerance)[0] <= n
             ]
             if not bounded:
                 continue

@@ -8,11 +8,11 @@ from math import comb
 import numpy as np
 import pytest
 from body_moments.core.density.polynomial import Polynomial, parse
-from body_moments.core.density.polynomial_mass import graded_sum, own_fields
+from body_moments.core.density.polynomial_mass import local_coordinates, polynomial_mass_of_images
 from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.mesh.winding import winding
-from body_moments.core.moments.moments import Moments, map_sum
-from body_moments.core.numerics.rotations import own_axes
+from body_moments.core.mesh.winding import winding_number
+from body_moments.core.moments.moments import Moments, sum_of_images
+from body_moments.core.numerics.rotations import polar_rotation
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -36,7 +36,7 @@ def moments_of(points, triangles, order, about=None):
     """Moments rounded once from rational ones: half an ulp each, and a bound that says so."""
     about = np.asarray(np.mean(points, axis=0) if about is None else about, float)
     raw = np.array([float(value) for value in exact.volume_moments(points, triangles, about, order)])
-    return Moments(raw, about, "volume", error=np.abs(raw) * 2.0**-53, input=np.abs(raw) * 1e-9)
+    return Moments(raw, about, "volume", rounding_error=np.abs(raw) * 2.0**-53, input_error=np.abs(raw) * 1e-9)
 
 
 def truth(points, triangles, terms, about):
@@ -64,7 +64,7 @@ def truth(points, triangles, terms, about):
 def within(found, expected):
     return all(
         abs(Fraction(value) - true) <= Fraction(bound)
-        for value, true, bound in zip(found.raw.tolist(), expected, found.error.tolist())
+        for value, true, bound in zip(found.raw.tolist(), expected, found.rounding_error.tolist())
     )
 
 
@@ -74,22 +74,24 @@ def test_mass_moments_are_exact_within_their_bounds(text, offset):
     points, triangles = prism(offset)
     density = parse(text)
     volume = moments_of(points, triangles, 3 + density.degree)
-    found = graded_sum(volume, density, np.eye(4)[None])
-    assert found.of == "mass" and found.order == 3
+    found = polynomial_mass_of_images(volume, density, np.eye(4)[None])
+    assert found.measure == "mass" and found.order == 3
     assert within(found, truth(points, triangles, density.terms, found.about))
-    size = graded_sum(volume, Polynomial({p: abs(v) for p, v in density.terms.items()}), np.eye(4)[None]).raw[0]
-    assert found.error[0] <= 1e-12 * abs(size)
+    size = polynomial_mass_of_images(
+        volume, Polynomial({p: abs(v) for p, v in density.terms.items()}), np.eye(4)[None]
+    ).raw[0]
+    assert found.rounding_error[0] <= 1e-12 * abs(size)
 
 
 def test_a_density_given_far_away_loses_no_digits():
     """(z - 10000)² on a body at 10000: its expanded coefficients cancel to nothing, the rational ones do not."""
     points, triangles = prism((0.0, 0.0, 10000.0))
     density = parse("(z - 10000)**2 + 1")
-    found = graded_sum(moments_of(points, triangles, 5), density, np.eye(4)[None])
+    found = polynomial_mass_of_images(moments_of(points, triangles, 5), density, np.eye(4)[None])
     expected = truth(points, triangles, density.terms, found.about)
     assert within(found, expected)
     assert found.total == pytest.approx(float(expected[0]), rel=1e-13)
-    assert found.error[0] < 1e-11 * found.total
+    assert found.rounding_error[0] < 1e-11 * found.total
 
 
 def placed(points, matrix):
@@ -117,7 +119,7 @@ def test_a_density_in_world_coordinates_stays_where_it_is_when_the_body_moves(na
     points, triangles = prism()
     matrix = np.array(MAPS[name], float)
     density = parse(text)
-    found = graded_sum(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
+    found = polynomial_mass_of_images(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
     faces = [face[::-1] for face in triangles] if np.linalg.det(matrix) < 0 else triangles
     assert within(found, truth(placed(points, matrix), faces, density.terms, found.about))
 
@@ -134,7 +136,7 @@ def test_the_bound_holds_for_any_density_and_any_map(coefficients, linear, offse
     matrix[:3, :3], matrix[:3, 3] = np.reshape(linear, (3, 3)) / 8.0, offset
     points, triangles = prism()
     density = Polynomial.from_coefficients(coefficients)
-    found = graded_sum(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
+    found = polynomial_mass_of_images(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
     faces = [face[::-1] for face in triangles] if np.linalg.det(matrix) < 0 else triangles
     assert within(found, truth(placed(points, matrix), faces, density.terms, found.about))
 
@@ -145,13 +147,15 @@ def test_a_density_in_own_coordinates_moves_turns_and_mirrors_with_the_body(name
     points, triangles = prism()
     matrix = np.array(MAPS[name], float)
     density = parse("2 + x*y + z**2")
-    found = graded_sum(moments_of(points, triangles, 5), density, matrix[None], own_fields(matrix[None]))
+    found = polynomial_mass_of_images(
+        moments_of(points, triangles, 5), density, matrix[None], local_coordinates(matrix[None])
+    )
     size = np.linalg.norm(matrix[:3, :3], axis=0)
     scaled = [tuple(point * size) for point in np.array(points)]
     rigid = matrix.copy()
     rigid[:3, :3] /= size
     raw = np.array([float(v) for v in truth(scaled, triangles, density.terms, (0, 0, 0))])
-    expected = Moments(raw, np.zeros(3), "mass").mapped(rigid).shifted(found.about)
+    expected = Moments(raw, np.zeros(3), "mass").transform(rigid).about_point(found.about)
     degree = np.repeat([0, 1, 2, 3], [1, 3, 6, 10])
     scale = np.abs(expected.raw[0]) * np.abs(np.array(scaled)).max() ** degree
     assert (np.abs(found.raw - expected.raw) <= 3e-13 * scale).all()
@@ -163,7 +167,7 @@ def test_own_axes_are_those_that_are_drawn():
     maps[0, :3, :3] = rotation @ np.diag([2.0, 3.0, 0.5])
     maps[1, :3, :3] = rotation @ np.diag([-1.0, 1.0, 1.0])
     maps[2, :3, :3] = rotation @ np.array([[1.0, 0.5, 0], [0, 1, 0], [0, 0, 1]])
-    axes, sheared = own_axes(maps)
+    axes, sheared = polar_rotation(maps)
     assert np.allclose(axes[0], rotation, atol=1e-14)
     assert np.allclose(axes[1], rotation @ np.diag([-1.0, 1.0, 1.0]), atol=1e-14)
     assert np.allclose(axes[2].T @ axes[2], np.eye(3), atol=1e-14)
@@ -178,23 +182,25 @@ def test_many_images_are_the_sum_of_each_and_a_constant_is_a_factor():
     maps[:, :3, :3] += rng.normal(size=(1500, 3, 3)) * 0.2
     maps[:, :3, 3] = rng.normal(size=(1500, 3)) * 10.0
     density = parse("50 + x*y - z**2/1000")
-    together = graded_sum(volume, density, maps, about=(0, 0, 0))
+    together = polynomial_mass_of_images(volume, density, maps, about=(0, 0, 0))
     each = [
-        graded_sum(volume, density, maps[part], about=(0, 0, 0))
+        polynomial_mass_of_images(volume, density, maps[part], about=(0, 0, 0))
         for part in (slice(0, 1), slice(1, 2), slice(2, 600), slice(600, None))
     ]
     total = np.sum([one.raw for one in each], axis=0)
-    bound = together.error + np.sum([one.error for one in each], axis=0)
+    bound = together.rounding_error + np.sum([one.rounding_error for one in each], axis=0)
     assert (np.abs(together.raw - total) <= bound).all() and (bound < 1e-9 * np.abs(total).max()).all()
-    constant, plain = graded_sum(volume, parse("7"), maps), map_sum(volume, maps)
-    assert (np.abs(constant.raw - 7.0 * plain.raw) <= constant.error + 7.0 * plain.error).all()
+    constant, plain = polynomial_mass_of_images(volume, parse("7"), maps), sum_of_images(volume, maps)
+    assert (np.abs(constant.raw - 7.0 * plain.raw) <= constant.rounding_error + 7.0 * plain.rounding_error).all()
 
 
 def test_the_input_bound_follows_the_density():
     points, triangles = prism()
     volume = moments_of(points, triangles, 4)
-    one, ten = (graded_sum(volume, parse(text), np.eye(4)[None]).input for text in ("1 + z", "10 + 10*z"))
-    assert np.allclose(ten, 10.0 * one) and one[0] >= volume.input[0]
+    one, ten = (
+        polynomial_mass_of_images(volume, parse(text), np.eye(4)[None]).input_error for text in ("1 + z", "10 + 10*z")
+    )
+    assert np.allclose(ten, 10.0 * one) and one[0] >= volume.input_error[0]
 
 
 def test_a_cylinder_with_a_linear_density():
@@ -204,7 +210,7 @@ def test_a_cylinder_with_a_linear_density():
     angle = 2.0 * np.pi * np.arange(n) / n
     outline = list(zip((radius * np.cos(angle)).tolist(), (radius * np.sin(angle)).tolist()))
     points, faces = exact.prism(outline, 0.0, height, [tuple(range(n))])
-    found = graded_sum(moments_of(points, exact.fan(faces), 4), parse("1000 + 20*z"), np.eye(4)[None])
+    found = polynomial_mass_of_images(moments_of(points, exact.fan(faces), 4), parse("1000 + 20*z"), np.eye(4)[None])
     area = n / 2.0 * radius**2 * np.sin(2.0 * np.pi / n)
     body = MassProperties.from_moments(found)
     assert body.mass == pytest.approx(area * height * (a + b * height / 2.0), rel=1e-14)
@@ -221,7 +227,9 @@ def test_a_ball_with_a_radial_density_by_refinement():
     for level in (2, 3):
         points, triangles = bodies.sphere(level)
         volume = moments_of(points.tolist(), triangles.tolist(), 5, (0, 0, 0))
-        body = MassProperties.from_moments(graded_sum(volume, parse("x**2 + y**2 + z**2"), np.eye(4)[None]))
+        body = MassProperties.from_moments(
+            polynomial_mass_of_images(volume, parse("x**2 + y**2 + z**2"), np.eye(4)[None])
+        )
         wrong.append([1.0 - body.mass / (0.8 * np.pi), 1.0 - body.inertia[0, 0] / (8.0 * np.pi / 21.0)])
     ratio = np.array(wrong[0]) / np.array(wrong[1])
     assert (np.array(wrong) > 0.0).all() and (ratio > 3.6).all() and (ratio < 4.1).all()
@@ -229,12 +237,12 @@ def test_a_ball_with_a_radial_density_by_refinement():
 
 def test_an_order_that_does_not_reach_is_refused():
     with pytest.raises(ValueError, match="below"):
-        graded_sum(moments_of(*prism(), 3), parse("x**4"), np.eye(4)[None])
+        polynomial_mass_of_images(moments_of(*prism(), 3), parse("x**4"), np.eye(4)[None])
 
 
 def test_the_winding_number_tells_inside_from_outside():
     points, triangles = prism()
     points, triangles = np.array(points), np.array(triangles)
-    assert winding(points, triangles, (0.5, 0.5, 0.0)) == pytest.approx(1.0, abs=1e-12)
-    assert winding(points, triangles, (2.0, 2.0, 0.0)) == pytest.approx(0.0, abs=1e-12)  # in the notch
-    assert winding(points, triangles[:, ::-1], (0.5, 0.5, 0.0)) == pytest.approx(-1.0, abs=1e-12)
+    assert winding_number(points, triangles, (0.5, 0.5, 0.0)) == pytest.approx(1.0, abs=1e-12)
+    assert winding_number(points, triangles, (2.0, 2.0, 0.0)) == pytest.approx(0.0, abs=1e-12)  # in the notch
+    assert winding_number(points, triangles[:, ::-1], (0.5, 0.5, 0.0)) == pytest.approx(-1.0, abs=1e-12)

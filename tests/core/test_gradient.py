@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.moments.moments import index, monomials
+from body_moments.core.moments.moments import monomial_index, monomials
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
 
@@ -84,7 +84,7 @@ def test_turning_the_body_turns_its_moments(part, kind):
         second = cross @ moments.second() + moments.second() @ cross.T
         for i in range(3):
             for j in range(3):
-                found = rate[index(*(EYE[i] + EYE[j]))]
+                found = rate[monomial_index(*(EYE[i] + EYE[j]))]
                 assert abs(found - second[i, j]) <= 1e-14 * size * np.abs(places).max() ** 2
 
 
@@ -195,7 +195,7 @@ def test_a_triangle_without_area_and_a_loose_vertex_give_nothing():
 def test_a_mesh_of_many_blocks_is_derived_as_one(monkeypatch):
     part = bodies.moved(bodies.sphere(3), SHEAR)
     whole = volume_gradient(bodies.surface(part), np.zeros(3)).by_vertex
-    monkeypatch.setattr("body_moments.core.statics.gradient.BLOCK", 37)
+    monkeypatch.setattr("body_moments.core.statics.gradient.TRIANGLES_PER_BLOCK", 37)
     pieces = volume_gradient(bodies.surface(part), np.zeros(3)).by_vertex
     assert np.abs(whole - pieces).max() < 1e-16
 

@@ -47,9 +47,9 @@ def test_areas_of_images_are_exact_to_their_bounds(offset, size):
     linear[2, 2] = linear[2, 1]  # it flattens
     found = area_of_images(Surface.from_triangles(points, TRIANGLES), linear)
     right = truth(points, TRIANGLES, linear)
-    assert abs(Fraction(found.total) - right) <= Fraction(float(found.error[0]))
-    assert found.error[0] < 1e-12 * found.total
-    assert found.input[0] == 0.0
+    assert abs(Fraction(found.total) - right) <= Fraction(float(found.rounding_error[0]))
+    assert found.rounding_error[0] < 1e-12 * found.total
+    assert found.input_error[0] == 0.0
 
 
 def test_a_box_stretched_along_its_edges():
@@ -63,7 +63,7 @@ def test_what_float32_may_have_moved_is_bounded():
     linear = RNG.standard_normal((3, 3, 3))
     found = area_of_images(Surface(points.astype(np.float32), TRIANGLES), linear)
     off = abs(float(truth(points, TRIANGLES, linear) - Fraction(found.total)))
-    assert 0.0 < off < found.input[0] < 1e-5 * found.total
+    assert 0.0 < off < found.input_error[0] < 1e-5 * found.total
 
 
 def test_many_maps_and_faces_go_in_blocks(monkeypatch):
@@ -72,5 +72,5 @@ def test_many_maps_and_faces_go_in_blocks(monkeypatch):
     points, linear = RNG.standard_normal((8, 3)), RNG.standard_normal((7, 3, 3))
     surface = Surface.from_triangles(points, TRIANGLES)
     whole = area_of_images(surface, linear)
-    monkeypatch.setattr(images, "BLOCK", 20)
+    monkeypatch.setattr(images, "PRODUCTS_PER_BLOCK", 20)
     assert area_of_images(surface, linear).total == pytest.approx(whole.total, rel=1e-15)

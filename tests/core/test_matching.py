@@ -33,10 +33,13 @@ def test_the_way_is_the_one_that_all_points_tell_and_few_ways_need_them(name, mo
     source = bodies.moved(target, bodies.rotation(3), (1, 2, 3))
     calls = []
     found = laid(source, target, calls)
-    monkeypatch.setattr(matching, "FEW", 10**9)  # all points of every way
+    monkeypatch.setattr(matching, "FIRST_SAMPLES", 10**9)  # all points of every way
     complete = laid(source, target, [])
-    assert (found.rotation == complete.rotation).all() and not found.mirrored
-    assert (found.largest, found.mean) == (complete.largest, complete.mean) and found.largest < 1e-4
+    assert (found.rotation == complete.rotation).all() and not found.is_mirror_image
+    assert (found.max_distance, found.mean_distance) == (
+        complete.max_distance,
+        complete.mean_distance,
+    ) and found.max_distance < 1e-4
     assert np.abs(found.rotation - bodies.rotation(3).T).max() < 1e-6
     ways = sum(few is not None for few in calls)
     assert 1 <= len(calls) - ways <= max(1, ways // 2)

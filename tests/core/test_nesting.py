@@ -5,12 +5,12 @@
 import numpy as np
 import pytest
 from body_moments.core.mesh import bvh as shell_tree
-from body_moments.core.mesh.boxes import overlapping_boxes
-from body_moments.core.mesh.bvh import Tree, sort_shells
+from body_moments.core.mesh.boxes import overlapping_box_pairs
+from body_moments.core.mesh.bvh import Bvh, sort_components
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid import nesting
 from body_moments.core.solid.measure_solid import measure_solid
-from body_moments.core.solid.nesting import decide, relate
+from body_moments.core.solid.nesting import classify_pairs, orient_nested_shells
 
 from tests.core.bodies import box, inverted, joined, moved, rotation, sphere, torus
 
@@ -21,14 +21,18 @@ OUTER, INNER = box((-2, -2, -2), (2, 2, 2)), box((-1, -1, -1), (1, 1, 1))
 def shells_of(*parts):
     points, triangles = joined(*parts)
     shell = np.repeat(np.arange(len(parts)), [len(part[1]) for part in parts])
-    return points, sort_shells(points, triangles, shell, len(parts))
+    return points, sort_components(points, triangles, shell, len(parts))
 
 
 def relation(*parts):
     points, shells = shells_of(*parts)
     ask = np.ones(len(parts), bool)
-    found = relate(points, shells, ask, TOUCH)
-    return {tuple(pair) for pair in found.inside}, {tuple(sorted(pair)) for pair in found.crossing}, found.unchecked
+    found = classify_pairs(points, shells, ask, TOUCH)
+    return (
+        {tuple(pair) for pair in found.contained_in},
+        {tuple(sorted(pair)) for pair in found.intersecting},
+        found.undecided_pairs,
+    )
 
 
 def test_shells_are_measured_one_by_one_in_whatever_order_their_triangles_come():
@@ -37,7 +41,7 @@ def test_shells_are_measured_one_by_one_in_whatever_order_their_triangles_come()
     points, triangles = joined(*parts)
     shell = np.repeat(np.arange(6), [len(part[1]) for part in parts])
     order = np.random.default_rng(0).permutation(len(shell))
-    shells = sort_shells(points, triangles[order], shell[order], 6)
+    shells = sort_components(points, triangles[order], shell[order], 6)
     assert shells.volume[5] == pytest.approx(-24.0, rel=1e-14) and shells.area[5] == pytest.approx(52.0, rel=1e-14)
     np.testing.assert_allclose(shells.volume[:5], shells.volume[0], rtol=1e-13)
     for k, part in enumerate(parts):
@@ -53,7 +57,7 @@ def test_overlapping_boxes_are_those_that_comparing_all_finds(seed):
     rng = np.random.default_rng(seed)
     low = rng.integers(0, 10, size=(60, 3)).astype(float)
     high = low + rng.integers(0, 4, size=(60, 3))
-    i, j, skipped = overlapping_boxes(low, high, 1e-9, 10_000)
+    i, j, skipped = overlapping_box_pairs(low, high, 1e-9, 10_000)
     expected = {
         (a, b)
         for a in range(60)
@@ -69,19 +73,19 @@ def test_winding_numbers_are_those_of_the_bodies(spin):
     matrix = np.eye(3) if spin is None else rotation(spin)
     parts = [moved(part, matrix) for part in (OUTER, inverted(INNER), torus())]
     points, shells = shells_of(*parts)
-    tree = Tree(points, shells, np.ones(3, bool))
+    tree = Bvh(points, shells, np.ones(3, bool))
     rng = np.random.default_rng(4)
     where = rng.uniform(-2.5, 2.5, size=(3000, 3))
     # Points in the planes and on the axes of the boxes, where rays meet edges and corners.
     where[:1000] = np.round(where[:1000] * 2) / 2 + 0.25 * rng.integers(0, 2, size=(1000, 3))
     places = where @ matrix.T - tree.origin
     for shell, (half, sign) in enumerate([(2.0, 1), (1.0, -1)]):
-        inside, sure = tree.inside(places, np.full(3000, shell), TOUCH)
+        inside, sure = tree.winding_numbers(places, np.full(3000, shell), TOUCH)
         reach = np.abs(where).max(axis=1)
         clear = sure & (np.abs(reach - half) > 1e-3)
         assert clear.sum() > 2000
         np.testing.assert_array_equal(inside[clear], sign * (reach < half)[clear])
-    inside, sure = tree.inside(places, np.full(3000, 2), TOUCH)
+    inside, sure = tree.winding_numbers(places, np.full(3000, 2), TOUCH)
     across = np.hypot(np.hypot(where[:, 0], where[:, 1]) - 1.0, where[:, 2])
     np.testing.assert_array_equal(inside[across < 0.3], 1)
     np.testing.assert_array_equal(inside[across > 0.36], 0)
@@ -152,10 +156,10 @@ def test_thousands_of_cavities_are_found_in_one_body():
 def test_work_that_would_take_too_long_is_left_and_said(monkeypatch):
     parts = [sphere(4), moved(sphere(4), 0.99 * np.eye(3)), moved(box(), np.eye(3), (5, 5, 5))]
     assert relation(*parts) == ({(1, 0)}, set(), 0)
-    monkeypatch.setattr(shell_tree, "MOST_WORK", 1000)
+    monkeypatch.setattr(shell_tree, "MAX_BOX_PAIRS", 1000)
     assert relation(*parts) == (set(), set(), 1)
-    monkeypatch.setattr(shell_tree, "MOST_WORK", 10**9)
-    monkeypatch.setattr(nesting, "MOST_PAIRS", 0)
+    monkeypatch.setattr(shell_tree, "MAX_BOX_PAIRS", 10**9)
+    monkeypatch.setattr(nesting, "MAX_COMPONENT_PAIRS", 0)
     inside, crossing, unchecked = relation(*parts)
     assert unchecked > 0 and not inside and not crossing
 
@@ -186,7 +190,7 @@ def test_shells_in_shells_are_turned_where_no_material_surrounds_them(signs, tur
     order = np.random.default_rng(count).permutation(count)
     points, shells = shells_of(*[parts[k] for k in order])
     ask = np.ones(count, bool)
-    found = decide(shells, relate(points, shells, ask, TOUCH), ask)
+    found = orient_nested_shells(shells, classify_pairs(points, shells, ask, TOUCH), ask)
     for flags, expected in zip(found, (turned, nested, cavities)):
         assert "".join("x" if flag else "-" for flag in flags[np.argsort(order)]) == expected
 
@@ -228,5 +232,5 @@ def test_boxes_that_share_a_thin_slice_still_go_through_each_other():
 def test_a_part_without_extent_beside_others_is_no_trouble():
     """Its box has no size by which to order what is in it."""
     points, triangles = joined(OUTER, INNER, (np.zeros((3, 3)), np.array([[0, 1, 2]])))
-    shells = sort_shells(points, triangles, np.repeat([0, 1, 2], [12, 12, 1]), 3)
-    assert len(Tree(points, shells, np.ones(3, bool)).ids) == 25
+    shells = sort_components(points, triangles, np.repeat([0, 1, 2], [12, 12, 1]), 3)
+    assert len(Bvh(points, shells, np.ones(3, bool)).ids) == 25

@@ -49,7 +49,8 @@ def tetrahedron(seed=1):
     a, b, c, d = points
     if (
         sheynin_tuzikov.dot(
-            sheynin_tuzikov.minus(d, a), sheynin_tuzikov.cross(sheynin_tuzikov.minus(b, a), sheynin_tuzikov.minus(c, a))
+            sheynin_tuzikov.subtract(d, a),
+            sheynin_tuzikov.cross(sheynin_tuzikov.subtract(b, a), sheynin_tuzikov.subtract(c, a)),
         )
         < 0
     ):
@@ -108,7 +109,7 @@ def test_the_add_ons_recursion_is_within_its_bounds_of_sheynin_tuzikov_to_sixth_
     cut = triangles(points, faces)
     found, _ = polyhedron_moments(Surface.from_triangles(floats, np.array(cut)), 6)
     truth = sheynin_tuzikov.volume_moments(rational.fractions(floats), cut, 6, [F(x) for x in found.about])
-    for value, bound, exactly in zip(found.raw, found.error, truth):
+    for value, bound, exactly in zip(found.raw, found.rounding_error, truth):
         assert abs(F(value) - exactly) <= F(bound)
 
 
@@ -134,7 +135,7 @@ def test_surface_moments_are_exact_where_areas_are_rational():
     double = []
     for a, b, c in cut:
         normal = sheynin_tuzikov.cross(
-            sheynin_tuzikov.minus(points[b], points[a]), sheynin_tuzikov.minus(points[c], points[a])
+            sheynin_tuzikov.subtract(points[b], points[a]), sheynin_tuzikov.subtract(points[c], points[a])
         )
         double.append(exact_root(sheynin_tuzikov.dot(normal, normal)))
     for row, value in zip(rows, values):
@@ -164,8 +165,8 @@ def test_many_triangles_at_once_in_floats_agree_with_fractions_and_with_the_add_
     assert (np.abs(volume - np.array(truth, float)) <= 1e-14 * scale).all()
     areas = sheynin_tuzikov.surface_moments(exactly, cut, 5, [F(x) for x in about], root=lambda s: float(s) ** 0.5)
     assert (np.abs(surface - np.array(areas, float)) <= 1e-14 * surface[0] * reach ** monomials(5).sum(axis=1)).all()
-    measured = polyhedron_moments(Surface.from_triangles(floats, np.array(cut)))[0].shifted(about)
-    assert (np.abs(measured.raw - volume[:20]) <= measured.error + 1e-14 * scale[:20]).all()
+    measured = polyhedron_moments(Surface.from_triangles(floats, np.array(cut)))[0].about_point(about)
+    assert (np.abs(measured.raw - volume[:20]) <= measured.rounding_error + 1e-14 * scale[:20]).all()
 
 
 def test_the_printed_third_order_formula_is_wrong_and_not_even_symmetric():
@@ -181,9 +182,9 @@ def test_durso_holds_at_any_order_with_any_apex_in_the_face():
     points, faces = prism()
     truth = sheynin_tuzikov.volume_moments(points, faces, 5)
     assert durso.moments(points, faces, 5) == truth
-    assert durso.moments_from(points, faces, durso.feet(points, faces), 5) == truth
+    assert durso.moments_from_apexes(points, faces, durso.perpendicular_feet(points, faces), 5) == truth
     apexes = [tuple(3 * points[f[0]][i] - points[f[1]][i] - points[f[2]][i] for i in range(3)) for f in faces]
-    assert durso.moments_from(points, faces, apexes, 5) == truth
+    assert durso.moments_from_apexes(points, faces, apexes, 5) == truth
 
 
 def test_a_face_without_area_adds_nothing():
@@ -202,7 +203,7 @@ def jittered():
 def test_of_faces_that_are_not_planar_durso_has_the_volume_of_fans_from_their_means_and_no_consistent_center():
     points, faces = jittered()
     means = [tuple(sum(points[i][axis] for i in face) / F(len(face)) for axis in range(3)) for face in faces]
-    fans = durso.moments_from(points, faces, means, 1)
+    fans = durso.moments_from_apexes(points, faces, means, 1)
     assert durso.tensor(points, faces, durso.ZEROTH) == fans[0]
     offset = (F(10), F(20), F(30))
     moved = [tuple(x + t for x, t in zip(point, offset)) for point in points]
@@ -210,7 +211,7 @@ def test_of_faces_that_are_not_planar_durso_has_the_volume_of_fans_from_their_me
     defect = [s - f - fans[0] * t for s, f, t in zip(shifted, first, offset)]
     assert max(map(abs, defect)) > F(1, 1000)  # it belongs to no body
     moved_means = [tuple(x + t for x, t in zip(mean, offset)) for mean in means]
-    moved_fans = durso.moments_from(moved, faces, moved_means, 1)
+    moved_fans = durso.moments_from_apexes(moved, faces, moved_means, 1)
     assert [s - f - fans[0] * t for s, f, t in zip(moved_fans[1:], fans[1:], offset)] == [0, 0, 0]
 
 

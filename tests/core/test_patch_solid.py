@@ -7,13 +7,13 @@ from math import prod
 import numpy as np
 import pytest
 from body_moments.core.moments.moments import monomials
-from body_moments.core.numerics.bspline import Space, clamped
+from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs import patch_topology as closure
 from body_moments.core.nurbs.creases import sharpest_crease
 from body_moments.core.nurbs.curve import Curve
 from body_moments.core.nurbs.patch import Patch
-from body_moments.core.nurbs.patch_topology import close_patches
-from body_moments.core.nurbs.planar_region import plane_region
+from body_moments.core.nurbs.patch_topology import find_topology
+from body_moments.core.nurbs.planar_region import planar_region
 from body_moments.core.nurbs.solid import measure_patches, measure_sheet
 from body_moments.core.verdict.finding import Finding
 
@@ -26,7 +26,7 @@ BALL = 4.0 * np.pi / 3.0
 def flat(corners, orders=(2, 2), inner=((), ())):
     """A bilinear patch over four corners (00, 10, 11, 01), of higher order and with more knots if asked: its control
     points are at the Greville abscissae, so that its parameters stay even."""
-    spaces = tuple(clamped(order, knots) for order, knots in zip(orders, inner))
+    spaces = tuple(clamped_space(order, knots) for order, knots in zip(orders, inner))
     steps = [
         np.array([sum(space.knots[i + 1 : i + space.order]) / (space.order - 1) for i in range(space.count)])
         for space in spaces
@@ -55,9 +55,9 @@ def odd_factorial(n):
 
 
 def test_moments_to_sixth_order_of_a_ball_a_capped_cylinder_and_a_box():
-    ball, rod = (measure_patches([patch], order=6).volume.shifted(np.zeros(3)) for patch in (sphere(), tube()))
+    ball, rod = (measure_patches([patch], order=6).volume.about_point(np.zeros(3)) for patch in (sphere(), tube()))
     low = np.array([5.0, -3.0, 2.0])
-    block = measure_patches(box(offset=tuple(low)), order=6).volume.shifted(np.zeros(3))
+    block = measure_patches(box(offset=tuple(low)), order=6).volume.about_point(np.zeros(3))
     for powers in monomials(6).tolist():
         p, q, r = powers
         even = p % 2 == q % 2 == 0
@@ -78,7 +78,7 @@ def test_moments_to_sixth_order_of_a_ball_a_capped_cylinder_and_a_box():
 
 
 def test_a_patch_that_is_inside_out_is_turned_and_said():
-    found = measure_patches([sphere().turned()])
+    found = measure_patches([sphere().reverse_orientation()])
     assert found.method == "reoriented" and found.health.inverted_components == 1
     assert only(found) == Finding("inverted_patch_components", {"count": 1, "total": 1})
     assert abs(found.volume.total / BALL - 1.0) <= 1e-14
@@ -97,7 +97,7 @@ def test_an_open_cylinder_has_no_vector_area_and_is_still_open():
 @pytest.mark.parametrize("far", [0.0, 1e4])
 def test_the_volume_of_a_capped_patch_does_not_depend_on_where_it_is(far):
     rng = np.random.default_rng(4)
-    space = clamped(4, (0.3, 0.6))
+    space = clamped_space(4, (0.3, 0.6))
     bowl = np.stack(np.meshgrid(np.arange(6.0), np.arange(6.0), indexing="ij"), axis=-1)
     points = np.concatenate([bowl, rng.uniform(0.0, 2.0, (6, 6, 1))], axis=2)
     here, there = (measure_patches([Patch((space, space), points + shift)]) for shift in (0.0, far))
@@ -109,9 +109,9 @@ def test_the_volume_of_a_capped_patch_does_not_depend_on_where_it_is(far):
 def test_the_cap_of_a_flat_rim_is_exact_whatever_the_rims_shape():
     """An L-shaped prism's walls: the centroid is not even in the flat region's kernel."""
     outline = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4), (0, 0)]
-    space = Space((0.0, *map(float, range(7)), 6.0), 2, 7)
+    space = SplineSpace((0.0, *map(float, range(7)), 6.0), 2, 7)
     points = np.array([[(x, y, z) for z in (2.0, 5.0)] for x, y in outline])
-    found = measure_patches([Patch((space, clamped(2)), points)])
+    found = measure_patches([Patch((space, clamped_space(2)), points)])
     finding = only(found)
     assert found.method == "capped" and finding.code == "flat_patch_holes_capped" and finding.values["count"] == 2
     assert abs(found.volume.total - 7.0 * 3.0) <= 1e-13
@@ -127,9 +127,9 @@ def test_rims_that_cross_themselves_are_told(crossing, shift):
     t = np.linspace(0.0, 2.0 * np.pi, 33) + shift
     x = np.sin(t) * (1.0 + 0.5 * (np.sin(t) > 0.0))
     y = np.sin(t) * np.cos(t) if crossing else np.abs(np.sin(t)) * np.cos(t)
-    space = Space((0.0, *map(float, range(33)), 32.0), 2, 33)
+    space = SplineSpace((0.0, *map(float, range(33)), 32.0), 2, 33)
     points = np.stack([np.stack([x, y, np.full(33, z)], axis=1) for z in (0.0, 1.0)], axis=1)
-    found = measure_patches([Patch((space, clamped(2)), points)])
+    found = measure_patches([Patch((space, clamped_space(2)), points)])
     assert (Finding("patch_boundary_crosses_itself", {"count": 2}) in found.findings) == crossing
     assert found.method == "capped"
 
@@ -145,7 +145,7 @@ def test_six_patches_of_different_resolution_make_a_box():
 
 def test_sides_coincide_whatever_their_parameters_are():
     patches = box()
-    space = Space((0.0, 0.0, 0.1, 1.0, 1.0), 2, 3)  # its parameters run slowly first
+    space = SplineSpace((0.0, 0.0, 0.1, 1.0, 1.0), 2, 3)  # its parameters run slowly first
     points = patches[0].points
     between = points[:1] * 0.7 + points[1:] * 0.3
     patches[0] = Patch((space, patches[0].spaces[1]), np.concatenate([points[:1], between, points[1:]]))
@@ -166,7 +166,7 @@ def test_round_sides_coincide_wherever_they_begin(turn):
         lids.append(
             Patch(wall.spaces, np.stack([around, np.broadcast_to([0.0, 0.0, top], (8, 3))], axis=1), wall.weights)
         )
-    found = measure_patches([wall, lids[0].turned(), lids[1]])
+    found = measure_patches([wall, lids[0].reverse_orientation(), lids[1]])
     assert (found.method, found.findings, found.health.components) == ("exact", (), 1)
     assert abs(found.volume.total / (2.0 * np.pi + 2.0 * np.pi / 3.0) - 1.0) <= 1e-13
     assert measure_patches([wall, *lids]).health.inconsistent_edges == 1
@@ -174,7 +174,7 @@ def test_round_sides_coincide_wherever_they_begin(turn):
 
 def test_patches_that_face_against_the_rest_are_turned_and_counted():
     patches = box()
-    patches[1], patches[4] = patches[1].turned(), patches[4].turned()
+    patches[1], patches[4] = patches[1].reverse_orientation(), patches[4].reverse_orientation()
     found = measure_patches(patches)
     assert found.method == "reoriented"
     assert only(found) == Finding("flipped_patches", {"count": 2})
@@ -203,7 +203,7 @@ def cube(*corner):
 
 
 def turned(patches):
-    return [patch.turned() for patch in patches]
+    return [patch.reverse_orientation() for patch in patches]
 
 
 TOUCHING = {
@@ -233,7 +233,11 @@ def test_bodies_that_touch_are_told_from_each_other_though_their_patches_face_an
     rng, patches = np.random.default_rng(1), TOUCHING[name][0]
     for _ in range(5):
         found = measure_patches(
-            [patches[k].turned() if rng.random() < 0.5 else patches[k] for k in rng.permutation(len(patches))], order=0
+            [
+                patches[k].reverse_orientation() if rng.random() < 0.5 else patches[k]
+                for k in rng.permutation(len(patches))
+            ],
+            order=0,
         )
         assert found.method == "reoriented" and abs(found.volume.total - 2.0) <= 1e-13
         assert "ambiguous_patch_sides" in codes(found)
@@ -244,15 +248,15 @@ def test_a_patch_of_one_side_only_is_open():
     turns = np.linspace(0.0, 2.0 * np.pi, 17)
     arm = np.stack([np.cos(turns) * np.cos(turns / 2), np.sin(turns) * np.cos(turns / 2), np.sin(turns / 2)], axis=1)
     middle = np.stack([3.0 * np.cos(turns), 3.0 * np.sin(turns), 0.0 * turns], axis=1)
-    space = Space((0.0, *map(float, range(17)), 16.0), 2, 17)
-    found = measure_patches([Patch((space, clamped(2)), np.stack([middle - arm, middle + arm], axis=1))])
+    space = SplineSpace((0.0, *map(float, range(17)), 16.0), 2, 17)
+    found = measure_patches([Patch((space, clamped_space(2)), np.stack([middle - arm, middle + arm], axis=1))])
     assert found.method == "open"
     assert codes(found) == ["open_patch_sides"]
 
 
 def test_a_cavity_is_subtracted_and_a_nested_ball_counted_twice():
-    small = sphere().mapped(np.diag([0.5, 0.5, 0.5, 1.0]))
-    hollow = measure_patches([sphere(), small.turned()])
+    small = sphere().transform(np.diag([0.5, 0.5, 0.5, 1.0]))
+    hollow = measure_patches([sphere(), small.reverse_orientation()])
     assert (hollow.method, hollow.health.cavities) == ("exact", 1)
     assert abs(hollow.volume.total / (BALL * 0.875) - 1.0) <= 1e-14
     nested = measure_patches([sphere(), small])
@@ -265,7 +269,7 @@ def test_a_cavity_near_the_surface_is_one_whatever_their_samples_cross(gap):
     turn, _ = np.linalg.qr(np.random.default_rng(0).standard_normal((3, 3)))
     inner = np.eye(4)
     inner[:3, :3] = turn * np.sign(np.linalg.det(turn)) * (1.0 - gap)
-    hollow = measure_patches([sphere(), sphere().mapped(inner).turned()])
+    hollow = measure_patches([sphere(), sphere().transform(inner).reverse_orientation()])
     assert (hollow.method, hollow.findings, hollow.health.cavities) == ("exact", (), 1)
     assert abs(hollow.volume.total / (BALL * (1.0 - (1.0 - gap) ** 3)) - 1.0) <= 1e-11
 
@@ -275,7 +279,7 @@ def test_balls_that_overlap_by_a_hundredth_are_told_in_whatever_direction(apart,
     for direction in [np.array([1.0, 0.0, 0.0]), *np.random.default_rng(3).normal(size=(5, 3))]:
         move = np.eye(4)
         move[:3, 3] = apart * direction / np.linalg.norm(direction)
-        found = measure_patches([sphere(), sphere().mapped(move)])
+        found = measure_patches([sphere(), sphere().transform(move)])
         assert found.health.overlapping_components == crossing
         assert bool(found.findings) == (crossing > 0)
 
@@ -293,7 +297,7 @@ def test_a_sheet_has_volume_of_its_own():
 
 
 def test_stored_float32_is_a_bound():
-    ball = sphere().mapped(np.diag([1.0, 2.0, 3.0, 1.0]))
+    ball = sphere().transform(np.diag([1.0, 2.0, 3.0, 1.0]))
     stored = 2.0**-24 * 6.0
     exact = measure_patches([ball], stored=stored).volume
     rng = np.random.default_rng(0)
@@ -301,8 +305,8 @@ def test_stored_float32_is_a_bound():
         move = rng.uniform(-1, 1, ball.points.shape)
         move *= stored / np.linalg.norm(move, axis=2, keepdims=True)
         move[:, 0], move[:, -1] = move[0, 0], move[0, -1]
-        moved = measure_patches([Patch(ball.spaces, ball.points + move, ball.weights)]).volume.shifted(exact.about)
-        assert (np.abs(moved.raw - exact.raw) <= exact.input + exact.error + moved.error).all()
+        moved = measure_patches([Patch(ball.spaces, ball.points + move, ball.weights)]).volume.about_point(exact.about)
+        assert (np.abs(moved.raw - exact.raw) <= exact.input_error + exact.rounding_error + moved.rounding_error).all()
 
 
 def test_stored_float32_is_a_bound_where_caps_are_larger_than_what_they_close():
@@ -310,7 +314,11 @@ def test_stored_float32_is_a_bound_where_caps_are_larger_than_what_they_close():
     exact = measure_patches([disc], stored=stored).volume
     points = disc.points + stored * np.array([[0, 0, -1], [0, 0, 1]])
     moved = measure_patches([Patch(disc.spaces, points, disc.weights)]).volume
-    assert 1e-7 <= abs(moved.total - exact.total) <= exact.input[0] + exact.error[0] + moved.error[0]
+    assert (
+        1e-7
+        <= abs(moved.total - exact.total)
+        <= exact.input_error[0] + exact.rounding_error[0] + moved.rounding_error[0]
+    )
 
 
 @pytest.mark.parametrize(
@@ -323,8 +331,10 @@ def test_stored_float32_is_a_bound_of_the_area_too(patch):
     for move in (arms, np.sign(np.random.default_rng(0).uniform(-1, 1, arms.shape))):
         points = patch.points + stored * move / np.linalg.norm(move, axis=2, keepdims=True).clip(1e-9)
         moved = measure_patches([Patch(patch.spaces, points, patch.weights)]).area
-        assert abs(moved.total - exact.total) <= exact.input[0] + exact.error[0] + moved.error[0]
-    assert exact.input[0] <= 20.0 * stored * patch.points.shape[0]  # so it tells something
+        assert (
+            abs(moved.total - exact.total) <= exact.input_error[0] + exact.rounding_error[0] + moved.rounding_error[0]
+        )
+    assert exact.input_error[0] <= 20.0 * stored * patch.points.shape[0]  # so it tells something
 
 
 @pytest.mark.parametrize(
@@ -334,7 +344,7 @@ def test_stored_float32_is_a_bound_of_the_area_too(patch):
         ([torus()], 0.0),
         ([tube()], 0.0),
         (box(), 90.0),
-        ([patch.turned() if k % 2 else patch for k, patch in enumerate(box())], 90.0),
+        ([patch.reverse_orientation() if k % 2 else patch for k, patch in enumerate(box())], 90.0),
         ([flat([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], (2, 3), ((0.5,), (0.5,)))], 0.0),
         (
             [
@@ -346,7 +356,7 @@ def test_stored_float32_is_a_bound_of_the_area_too(patch):
         (
             [
                 Patch(
-                    (Space((0.0, 0.0, 1.0, 2.0, 2.0), 2, 3), clamped(2)),
+                    (SplineSpace((0.0, 0.0, 1.0, 2.0, 2.0), 2, 3), clamped_space(2)),
                     [[(x, y, z) for z in (0, 1)] for x, y in ((1, 0), (0, 0), (0, 1))],
                 )
             ],
@@ -356,8 +366,8 @@ def test_stored_float32_is_a_bound_of_the_area_too(patch):
 )
 def test_creases_within_patches_and_between_them_are_found(patches, degrees):
     for move in (np.eye(4), np.diag([-1e-4, 1e-4, 1e-4, 1.0])):
-        own = [patch.mapped(move) for patch in patches]
-        assert np.degrees(sharpest_crease(own, close_patches(own, 1e-12))) == pytest.approx(degrees, abs=1e-6)
+        own = [patch.transform(move) for patch in patches]
+        assert np.degrees(sharpest_crease(own, find_topology(own, 1e-12))) == pytest.approx(degrees, abs=1e-6)
 
 
 def test_a_flat_part_beside_a_body_is_left_out_and_said():
@@ -368,29 +378,29 @@ def test_a_flat_part_beside_a_body_is_left_out_and_said():
 
 def test_all_points_in_one_place_are_refused():
     with refused("no_extent"):
-        measure_patches([Patch((clamped(2), clamped(2)), np.ones((2, 2, 3)))])
+        measure_patches([Patch((clamped_space(2), clamped_space(2)), np.ones((2, 2, 3)))])
 
 
 def test_knots_that_may_tear_a_patch_are_refused():
     """Two strips of one patch, apart: their inner sides are no sides of the patch, and would not be seen to be open."""
-    space = Space((0.0, 0.0, 1.0, 1.0, 2.0, 2.0), 2, 4)
+    space = SplineSpace((0.0, 0.0, 1.0, 1.0, 2.0, 2.0), 2, 4)
     with refused("discontinuous_patch"):
-        measure_patches([Patch((space, clamped(2)), np.random.default_rng(0).uniform(-1.0, 1.0, (4, 2, 3)))])
+        measure_patches([Patch((space, clamped_space(2)), np.random.default_rng(0).uniform(-1.0, 1.0, (4, 2, 3)))])
     with refused("curve_open"):
-        plane_region([Curve(space, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 0, 0)])])
-    assert not Space((0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0), 3, 5).is_torn
+        planar_region([Curve(space, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 0, 0)])])
+    assert not SplineSpace((0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0), 3, 5).is_discontinuous
 
 
 def test_only_sides_between_the_same_ends_are_compared_point_by_point(monkeypatch):
     """Of 400 loose patches none: comparing each side with all others took minutes."""
     asked = []
-    monkeypatch.setattr(closure, "_astride", lambda *sides: asked.append(sides) or [])
+    monkeypatch.setattr(closure, "_overlapping_sides", lambda *sides: asked.append(sides) or [])
     points = (
         np.random.default_rng(0).uniform(0.0, 0.5, (4, 4, 3))
         + np.stack(np.meshgrid(np.arange(4.0), np.arange(4.0), [0.0], indexing="ij"), axis=-1)[:, :, 0]
     )
-    patch = Patch((clamped(4), clamped(4)), points)
-    found = measure_patches([patch.mapped(shift) for shift in shifts(20, 3.5)], order=0)
+    patch = Patch((clamped_space(4), clamped_space(4)), points)
+    found = measure_patches([patch.transform(shift) for shift in shifts(20, 3.5)], order=0)
     assert not asked
     assert (found.method, found.health.components, found.health.boundary_edges) == ("capped", 400, 1600)
     one = measure_patches([patch], order=0)

@@ -8,12 +8,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.plane.polygon import (
-    Flaws,
+    OutlineDefects,
     area_moments,
     boundary_edges,
-    directed,
-    flaws,
-    nested,
+    directed_edges,
+    find_defects,
+    orient_loops,
     outline_areas,
     outline_moments,
     winding_numbers,
@@ -44,19 +44,21 @@ def test_moments_to_eighth_order_of_a_star_with_a_hole_are_within_their_bounds(s
     points, loops = HOLED
     points = (points * [-1 if mirrored else 1, 1]) @ np.array([[1.0, 0.3], [-0.2, 1.1]]).T * scale + offset
     loops = [loop[::-1] if mirrored else loop for loop in loops]
-    found = area_moments(points, directed(loops), 8)
+    found = area_moments(points, directed_edges(loops), 8)
     exactly, about = rational.fractions(points), tuple(Fraction(x) for x in found.about)
     for i, row in enumerate(multi_indices(2, 8).tolist()):
-        truth = rational.enclosed(exactly, directed(loops).tolist(), row, about)
-        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.error[i])
+        truth = rational.enclosed(exactly, directed_edges(loops).tolist(), row, about)
+        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.rounding_error[i])
         reach = np.abs(points - found.about).max()
-        assert found.error[i] <= 1e-11 * found.raw[0] * reach ** sum(row) * max(1.0, np.abs(offset).max() / scale / 1e4)
+        assert found.rounding_error[i] <= 1e-11 * found.raw[0] * reach ** sum(row) * max(
+            1.0, np.abs(offset).max() / scale / 1e4
+        )
     assert found.raw[0] > 0.0
 
 
 def test_rectangles_have_the_moments_of_products_to_twentieth_order():
     points, loops = shape(rectangle(-1.5, 0.25, 4, 2))
-    found = area_moments(points, directed(loops), 20, about=(0.0, 0.0))
+    found = area_moments(points, directed_edges(loops), 20, about=(0.0, 0.0))
     for i, (p, q) in enumerate(multi_indices(2, 20).tolist()):
         truth = (
             (Fraction(5, 2) ** (p + 1) - Fraction(-3, 2) ** (p + 1))
@@ -64,7 +66,7 @@ def test_rectangles_have_the_moments_of_products_to_twentieth_order():
             * (Fraction(9, 4) ** (q + 1) - Fraction(1, 4) ** (q + 1))
             / (q + 1)
         )
-        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.error[i])
+        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.rounding_error[i])
         assert abs(found.raw[i] / float(truth) - 1.0) < 1e-14
     assert found[2, 0] == found.raw[3]
 
@@ -74,7 +76,7 @@ def test_a_polygon_in_a_circle_reaches_the_circle_at_second_order():
     for n in (64, 128):
         angle = 2 * np.pi * np.arange(n) / n
         points = np.stack([np.cos(angle), np.sin(angle)], axis=1) * 2.0
-        found = area_moments(points, directed([np.arange(n)]), 4, about=(0.0, 0.0))
+        found = area_moments(points, directed_edges([np.arange(n)]), 4, about=(0.0, 0.0))
         truth = {(0, 0): math.pi * 4, (2, 0): math.pi * 4, (4, 0): math.pi * 8, (2, 2): math.pi * 8 / 3}
         errors.append([1.0 - found[row] / value for row, value in truth.items()])
     assert (np.array(errors[0]) > 0).all()
@@ -83,7 +85,7 @@ def test_a_polygon_in_a_circle_reaches_the_circle_at_second_order():
 
 def test_the_outline_has_its_length_and_its_moments():
     points, loops = shape(rectangle(0, 0, 3, 4), rectangle(1, 1, 1, 1))
-    found = outline_moments(points, nested(points, loops), 1, about=(0.0, 0.0))
+    found = outline_moments(points, orient_loops(points, loops), 1, about=(0.0, 0.0))
     assert found.raw[0] == 14 + 4
     assert found.raw[1] == pytest.approx(14 * 1.5 + 4 * 1.5, rel=1e-15)
 
@@ -97,32 +99,32 @@ def test_an_open_outline_is_refused():
 def test_loops_of_any_direction_nest_as_outlines_holes_and_islands(turned):
     points, loops = shape(rectangle(0, 0, 6, 6), rectangle(1, 1, 4, 4), rectangle(2, 2, 2, 2), rectangle(8, 0, 1, 1))
     loops = [loop[::-1] if turned >> i & 1 else loop for i, loop in enumerate(loops)]
-    edges = nested(points, loops)
+    edges = orient_loops(points, loops)
     assert area_moments(points, edges, 0).raw[0] == 36 - 16 + 4 + 1
     assert sorted(outline_areas(points, edges)) == [-16, 1, 4, 36]
-    assert flaws(points, edges).crossings == 0 and not flaws(points, edges).doubled
+    assert find_defects(points, edges).crossings == 0 and not find_defects(points, edges).overlapping
 
 
 def test_outlines_that_touch_along_edges_and_at_corners_are_no_flaw():
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(4, 1, 2, 2), rectangle(6, 3, 1, 1), rectangle(4, 3, 1, 1))
-    edges = nested(points, loops)
+    edges = orient_loops(points, loops)
     assert area_moments(points, edges, 0).raw[0] == 16 + 4 + 1 + 1
-    found = flaws(points, edges)
-    assert not found.crossings and not found.doubled and not found.lost
+    found = find_defects(points, edges)
+    assert not found.crossings and not found.overlapping and not found.too_many_pairs
 
 
 def test_what_overlaps_by_its_coordinates_errors_touches():
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(4 - 1e-6, 1, 2, 2))
-    edges = nested(points, loops)
-    assert flaws(points, edges).doubled and flaws(points, edges).crossings == 2
-    assert flaws(points, edges, error=1e-6) == Flaws(0, False, False, shared=2.0)
+    edges = orient_loops(points, loops)
+    assert find_defects(points, edges).overlapping and find_defects(points, edges).crossings == 2
+    assert find_defects(points, edges, error=1e-6) == OutlineDefects(0, False, False, shared_length=2.0)
 
 
 def test_a_hole_that_touches_its_outline_from_within_is_a_hole():
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(0, 1, 2, 2))
-    edges = nested(points, loops)
+    edges = orient_loops(points, loops)
     assert area_moments(points, edges, 0).raw[0] == 12
-    assert not flaws(points, edges).doubled
+    assert not find_defects(points, edges).overlapping
 
 
 PENTAGRAM = [(math.cos(4 * math.pi * k / 5), math.sin(4 * math.pi * k / 5)) for k in range(5)]
@@ -140,18 +142,24 @@ PENTAGRAM = [(math.cos(4 * math.pi * k / 5), math.sin(4 * math.pi * k / 5)) for 
 @pytest.mark.parametrize("offset", [0.0, 1e5])
 def test_outlines_that_cross_are_found(outlines, crossings, offset):
     points, loops = shape(*outlines)
-    assert flaws(points + offset, directed(loops)).crossings == crossings
+    assert find_defects(points + offset, directed_edges(loops)).crossings == crossings
 
 
 def test_regions_on_one_another_are_found_where_no_edges_cross():
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(1, 1, 1, 1))
-    assert flaws(points, directed(loops)) == flaws(points, directed(loops)[::-1])
-    assert flaws(points, directed(loops)).doubled and not flaws(points, directed(loops)).crossings
+    assert find_defects(points, directed_edges(loops)) == find_defects(points, directed_edges(loops)[::-1])
+    assert (
+        find_defects(points, directed_edges(loops)).overlapping
+        and not find_defects(points, directed_edges(loops)).crossings
+    )
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(0, 0, 4, 4), rectangle(0, 0, 4, 2))
-    assert flaws(points, directed(loops[:2])).doubled and flaws(points, directed(loops[1:])).doubled
+    assert (
+        find_defects(points, directed_edges(loops[:2])).overlapping
+        and find_defects(points, directed_edges(loops[1:])).overlapping
+    )
     # Through a corner of the other, so that no edge crosses another in its inside.
     points, loops = shape([(0, 0), (4, 0), (4, 2), (4, 4), (0, 4)], [(2, 2), (4, 2), (6, 0), (6, 4)])
-    assert flaws(points, directed(loops)).doubled
+    assert find_defects(points, directed_edges(loops)).overlapping
 
 
 @pytest.mark.parametrize("offset", [0.0, 1e3])
@@ -163,16 +171,16 @@ def test_points_that_are_there_twice_are_no_flaw(offset, away):
         points = np.array([(math.cos(turn + k), math.sin(turn + k)) for k in range(6)]) + offset
         step = float(np.spacing(np.float32(offset + 1.0)))
         points = np.insert(points, 3, points[2] + away * step * rng.uniform(-1.0, 1.0, 2), axis=0)
-        assert flaws(points, directed([np.arange(7)]), error=step) == Flaws(0, False, False)
-        assert flaws(points, directed([np.arange(7)[::-1]]), error=step).negative
+        assert find_defects(points, directed_edges([np.arange(7)]), error=step) == OutlineDefects(0, False, False)
+        assert find_defects(points, directed_edges([np.arange(7)[::-1]]), error=step).negative
 
 
 def test_what_is_gone_round_the_other_way_counts_negative():
     points, loops = shape([(0, 0), (4, 4), (4, 0), (0, 5)], PENTAGRAM, rectangle(0, 0, 4, 4))
-    assert flaws(points, directed(loops[:1])).negative
-    found = flaws(points, directed(loops[1:2]))
-    assert found.doubled and not found.negative
-    assert not flaws(points, directed(loops[2:])).negative
+    assert find_defects(points, directed_edges(loops[:1])).negative
+    found = find_defects(points, directed_edges(loops[1:2]))
+    assert found.overlapping and not found.negative
+    assert not find_defects(points, directed_edges(loops[2:])).negative
 
 
 @pytest.mark.parametrize("turn, offset", [(0.0, 0.0), (0.3, 0.0), (0.7, 1e3)])
@@ -189,27 +197,27 @@ def test_what_is_gone_round_the_other_way_counts_negative():
 def test_the_length_that_outlines_share_is_known(outlines, shared, turn, offset):
     points, loops = shape(*outlines)
     points = points @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]]) + offset
-    assert flaws(points, nested(points, loops)).shared == pytest.approx(shared, abs=1e-11)
+    assert find_defects(points, orient_loops(points, loops)).shared_length == pytest.approx(shared, abs=1e-11)
 
 
 def test_outlines_on_one_another_are_refused():
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(0, 0, 4, 4))
     with refused("outlines_coincide"):
-        nested(points, loops)
+        orient_loops(points, loops)
 
 
 def test_the_search_for_crossings_tells_when_it_gives_up(monkeypatch):
     from body_moments.core.plane import polygon
 
-    monkeypatch.setattr(polygon, "PAIRS", 2)
+    monkeypatch.setattr(polygon, "MAX_EDGE_PAIRS", 2)
     points, loops = shape(STAR)
-    assert flaws(points, directed(loops)).lost
+    assert find_defects(points, directed_edges(loops)).too_many_pairs
 
 
 def test_winding_numbers_are_whole_inside_and_outside_and_half_on_an_edge():
     points, loops = HOLED
     at = np.array([[1.5, 3.0], [2.5, 3.0], [50.0, 0.0], (points[0] + points[1]) / 2, (points[8] + points[9]) / 2])
-    assert winding_numbers(points, directed(loops), at) == pytest.approx([1, 0, 0, 0.5, 0.5], abs=1e-12)
+    assert winding_numbers(points, directed_edges(loops), at) == pytest.approx([1, 0, 0, 0.5, 0.5], abs=1e-12)
 
 
 def test_the_boundary_of_triangles_is_what_no_neighbour_shares():
@@ -226,7 +234,7 @@ def lattice_polygon(rng, size):
         corners = rng.integers(0, size, (int(rng.integers(3, 5)), 2))
         to = corners - corners.mean(axis=0)
         corners = corners[np.argsort(np.arctan2(to[:, 1], to[:, 0]))]
-        if area_moments(corners, directed([np.arange(len(corners))]), 0).raw[0] > 0.4:
+        if area_moments(corners, directed_edges([np.arange(len(corners))]), 0).raw[0] > 0.4:
             return corners
 
 
@@ -238,8 +246,8 @@ def test_flaws_of_random_regions_are_those_that_winding_numbers_show(size):
     seen = []
     for _ in range(100):
         points, loops = shape(*(lattice_polygon(rng, size) for _ in range(int(rng.integers(1, 4)))))
-        edges = directed(loops)
+        edges = directed_edges(loops)
         seen.append(bool((np.round(winding_numbers(points, edges, at)) > 1).any()))
-        found = flaws(points, edges)
-        assert (found.doubled or found.crossings > 0) == seen[-1]
+        found = find_defects(points, edges)
+        assert (found.overlapping or found.crossings > 0) == seen[-1]
     assert 20 < sum(seen) < 80

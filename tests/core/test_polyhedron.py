@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.surface import Surface, flipped_quads, joined
+from body_moments.core.mesh.surface import Surface, flipped_quads, join_surfaces
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.polyhedron import third_order as polyhedron
 from body_moments.core.polyhedron import third_order_kernel as blocks
@@ -25,14 +25,14 @@ def path(request, monkeypatch):
     """Both ways through the third order, in blocks of a few faces, and the way of small bodies."""
     if request.param == "few":
         return request.param
-    monkeypatch.setattr(polyhedron, "FEW", 0)
-    monkeypatch.setattr(polyhedron, "BLOCK", 32)
-    monkeypatch.setattr(polyhedron, "PAIRED", 0)
-    monkeypatch.setattr(blocks, "SLICES", 8)
-    monkeypatch.setattr(blocks, "CHUNK", 16)
-    monkeypatch.setattr(polyhedron, "LEAST", 8)
+    monkeypatch.setattr(polyhedron, "MAX_SMALL_TRIANGLES", 0)
+    monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_PER_BLOCK", 32)
+    monkeypatch.setattr(polyhedron, "MIN_TRIANGLES_TO_PAIR", 0)
+    monkeypatch.setattr(blocks, "SLICES_PER_ROW", 8)
+    monkeypatch.setattr(blocks, "COLUMNS_PER_CHUNK", 16)
+    monkeypatch.setattr(polyhedron, "MIN_TRIANGLES_PER_THREAD", 8)
     if request.param == "fast":
-        monkeypatch.setattr(polyhedron, "EXACT", 0)
+        monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_EXACT_THIRD", 0)
     return request.param
 
 
@@ -49,7 +49,7 @@ def grid_torus(n=12, m=8, noise=0.0, seed=0, major=1.0, minor=0.4):
 
 def assert_within(moments, truth, error=None):
     """Every moment is as near to the truth as its bound says."""
-    error = moments.error if error is None else error
+    error = moments.rounding_error if error is None else error
     for value, bound, right, monomial in zip(moments.raw, error, truth, MONOMIALS):
         assert abs(Fraction(float(value)) - right) <= Fraction(float(bound)), monomial
 
@@ -66,7 +66,7 @@ def assert_bounds_hold(surface):
 
 def assert_exact(surface, truth_at_origin, ulps=8):
     """The moments about the origin equal the closed form to rounding: `ulps` of the largest of their order."""
-    moments = polyhedron_moments(surface)[0].shifted(np.zeros(3))
+    moments = polyhedron_moments(surface)[0].about_point(np.zeros(3))
     truth = np.array([float(value) for value in truth_at_origin])
     for order in range(3):
         part = [i for i, m in enumerate(MONOMIALS) if sum(m) == order]
@@ -188,24 +188,24 @@ def test_the_bound_holds_for_slivers(path, seed):
 
 @pytest.mark.parametrize("seed", range(12))
 def test_exact_third_moments_are_right_to_their_rounding_bound(monkeypatch, seed):
-    monkeypatch.setattr(polyhedron, "FEW", 0)
-    monkeypatch.setattr(polyhedron, "EXACT", 0)
+    monkeypatch.setattr(polyhedron, "MAX_SMALL_TRIANGLES", 0)
+    monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_EXACT_THIRD", 0)
     points, quads = grid_torus(10, 6, noise=0.05, seed=seed)
     surface = Surface(points, Surface(points, quads=quads).all_triangles()[0])
     moments = polyhedron_moments(surface, exact=True)[0]
     assert_within(moments, exact.volume_moments(points, surface.triangles, moments.about))
-    assert moments.error[10:].max() < 1e-12
+    assert moments.rounding_error[10:].max() < 1e-12
     coarse = polyhedron_moments(surface)[0]
-    assert coarse.error[10:].max() > 1e-6  # the plain rule says what it leaves out
+    assert coarse.rounding_error[10:].max() > 1e-6  # the plain rule says what it leaves out
     assert_within(coarse, exact.volume_moments(points, surface.triangles, coarse.about))
 
 
 def test_the_bound_is_not_vacuous_for_a_clean_body():
     points, quads = grid_torus(250, 200)
     moments = polyhedron_moments(Surface(points, Surface(points, quads=quads).all_triangles()[0]))[0]
-    assert moments.error[0] < 1e-12 * moments.total
-    assert moments.error[1:4].max() < 1e-12 * moments.total  # the body is about one unit in size
-    assert moments.error[4:10].max() < 1e-12 * np.trace(moments.second())
+    assert moments.rounding_error[0] < 1e-12 * moments.total
+    assert moments.rounding_error[1:4].max() < 1e-12 * moments.total  # the body is about one unit in size
+    assert moments.rounding_error[4:10].max() < 1e-12 * np.trace(moments.second())
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -217,7 +217,9 @@ def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
     volume, area = polyhedron_moments(surface, area_order=3)
     moved = points.astype(float) + surface.coordinate_error * rng.choice([-1.0, 1.0], points.shape)
     for moments, formula in ((volume, exact.volume_moments), (area, exact.area_moments)):
-        assert_within(moments, formula(moved, surface.triangles, moments.about), moments.error + moments.input)
+        assert_within(
+            moments, formula(moved, surface.triangles, moments.about), moments.rounding_error + moments.input_error
+        )
 
 
 def test_the_half_ulp_of_the_largest_numbers_is_a_number():
@@ -229,17 +231,17 @@ def test_the_half_ulp_of_the_largest_numbers_is_a_number():
 
 def test_float64_points_have_no_input_bound():
     points, quads = grid_torus()
-    assert not polyhedron_moments(Surface(points, quads=quads))[0].input.any()
+    assert not polyhedron_moments(Surface(points, quads=quads))[0].input_error.any()
 
 
 def test_a_brick_one_kilometre_away_is_as_right_as_float32_lets_it_be():
     corners = np.array(exact.box((1000.0, 1000.0, 0.0), (1000.02, 1000.03, 0.05)), np.float32)
     surface = Surface(corners, quads=np.array(exact.BOX_QUADS))
     volume, area = polyhedron_moments(surface, area_order=0)
-    assert abs(volume.total - 3e-5) <= volume.input[0] + volume.error[0]
-    assert abs(area.total - 0.0062) <= area.input[0] + area.error[0]
+    assert abs(volume.total - 3e-5) <= volume.input_error[0] + volume.rounding_error[0]
+    assert abs(area.total - 0.0062) <= area.input_error[0] + area.rounding_error[0]
     step = np.linalg.norm(surface.coordinate_error)  # 4e-5, a tenth of a percent of the brick
-    assert volume.input[0] < 1.1 * step * area.total
+    assert volume.input_error[0] < 1.1 * step * area.total
 
 
 @pytest.mark.parametrize("factor", [1e4, 1e6])
@@ -265,8 +267,8 @@ def test_moments_scale_exactly_with_powers_of_two(exponent):
     powers = exponent * np.array([sum(m) + 3 for m in MONOMIALS])
     assert scaled.about.tolist() == np.ldexp(plain.about, exponent).tolist()
     difference = np.abs(scaled.raw - np.ldexp(plain.raw, powers))
-    assert (difference <= np.ldexp(plain.error, powers) + np.finfo(float).tiny).all()
-    assert (scaled.error >= difference).all()
+    assert (difference <= np.ldexp(plain.rounding_error, powers) + np.finfo(float).tiny).all()
+    assert (scaled.rounding_error >= difference).all()
 
 
 def test_a_mirrored_surface_has_the_opposite_sign(path):
@@ -276,8 +278,8 @@ def test_a_mirrored_surface_has_the_opposite_sign(path):
     inverted = polyhedron_moments(Surface(points, triangles[:, ::-1]))[0]
     mirrored = polyhedron_moments(Surface(points * [-1.0, 1.0, 1.0], triangles))[0]
     odd = np.array([(-1.0) ** m[0] for m in MONOMIALS])
-    assert (np.abs(inverted.raw + plain.raw) <= inverted.error + plain.error).all()
-    assert (np.abs(mirrored.raw + odd * plain.raw) <= mirrored.error + plain.error).all()
+    assert (np.abs(inverted.raw + plain.raw) <= inverted.rounding_error + plain.rounding_error).all()
+    assert (np.abs(mirrored.raw + odd * plain.raw) <= mirrored.rounding_error + plain.rounding_error).all()
 
 
 def test_a_sheared_surface_has_the_mapped_moments(path):
@@ -287,7 +289,7 @@ def test_a_sheared_surface_has_the_mapped_moments(path):
     matrix[:3, :3] = [[2.0, 0.5, 0.25], [0.0, 1.0, -0.75], [0.0, 0.0, 0.5]]
     matrix[:3, 3] = [5.0, -7.0, 11.0]
     sheared = polyhedron_moments(Surface(points @ matrix[:3, :3].T + matrix[:3, 3], triangles), exact=True)[0]
-    mapped = polyhedron_moments(Surface(points, triangles), exact=True)[0].mapped(matrix).shifted(sheared.about)
+    mapped = polyhedron_moments(Surface(points, triangles), exact=True)[0].transform(matrix).about_point(sheared.about)
     assert np.abs(sheared.raw - mapped.raw).max() < 1e-13 * np.abs(mapped.raw).max()
 
 
@@ -297,7 +299,7 @@ def test_degenerate_faces_change_nothing(path):
     zero = np.array([[3, 3, 3], [5, 5, 9], [7, 2, 7]])
     plain = polyhedron_moments(Surface(points, triangles))[0]
     more = polyhedron_moments(Surface(points, np.concatenate([zero, triangles, zero])))[0]
-    assert (np.abs(more.raw - plain.raw) <= plain.error).all()
+    assert (np.abs(more.raw - plain.raw) <= plain.rounding_error).all()
 
 
 def test_open_surface_is_closed_from_the_middle_of_its_box(path):
@@ -348,7 +350,7 @@ def test_triangles_and_quads_may_be_of_different_types(kind, other):
     points = np.array(exact.box((0, 0, 0), (2, 3, 5)), float)
     body = Surface(points, triangles, quads)
     assert_exact(body, exact.box_moments((0, 0, 0), (2, 3, 5)))
-    both = joined([body] * 40)  # 320 vertices, more than 8 bits can name
+    both = join_surfaces([body] * 40)  # 320 vertices, more than 8 bits can name
     assert polyhedron_moments(both)[0].total == 40 * 30
 
 
@@ -361,7 +363,7 @@ def test_every_array_type_gives_the_same_moments(path, point_type, index_type):
     plain = polyhedron_moments(Surface(points, triangles))[0]
     points = np.asfortranarray(points.astype(point_type))
     other = polyhedron_moments(Surface(points, triangles.astype(index_type)))[0]
-    assert (np.abs(other.shifted(plain.about).raw - plain.raw) <= 2.0 * plain.error).all()
+    assert (np.abs(other.about_point(plain.about).raw - plain.raw) <= 2.0 * plain.rounding_error).all()
 
 
 @pytest.mark.parametrize("count", [1, 7, 8, 9, 15, 16, 17, 31, 32, 33, 47, 48, 49])
@@ -379,12 +381,12 @@ def test_pairs_of_triangles_are_found_however_their_corners_are_turned(path, fir
     triangles = np.stack(
         [np.roll(quads[:, [0, 1, 2]], first, axis=1), np.roll(quads[:, [0, 2, 3]], second, axis=1)], axis=1
     ).reshape(-1, 3)
-    assert polyhedron.pairs(triangles) is not None
+    assert polyhedron.quad_corners(triangles) is not None
     paired = polyhedron_moments(Surface(points, triangles))[0]
     assert_within(paired, exact.volume_moments(points, triangles, paired.about))
     broken = triangles.copy()
     broken[-1] = np.roll(broken[-1], 1)
-    assert polyhedron.pairs(broken) is None
+    assert polyhedron.quad_corners(broken) is None
 
 
 @pytest.mark.parametrize("first", range(3))
@@ -392,13 +394,13 @@ def test_pairs_of_triangles_are_found_however_their_corners_are_turned(path, fir
 def test_halves_of_quads_are_found_where_all_first_ones_come_first(monkeypatch, first, second):
     points, quads = grid_torus(20, 8, noise=0.05)
     halves = np.roll(quads[:, [0, 1, 2]], first, axis=1), np.roll(quads[:, [0, 2, 3]], second, axis=1)
-    monkeypatch.setattr(polyhedron, "FEW", 0)
-    monkeypatch.setattr(polyhedron, "BLOCK", 100)
-    monkeypatch.setattr(polyhedron, "PAIRED", 0)
-    corners, block = [], blocks.Faces.block
+    monkeypatch.setattr(polyhedron, "MAX_SMALL_TRIANGLES", 0)
+    monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_PER_BLOCK", 100)
+    monkeypatch.setattr(polyhedron, "MIN_TRIANGLES_TO_PAIR", 0)
+    corners, block = [], blocks.BlockAccumulator.add_faces
     monkeypatch.setattr(
-        blocks.Faces,
-        "block",
+        blocks.BlockAccumulator,
+        "add_faces",
         lambda faces, part, *more, **named: (corners.append(len(part)), block(faces, part, *more, **named)),
     )
     assert_bounds_hold(Surface(points, np.concatenate(halves)))
@@ -422,10 +424,10 @@ def test_the_bound_holds_where_float32_coordinates_are_tiny_beside_the_center(pa
 
 
 def test_threads_give_the_serial_result_to_the_bit(monkeypatch):
-    monkeypatch.setattr(polyhedron, "FEW", 0)
-    monkeypatch.setattr(polyhedron, "BLOCK", 64)
-    monkeypatch.setattr(polyhedron, "LEAST", 64)
-    monkeypatch.setattr(polyhedron, "EXACT", 0)
+    monkeypatch.setattr(polyhedron, "MAX_SMALL_TRIANGLES", 0)
+    monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_PER_BLOCK", 64)
+    monkeypatch.setattr(polyhedron, "MIN_TRIANGLES_PER_THREAD", 64)
+    monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_EXACT_THIRD", 0)
     points, quads = grid_torus(30, 20, noise=0.3)  # so much that many quads are cut along their other diagonal
     points = points.astype(np.float32)
     assert flipped_quads(points, quads[200:]).sum() > 64
@@ -434,13 +436,13 @@ def test_threads_give_the_serial_result_to_the_bit(monkeypatch):
         for serial, threaded in zip(
             polyhedron_moments(mixed, area_order=3, threads=1), polyhedron_moments(mixed, area_order=3, threads=threads)
         ):
-            for key in ("raw", "error", "input"):
+            for key in ("raw", "rounding_error", "input_error"):
                 np.testing.assert_array_equal(getattr(serial, key), getattr(threaded, key))
 
 
 def test_errors_in_threads_reach_the_caller(monkeypatch):
-    monkeypatch.setattr(polyhedron, "FEW", 0)
-    monkeypatch.setattr(polyhedron, "LEAST", 64)
+    monkeypatch.setattr(polyhedron, "MAX_SMALL_TRIANGLES", 0)
+    monkeypatch.setattr(polyhedron, "MIN_TRIANGLES_PER_THREAD", 64)
     points, quads = grid_torus(30, 20)
     quads[-1, -1] = 600
     with pytest.raises(ValueError, match="vertex"):
@@ -465,8 +467,8 @@ def test_quads_are_cut_as_blender_cuts_them(path, seed, scale):
 def test_quads_so_small_that_the_rule_underflows_are_decided_in_float32(scale):
     points = (np.random.default_rng(1).standard_normal((40000, 3)) * scale).astype(np.float32)
     quads = np.arange(len(points)).reshape(-1, 4)
-    loop = blocks.Faces(points, np.zeros(3), area=True, shell=False, exact=False)
-    loop.block(quads.T, quads=True)
+    loop = blocks.BlockAccumulator(points, np.zeros(3), area=True, shell=False, exact=False)
+    loop.add_faces(quads.T, quads=True)
     turned = np.roll(quads[flipped_quads(points, quads)], -1, axis=1)
     np.testing.assert_array_equal(np.concatenate(loop.flipped, axis=1), turned.T)
 
@@ -496,8 +498,8 @@ def test_area_alone_equals_the_zeroth_shell_moment(path):
     points, quads = grid_torus(noise=0.05)
     surface = Surface(points.astype(np.float32), quads=quads)
     alone, shell = polyhedron_moments(surface, area_order=0)[1], polyhedron_moments(surface, area_order=3)[1]
-    assert alone.order == 0 and shell.order == 3 and alone.of == shell.of == "area"
-    assert abs(alone.total - shell.total) <= alone.error[0] + shell.error[0]
+    assert alone.order == 0 and shell.order == 3 and alone.measure == shell.measure == "area"
+    assert abs(alone.total - shell.total) <= alone.rounding_error[0] + shell.rounding_error[0]
 
 
 def test_area_of_slivers_keeps_its_digits():

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.density.polynomial import HIGHEST, Polynomial, parse
+from body_moments.core.density.polynomial import MAX_DEGREE, Polynomial, parse
 from body_moments.core.verdict.finding import MeasureError
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -92,7 +92,7 @@ def test_a_shift_is_exact(coefficients, point, place):
     """Small integers need no rounding, so the two values are equal to the bit."""
     polynomial = Polynomial.from_coefficients(coefficients)
     point, place = np.array(point), np.array(place)
-    assert polynomial.shifted(point)([place])[0] == polynomial([point + place])[0]
+    assert polynomial.translate(point)([place])[0] == polynomial([point + place])[0]
 
 
 def test_coefficients_come_back():
@@ -155,9 +155,9 @@ def test_values_beyond_the_range_of_numbers_are_refused():
 
 
 def test_the_highest_degree_works():
-    polynomial = parse("(1 + x + y + z)**{:d}".format(HIGHEST))
-    assert polynomial([[1, 1, 1]])[0] == pytest.approx(4.0**HIGHEST, rel=1e-13)
-    assert polynomial.shifted((0.5, 0.25, -1.0))([[0.5, 0.75, 2.0]])[0] == pytest.approx(4.0**HIGHEST, rel=1e-13)
+    polynomial = parse("(1 + x + y + z)**{:d}".format(MAX_DEGREE))
+    assert polynomial([[1, 1, 1]])[0] == pytest.approx(4.0**MAX_DEGREE, rel=1e-13)
+    assert polynomial.translate((0.5, 0.25, -1.0))([[0.5, 0.75, 2.0]])[0] == pytest.approx(4.0**MAX_DEGREE, rel=1e-13)
 
 
 def test_coefficients_that_are_not_finite_are_refused():

@@ -37,7 +37,7 @@ def tetrahedron():
     f = math.factorial
     raw = [f(p) * f(q) * f(r) / f(p + q + r + 3) for p, q, r in monomials(3).tolist()]
     shear = [[1, 0.3, -0.2, 0], [0.1, 2, 0.5, 0], [0.4, 0, 3, 0], [0, 0, 0, 1]]
-    return Moments(np.array(raw), np.zeros(3)).mapped(shear)
+    return Moments(np.array(raw), np.zeros(3)).transform(shear)
 
 
 UNIQUE = {
@@ -52,10 +52,10 @@ def test_the_frame_turns_with_the_body(name):
     body = UNIQUE[name]
     rng = np.random.default_rng(3)
     first = principal_frame(body)
-    assert first.unique and first.finding is None and first.symmetry == "asymmetric"
+    assert first.is_unique and first.finding is None and first.symmetry == "asymmetric"
     for _ in range(100):
         motion = random_motion(rng)
-        frame = principal_frame(body.mapped(motion), prefer=random_motion(rng)[:3, :3])
+        frame = principal_frame(body.transform(motion), preferred_axes=random_motion(rng)[:3, :3])
         assert np.allclose(motion[:3, :3].T @ frame.axes, first.axes, atol=1e-9)
         assert np.allclose(frame.moments, first.moments, rtol=1e-12)
 
@@ -72,7 +72,7 @@ def test_moments_that_no_body_has_are_refused(far):
 def test_the_frame_is_right_handed_ascending_and_diagonalises_the_tensor():
     rng = np.random.default_rng(4)
     for body in UNIQUE.values():
-        image = body.mapped(random_motion(rng, mirrored=True))
+        image = body.transform(random_motion(rng, mirrored=True))
         frame = principal_frame(image)
         assert np.linalg.det(frame.axes) == pytest.approx(1.0, abs=1e-12)
         assert (np.diff(frame.moments) > 0).all()
@@ -83,7 +83,7 @@ def test_the_frame_is_right_handed_ascending_and_diagonalises_the_tensor():
 
 def test_two_mirror_images_have_mirrored_frames_but_both_are_right_handed():
     body = UNIQUE["tetrahedron"]
-    frame, mirrored = principal_frame(body), principal_frame(body.mapped(np.diag([-1.0, 1.0, 1.0, 1.0])))
+    frame, mirrored = principal_frame(body), principal_frame(body.transform(np.diag([-1.0, 1.0, 1.0, 1.0])))
     reflected = np.diag([-1.0, 1.0, 1.0]) @ frame.axes
     same = [np.allclose(mirrored.axes[:, i], reflected[:, i], atol=1e-9) for i in range(3)]
     assert sum(same) == 2  # the weakest axis gives way to handedness
@@ -104,7 +104,7 @@ def test_a_cube_takes_the_preferred_axes():
     rng = np.random.default_rng(0)
     prefer = random_motion(rng)[:3, :3]
     frame = principal_frame(box((0, 0, 0), (1, 1, 1)), prefer)
-    assert frame.symmetry == "isotropic" and not frame.unique and frame.finding.code == "axes_all_free"
+    assert frame.symmetry == "isotropic" and not frame.is_unique and frame.finding.code == "axes_all_free"
     assert np.allclose(frame.axes, prefer)
     assert np.allclose(frame.moments, 1 / 6)
 
@@ -115,7 +115,7 @@ def test_free_axes_stay_nearest_to_the_preferred_ones(size, symmetry, distinct):
     for _ in range(20):
         prefer = random_motion(rng)[:3, :3]
         frame = principal_frame(box((0, 0, 0), size), prefer)
-        assert frame.symmetry == symmetry and not frame.unique
+        assert frame.symmetry == symmetry and not frame.is_unique
         assert abs(frame.axes[2, distinct]) == pytest.approx(1.0, abs=1e-12)
         nearest = np.trace(prefer.T @ frame.axes)
         for angle in rng.uniform(0, 2 * np.pi, 50):  # no other allowed frame is nearer
@@ -128,9 +128,9 @@ def test_free_axes_stay_nearest_to_the_preferred_ones(size, symmetry, distinct):
 def test_a_box_has_four_equal_poses_and_takes_the_nearest():
     body = box((0, 0, 0), (3, 2, 1))
     frame = principal_frame(body)
-    assert frame.symmetry == "asymmetric" and not frame.unique and frame.finding.code == "axes_ambiguous"
+    assert frame.symmetry == "asymmetric" and not frame.is_unique and frame.finding.code == "axes_ambiguous"
     assert np.allclose(frame.axes, np.eye(3))
-    turned = principal_frame(body, prefer=np.diag([-1.0, -1.0, 1.0]))
+    turned = principal_frame(body, preferred_axes=np.diag([-1.0, -1.0, 1.0]))
     assert np.allclose(turned.axes, np.diag([-1.0, -1.0, 1.0]))
 
 
@@ -164,18 +164,18 @@ def test_doubtful_third_moments_are_refined_and_only_then():
         asked.append(True)
         return body
 
-    rough = Moments(body.raw * np.where(doubt > 0, -1.0, 1.0), body.about, error=doubt)
+    rough = Moments(body.raw * np.where(doubt > 0, -1.0, 1.0), body.about, rounding_error=doubt)
     assert np.allclose(principal_frame(rough, refine=refine).axes, principal_frame(body).axes)
     assert asked
     asked.clear()
     principal_frame(body, refine=refine)
     cube = box((0, 0, 0), (1, 1, 1))
-    principal_frame(Moments(cube.raw, cube.about, error=np.where(np.arange(20) > 9, 1.0, 0.0)), refine=refine)
+    principal_frame(Moments(cube.raw, cube.about, rounding_error=np.where(np.arange(20) > 9, 1.0, 0.0)), refine=refine)
     assert not asked
 
 
 def test_noise_below_the_threshold_is_not_refined_whatever_its_order():
     cube = box((0, 0, 0), (3, 2, 1))
     doubt = np.where(np.arange(20) > 9, 1e-9, 0.0)
-    noisy = Moments(cube.raw * (1 + 1e-9 * np.arange(20)), cube.about, error=doubt)
-    assert not principal_frame(noisy, refine=lambda: pytest.fail("asked for better moments")).unique
+    noisy = Moments(cube.raw * (1 + 1e-9 * np.arange(20)), cube.about, rounding_error=doubt)
+    assert not principal_frame(noisy, refine=lambda: pytest.fail("asked for better moments")).is_unique

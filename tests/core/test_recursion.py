@@ -23,11 +23,11 @@ from tests.core.test_polyhedron import PLACES, SHAPES, SIZES, grid_torus
 @pytest.fixture(params=["one block", "many blocks"])
 def path(request, monkeypatch):
     if request.param == "many blocks":
-        monkeypatch.setattr(recursion, "FEWEST", 16)
-        monkeypatch.setattr(recursion, "NUMBERS", 0)
-        monkeypatch.setattr(recursion, "BATCH", 2)
-        monkeypatch.setattr(levels, "CHUNK", 4)
-        monkeypatch.setattr(levels, "SLICES", 2)
+        monkeypatch.setattr(recursion, "MIN_FACES_PER_BLOCK", 16)
+        monkeypatch.setattr(recursion, "SCRATCH_NUMBERS", 0)
+        monkeypatch.setattr(recursion, "BLOCKS_PER_TASK", 2)
+        monkeypatch.setattr(levels, "FACES_PER_CHUNK", 4)
+        monkeypatch.setattr(levels, "SLICES_PER_ROW", 2)
 
 
 def octahedron(level=2, noise=0.0, seed=0):
@@ -53,7 +53,7 @@ def octahedron(level=2, noise=0.0, seed=0):
 
 
 def assert_within(moments, truth, error=None):
-    error = moments.error if error is None else error
+    error = moments.rounding_error if error is None else error
     for value, bound, right, monomial in zip(moments.raw, error, truth, monomials(moments.order).tolist(), strict=True):
         assert abs(Fraction(float(value)) - right) <= Fraction(float(bound)), monomial
 
@@ -111,11 +111,11 @@ def test_the_bounds_are_not_vacuous(order):
     volume, area = polyhedron_moments(Surface(points, quads=quads), order, area_order=order)
     degree = monomials(order).sum(axis=1)
     reach = 1.4**degree
-    assert (volume.error <= 1e-12 * volume.total * reach).all()
-    assert (area.error <= 1e-12 * area.total * reach).all()
+    assert (volume.rounding_error <= 1e-12 * volume.total * reach).all()
+    assert (area.rounding_error <= 1e-12 * area.total * reach).all()
     even = (monomials(order) % 2 == 0).all(axis=1)  # whose moments do not cancel, and mostly lie far inside the box
-    assert (volume.error[even] <= 1e-11 * volume.raw[even]).all()
-    assert (area.error[even] <= 1e-11 * area.raw[even]).all()
+    assert (volume.rounding_error[even] <= 1e-11 * volume.raw[even]).all()
+    assert (area.rounding_error[even] <= 1e-11 * area.raw[even]).all()
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -126,11 +126,17 @@ def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
     surface = Surface(points, Surface(points, quads=quads).all_triangles()[0])
     volume, area = polyhedron_moments(surface, 8, area_order=8)
     moved = points.astype(float) + surface.coordinate_error * rng.choice([-1.0, 1.0], points.shape)
-    assert_within(volume, exact.volume_moments(moved, surface.triangles, volume.about, 8), volume.error + volume.input)
-    assert_within(area, exact.area_moments(moved, surface.triangles, area.about, order=8), area.error + area.input)
+    assert_within(
+        volume,
+        exact.volume_moments(moved, surface.triangles, volume.about, 8),
+        volume.rounding_error + volume.input_error,
+    )
+    assert_within(
+        area, exact.area_moments(moved, surface.triangles, area.about, order=8), area.rounding_error + area.input_error
+    )
     step = np.linalg.norm(surface.coordinate_error)
-    assert volume.input[0] < 1.5 * step * area.total
-    assert not polyhedron_moments(Surface(points.astype(float), surface.triangles), 8)[0].input.any()
+    assert volume.input_error[0] < 1.5 * step * area.total
+    assert not polyhedron_moments(Surface(points.astype(float), surface.triangles), 8)[0].input_error.any()
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -151,14 +157,14 @@ def test_low_orders_are_those_of_the_fast_kernel_and_agree_with_the_recursion(or
     points, quads = grid_torus(12, 8, noise=0.05)
     surface = Surface(points, quads=quads)
     volume, area = polyhedron_moments(surface, order, area_order=order)
-    assert volume.order == area.order == order and volume.of == "volume" and area.of == "area"
+    assert volume.order == area.order == order and volume.measure == "volume" and area.measure == "area"
     high, surface_high = polyhedron_moments(surface, 8, area_order=8)
     assert np.array_equal(volume.about, high.about)
     for low, more in ((volume, high), (area, surface_high)):
-        more = more.truncated(order)
-        assert (np.abs(low.raw - more.raw) <= low.error + more.error).all()
+        more = more.truncate(order)
+        assert (np.abs(low.raw - more.raw) <= low.rounding_error + more.rounding_error).all()
     if order <= 3:
-        assert np.array_equal(volume.raw, polyhedron_moments(surface)[0].truncated(order).raw)
+        assert np.array_equal(volume.raw, polyhedron_moments(surface)[0].truncate(order).raw)
     assert polyhedron_moments(surface, order)[1] is None
 
 
@@ -174,15 +180,15 @@ def test_the_area_has_an_order_of_its_own(order, area_order):
 
 
 def test_of_large_meshes_the_third_order_is_exact_on_request_alone(monkeypatch):
-    monkeypatch.setattr(polyhedron, "EXACT", 0)
-    monkeypatch.setattr(polyhedron, "FEW", 0)
+    monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_EXACT_THIRD", 0)
+    monkeypatch.setattr(polyhedron, "MAX_SMALL_TRIANGLES", 0)
     points, quads = grid_torus(12, 8, noise=0.05)
     surface = Surface(points, quads=quads)
     rough, fine = (polyhedron_moments(surface, exact=on)[0] for on in (False, True))
-    assert fine.error[10:].max() < 1e-12 and rough.error[10:].min() > 1e-4
-    monkeypatch.setattr(polyhedron, "MEMORY", (0, 20_000))  # blocks are as long as what is asked for allows
+    assert fine.rounding_error[10:].max() < 1e-12 and rough.rounding_error[10:].min() > 1e-4
+    monkeypatch.setattr(polyhedron, "SCRATCH_BYTES", (0, 20_000))  # blocks are as long as what is asked for allows
     second = [polyhedron_moments(surface, 2, exact=on)[0] for on in (False, True)]
-    assert second[0].error.max() < 1e-12 and np.array_equal(second[0].error, second[1].error)
+    assert second[0].rounding_error.max() < 1e-12 and np.array_equal(second[0].rounding_error, second[1].rounding_error)
 
 
 @pytest.mark.parametrize("order", [2, 6])
@@ -194,7 +200,7 @@ def test_pieces_make_the_whole(path, order):
     whole = polyhedron_moments(Surface(points, triangles), order, area_order=order)
     assert np.array_equal(volume.about, whole[0].about)
     for made, right in zip((volume, area), whole):
-        assert (np.abs(made.raw - right.raw) <= made.error + right.error).all()
+        assert (np.abs(made.raw - right.raw) <= made.rounding_error + right.rounding_error).all()
     about = np.array([0.25, 0.0, -0.5])
     streamed = polyhedron_moments(iter(pieces), order, area_order=order, about=about, reach=2.0)
     assert np.array_equal(streamed[0].about, about)
@@ -204,8 +210,8 @@ def test_pieces_make_the_whole(path, order):
     assert np.abs(blind[0].about - whole[0].about).max() > 0.01
     assert_within(blind[0], exact.volume_moments(points, triangles, blind[0].about, order))
     assert_within(blind[1], exact.area_moments(points, triangles, blind[1].about, order=order))
-    back = blind[0].shifted(whole[0].about)
-    assert (np.abs(back.raw - whole[0].raw) <= back.error + whole[0].error).all()
+    back = blind[0].about_point(whole[0].about)
+    assert (np.abs(back.raw - whole[0].raw) <= back.rounding_error + whole[0].rounding_error).all()
 
 
 @pytest.mark.parametrize("order", [2, 6])
@@ -219,8 +225,8 @@ def test_coordinates_of_the_other_byte_order_are_those_that_they_are(order):
     bodies = Surface(turned, triangles), Surface.from_triangles(turned, triangles), [turned[triangles]]
     for body in bodies[:2]:
         for made, known in zip(polyhedron_moments(body, order, area_order=order), right):
-            assert np.array_equal(made.raw, known.raw) and np.array_equal(made.input, known.input)
-    assert polyhedron_moments(bodies[2], order)[0].input.min() > 0.0
+            assert np.array_equal(made.raw, known.raw) and np.array_equal(made.input_error, known.input_error)
+    assert polyhedron_moments(bodies[2], order)[0].input_error.min() > 0.0
 
 
 @pytest.mark.parametrize("order", [3, 9])
@@ -233,7 +239,7 @@ def test_threads_change_nothing(path, order):
         for threads in (2, 3):
             one, more = (polyhedron_moments(surface, order, area_order=order, threads=k) for k in (1, threads))
             for a, b in zip(one, more):
-                for key in ("raw", "error", "input"):
+                for key in ("raw", "rounding_error", "input_error"):
                     np.testing.assert_array_equal(getattr(a, key), getattr(b, key))
 
 

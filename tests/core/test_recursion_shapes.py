@@ -161,12 +161,12 @@ def test_a_box_off_the_origin_is_its_closed_form_to_order_12():
     volume, area = polyhedron_moments(Surface(points, quads=np.array(exact.BOX_QUADS)), ORDER, area_order=ORDER)
     about = volume.about.tolist()
     truth = exact.box_moments([a - c for a, c in zip(low, about)], [b - c for b, c in zip(high, about)], ORDER)
-    for value, right, bound in zip(volume.raw, truth, volume.error):
+    for value, right, bound in zip(volume.raw, truth, volume.rounding_error):
         assert abs(Fraction(float(value)) - right) <= Fraction(float(bound))
         assert abs(float(value) - float(right)) <= 1e-14 * float(truth[-1])
     even = [i for i, powers in enumerate(TABLE) if not any(k % 2 for k in powers)]
     assert max(abs(volume.raw[i] / float(truth[i]) - 1.0) for i in even) < 2e-15
-    at_origin = volume.shifted(np.zeros(3))
+    at_origin = volume.about_point(np.zeros(3))
     right = np.array([float(value) for value in exact.box_moments(low, high, ORDER)])
     assert np.allclose(at_origin.raw, right, rtol=1e-11, atol=0.0)
     sides = 0.0  # of the surface: the six sides' own integrals of x⁴ z²

@@ -4,13 +4,13 @@
 
 import numpy as np
 import pytest
-from body_moments.core.numerics.bspline import clamped
+from body_moments.core.numerics.bspline import clamped_space
 from body_moments.core.nurbs.blender_knots import blender_space
-from body_moments.core.nurbs.incremental import Evaluator
+from body_moments.core.nurbs.incremental import IncrementalPatchMoments
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.nurbs.patch_moments import area_moments, volume_moments
 from body_moments.core.nurbs.solid import measure_patches
-from body_moments.core.nurbs.tracked_solid import FollowedBody
+from body_moments.core.nurbs.tracked_solid import TrackedSolid
 from body_moments.core.papers.soldea_elber_rivlin_2002_phi import phi, phi_moments
 
 from tests.core import exact
@@ -19,7 +19,7 @@ from tests.core.findings import codes
 
 ABOUT = np.array([0.25, -0.5, 0.125])
 SPACES = [
-    (clamped(4, (0.2, 0.4, 0.6, 0.8)), clamped(4, (0.2, 0.4, 0.6, 0.8))),
+    (clamped_space(4, (0.2, 0.4, 0.6, 0.8)), clamped_space(4, (0.2, 0.4, 0.6, 0.8))),
     (blender_space(11, 4, True, False, False), blender_space(9, 3, False, False, True)),
     (blender_space(20, 3, True, False, True), blender_space(25, 2, False, False, False)),
     (blender_space(4, 4, True, False, False), blender_space(3, 3, True, False, False)),
@@ -31,11 +31,11 @@ SPACES = [
 def test_tables_give_the_moments_of_measuring_anew(spaces, order):
     rng = np.random.default_rng(order)
     points = rng.uniform(-1, 1, (spaces[0].count, spaces[1].count, 3))
-    evaluator = Evaluator(Patch(spaces, points), order, ABOUT)
+    evaluator = IncrementalPatchMoments(Patch(spaces, points), order, ABOUT)
     for _ in range(3):
         points = points + rng.uniform(-0.2, 0.2, points.shape)
         anew, _ = volume_moments([Patch(spaces, points)], order, ABOUT)
-        assert (np.abs(evaluator.moments(points).raw - anew.raw) <= anew.error).all()
+        assert (np.abs(evaluator.moments(points).raw - anew.raw) <= anew.rounding_error).all()
 
 
 @pytest.mark.parametrize("rational", [False, True])
@@ -45,15 +45,15 @@ def test_one_moved_point_gives_what_all_points_anew_give(spaces, rational):
     shape = (spaces[0].count, spaces[1].count)
     points = rng.uniform(-1, 1, (*shape, 3))
     weights = rng.uniform(0.5, 2.0, shape) if rational else None
-    evaluator = Evaluator(Patch(spaces, points, weights), 2, ABOUT)
+    evaluator = IncrementalPatchMoments(Patch(spaces, points, weights), 2, ABOUT)
     evaluator.moments(points, weights)
-    fresh = Evaluator(Patch(spaces, points, weights), 2, ABOUT)
+    fresh = IncrementalPatchMoments(Patch(spaces, points, weights), 2, ABOUT)
     for _ in range(30):
         i, j = (int(rng.integers(count)) for count in shape)
         points[i, j] += rng.uniform(-0.5, 0.5, 3)
         if rational:
             weights[i, j] *= rng.uniform(0.8, 1.25)
-        moved = evaluator.move(i, j, points[i, j], weights[i, j] if rational else None)
+        moved = evaluator.move_control_point(i, j, points[i, j], weights[i, j] if rational else None)
     anew = fresh.moments(points, weights)
     assert np.abs(moved.raw - anew.raw).max() <= 1e-13
     assert evaluator.area == pytest.approx(fresh.area, rel=1e-13)
@@ -62,13 +62,13 @@ def test_one_moved_point_gives_what_all_points_anew_give(spaces, rational):
 def test_one_point_touches_only_its_spans(monkeypatch):
     space = blender_space(40, 4, False, False, True)
     rng = np.random.default_rng(2)
-    evaluator = Evaluator(Patch((space, space), rng.uniform(-1, 1, (40, 40, 3))), 2)
+    evaluator = IncrementalPatchMoments(Patch((space, space), rng.uniform(-1, 1, (40, 40, 3))), 2)
     evaluator.moments(rng.uniform(-1, 1, (40, 40, 3)))
     touched = []
     evaluate = evaluator._evaluate
     monkeypatch.setattr(evaluator, "_evaluate", lambda *spans: touched.append(spans) or evaluate(*spans))
-    evaluator.move(20, 17, np.zeros(3))
-    evaluator.move(0, 39, np.zeros(3))
+    evaluator.move_control_point(20, 17, np.zeros(3))
+    evaluator.move_control_point(0, 39, np.zeros(3))
     sizes = [(rows.stop - rows.start, columns.stop - columns.start) for rows, columns in touched]
     assert sizes == [(4, 4), (1, 1)]
 
@@ -76,15 +76,18 @@ def test_one_point_touches_only_its_spans(monkeypatch):
 @pytest.mark.parametrize("patch", [sphere(), torus()])
 def test_rational_patches_are_re_evaluated_to_rounding(patch):
     anew, _ = volume_moments([patch], 2, ABOUT)
-    assert np.abs(Evaluator(patch, 2, ABOUT).moments(patch.points, patch.weights).raw - anew.raw).max() <= 1e-13
+    assert (
+        np.abs(IncrementalPatchMoments(patch, 2, ABOUT).moments(patch.points, patch.weights).raw - anew.raw).max()
+        <= 1e-13
+    )
 
 
 @pytest.mark.parametrize(
     "spaces",
     [
-        (clamped(3), clamped(3)),
-        (clamped(3), clamped(2, (0.25,))),
-        (blender_space(3, 3, True, False, False), clamped(3)),
+        (clamped_space(3), clamped_space(3)),
+        (clamped_space(3), clamped_space(2, (0.25,))),
+        (blender_space(3, 3, True, False, False), clamped_space(3)),
     ],
 )
 def test_the_papers_tensors_give_the_exact_moments(spaces):
@@ -101,20 +104,20 @@ def test_tensors_and_tables_agree_on_a_closed_body():
     rng = np.random.default_rng(6)
     points = rng.uniform(-1, 1, (3, 3, 3))
     found = phi_moments(points, tuple(phi(spaces, order) for order in range(3)))
-    moments = Evaluator(Patch(spaces, points), 2, np.zeros(3)).moments(points)
+    moments = IncrementalPatchMoments(Patch(spaces, points), 2, np.zeros(3)).moments(points)
     for exponents, value in found.items():
         assert abs(value - moments[exponents]) <= 1e-14
 
 
 def test_tensors_that_would_not_fit_are_refused():
     with pytest.raises(ValueError, match="entries"):
-        phi((clamped(4, (0.5,)), clamped(4, (0.5,))), 2)
+        phi((clamped_space(4, (0.5,)), clamped_space(4, (0.5,))), 2)
 
 
 @pytest.mark.parametrize("patch", [torus(), sphere(), tube()])
 def test_a_followed_body_is_that_of_measuring_anew(patch):
     rng = np.random.default_rng(7)
-    body = FollowedBody([patch])
+    body = TrackedSolid([patch])
     points = patch.points.copy()
     kept = 0
     for step in range(12):
@@ -126,21 +129,21 @@ def test_a_followed_body_is_that_of_measuring_anew(patch):
         else:
             points[3, 1] += rng.uniform(-0.05, 0.05, 3)
         now = Patch(patch.spaces, points, patch.weights)
-        kept += body.follow([now])
+        kept += body.update([now])
         anew = measure_patches([now])
         assert body.measure.method == anew.method
-        assert np.abs(body.measure.volume.shifted(anew.volume.about).raw - anew.volume.raw).max() <= 1e-12
+        assert np.abs(body.measure.volume.about_point(anew.volume.about).raw - anew.volume.raw).max() <= 1e-12
         assert body.measure.area.total == pytest.approx(area_moments([now])[0].total, rel=1e-3)
     assert kept >= 8
 
 
 def test_a_followed_body_that_opens_is_capped():
     ball = sphere()
-    body = FollowedBody([ball])
+    body = TrackedSolid([ball])
     points = ball.points.copy()
     points[:, -1] += 0.1 * (points[:, 1] - [0.0, 0.0, -1.0])  # the pole becomes a rim
     now = [Patch(ball.spaces, points, ball.weights)]
-    body.follow(now)
+    body.update(now)
     assert body.measure.method == "capped"
     assert_same(body, measure_patches(now))
 
@@ -158,15 +161,15 @@ def assert_same(body, anew):
         "overlapping_components",
     ):
         assert getattr(found.health, name) == getattr(anew.health, name)
-    there = anew.volume.shifted(found.volume.about)
-    assert (np.abs(found.volume.raw - there.raw) <= found.volume.error + there.error).all()
-    assert found.volume.error[0] <= 1e-10 * found.volume.total  # so it tells something
+    there = anew.volume.about_point(found.volume.about)
+    assert (np.abs(found.volume.raw - there.raw) <= found.volume.rounding_error + there.rounding_error).all()
+    assert found.volume.rounding_error[0] <= 1e-10 * found.volume.total  # so it tells something
 
 
 def moved(patch, scale=1.0, by=(0.0, 0.0, 0.0)):
     matrix = np.diag([scale, scale, scale, 1.0])
     matrix[:3, 3] = by
-    return patch.mapped(matrix)
+    return patch.transform(matrix)
 
 
 def bent(patch):
@@ -179,27 +182,30 @@ def bent(patch):
 @pytest.mark.parametrize(
     "before, after",
     [
-        ([sphere(), moved(sphere(), 0.4).turned()], [sphere(), moved(sphere(), 0.4, (3.0, 0.0, 0.0)).turned()]),
+        (
+            [sphere(), moved(sphere(), 0.4).reverse_orientation()],
+            [sphere(), moved(sphere(), 0.4, (3.0, 0.0, 0.0)).reverse_orientation()],
+        ),
         ([sphere(), moved(sphere(), 1.0, (3.0, 0.0, 0.0))], [sphere(), moved(sphere(), 1.0, (1.0, 0.0, 0.0))]),
         (
             [sphere(), moved(sphere(), 0.5, (3.0, 0.0, 0.0))],
-            [sphere(), moved(sphere().mapped(np.diag([0.5, 0.5, -0.5, 1.0])), 1.0, (3.0, 0.0, 0.0))],
+            [sphere(), moved(sphere().transform(np.diag([0.5, 0.5, -0.5, 1.0])), 1.0, (3.0, 0.0, 0.0))],
         ),
         ([tube()], [bent(tube())]),
     ],
     ids=["a cavity leaves", "parts meet", "a part turns inside out", "a rim bends"],
 )
 def test_what_was_decided_of_a_followed_body_does_not_outlive_it(before, after):
-    body = FollowedBody(before)
-    assert body.follow(after)
+    body = TrackedSolid(before)
+    assert body.update(after)
     assert_same(body, measure_patches(after))
 
 
 @pytest.mark.parametrize("scale, far", [(1.0, 1e3), (1.0, 1e6), (1e3, 0.0), (1e-6, 0.0), (1e-3, 1e4)])
 def test_a_followed_body_may_go_far_away_grow_and_shrink(scale, far):
-    body = FollowedBody([torus()])
+    body = TrackedSolid([torus()])
     now = [moved(torus(), scale, (far, -far, 0.0))]
-    body.follow(now)
+    body.update(now)
     assert_same(body, measure_patches(now))
     central, anew = (one.volume.about_center() for one in (body.measure, measure_patches(now)))
     squares = [4, 7, 9]
@@ -209,55 +215,57 @@ def test_a_followed_body_may_go_far_away_grow_and_shrink(scale, far):
 def test_a_followed_body_does_not_drift():
     """Every control point far away and back again, one after the other, in a thousand steps."""
     rng, ring = np.random.default_rng(0), torus()
-    body, points = FollowedBody([ring]), ring.points.copy()
+    body, points = TrackedSolid([ring]), ring.points.copy()
     for step in range(1000):
         i, j = rng.integers(8, size=2)
         points = points.copy()
         points[i, j] = ring.points[i, j] + rng.uniform(-0.2, 0.2, 3) * (step < 900)
-        body.follow([Patch(ring.spaces, points, ring.weights)])
+        body.update([Patch(ring.spaces, points, ring.weights)])
     assert_same(body, measure_patches([Patch(ring.spaces, points, ring.weights)]))
-    body.follow([ring])
+    body.update([ring])
     assert np.abs(body.measure.volume.raw - measure_patches([ring]).volume.raw).max() <= 1e-15
 
 
 def test_weights_stay_where_none_are_given():
     ring = torus()
-    evaluator = Evaluator(ring, 2, ABOUT)
+    evaluator = IncrementalPatchMoments(ring, 2, ABOUT)
     whole = evaluator.moments(ring.points, ring.weights)
     assert np.array_equal(evaluator.moments(ring.points).raw, whole.raw)
-    assert np.abs(evaluator.move(3, 3, ring.points[3, 3]).raw - whole.raw).max() <= 1e-15
-    heavy = evaluator.move(3, 3, ring.points[3, 3], 5.0)
+    assert np.abs(evaluator.move_control_point(3, 3, ring.points[3, 3]).raw - whole.raw).max() <= 1e-15
+    heavy = evaluator.move_control_point(3, 3, ring.points[3, 3], 5.0)
     assert np.abs(heavy.raw - whole.raw).max() > 1e-3
-    assert np.abs(evaluator.move(3, 3, ring.points[3, 3]).raw - heavy.raw).max() <= 1e-15
+    assert np.abs(evaluator.move_control_point(3, 3, ring.points[3, 3]).raw - heavy.raw).max() <= 1e-15
 
 
 def test_weights_for_a_polynomial_patch_are_refused():
-    evaluator = Evaluator(Patch((clamped(3), clamped(3)), np.zeros((3, 3, 3))))
+    evaluator = IncrementalPatchMoments(Patch((clamped_space(3), clamped_space(3)), np.zeros((3, 3, 3))))
     with pytest.raises(ValueError, match="weights"):
         evaluator.moments(np.zeros((3, 3, 3)), np.ones((3, 3)))
     with pytest.raises(ValueError, match="weights"):
-        evaluator.move(1, 1, np.zeros(3), 2.0)
+        evaluator.move_control_point(1, 1, np.zeros(3), 2.0)
 
 
 def test_another_function_space_is_measured_anew():
-    body = FollowedBody([torus()])
-    assert not body.follow([sphere()])
+    body = TrackedSolid([torus()])
+    assert not body.update([sphere()])
     assert abs(body.measure.volume.total - 4.0 * np.pi / 3.0) <= 1e-13
 
 
 def test_weights_that_tables_cannot_follow_are_measured_anew():
     ring = torus()
-    body = FollowedBody([ring])
+    body = TrackedSolid([ring])
     weights = ring.weights.copy()
     weights[3, 3], weights[4, 4] = 1e3, 1e-3
     points = ring.points.copy()
     for _ in range(2):
         points[5, 1] += 0.1
         now = Patch(ring.spaces, points, weights)
-        assert not body.follow([now])
+        assert not body.update([now])
         anew = measure_patches([now]).volume
         found = body.measure.volume
-        assert (np.abs(found.raw - anew.shifted(found.about).raw) <= found.error + anew.error).all()
+        assert (
+            np.abs(found.raw - anew.about_point(found.about).raw) <= found.rounding_error + anew.rounding_error
+        ).all()
 
 
 @pytest.mark.parametrize("spread", [0.3, 0.7, 1.0])
@@ -266,12 +274,14 @@ def test_the_estimate_of_a_followed_rational_body_holds(spread):
     ring, kept = torus(), 0
     for _ in range(10):
         weights = 10.0 ** rng.uniform(-spread, spread, ring.weights.shape)
-        body = FollowedBody([Patch(ring.spaces, ring.points, weights)])
+        body = TrackedSolid([Patch(ring.spaces, ring.points, weights)])
         points = ring.points + rng.uniform(-0.05, 0.05, ring.points.shape)
         now = Patch(ring.spaces, points, weights)
-        kept += body.follow([now])
-        anew = measure_patches([now]).volume.shifted(body.measure.volume.about)
-        assert (np.abs(body.measure.volume.raw - anew.raw) <= body.measure.volume.error + anew.error).all()
+        kept += body.update([now])
+        anew = measure_patches([now]).volume.about_point(body.measure.volume.about)
+        assert (
+            np.abs(body.measure.volume.raw - anew.raw) <= body.measure.volume.rounding_error + anew.rounding_error
+        ).all()
     assert kept or spread > 0.5
 
 
@@ -281,30 +291,32 @@ def test_the_estimate_of_a_followed_body_holds_that_was_flat_or_a_needle():
     for flat in ([1.0, 1.0, 1e-3], [1e-3, 1e-3, 1e-3]):
         for _ in range(2):
             weights = 10.0 ** rng.uniform(-0.3, 0.3, ball.weights.shape)
-            body = FollowedBody([Patch(ball.spaces, ball.points * flat, weights)])
+            body = TrackedSolid([Patch(ball.spaces, ball.points * flat, weights)])
             points = ball.points + rng.uniform(-0.5, 0.5, ball.points.shape)
             points[:, [0, -1]] = ball.points[:, [0, -1]]
             now = Patch(ball.spaces, points, weights)
-            body.follow([now])
-            anew = measure_patches([now]).volume.shifted(body.measure.volume.about)
-            assert (np.abs(body.measure.volume.raw - anew.raw) <= body.measure.volume.error + anew.error).all()
+            body.update([now])
+            anew = measure_patches([now]).volume.about_point(body.measure.volume.about)
+            assert (
+                np.abs(body.measure.volume.raw - anew.raw) <= body.measure.volume.rounding_error + anew.rounding_error
+            ).all()
 
 
 def test_arrays_that_are_written_to_again_change_no_patch():
     """Else the body that is followed would see no difference, and a patch whose weights were steady would stay so."""
-    spaces = clamped(2), clamped(2)
+    spaces = clamped_space(2), clamped_space(2)
     nets = [
         np.array([[corners[0], corners[3]], [corners[1], corners[2]]])
         for corners in np.array(exact.box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))[exact.BOX_QUADS]
     ]
-    body = FollowedBody([Patch(spaces, net) for net in nets])
+    body = TrackedSolid([Patch(spaces, net) for net in nets])
     for net in nets:
         net[..., 0] *= 2.0
-    assert body.follow([Patch(spaces, net) for net in nets])
+    assert body.update([Patch(spaces, net) for net in nets])
     assert body.measure.volume.total == pytest.approx(2.0, rel=1e-14)
     weights = np.array([[1.0, 2.0], [1.0, 2.0]])
     patch = Patch(spaces, nets[0], weights)
-    assert patch.steady == (True, False)
+    assert patch.constant_weights == (True, False)
     weights[0, 0] = 5.0
     assert patch.weights[0, 0] == 1.0
     with pytest.raises(ValueError, match="read-only"):

@@ -10,7 +10,7 @@ import zipfile
 
 import numpy as np
 import pytest
-from body_moments.core.scans.formats import SUFFIXES, placed, read_scan, suffix
+from body_moments.core.scans.formats import SUFFIXES, read_scan, sample_matrix, scan_suffix
 from body_moments.core.scans.numpy_files import read_raw
 from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.core.scan_files import NIFTI_CODES, NRRD_NAMES, nifti, nrrd, written
@@ -36,7 +36,7 @@ def test_nrrd_of_every_type(tmp_path, kind, order, encoding):
     scan = read_scan(written(tmp_path / "a.nrrd", nrrd(expected, encoding=encoding)))
     assert np.array_equal(scan.samples, expected)
     assert np.array_equal(scan.matrix, np.eye(4))
-    assert not scan.placed and scan.unit is None
+    assert not scan.is_placed and scan.unit is None
     assert isinstance(scan.samples, np.memmap) == (encoding == "raw")
 
 
@@ -49,7 +49,7 @@ def test_nifti_of_every_type(tmp_path, kind, order, end):
     scan = read_scan(written(tmp_path / ("a" + end), gzip.compress(data) if end == ".nii.gz" else data))
     assert np.array_equal(scan.samples, expected)
     assert np.array_equal(np.diag(scan.matrix), [0.5, 0.25, 2, 1])
-    assert scan.placed and scan.unit == 1e-3
+    assert scan.is_placed and scan.unit == 1e-3
     assert (scan.slope, scan.intercept) == (1.0, 0.0)
 
 
@@ -86,7 +86,7 @@ def test_nrrd_places(tmp_path):
         )
     )
     assert np.array_equal(scan.matrix[:3], [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]])
-    assert scan.placed and scan.unit == 1e-3
+    assert scan.is_placed and scan.unit == 1e-3
     scan = read_scan(written(tmp_path / "b.nrrd", nrrd(values(), "spacings: 0.5 2 3", "axis mins: 1 2 3")))
     assert np.array_equal(scan.matrix[:3], [[0.5, 0, 0, 1], [0, 2, 0, 2], [0, 0, 3, 3]])
 
@@ -144,20 +144,20 @@ def test_arrays_that_are_no_densities(tmp_path, array, code):
 
 def test_what_is_given_takes_the_headers_place(tmp_path):
     path = written(tmp_path / "a.nii", nifti(values(), spacing=(2, 2, 2)))
-    matrix, findings = placed(read_scan(path), None, None, None)
+    matrix, findings = sample_matrix(read_scan(path), None, None, None)
     assert np.allclose(matrix, np.diag([0.002, 0.002, 0.002, 1]))
     assert findings == ()
-    matrix, findings = placed(read_scan(path), (0.1, 0.2, 0.3), (1, 2, 3), None)
+    matrix, findings = sample_matrix(read_scan(path), (0.1, 0.2, 0.3), (1, 2, 3), None)
     assert np.array_equal(matrix[:3], [[0.1, 0, 0, 1], [0, 0.2, 0, 2], [0, 0, 0.3, 3]])
     assert findings == (finding("scan_placement_overridden", fields=["spacing", "origin"]),)
-    matrix, findings = placed(read_scan(path), None, None, 5.0)
+    matrix, findings = sample_matrix(read_scan(path), None, None, 5.0)
     assert matrix[0, 0] == pytest.approx(0.002)
     assert findings == (finding("scan_own_unit"),)
     np.save(tmp_path / "a.npy", values())
-    matrix, findings = placed(read_scan(tmp_path / "a.npy"), None, None, None)
+    matrix, findings = sample_matrix(read_scan(tmp_path / "a.npy"), None, None, None)
     assert np.array_equal(matrix, np.eye(4))
     assert findings == (finding("scan_without_spacing"),)
-    matrix, findings = placed(read_scan(tmp_path / "a.npy"), (1, 2, 3), None, 0.001)
+    matrix, findings = sample_matrix(read_scan(tmp_path / "a.npy"), (1, 2, 3), None, 0.001)
     assert np.allclose(np.diag(matrix), [0.001, 0.002, 0.003, 1])
     assert findings == ()
 
@@ -309,8 +309,8 @@ def test_damage_anywhere_gives_a_refusal_or_an_array(tmp_path, name):
 
 
 def test_what_is_no_scan(tmp_path):
-    assert [suffix("A.B" + end.upper()) for end in SUFFIXES] == list(SUFFIXES)
-    assert suffix("a.blend") == ""
+    assert [scan_suffix("A.B" + end.upper()) for end in SUFFIXES] == list(SUFFIXES)
+    assert scan_suffix("a.blend") == ""
     assert refusal(read_scan, tmp_path / "a.blend") == "scan_file_type"
     assert refusal(read_scan, tmp_path / "a.npy") == "file_missing"
     (tmp_path / "b.npy").mkdir()

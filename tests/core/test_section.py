@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.plane.polygon import Flaws, flaws, nested
+from body_moments.core.plane.polygon import OutlineDefects, find_defects, orient_loops
 from body_moments.core.plane.section import Plane, fit_plane, measure_section
 
 from tests.core import bodies, rational
@@ -24,8 +24,8 @@ def lifted(points):
 def measured(*outlines, offset=(0.0, 0.0)):
     points, loops = shape(*outlines)
     points = points + offset
-    assert flaws(points, nested(points, loops)) == Flaws(0, False, False)
-    return measure_section(LEVEL, lifted(points), nested(points, loops))
+    assert find_defects(points, orient_loops(points, loops)) == OutlineDefects(0, False, False)
+    return measure_section(LEVEL, lifted(points), orient_loops(points, loops))
 
 
 def i_beam(b=0.1, h=0.2, web=0.0056, flange=0.0085):
@@ -48,7 +48,7 @@ def test_a_rectangle(offset):
     assert close(section.area, 24) and close(section.perimeter, 22)
     assert section.centroid == pytest.approx(np.add((1.5, 4), offset), rel=1e-14)
     assert close(section.second[0], 3 * 8**3 / 12, offset) and close(section.second[1], 8 * 3**3 / 12, offset)
-    assert abs(section.second[2]) <= section.error["second"]
+    assert abs(section.second[2]) <= section.rounding_error["second"]
     assert section.principal == pytest.approx((128, 18), rel=1e-14) and section.angle == 0.0
     assert close(section.polar, 146, offset)
     assert section.radii == pytest.approx([8 / 12**0.5, 3 / 12**0.5] * 2, rel=1e-13)
@@ -114,7 +114,7 @@ def test_a_polygon_tends_to_the_circle_with_the_square_of_its_corners():
     for n in (50, 100):
         angle = 2 * np.pi * np.arange(n) / n
         section = measured(np.stack([np.cos(angle), np.sin(angle)], axis=1) * 0.5)
-        assert section.free and section.angle == 0.0
+        assert section.axes_undetermined and section.angle == 0.0
         truth = {"area": math.pi / 4, "polar": math.pi / 32, "perimeter": math.pi}
         errors.append([1.0 - getattr(section, name) / value for name, value in truth.items()])
     assert np.array(errors[0]) / errors[1] == pytest.approx([4.0] * 3, rel=0.01)
@@ -140,41 +140,41 @@ def test_the_strong_axis_turns_with_the_section_and_never_flips(angle):
 def test_bounds_hold_against_rationals(size, offset):
     points, loops = shape(np.array(i_beam()) @ np.array([[0.9, 0.2], [-0.4, 1.3]]).T * size)
     points = points + np.array(offset) * size
-    edges = nested(points, loops)
+    edges = orient_loops(points, loops)
     section = measure_section(LEVEL, lifted(points), edges)
     exactly = rational.fractions(points)
     area, *first = (rational.enclosed(exactly, edges.tolist(), row) for row in ((0, 0), (1, 0), (0, 1)))
     center = [value / area for value in first]
     central = [tuple(x - c for x, c in zip(p, center)) for p in exactly]
     second = [rational.enclosed(central, edges.tolist(), row) for row in ((0, 2), (2, 0), (1, 1))]
-    assert abs(Fraction(section.area) - area) <= Fraction(section.error["area"])
+    assert abs(Fraction(section.area) - area) <= Fraction(section.rounding_error["area"])
     drift = math.hypot(*(float(Fraction(c) - t) for c, t in zip(section.centroid, center)))
-    assert drift <= section.error["centroid"]
+    assert drift <= section.rounding_error["centroid"]
     for value, truth in zip(section.second, second):
-        assert abs(Fraction(value) - truth) <= Fraction(section.error["second"])
-    assert section.error["area"] < 1e-10 * section.area * max(1.0, max(map(abs, offset)))
+        assert abs(Fraction(value) - truth) <= Fraction(section.rounding_error["second"])
+    assert section.rounding_error["area"] < 1e-10 * section.area * max(1.0, max(map(abs, offset)))
 
 
 def test_float32_coordinates_move_a_section_by_no_more_than_is_told():
     rng = np.random.default_rng(0)
     points, loops = shape(np.array(i_beam()) + 3.0)
-    edges = nested(points, loops)
+    edges = orient_loops(points, loops)
     step = 1e-7
     section = measure_section(LEVEL, lifted(points), edges, error=step)
     for _ in range(50):
         moved = measure_section(LEVEL, lifted(points + rng.choice([-step, step], size=points.shape)), edges)
-        assert abs(moved.area - section.area) <= section.input["area"]
-        assert np.hypot(*(moved.centroid - section.centroid)) <= section.input["centroid"]
-        assert np.abs(moved.second - section.second).max() <= section.input["second"]
-        assert abs(moved.perimeter - section.perimeter) <= section.input["perimeter"]
+        assert abs(moved.area - section.area) <= section.input_error["area"]
+        assert np.hypot(*(moved.centroid - section.centroid)) <= section.input_error["centroid"]
+        assert np.abs(moved.second - section.second).max() <= section.input_error["second"]
+        assert abs(moved.perimeter - section.perimeter) <= section.input_error["perimeter"]
 
 
 @pytest.mark.parametrize("error", [0.0, 0.05, 0.2, 1.0])
 def test_wide_bounds_do_not_make_every_axis_of_an_angle_a_principal_one(error):
     """I_1 was told with the distance of the corner from another axis, where float32 might have moved much."""
     points, loops = shape([(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)])
-    section = measure_section(LEVEL, lifted(points), nested(points, loops), error=error)
-    assert not section.free
+    section = measure_section(LEVEL, lifted(points), orient_loops(points, loops), error=error)
+    assert not section.axes_undetermined
     assert math.tan(2.0 * section.angle) == pytest.approx(1.5 / -2.0) and section.angle > 0.0
     across = (points - section.centroid) @ [-math.sin(section.angle), math.cos(section.angle)]
     assert section.moduli[2] == pytest.approx(section.principal[0] / np.abs(across).max())
@@ -187,11 +187,11 @@ SQUARE = (lifted(np.array(rectangle(0, 0, 1, 1), float)), np.array([[0, 1, 2], [
 def test_a_section_in_any_plane_has_the_properties_that_it_has_flat(seed):
     rotation, offset = bodies.rotation(seed), np.array([5.0, -3.0, 8.0])
     flat, loops = shape(i_beam())
-    edges = nested(flat, loops)
+    edges = orient_loops(flat, loops)
     points = lifted(flat) @ rotation.T + offset
     triangles = np.array([[0, 1, 2], [0, 2, 11], [6, 7, 8], [5, 6, 8]])
     plane = fit_plane(points, triangles, rotation, offset)
-    assert plane.named == "X" and np.abs(plane.axes - rotation).max() < 1e-13
+    assert plane.x_axis_name == "X" and np.abs(plane.axes - rotation).max() < 1e-13
     assert np.linalg.det(plane.axes) == pytest.approx(1.0, abs=1e-14)
     section = measure_section(plane, points, edges)
     truth = measured(i_beam())
@@ -204,9 +204,9 @@ def test_the_plane_faces_as_most_of_its_faces_do_and_keeps_near_the_preferred_ax
     points, triangles = SQUARE
     assert fit_plane(points, triangles, np.eye(3), np.zeros(3)).axes[:, 2] == pytest.approx([0, 0, 1])
     down = fit_plane(points, triangles[:, ::-1], np.eye(3), np.zeros(3))
-    assert down.axes == pytest.approx(np.diag([1.0, -1.0, -1.0])) and down.named == "X"
+    assert down.axes == pytest.approx(np.diag([1.0, -1.0, -1.0])) and down.x_axis_name == "X"
     upright = fit_plane(points[:, [2, 0, 1]], triangles, np.eye(3), np.array([9.0, 1.0, 1.0]))  # in the plane of y, z
-    assert upright.named == "Y" and upright.axes[:, 0] == pytest.approx([0, 1, 0])
+    assert upright.x_axis_name == "Y" and upright.axes[:, 0] == pytest.approx([0, 1, 0])
     assert upright.origin == pytest.approx([0, 1, 1])
 
 
@@ -215,11 +215,11 @@ def test_points_off_the_plane_are_refused_by_their_share_of_the_size(size):
     points, triangles = SQUARE
     bent = points.copy()
     bent[2, 2] = 2e-6
-    assert fit_plane(bent * size, triangles, np.eye(3), np.zeros(3)).off > 0.0
+    assert fit_plane(bent * size, triangles, np.eye(3), np.zeros(3)).out_of_plane > 0.0
     bent[2, 2] = 1e-3
     with refused("section_not_flat"):
         fit_plane(bent * size, triangles, np.eye(3), np.zeros(3))
-    assert fit_plane(bent * size, triangles, np.eye(3), np.zeros(3), error=1e-3 * size).off > 0.0
+    assert fit_plane(bent * size, triangles, np.eye(3), np.zeros(3), error=1e-3 * size).out_of_plane > 0.0
 
 
 def test_what_has_no_area_is_refused():

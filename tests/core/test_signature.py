@@ -6,8 +6,8 @@ import json
 
 import numpy as np
 import pytest
-from body_moments.core.shape.library import SAME, UNCLEAR, read_library, verdict
-from body_moments.core.shape.signature import HANDED, Signature, compared, signature
+from body_moments.core.shape.library import SAME_SHAPE_DISTANCE, UNDECIDED_HANDEDNESS, classify, read_library
+from body_moments.core.shape.signature import MIN_CHIRALITY, Signature, signature, similarity
 from body_moments.core.verdict.finding import Finding
 from body_moments.operators.write.record import plain
 
@@ -33,15 +33,15 @@ def test_motion_and_faces_change_nothing(part):
         for name in PARTS:
             assert np.abs(getattr(first, name) - getattr(other, name)).max() < 1e-9
         assert other.size == pytest.approx(first.size)
-        assert compared(first, other).distance() < 1e-8
+        assert similarity(first, other).distance() < 1e-8
 
 
 @pytest.mark.parametrize("scale", [1e-5, 3.0, 1e5])
 def test_size_is_told_apart_from_shape(scale):
     first, other = signed(shapes.WEDGE), signed((shapes.WEDGE[0] * scale, shapes.WEDGE[1]))
-    likeness = compared(first, other)
+    likeness = similarity(first, other)
     assert likeness.shape < 1e-9 and likeness.distance(any_size=True) < 1e-8
-    assert likeness.scale == pytest.approx(scale) and likeness.mirrored is False
+    assert likeness.scale == pytest.approx(scale) and likeness.is_mirror_image is False
 
 
 def test_a_mirror_image_differs_in_its_hand_alone():
@@ -57,8 +57,8 @@ def test_a_mirror_image_differs_in_its_hand_alone():
             assert np.abs(getattr(first, name) - getattr(image, name)).max() < 1e-9
         assert np.abs(first.chirality).max() > 1e-4
         assert np.abs(first.chirality + image.chirality).max() < 1e-9
-        likeness = compared(first, image)
-        assert likeness.mirrored is True
+        likeness = similarity(first, image)
+        assert likeness.is_mirror_image is True
         assert likeness.distance() > 1e-4 and likeness.distance(any_hand=True) < 1e-9
 
 
@@ -67,7 +67,7 @@ def test_bodies_that_are_their_own_mirror_images_have_no_hand():
         if group not in ("D4",):
             found = signed(bodies.moved(part, bodies.rotation(1)), 6)
             assert np.abs(found.chirality).max() < 1e-10, name
-            assert compared(found, found).mirrored is False
+            assert similarity(found, found).is_mirror_image is False
 
 
 @pytest.mark.parametrize("height", [0.1, 0.01, 1e-3])
@@ -78,7 +78,7 @@ def test_the_hand_of_a_cube_with_one_corner_moved_a_little_is_told(height):
     first = signed(part, 12)
     copy = signed(bodies.moved(part, rotation, (1, 2, 3)), 12)
     image = signed(bodies.moved(shapes.mirrored(part), rotation, (1, 2, 3)), 12)
-    assert verdict(compared(first, copy)) == "copy" and verdict(compared(first, image)) == "mirror"
+    assert classify(similarity(first, copy)) == "copy" and classify(similarity(first, image)) == "mirror"
 
 
 def test_what_noise_may_have_made_is_no_hand():
@@ -89,10 +89,10 @@ def test_what_noise_may_have_made_is_no_hand():
             continue
         for noise in (1e-7, 1e-5, 1e-3):
             one, other = (signed((part[0] + noise * rng.normal(size=part[0].shape), part[1]), 12) for _ in range(2))
-            likeness = compared(one, other)
-            handed = max(np.linalg.norm(found.chirality) for found in (one, other)) > HANDED
-            assert likeness.mirrored is (None if handed else False), (name, noise)
-            assert (verdict(likeness) in UNCLEAR) == (handed and likeness.shape <= SAME)
+            likeness = similarity(one, other)
+            handed = max(np.linalg.norm(found.chirality) for found in (one, other)) > MIN_CHIRALITY
+            assert likeness.is_mirror_image is (None if handed else False), (name, noise)
+            assert (classify(likeness) in UNDECIDED_HANDEDNESS) == (handed and likeness.shape <= SAME_SHAPE_DISTANCE)
 
 
 def test_different_shapes_are_far_apart_and_noisy_copies_near():
@@ -102,14 +102,14 @@ def test_different_shapes_are_far_apart_and_noisy_copies_near():
     for name, part in parts.items():
         image = bodies.moved(shapes.refined(part, 1), bodies.rotation(2), (1, 2, 3))
         noisy = signed((image[0] + rng.normal(size=image[0].shape) * 2e-3 * np.ptp(part[0]), image[1]), 10)
-        distances = {other: compared(noisy, one).distance() for other, one in found.items()}
+        distances = {other: similarity(noisy, one).distance() for other, one in found.items()}
         assert min(distances, key=distances.get) == name
 
 
 def test_orders_that_one_lacks_are_left_out():
     short, long = signed(shapes.WEDGE, 8), signed(shapes.WEDGE, 20)
     assert len(short.zernike) == 25 and len(long.zernike) == 121
-    assert compared(short, long).distance() < 1e-9
+    assert similarity(short, long).distance() < 1e-9
 
 
 def test_a_record_gives_the_signature_back():

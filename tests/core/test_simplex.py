@@ -11,7 +11,12 @@ import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import monomials
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.polyhedron.n_dimensions import enclosed_moments, facet_moments, multi_indices, place
+from body_moments.core.polyhedron.n_dimensions import (
+    enclosed_moments,
+    facet_moments,
+    multi_index_position,
+    multi_indices,
+)
 
 from tests.core import bodies, rational
 from tests.core.findings import refused
@@ -64,9 +69,9 @@ def affine(n, seed):
 
 def test_the_order_of_the_moments_in_space_is_that_of_all_other_moments():
     assert np.array_equal(multi_indices(3, 7), monomials(7))
-    assert place(3, 7, (1, 2, 3)) == [tuple(row) for row in monomials(7)].index((1, 2, 3))
+    assert multi_index_position(3, 7, (1, 2, 3)) == [tuple(row) for row in monomials(7)].index((1, 2, 3))
     with pytest.raises(KeyError):
-        place(3, 2, (1, 1, 1))
+        multi_index_position(3, 2, (1, 1, 1))
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 5])
@@ -80,8 +85,8 @@ def test_unit_simplices_have_dirichlets_moments_to_twelfth_order(n):
         ]
     )
     assert np.abs(found.raw / truth - 1.0).max() < 4e-15
-    assert (np.abs(found.raw - truth) <= found.error).all()
-    assert (found.error <= 1000 * U * truth).all()  # and the bound means something
+    assert (np.abs(found.raw - truth) <= found.rounding_error).all()
+    assert (found.rounding_error <= 1000 * U * truth).all()  # and the bound means something
 
 
 @pytest.mark.parametrize("n", [2, 3, 4, 5])
@@ -94,7 +99,7 @@ def test_facets_of_unit_simplices_have_dirichlets_moments_to_twelfth_order(n):
         # The slanted facet, √n larger than those in the coordinate planes, of which x^α sees those with α_i = 0.
         truth.append(value * (math.sqrt(n) + row.count(0)))
     assert np.abs(found.raw / truth - 1.0).max() < 1e-14
-    assert (np.abs(found.raw - truth) <= found.error + 8 * U * np.array(truth)).all()
+    assert (np.abs(found.raw - truth) <= found.rounding_error + 8 * U * np.array(truth)).all()
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 5])
@@ -110,7 +115,7 @@ def test_cubes_have_the_moments_of_products(n):
             for row in multi_indices(n, order).tolist()
         ]
     )
-    assert (np.abs(found.raw - truth) <= found.error).all()
+    assert (np.abs(found.raw - truth) <= found.rounding_error).all()
     area = facet_moments(points * size + offset, facets, 0).raw[0]
     assert area == pytest.approx(2 * sum(np.prod(size) / s for s in size), rel=1e-14)
 
@@ -132,9 +137,9 @@ def test_affine_images_agree_with_rational_integration_within_their_bounds(n, se
     chosen = range(len(rows)) if n < 4 else range(0, len(rows), 9)
     for i in chosen:
         truth = rational.enclosed(exactly, facets.tolist(), rows[i], about, None if signs is None else signs.tolist())
-        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.error[i])
+        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.rounding_error[i])
     assert found.raw[0] > 0
-    assert found.error[0] < 1e-13 * found.raw[0] * np.linalg.cond(linear)
+    assert found.rounding_error[0] < 1e-13 * found.raw[0] * np.linalg.cond(linear)
 
 
 @pytest.mark.parametrize("offset", [0.0, 1e3, 1e7])
@@ -145,7 +150,7 @@ def test_a_body_far_away_is_as_exact_about_its_own_center(offset):
     exactly = rational.fractions(points)
     for i, row in enumerate(multi_indices(3, 4).tolist()):
         truth = rational.enclosed(exactly, facets.tolist(), row, tuple(Fraction(x) for x in found.about))
-        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.error[i])
+        assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.rounding_error[i])
         assert abs(float(truth) - found.raw[i]) < 1e-15
 
 
@@ -168,7 +173,7 @@ def test_an_order_that_leaves_the_range_of_floats_is_refused():
 def test_a_reversed_boundary_encloses_the_negative():
     points, facets, _ = cube(3)
     there, back = (enclosed_moments(points, f, 5, about=np.zeros(3)) for f in (facets, facets[:, ::-1]))
-    assert np.abs(there.raw + back.raw).max() <= (there.error + back.error).max()
+    assert np.abs(there.raw + back.raw).max() <= (there.rounding_error + back.rounding_error).max()
 
 
 def test_triangle_meshes_agree_with_the_order_three_kernel_of_bodies():
@@ -176,9 +181,9 @@ def test_triangle_meshes_agree_with_the_order_three_kernel_of_bodies():
     surface = Surface.from_triangles(points, triangles)
     volume, area = polyhedron_moments(surface, area_order=3)
     mine = enclosed_moments(points, triangles, 3, about=volume.about)
-    assert (np.abs(mine.raw - volume.raw) <= mine.error + volume.error).all()
+    assert (np.abs(mine.raw - volume.raw) <= mine.rounding_error + volume.rounding_error).all()
     mine = facet_moments(points, triangles, 3, about=area.about)
-    assert (np.abs(mine.raw - area.raw) <= mine.error + area.error).all()
+    assert (np.abs(mine.raw - area.raw) <= mine.rounding_error + area.rounding_error).all()
     assert abs(mine.raw[0] / area.raw[0] - 1.0) < 1e-14
 
 
@@ -187,9 +192,9 @@ def test_many_blocks_give_what_one_gives(monkeypatch):
 
     points, triangles = bodies.torus(60, 40)
     whole = enclosed_moments(points, triangles, 4)
-    monkeypatch.setattr(simplex, "MEMORY", 1)
+    monkeypatch.setattr(simplex, "NUMBERS_PER_BLOCK", 1)
     parts = enclosed_moments(points, triangles, 4)
-    assert (np.abs(whole.raw - parts.raw) <= whole.error + parts.error).all()
+    assert (np.abs(whole.raw - parts.raw) <= whole.rounding_error + parts.rounding_error).all()
     assert np.abs(whole.raw - parts.raw).max() < 1e-13 * whole.raw[0]
 
 

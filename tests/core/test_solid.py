@@ -86,14 +86,14 @@ def test_a_cube_without_its_top_is_capped_flat_wherever_it_stands(spin, dtype):
     assert finding == Finding("holes_capped", {"count": 1, "flat": 1, "curved": 0, "share": share})
     assert share == pytest.approx(0.2, rel=1e-5)
     top = {tuple(sorted(edge)) for edge in ((4, 5), (5, 7), (7, 6), (6, 4))}
-    assert set(map(tuple, result.health.faults.boundary_edges.tolist())) == top
+    assert set(map(tuple, result.health.defective_elements.boundary_edges.tolist())) == top
     assert set(map(tuple, finding.elements.tolist())) == top
 
 
 def test_an_inverted_cube_is_turned():
     result = verdict(inverted(CUBE))
     check_unit_cube(result, [0.5] * 3, "reoriented")
-    assert result.health.inverted_components == 1 and not len(result.health.faults.flipped_faces)
+    assert result.health.inverted_components == 1 and not len(result.health.defective_elements.flipped_faces)
     assert only(result) == Finding("inverted_components", {"count": 1, "total": 1})
 
 
@@ -101,7 +101,9 @@ def test_an_inverted_cube_is_turned():
 def test_a_flipped_triangle_is_named_and_turned(face):
     result = verdict(with_flipped(FAR_CUBE, face))
     check_unit_cube(result, [1.5] * 3, "reoriented")
-    assert result.health.faults.flipped_faces.tolist() == [face] == result.health.as_record()["flipped_faces"]
+    assert (
+        result.health.defective_elements.flipped_faces.tolist() == [face] == result.health.as_record()["flipped_faces"]
+    )
     assert result.health.closed and result.health.inconsistent_edges == 3
     assert only(result) == Finding("flipped_faces", {"count": 1}) and only(result).elements.tolist() == [face]
 
@@ -109,7 +111,10 @@ def test_a_flipped_triangle_is_named_and_turned(face):
 def test_of_a_mostly_inverted_cube_the_faces_that_point_in_are_named():
     result = verdict(with_flipped(FAR_CUBE, *range(2, 12)))
     check_unit_cube(result, [1.5] * 3, "reoriented")
-    assert result.health.faults.flipped_faces.tolist() == list(range(2, 12)) and result.health.inverted_components == 0
+    assert (
+        result.health.defective_elements.flipped_faces.tolist() == list(range(2, 12))
+        and result.health.inverted_components == 0
+    )
 
 
 @pytest.mark.parametrize("turn", [1, -1])
@@ -117,8 +122,8 @@ def test_a_doubled_triangle_counts_once(turn):
     points, triangles = FAR_CUBE
     result = verdict((points, np.concatenate([triangles, triangles[2:3, ::turn]])))
     check_unit_cube(result, [1.5] * 3, "exact")
-    assert result.health.duplicate_faces == 1 and result.health.faults.duplicate_faces.tolist() == [12]
-    assert result.health.non_manifold_edges == 3 == len(result.health.faults.non_manifold_edges)
+    assert result.health.duplicate_faces == 1 and result.health.defective_elements.duplicate_faces.tolist() == [12]
+    assert result.health.non_manifold_edges == 3 == len(result.health.defective_elements.non_manifold_edges)
     finding = only(result)
     assert finding == Finding("duplicate_faces_ignored", {"count": 1}) and finding.elements.tolist() == [12]
     assert result.area.total == pytest.approx(6.5, rel=1e-15)  # of the faces as they are
@@ -130,7 +135,7 @@ def test_doubled_triangles_of_an_unwelded_cube_are_welded_to_it_and_count_once(t
     result = verdict((points, np.concatenate([triangles, triangles[[2, 7], ::turn]])))
     check_unit_cube(result, [1.5] * 3, "exact")
     assert result.health.components == 1 and result.health.welded
-    assert result.health.faults.duplicate_faces.tolist() == [12, 13]
+    assert result.health.defective_elements.duplicate_faces.tolist() == [12, 13]
 
 
 @pytest.mark.parametrize("layers", [(1, -1), (-1, 1), (1, 1, -1), (1, -1, -1, 1)])
@@ -149,8 +154,8 @@ def test_a_doubled_region_counts_once_also_where_its_quads_are_cut_differently()
     faces = [*SIDES.tolist(), [7, 6, 4, 5], [1, 3, 7, 5]]
     result = measure_solid(mesh(FAR_CUBE[0], faces))
     check_unit_cube(result, [1.5] * 3, "exact")
-    assert result.health.faults.duplicate_faces.tolist() == [6, 7]
-    assert result.health.non_manifold_edges == 7 == len(result.health.faults.non_manifold_edges)
+    assert result.health.defective_elements.duplicate_faces.tolist() == [6, 7]
+    assert result.health.non_manifold_edges == 7 == len(result.health.defective_elements.non_manifold_edges)
 
 
 @pytest.mark.parametrize(
@@ -350,7 +355,7 @@ def test_a_box_with_one_side_subdivided_is_closed_in_space(spin, dtype, rel, fli
     assert result.health.closed and result.health.boundary_edges == 0 and result.health.components == 1
     assert result.method == ("reoriented" if flip else "exact")
     assert result.findings[0] == Finding("t_junctions", {"count": 4})
-    assert result.health.faults.flipped_faces.tolist() == (list(range(10, 60)) if flip else [])
+    assert result.health.defective_elements.flipped_faces.tolist() == (list(range(10, 60)) if flip else [])
 
 
 def test_the_sides_of_a_box_may_all_be_cut_differently():
@@ -471,15 +476,15 @@ def test_the_meshs_own_corners_lead_to_the_same_result_as_its_triangles(dtype):
 
 @pytest.mark.parametrize("flipped", [0, 1])
 def test_threads_change_nothing(flipped, monkeypatch):
-    monkeypatch.setattr(polyhedron, "LEAST", 64)
-    monkeypatch.setattr(polyhedron, "BLOCK", 256)
+    monkeypatch.setattr(polyhedron, "MIN_TRIANGLES_PER_THREAD", 64)
+    monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_PER_BLOCK", 256)
     points, quads = ring(40, 30)
     quads[:flipped] = quads[:flipped, ::-1]
     points[::5] *= 1.01
     results = [measure_solid(mesh(points, quads.tolist(), np.float32), shell=True, threads=k) for k in (1, 2, 3)]
     for other in results[1:]:
         assert other.health.as_record() == results[0].health.as_record() and other.findings == results[0].findings
-        for key in ("raw", "error", "input"):
+        for key in ("raw", "rounding_error", "input_error"):
             for of in ("volume", "area"):
                 np.testing.assert_array_equal(getattr(getattr(other, of), key), getattr(getattr(results[0], of), key))
 
@@ -499,7 +504,7 @@ def test_loose_vertices_and_edges_change_nothing():
     np.testing.assert_array_equal(other.volume.raw, result.volume.raw)
     assert other.health.as_record() == result.health.as_record() and not other.findings
     hole = replace(loose, quads=loose.quads[1:], quad_faces=None, corner_edges=None)
-    rim = measure_solid(hole).health.faults.boundary_edges
+    rim = measure_solid(hole).health.defective_elements.boundary_edges
     assert {tuple(edge) for edge in rim.tolist()} == {
         tuple(sorted(edge)) for edge in zip(loose.quads[0].tolist(), np.roll(loose.quads[0], -1).tolist())
     }
@@ -535,13 +540,13 @@ def test_what_cannot_be_measured_is_refused_with_a_remedy():
 
 def test_a_shell_has_moments_of_its_area_to_third_order_without_the_caps():
     result = verdict(without(CUBE, *TOP), shell=True)
-    assert result.area.order == 3 and result.area.of == "area"
+    assert result.area.order == 3 and result.area.measure == "area"
     np.testing.assert_allclose(result.area.center, [0.5, 0.5, 0.4], rtol=1e-14)
     assert verdict(CUBE).area.order == 0
 
 
 def test_pairs_that_were_not_compared_are_said(monkeypatch):
-    monkeypatch.setattr(shell_tree, "MOST_WORK", 10)
+    monkeypatch.setattr(shell_tree, "MAX_BOX_PAIRS", 10)
     result = verdict(joined(sphere(3), moved(sphere(3), 0.9 * np.eye(3))))
     assert result.findings[-1] == Finding("overlap_unchecked", {"count": 1})
 
@@ -554,7 +559,7 @@ def test_the_record_is_plain_and_the_faults_are_integers():
     record = result.health.as_record()
     assert json.loads(json.dumps(record, allow_nan=False)) == record
     assert {type(value) for value in record.values()} == {bool, int, float, list}
-    for name, value in vars(result.health.faults).items():
+    for name, value in vars(result.health.defective_elements).items():
         assert np.issubdtype(value.dtype, np.integer) and value.ndim == (2 if name.endswith("edges") else 1)
 
 
@@ -621,11 +626,11 @@ def test_a_thousand_broken_meshes_give_no_exception_no_nan_and_no_wrong_volume_w
     for seed in range(50 * block, 50 * block + 50):
         (points, triangles), true, done = broken(seed)
         result = measure_solid(Surface(points, triangles))
-        assert np.isfinite(result.volume.raw).all() and np.isfinite(result.volume.error).all(), seed
+        assert np.isfinite(result.volume.raw).all() and np.isfinite(result.volume.rounding_error).all(), seed
         assert result.volume.total >= 0.0, seed
         json.dumps(result.health.as_record(), allow_nan=False)
         # Closing rounding gaps may move a vertex by a millionth of the size.
-        allowed = 1e-5 * true + result.volume.input[0] + result.volume.error[0]
+        allowed = 1e-5 * true + result.volume.input_error[0] + result.volume.rounding_error[0]
         wrong = abs(result.volume.total - true) > allowed
         if result.method == "exact" and not result.findings:
             assert not wrong, (seed, done)
@@ -683,8 +688,8 @@ def test_what_welding_may_have_changed_is_bounded(seed):
     order = rng.permutation(len(points))
     one, other = verdict((points, triangles)), verdict((points[order], np.argsort(order)[triangles]))
     assert one.method == other.method == "exact"
-    assert 1e-12 < abs(one.volume.total - other.volume.total) < one.volume.input[0] < 1e-4 * one.volume.total
-    assert verdict(soup(sphere(2))).volume.input[0] == 0.0
+    assert 1e-12 < abs(one.volume.total - other.volume.total) < one.volume.input_error[0] < 1e-4 * one.volume.total
+    assert verdict(soup(sphere(2))).volume.input_error[0] == 0.0
 
 
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
@@ -693,7 +698,7 @@ def test_what_welding_may_have_changed_is_bounded(seed):
 def test_an_open_foil_is_not_welded_into_a_wedge(thick, faces, dtype):
     result = verdict(without(box((0, 0, 0), (1, 1, thick)), *faces), dtype)
     assert result.volume.total == pytest.approx(thick, rel=1e-6) and result.method in ("capped", "exact")
-    assert result.volume.input[0] < 1e-6 and result.health.components == 1
+    assert result.volume.input_error[0] < 1e-6 and result.health.components == 1
 
 
 def test_a_tiny_body_beside_a_large_sheet_does_not_intersect_itself():
@@ -733,12 +738,12 @@ def test_caps_are_added_to_what_was_measured(dtype):
     assert quick.method == slow.method == "capped" and quick.findings == slow.findings
     assert quick.health.as_record() == slow.health.as_record()
     np.testing.assert_array_equal(quick.volume.raw, slow.volume.raw)
-    exact = volume_moments(quick.mended.points, quick.mended.triangles, quick.volume.about)
+    exact = volume_moments(quick.repaired_surface.points, quick.repaired_surface.triangles, quick.volume.about)
     assert all(
         abs(Fraction(float(raw)) - truth) <= Fraction(float(error))
-        for raw, truth, error in zip(quick.volume.raw, exact, quick.volume.error)
+        for raw, truth, error in zip(quick.volume.raw, exact, quick.volume.rounding_error)
     )
-    assert quick.volume.error[0] <= 1e-12 * quick.volume.total
+    assert quick.volume.rounding_error[0] <= 1e-12 * quick.volume.total
 
 
 OUTLINE = np.array([[-2, 0], [0, -1], [0, 1], [0, 0], [2, 0], [1, 3]], float)  # runs past its fourth point and back
@@ -766,8 +771,8 @@ def test_an_outline_that_turns_back_on_itself_closes(apart):
         assert result.method == "exact" and result.health.closed and result.health.boundary_edges == 0
         assert result.health.non_manifold_edges == 2
         assert only(result) == Finding("t_junctions", {"count": 2})
-        exact = volume_moments(result.mended.points, result.mended.triangles, result.volume.about)
-        assert abs(result.volume.total - 3.5) <= result.volume.error[0] and exact[0] == Fraction(7, 2)
+        exact = volume_moments(result.repaired_surface.points, result.repaired_surface.triangles, result.volume.about)
+        assert abs(result.volume.total - 3.5) <= result.volume.rounding_error[0] and exact[0] == Fraction(7, 2)
     wide = OUTLINE.copy()
     wide[1, 0] = 0.5  # what is left over has an area
     assert measure_solid(surface(letter(wide))).method == "open"

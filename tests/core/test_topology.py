@@ -6,11 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.edges import closed_sides, find_edges, named_edges, orientation, shells
+from body_moments.core.mesh.edges import (
+    closed_side_faces,
+    consistent_orientation,
+    edges_from_mesh,
+    find_edges,
+    group_components,
+)
 from body_moments.core.mesh.surface import Surface, flipped_quads
-from body_moments.core.mesh.welding import equal_positions, face_groups, near_positions
-from body_moments.core.numerics.arrays import first_equal
-from body_moments.core.numerics.graph import components
+from body_moments.core.mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups
+from body_moments.core.numerics.arrays import first_occurrence
+from body_moments.core.numerics.graph import connected_components
 from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.core.bodies import CORNERS, SIDES, box, joined, mesh, moebius, ring, soup, sphere, welded
@@ -36,7 +42,7 @@ def test_components_are_those_of_union_find_in_the_order_of_their_first_nodes(se
     rng = np.random.default_rng(seed)
     count = int(rng.integers(1, 200))
     a, b = rng.integers(0, count, size=(2, int(rng.integers(0, 2 * count))))
-    label, number = components(count, a, b)
+    label, number = connected_components(count, a, b)
     roots = union_find(count, a, b)
     expected = np.unique(roots, return_inverse=True)[1]
     np.testing.assert_array_equal(label, expected)
@@ -45,7 +51,7 @@ def test_components_are_those_of_union_find_in_the_order_of_their_first_nodes(se
 
 def test_a_long_shuffled_path_is_one_component():
     nodes = np.random.default_rng(1).permutation(100_000)
-    label, number = components(len(nodes), nodes[:-1], nodes[1:])
+    label, number = connected_components(len(nodes), nodes[:-1], nodes[1:])
     assert number == 1 and not label.any()
 
 
@@ -70,7 +76,7 @@ def test_stars_paths_and_cliques_however_numbered_have_the_components_of_union_f
     ]
     a, b = np.concatenate(links, axis=1)
     mixed = rng.permutation(len(a))
-    label, number = components(3000, a[mixed], b[mixed])
+    label, number = connected_components(3000, a[mixed], b[mixed])
     _, expected = np.unique(union_find(3000, a, b), return_inverse=True)
     assert number == expected.max() + 1 and label.tolist() == expected.tolist()
 
@@ -78,7 +84,7 @@ def test_stars_paths_and_cliques_however_numbered_have_the_components_of_union_f
 def test_a_hub_after_all_its_leaves_takes_no_longer_than_one_before_them():
     """Where each round joined one leaf more, this would take hours."""
     leaves = np.arange(1_000_000)
-    label, number = components(len(leaves) + 1, *star(len(leaves), leaves))
+    label, number = connected_components(len(leaves) + 1, *star(len(leaves), leaves))
     assert number == 1 and not label.any()
 
 
@@ -95,8 +101,8 @@ def test_first_equal_finds_the_first_of_equal_rows_even_where_all_hashes_could_c
         seen, expected = {}, []
         for k, row in enumerate(rows.T):
             expected.append(seen.setdefault(tuple(row), k))
-        np.testing.assert_array_equal(first_equal(*rows), expected)
-    assert len(first_equal(rows[0, :0])) == 0
+        np.testing.assert_array_equal(first_occurrence(*rows), expected)
+    assert len(first_occurrence(rows[0, :0])) == 0
 
 
 def test_edges_are_those_that_a_dictionary_finds():
@@ -112,8 +118,8 @@ def test_edges_are_those_that_a_dictionary_finds():
         edge = edges.of_side[sides[0]]
         assert edges.first[edge] == sides[0] and edges.count[edge] == len(sides)
         assert all(edges.of_side[side] == edge for side in sides)
-    assert not edges.balance(np.zeros(len(triangles), bool)).any()
-    one, other = edges.pairs()
+    assert not edges.signed_use_count(np.zeros(len(triangles), bool)).any()
+    one, other = edges.manifold_side_pairs()
     assert sorted(map(tuple, np.stack([one, other], axis=1))) == sorted(map(tuple, found.values()))
 
 
@@ -145,7 +151,7 @@ def mixed_mesh():
 )
 def test_a_closed_mesh_is_proven_closed_by_its_own_corners(points, faces):
     surface = mesh(points, faces)
-    sides = closed_sides(surface)
+    sides = closed_side_faces(surface)
     edges = dict.fromkeys(tuple(sorted((face[i - 1], face[i]))) for face in faces for i in (*range(1, len(face)), 0))
     assert sides.shape == (2, len(edges))  # in the order in which the faces come to them, as in the mesh
     for edge, pair in zip(edges, sides.T):
@@ -156,23 +162,23 @@ def test_a_closed_mesh_is_proven_closed_by_its_own_corners(points, faces):
 def test_one_hole_or_one_flipped_face_or_one_copy_spoils_the_proof():
     points, faces = mixed_mesh()
     for k in range(len(faces)):
-        assert closed_sides(mesh(points, faces[:k] + faces[k + 1 :])) is None
-        assert closed_sides(mesh(points, faces[:k] + [faces[k][::-1]] + faces[k + 1 :])) is None
-        assert closed_sides(mesh(points, faces + [faces[k]])) is None
+        assert closed_side_faces(mesh(points, faces[:k] + faces[k + 1 :])) is None
+        assert closed_side_faces(mesh(points, faces[:k] + [faces[k][::-1]] + faces[k + 1 :])) is None
+        assert closed_side_faces(mesh(points, faces + [faces[k]])) is None
 
 
 def test_loose_edges_do_not_spoil_the_proof():
     surface = mesh(*mixed_mesh())
     edges = surface.corner_edges
     loose = replace(surface, corner_edges=edges + (edges > 3) + (edges > 7))  # those between have no faces
-    np.testing.assert_array_equal(closed_sides(loose), closed_sides(surface))
+    np.testing.assert_array_equal(closed_side_faces(loose), closed_side_faces(surface))
 
 
 def test_without_corners_or_with_foreign_ones_nothing_is_proven():
     surface = mesh(*mixed_mesh())
-    assert closed_sides(replace(surface, corner_edges=None)) is None
+    assert closed_side_faces(replace(surface, corner_edges=None)) is None
     fewer = replace(surface, triangles=surface.triangles[:-1], triangle_faces=surface.triangle_faces[:-1])
-    assert closed_sides(fewer) is None
+    assert closed_side_faces(fewer) is None
 
 
 @pytest.mark.parametrize("seed", range(10))
@@ -182,9 +188,9 @@ def test_orientation_turns_the_faces_that_were_flipped(seed):
     flipped = rng.random(len(triangles)) < rng.uniform(0.0, 0.45)
     triangles = np.where(flipped[:, None], triangles[:, ::-1], triangles)
     edges = find_edges(triangles)
-    one, other = edges.pairs()
+    one, other = edges.manifold_side_pairs()
     against = edges.upward[one] == edges.upward[other]
-    turned, twisted = orientation(len(triangles), one // 3, other // 3, against, np.ones(len(triangles)))
+    turned, twisted = consistent_orientation(len(triangles), one // 3, other // 3, against, np.ones(len(triangles)))
     np.testing.assert_array_equal(turned, flipped)
     assert not twisted.any()
 
@@ -196,37 +202,37 @@ def test_a_moebius_strip_and_a_klein_bottle_have_no_orientation_and_a_torus_besi
     for strip in (moebius(), klein):
         triangles = joined(strip, tube)[1]
         edges = find_edges(triangles)
-        one, other = edges.pairs()
+        one, other = edges.manifold_side_pairs()
         against = edges.upward[one] == edges.upward[other]
         assert against.any()
-        turned, twisted = orientation(len(triangles), one // 3, other // 3, against, np.ones(len(triangles)))
+        turned, twisted = consistent_orientation(len(triangles), one // 3, other // 3, against, np.ones(len(triangles)))
         assert twisted[: len(strip[1])].all() and not twisted[len(strip[1]) :].any()
         assert not turned.any()
 
 
 def parts_of(triangles):
     edges = find_edges(triangles)
-    one, other = edges.pairs()
-    return edges, *components(len(triangles), one // 3, other // 3)
+    one, other = edges.manifold_side_pairs()
+    return edges, *connected_components(len(triangles), one // 3, other // 3)
 
 
 def test_boxes_that_share_an_edge_are_two_shells_and_boxes_with_a_common_wall_are_one():
     edge = welded(joined(box(), box((1, 1, 0), (2, 2, 1))))[1]
     edges, part, number = parts_of(edge)
-    shell, shell_number = shells(edges, part, number, np.zeros(len(edges.count), bool))
+    shell, shell_number = group_components(edges, part, number, np.zeros(len(edges.count), bool))
     assert shell_number == 2
     wall = welded(joined(box(), box((1, 0, 0), (2, 1, 1))))[1]
     wall = wall[np.unique(np.sort(wall, axis=1), axis=0, return_index=True)[1]]
     edges, part, number = parts_of(wall)
     assert number == 3
-    shell, shell_number = shells(edges, part, number, np.zeros(len(edges.count), bool))
+    shell, shell_number = group_components(edges, part, number, np.zeros(len(edges.count), bool))
     assert shell_number == 1
 
 
 def test_equal_positions_are_welded_and_minus_zero_is_zero():
     points = soup(sphere(2))[0]
     points[points == 0.0] *= np.where(np.arange(np.count_nonzero(points == 0.0)) % 2, 1.0, -1.0)
-    first = equal_positions(points)
+    first = first_at_equal_position(points)
     assert len(np.unique(first)) == 66
     np.testing.assert_array_equal(points[first], points)
     assert np.all(first <= np.arange(len(points)))
@@ -238,10 +244,10 @@ def test_positions_within_the_tolerance_are_welded_wherever_the_grid_cuts():
     step = rng.normal(size=base.shape)
     step *= 0.99e-6 / np.linalg.norm(step, axis=1)[:, None]
     points = np.concatenate([base, base + step])
-    first = near_positions(points, np.full(800, 1e-6))
+    first = first_at_near_position(points, np.full(800, 1e-6))
     np.testing.assert_array_equal(first, np.tile(np.arange(400), 2))
     apart = np.concatenate([base, base + 10 * step])
-    np.testing.assert_array_equal(near_positions(apart, np.full(800, 1e-6)), np.arange(800))
+    np.testing.assert_array_equal(first_at_near_position(apart, np.full(800, 1e-6)), np.arange(800))
 
 
 def test_faces_on_the_same_vertices_share_a_group_however_they_are_cut_and_turned():
@@ -257,7 +263,7 @@ def test_faces_on_the_same_vertices_share_a_group_however_they_are_cut_and_turne
         ]
     )
     faces = np.array([0, 0, 1, 1, 2, 3, 4])
-    np.testing.assert_array_equal(face_groups(triangles, faces), [0, 0, 0, 0, 2, 2, 4])
+    np.testing.assert_array_equal(same_vertices_groups(triangles, faces), [0, 0, 0, 0, 2, 2, 4])
 
 
 @pytest.mark.parametrize("type_", [np.int8, np.int16, np.int32, np.uint32, np.uint64])
@@ -267,8 +273,8 @@ def test_edges_that_no_mesh_has_prove_nothing_and_those_of_every_type_do(type_):
     ends = np.sort(np.stack([corners, np.roll(quads, -1, axis=1).ravel()], axis=1), axis=1)
     edges = np.unique(ends, axis=0, return_inverse=True)[1].ravel().astype(type_)
     surface = Surface(points, quads=quads, corner_vertices=corners, corner_edges=edges)
-    assert closed_sides(surface) is not None
-    assert closed_sides(replace(surface, corner_edges=edges - edges.max() - type_(1))) is None
+    assert closed_side_faces(surface) is not None
+    assert closed_side_faces(replace(surface, corner_edges=edges - edges.max() - type_(1))) is None
 
 
 def opened(rng, cut):
@@ -287,8 +293,8 @@ def test_edges_that_a_mesh_names_are_those_that_are_found(cut):
     if cut in (0.0, 1.0):  # one kind alone, as a reader makes it
         surface = replace(surface, triangle_faces=None, quad_faces=None)
     triangles = surface.all_triangles()[0]
-    named, found = named_edges(surface, triangles), find_edges(triangles)
-    assert len(found.rims()) > 10
+    named, found = edges_from_mesh(surface, triangles), find_edges(triangles)
+    assert len(found.boundary_sides()) > 10
     for key in ("of_side", "upward", "first", "count"):
         np.testing.assert_array_equal(getattr(named, key), getattr(found, key))
 
@@ -301,10 +307,10 @@ def test_names_of_edges_that_do_not_fit_the_vertices_are_not_used():
     twice[np.flatnonzero(edges == inner)[0]] = edges.max() + 1  # one edge by two names
     wrong = [np.roll(edges, 1), edges * 0, edges - 1, twice, edges[:-1], edges.astype(np.uint64) - np.uint64(1)]
     for other in wrong:
-        assert named_edges(replace(surface, corner_edges=other), triangles) is None
-    assert named_edges(replace(surface, corner_edges=edges.astype(np.uint64)), triangles) is not None
+        assert edges_from_mesh(replace(surface, corner_edges=other), triangles) is None
+    assert edges_from_mesh(replace(surface, corner_edges=edges.astype(np.uint64)), triangles) is not None
     prism = mesh(*polygons())
-    assert named_edges(prism, prism.all_triangles()[0]) is None
+    assert edges_from_mesh(prism, prism.all_triangles()[0]) is None
 
 
 def polygons():

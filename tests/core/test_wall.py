@@ -10,7 +10,7 @@ import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.moments.moments import monomials
 from body_moments.core.offset.directions import offset_directions
-from body_moments.core.offset.walls import share, sweep
+from body_moments.core.offset.walls import offset_solid, split_thickness
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.verdict.finding import MeasureError
 
@@ -26,7 +26,7 @@ def cube(side=1.0):
 
 
 def wall(part, side, thickness, **more):
-    return sweep(bodies.surface(part, **more)).moments(*share(side, thickness))
+    return offset_solid(bodies.surface(part, **more)).moments(*split_thickness(side, thickness))
 
 
 def exact_difference(part, vectors, low, high, about):
@@ -96,16 +96,16 @@ def test_every_cut_of_the_cubes_faces_gives_the_same_directions():
     ids=["ball", "torus", "sheared", "box", "tiny", "hollow"],
 )
 def test_every_moment_is_that_of_the_difference_of_two_closed_bodies(part, side):
-    found = sweep(bodies.surface(part))
-    size = min(found.largest(side), np.ptp(part[0], axis=0).min())
-    low, high = share(side, 0.6 * size if side == "inward" else 0.2 * size)
+    found = offset_solid(bodies.surface(part))
+    size = min(found.max_thickness(side), np.ptp(part[0], axis=0).min())
+    low, high = split_thickness(side, 0.6 * size if side == "inward" else 0.2 * size)
     body = found.moments(low, high)
     truth = np.array(exact_difference(part, offset_directions(*part).vectors, -low, high, body.about), float)
     reach = np.abs(part[0] - body.about).max(axis=0) + size
     scale = body.total * np.multiply.reduce(reach ** monomials(3), axis=1)
-    assert (np.abs(body.raw - truth) <= body.error).all()
+    assert (np.abs(body.raw - truth) <= body.rounding_error).all()
     assert (np.abs(body.raw - truth) <= 4e-15 * scale).all()
-    assert (body.error[:10] <= 1e-9 * scale[:10]).all()
+    assert (body.rounding_error[:10] <= 1e-9 * scale[:10]).all()
 
 
 def test_far_away_only_the_coordinates_themselves_lose_digits():
@@ -123,23 +123,23 @@ def test_directions_move_every_plane_of_a_tilted_box_by_one():
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     heights = np.einsum("mi,mki->mk", normals, found.vectors[part[1]])
     assert np.abs(heights - 1.0).max() < 1e-14
-    assert found.slide[0].max() < 1e-13
+    assert found.tangential_error[0].max() < 1e-13
 
 
 def test_the_bound_holds_for_the_directions_too():
     turn = bodies.rotation(7)
     part = bodies.moved(cube(), turn)
     body = wall(part, "inward", 0.1)
-    assert abs(body.total - (1 - 0.8**3)) <= body.error[0] <= 1e-12
+    assert abs(body.total - (1 - 0.8**3)) <= body.rounding_error[0] <= 1e-12
 
 
 def test_storing_as_float32_changes_no_more_than_is_said():
     part = bodies.moved(bodies.sphere(2), SHEAR, (3.0, -2.0, 5.0))
     single = part[0].astype(np.float32).astype(float)
-    given = sweep(bodies.surface((single, part[1]), np.float32)).moments(0.05, 0.0)
+    given = offset_solid(bodies.surface((single, part[1]), np.float32)).moments(0.05, 0.0)
     truth = wall(part, "inward", 0.05)
-    change = np.abs(given.shifted(truth.about).raw - truth.raw)[:1]
-    assert (change <= given.input[:1]).all() and given.input[0] < 1e-2 * given.total
+    change = np.abs(given.about_point(truth.about).raw - truth.raw)[:1]
+    assert (change <= given.input_error[:1]).all() and given.input_error[0] < 1e-2 * given.total
 
 
 def test_where_more_than_three_planes_meet_the_wall_is_told_to_be_uneven():
@@ -147,18 +147,18 @@ def test_where_more_than_three_planes_meet_the_wall_is_told_to_be_uneven():
         np.array([[2, 1, 0], [-2, 1, 0], [-2, -1, 0], [2, -1, 0], [0.5, 0.25, 1.0]], float),
         np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]]),
     )
-    found = sweep(bodies.surface(part))
-    assert found.uneven == 1 and found.least < 1.0 < found.most
+    found = offset_solid(bodies.surface(part))
+    assert found.inexact_vertices == 1 and found.min_ratio < 1.0 < found.max_ratio
     even = (part[0] * [1, 1, 1] - [0, 0, 0], part[1])
     even[0][4, :2] = 0.0
-    assert sweep(bodies.surface(even)).uneven == 1
+    assert offset_solid(bodies.surface(even)).inexact_vertices == 1
     square = (even[0] * [0.5, 1, 1], part[1])
-    assert sweep(bodies.surface(square)).uneven == 0
+    assert offset_solid(bodies.surface(square)).inexact_vertices == 0
 
 
 def test_the_planes_of_a_fine_sphere_are_kept_at_the_thickness():
-    found = sweep(bodies.surface(bodies.sphere(4)))
-    assert found.least > 0.995 and found.most < 1.005
+    found = offset_solid(bodies.surface(bodies.sphere(4)))
+    assert found.min_ratio > 0.995 and found.max_ratio < 1.005
     thick = found.moments(0.1, 0.0)
     assert abs(thick.total / (4 / 3 * pi * (1 - 0.9**3)) - 1.0) < 5e-3
 
@@ -188,10 +188,10 @@ def test_a_bent_sheet_is_mitred_at_its_crease():
 
 @pytest.mark.parametrize(("sizes", "limit"), [((1, 1, 1), 0.5), ((4, 1, 2), 0.5), ((1, 1, 0.2), 0.1)])
 def test_a_box_folds_over_at_half_its_least_side(sizes, limit):
-    found = sweep(bodies.surface(bodies.box(high=sizes)))
+    found = offset_solid(bodies.surface(bodies.box(high=sizes)))
     assert limit * (1 - 1e-6) < found.inward <= limit
     assert found.outward == np.inf and found.inward_at >= 0 and found.outward_at == -1
-    assert found.largest("centered") == 2 * found.inward
+    assert found.max_thickness("centered") == 2 * found.inward
     found.moments(0.999 * limit, 0.0)
     for thickness in (limit, 1.1 * limit, 3 * limit):
         with pytest.raises(ValueError, match="folds over"):
@@ -203,7 +203,7 @@ def test_up_to_the_limit_no_prism_has_a_negative_jacobian_and_beyond_it_one_has(
     rng = np.random.default_rng(seed)
     part = bodies.sphere(1)
     part = part[0] * rng.uniform(0.8, 1.2, len(part[0]))[:, None], part[1]
-    found = sweep(bodies.surface(part))
+    found = offset_solid(bodies.surface(part))
     points, vectors = part[0][part[1]], offset_directions(*part).vectors[part[1]]
     for limit, sign in ((found.inward, -1.0), (found.outward, 1.0)):
         limit = min(limit, 100.0)
@@ -251,8 +251,8 @@ def test_a_face_without_area_is_carried_along():
     c = next(int(v) for v in row if v not in (0, 1))
     a, b = (0, 1) if list(row)[(list(row).index(0) + 1) % 3] == 1 else (1, 0)
     triangles = np.concatenate([triangles[~(triangles == row).all(axis=1)], [[a, 8, c], [8, b, c], [a, b, 8]]])
-    found = sweep(bodies.surface((points, triangles)))
-    assert found.ignored == 1
+    found = offset_solid(bodies.surface((points, triangles)))
+    assert found.degenerate_triangles == 1
     assert abs(found.moments(0.1, 0.0).total - (1 - 0.8**3)) <= 1e-14
 
 
@@ -277,20 +277,20 @@ def test_noise_on_a_flat_side_does_not_send_its_edge_sliding():
 )
 def test_what_has_no_side_is_refused_with_the_remedy(part, code):
     with refused(code):
-        sweep(bodies.surface(part))
+        offset_solid(bodies.surface(part))
 
 
 def test_edges_that_make_no_wall_are_named_by_the_vertices_given():
     points, triangles = bodies.welded(bodies.joined(bodies.box(), bodies.box((0, 1, 1), (1, 2, 2))))
     with pytest.raises(MeasureError) as caught:
-        sweep(bodies.surface((np.concatenate([np.full((3, 3), 9.0), points]), triangles + 3)))
+        offset_solid(bodies.surface((np.concatenate([np.full((3, 3), 9.0), points]), triangles + 3)))
     (edge,) = caught.value.finding.elements
     assert points[edge - 3].tolist() == [[0, 1, 1], [1, 1, 1]]
 
 
 def test_the_first_order_is_the_area_and_a_thin_wall_is_a_thin_shell():
     part = bodies.moved(cube(), bodies.rotation(3) @ SHEAR)
-    found = sweep(bodies.surface(part))
+    found = offset_solid(bodies.surface(part))
     corners = part[0][part[1]]
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
     assert abs(found.coefficients[0, 0] - area) < 1e-14 * area
@@ -298,7 +298,7 @@ def test_the_first_order_is_the_area_and_a_thin_wall_is_a_thin_shell():
 
 def test_the_inside_wall_up_to_the_limit_fills_a_regular_body():
     part = bodies.sphere(0)
-    found = sweep(bodies.surface(part))
+    found = offset_solid(bodies.surface(part))
     assert abs(found.inward - 1 / sqrt(3)) < 1e-7
     full = polyhedron_moments(bodies.surface(part))[0].total
     assert abs(found.moments(found.inward * (1 - 1e-12), 0.0).total - full) < 1e-9
@@ -335,13 +335,13 @@ def test_the_wall_of_a_pyramid_of_many_sides_is_the_pyramid_less_a_similar_one()
 def test_no_float32_rounding_changes_more_than_is_said(part, side, t):
     rng = np.random.default_rng(5)
     single = part[0].astype(np.float32)
-    given = sweep(bodies.surface((single, part[1]), np.float32)).moments(*share(side, t))
+    given = offset_solid(bodies.surface((single, part[1]), np.float32)).moments(*split_thickness(side, t))
     half = np.spacing(np.abs(single).max(axis=0)).astype(float) / 2
     for _ in range(5):
         moved = single.astype(float) + half * rng.choice([-1.0, 1.0], single.shape)
-        found = wall((moved, part[1]), side, t).shifted(given.about)
-        assert (np.abs(found.raw - given.raw) <= given.input + 2 * given.error)[:10].all()
-    assert given.input[0] < 0.01 * given.total
+        found = wall((moved, part[1]), side, t).about_point(given.about)
+        assert (np.abs(found.raw - given.raw) <= given.input_error + 2 * given.rounding_error)[:10].all()
+    assert given.input_error[0] < 0.01 * given.total
 
 
 def test_a_vertex_that_no_mean_is_in_front_of_finds_a_direction_that_is():
@@ -372,7 +372,7 @@ def test_a_vertex_that_no_mean_is_in_front_of_finds_a_direction_that_is():
 def test_faces_that_fold_back_on_each_other_have_no_wall():
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0], [1, 0, 0]], float)
     points[4:, 1] = 1e-9
-    found = sweep(bodies.surface((points, bodies.split([[0, 1, 2, 3], [3, 2, 5, 4]]))))
+    found = offset_solid(bodies.surface((points, bodies.split([[0, 1, 2, 3], [3, 2, 5, 4]]))))
     assert max(found.inward, found.outward) < 1e-6
 
 
@@ -393,8 +393,8 @@ def fine_box(n, size=(1.0, 1.0, 1.0)):
 @pytest.mark.parametrize("n", [2, 4, 16])
 @pytest.mark.parametrize("t", [0.05, 0.2, 0.45])
 def test_a_finely_cut_cube_has_the_wall_of_a_cube(n, t):
-    found = sweep(bodies.surface(fine_box(n)))
-    assert found.uneven == 0 and 0.4999 < found.inward <= 0.5
+    found = offset_solid(bodies.surface(fine_box(n)))
+    assert found.inexact_vertices == 0 and 0.4999 < found.inward <= 0.5
     body = found.moments(t, 0.0)
     assert abs(body.total - (1 - (1 - 2 * t) ** 3)) <= 1e-14
     assert np.abs(bodies.inertia(body) - (1 - (1 - 2 * t) ** 5) / 6).max() <= 1e-14
@@ -402,11 +402,11 @@ def test_a_finely_cut_cube_has_the_wall_of_a_cube(n, t):
 
 def test_a_finely_cut_box_of_float32_that_is_turned_has_it_too():
     points, triangles = bodies.moved(fine_box(16, (1.0, 2.0, 3.0)), bodies.rotation(3), (5.0, 7.0, -3.0))
-    found = sweep(bodies.surface((points.astype(np.float32), triangles), np.float32))
+    found = offset_solid(bodies.surface((points.astype(np.float32), triangles), np.float32))
     assert found.inward > 0.49
     body = found.moments(0.3, 0.0)
     assert abs(body.total - (6 - 0.4 * 1.4 * 2.4)) < 1e-5
-    assert abs(body.total - (6 - 0.4 * 1.4 * 2.4)) < body.input[0]
+    assert abs(body.total - (6 - 0.4 * 1.4 * 2.4)) < body.input_error[0]
 
 
 def test_a_finely_cut_sheet_keeps_its_rim():
@@ -420,8 +420,8 @@ def test_a_finely_cut_sheet_keeps_its_rim():
 
 def test_needles_alone_are_swept_without_a_direction():
     points = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1e-12, 0]])
-    found = sweep(bodies.surface((points, np.array([[0, 1, 2]]))))
-    assert found.ignored == 1 and found.outward == np.inf
+    found = offset_solid(bodies.surface((points, np.array([[0, 1, 2]]))))
+    assert found.degenerate_triangles == 1 and found.outward == np.inf
     assert found.moments(0.0, 1.0).total == 0.0
 
 
@@ -440,20 +440,20 @@ FAR = 1000.0 * np.array([0.3, 0.7, 0.61])
 def test_faces_of_which_float32_has_lost_the_direction_make_no_wall(part, share):
     """Their share of the wall was left out, and they were not asked when it folds over."""
     with pytest.raises(MeasureError) as caught:
-        sweep(bodies.surface(part, np.float32))
+        offset_solid(bodies.surface(part, np.float32))
     assert caught.value.finding.code == "wall_precision_lost"
     assert caught.value.finding.values["share"] == pytest.approx(share, abs=0.005)
-    assert sweep(bodies.surface(part)).ignored == 0
+    assert offset_solid(bodies.surface(part)).degenerate_triangles == 0
 
 
 def test_what_a_few_faces_without_a_direction_lack_is_in_the_bound():
     part = bodies.moved(bodies.box((0, 0, 0), (1, 1, 0.001)), offset=FAR)
-    found = sweep(bodies.surface(part, np.float32))
-    assert found.ignored == 8
+    found = offset_solid(bodies.surface(part, np.float32))
+    assert found.degenerate_triangles == 8
     for s in (1e-6, 1e-5):
         truth = (1 + 2 * s) ** 2 * (0.001 + 2 * s) - 0.001
         body = found.moments(0.0, s)
-        assert body.total < 0.9985 * truth and abs(body.total - truth) <= body.input[0] < 0.01 * truth
+        assert body.total < 0.9985 * truth and abs(body.total - truth) <= body.input_error[0] < 0.01 * truth
 
 
 JAWS = [(0, 0), (4, 0), (4, 1.9), (3, 1.9), (3, 1), (1, 1), (1, 3), (3, 3), (3, 2.1), (4, 2.1), (4, 4), (0, 4)]
@@ -489,6 +489,6 @@ OUTER, INNER = bodies.box((0, 0, 0), (4, 4, 4)), bodies.box((1, 1, 1), (3, 3, 3)
 )
 def test_walls_that_meet_are_found_where_no_edge_pierces_a_face(part, side, apart, through):
     """Skins that have moved past one another, and ones that are flush with each other."""
-    swept = sweep(bodies.surface(part))
-    assert not any(swept.meets_itself(*share(side, t)) for t in apart)
-    assert all(swept.meets_itself(*share(side, t)) for t in through)
+    swept = offset_solid(bodies.surface(part))
+    assert not any(swept.self_intersects(*split_thickness(side, t)) for t in apart)
+    assert all(swept.self_intersects(*split_thickness(side, t)) for t in through)

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.density.part_densities import part_densities
-from body_moments.core.density.piecewise_mass import as_mass, weighted_sheet, weighted_solid
+from body_moments.core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure_solid import measure_solid
@@ -20,7 +20,7 @@ FAR = (4096.0, -8192.0, 2048.0)
 def sheet(part, density, dtype=np.float64, **more):
     surface = bodies.surface(part, dtype)
     like = measure_solid(surface, shell=True).area
-    return weighted_sheet(surface.points, surface.triangles, np.asarray(density, float), like, **more)
+    return sheet_mass_moments(surface.points, surface.triangles, np.asarray(density, float), like, **more)
 
 
 def linear_truth(points, triangles, density, about):
@@ -54,7 +54,7 @@ def linear_truth(points, triangles, density, about):
 def within(found, expected):
     return all(
         abs(Fraction(value) - true) <= Fraction(bound)
-        for value, true, bound in zip(found.raw.tolist(), expected, found.error.tolist())
+        for value, true, bound in zip(found.raw.tolist(), expected, found.rounding_error.tolist())
     )
 
 
@@ -68,36 +68,36 @@ def test_a_density_linear_on_each_triangle_is_exact(offset, scale):
     found = sheet((points, triangles), density[triangles])
     expected = linear_truth(points, triangles, density[triangles], found.about)
     assert within(found, expected)
-    assert found.error[0] < 1e-9 * found.total if offset[0] else found.error[0] < 1e-12 * found.total
-    assert found.of == "area" and not found.input.any()
+    assert found.rounding_error[0] < 1e-9 * found.total if offset[0] else found.rounding_error[0] < 1e-12 * found.total
+    assert found.measure == "area" and not found.input_error.any()
 
 
 def part_moments(parts, whole):
     """The volume moments of each part, negative for cavities."""
     triangles = [parts.triangles[parts.part == k] for k in range(parts.number)]
-    return [weighted_solid(parts.points, rows, np.ones(len(rows)), whole) for rows in triangles]
+    return [solid_mass_moments(parts.points, rows, np.ones(len(rows)), whole) for rows in triangles]
 
 
 def test_a_density_constant_on_the_corners_is_one_on_the_faces():
     part = bodies.sphere(2)
     density = np.random.default_rng(2).random(len(part[1])) * 1000.0
     by_face, by_corner = sheet(part, density), sheet(part, np.repeat(density[:, None], 3, axis=1))
-    assert (np.abs(by_face.raw - by_corner.raw) <= by_face.error + by_corner.error).all()
+    assert (np.abs(by_face.raw - by_corner.raw) <= by_face.rounding_error + by_corner.rounding_error).all()
     one = sheet(part, np.ones(len(part[1])))
     plain = measure_solid(bodies.surface(part), shell=True).area
-    assert (np.abs(one.raw - plain.raw) <= one.error + plain.error).all()
+    assert (np.abs(one.raw - plain.raw) <= one.rounding_error + plain.rounding_error).all()
 
 
 def test_a_square_sheet_with_a_density_that_rises_along_x():
     """ρ = x on the unit square: M = 1/2, centre (2/3, 1/2), I about it (1/24, 1/36, 5/72)."""
     part = bodies.grid(5)
     found = sheet(part, part[0][part[1], 0])
-    body = MassProperties.from_moments(as_mass(found))
+    body = MassProperties.from_moments(to_mass_moments(found))
     assert body.mass == pytest.approx(0.5, rel=1e-14)
     assert body.center == pytest.approx([2 / 3, 1 / 2, 0.0], abs=1e-14)
     assert np.diag(body.inertia) == pytest.approx([1 / 24, 1 / 36, 5 / 72], rel=1e-13)
     # to third order: ∫ x · x³ = 1/5, ∫ x · x² y = 1/8, ∫ x · x y² = 1/9, ∫ x y³ = 1/8
-    about = found.shifted((0, 0, 0))
+    about = found.about_point((0, 0, 0))
     assert [about[3, 0, 0], about[2, 1, 0], about[1, 2, 0], about[0, 3, 0]] == pytest.approx(
         [1 / 5, 1 / 8, 1 / 9, 1 / 8], rel=1e-13
     )
@@ -110,9 +110,9 @@ def test_what_float32_stored_is_within_the_input_bound():
     single = points.astype(np.float32), triangles
     found = sheet(single, density.astype(np.float32).astype(float)[triangles], np.float32, stored=True)
     about = found.about
-    exactly = sheet((points, triangles), density[triangles]).shifted(about)
-    assert (np.abs(found.raw - exactly.raw) <= found.input + found.error + exactly.error).all()
-    assert found.input[0] < 1e-2 * found.total
+    exactly = sheet((points, triangles), density[triangles]).about_point(about)
+    assert (np.abs(found.raw - exactly.raw) <= found.input_error + found.rounding_error + exactly.rounding_error).all()
+    assert found.input_error[0] < 1e-2 * found.total
 
 
 PARTS = bodies.joined(
@@ -126,11 +126,14 @@ PARTS = bodies.joined(
 def test_the_parts_add_up_to_the_whole(offset):
     part = bodies.moved(PARTS, offset=offset)
     solid = measure_solid(bodies.surface(part))
-    parts = solid.components()
+    parts = solid.parts()
     each = part_moments(parts, solid.volume)
-    assert parts.number == 3 and parts.within.tolist() == [0, 1, 2]
+    assert parts.number == 3 and parts.host_part.tolist() == [0, 1, 2]
     total = np.sum([one.raw for one in each], axis=0)
-    assert (np.abs(total - solid.volume.raw) <= solid.volume.error + np.sum([one.error for one in each], axis=0)).all()
+    assert (
+        np.abs(total - solid.volume.raw)
+        <= solid.volume.rounding_error + np.sum([one.rounding_error for one in each], axis=0)
+    ).all()
     for i, one in enumerate(each):
         expected = exact.volume_moments(part[0].tolist(), parts.triangles[parts.part == i].tolist(), one.about)
         assert within(one, expected)
@@ -138,26 +141,26 @@ def test_the_parts_add_up_to_the_whole(offset):
 
 def test_a_density_for_each_part_is_exact():
     solid = measure_solid(bodies.surface(PARTS))
-    parts = solid.components()
+    parts = solid.parts()
     density = np.array([7820.0, 1240.0, 3.5])
-    found = weighted_solid(parts.points, parts.triangles, density[parts.part], solid.volume)
+    found = solid_mass_moments(parts.points, parts.triangles, density[parts.part], solid.volume)
     expected = [0] * 20
     for i, value in enumerate(density):
         own = exact.volume_moments(PARTS[0].tolist(), parts.triangles[parts.part == i].tolist(), found.about)
         expected = [a + Fraction(value) * b for a, b in zip(expected, own)]
     assert within(found, expected)
-    assert found.error[0] < 1e-12 * found.total
+    assert found.rounding_error[0] < 1e-12 * found.total
 
 
 def test_a_two_material_dumbbell():
     """Two boxes of steel and wood, each 1 m³, 4 m apart: the centre is at the mean weighted by their densities."""
     part = bodies.joined(bodies.box((0, 0, 0), (1, 1, 1)), bodies.box((4, 0, 0), (5, 1, 1)))
     solid = measure_solid(bodies.surface(part))
-    parts = solid.components()
+    parts = solid.parts()
     found = part_densities(parts, np.repeat([7820.0, 680.0], 12))
-    assert found.density.tolist() == [7820.0, 680.0] and not found.mixed.any()
+    assert found.density.tolist() == [7820.0, 680.0] and not found.has_several_materials.any()
     body = MassProperties.from_moments(
-        as_mass(weighted_solid(parts.points, parts.triangles, found.density[parts.part], solid.volume))
+        to_mass_moments(solid_mass_moments(parts.points, parts.triangles, found.density[parts.part], solid.volume))
     )
     assert body.mass == pytest.approx(8500.0, rel=1e-14)
     assert body.center == pytest.approx([(7820 * 0.5 + 680 * 4.5) / 8500, 0.5, 0.5], rel=1e-14)
@@ -170,19 +173,19 @@ def test_a_part_of_several_materials_takes_their_mean_by_area():
     part = bodies.box((0, 0, 0), (1, 2, 3))
     normal = np.cross(part[0][part[1][:, 1]] - part[0][part[1][:, 0]], part[0][part[1][:, 2]] - part[0][part[1][:, 0]])
     faces = np.where(np.abs(normal[:, 0]) > 0.0, 100.0, 1000.0)
-    found = part_densities(measure_solid(bodies.surface(part)).components(), faces)
-    assert found.mixed.tolist() == [True] and found.first.tolist() == [0]
+    found = part_densities(measure_solid(bodies.surface(part)).parts(), faces)
+    assert found.has_several_materials.tolist() == [True] and found.first_face.tolist() == [0]
     assert found.density[0] == pytest.approx((12 * 100.0 + 10 * 1000.0) / 22, rel=1e-14)
 
 
 def test_caps_have_no_say_in_the_density_and_carry_it():
     part = bodies.without(bodies.box((0, 0, 0), (1, 1, 1)), *bodies.TOP)
     solid = measure_solid(bodies.surface(part))
-    parts = solid.components()
+    parts = solid.parts()
     assert solid.method == "capped" and (parts.face == -1).any()
     found = part_densities(parts, np.full(12, 500.0))
-    assert found.density.tolist() == [500.0] and not found.mixed.any()
-    mass = weighted_solid(parts.points, parts.triangles, found.density[parts.part], solid.volume)
+    assert found.density.tolist() == [500.0] and not found.has_several_materials.any()
+    mass = solid_mass_moments(parts.points, parts.triangles, found.density[parts.part], solid.volume)
     assert mass.total == pytest.approx(500.0, rel=1e-14)
 
 
@@ -195,10 +198,10 @@ def test_a_cavity_takes_away_the_material_that_it_is_cut_from(turned):
     if turned:
         part = bodies.inverted(part)
     solid = measure_solid(bodies.surface(part))
-    parts = solid.components()
+    parts = solid.parts()
     found = part_densities(parts, np.repeat([8000.0, 1.0, 200.0], 12))
     assert found.density.tolist() == [8000.0, 8000.0, 200.0]
-    mass = weighted_solid(parts.points, parts.triangles, found.density[parts.part], solid.volume)
+    mass = solid_mass_moments(parts.points, parts.triangles, found.density[parts.part], solid.volume)
     assert mass.total == pytest.approx(8000.0 * (64 - 8) + 200.0, rel=1e-14)
 
 
@@ -212,7 +215,7 @@ def test_a_cavity_within_two_materials_takes_the_inner_one_away_and_the_next_the
         bodies.inverted(bodies.box((3, 3, 3), (5, 5, 5))),
     )
     solid = measure_solid(bodies.surface(part))
-    found = part_densities(solid.components(), np.repeat([10.0, 3.0, 99.0, 99.0], 12))
+    found = part_densities(solid.parts(), np.repeat([10.0, 3.0, 99.0, 99.0], 12))
     assert found.density.tolist() == [10.0, 3.0, 3.0, 10.0]
 
 
@@ -232,7 +235,7 @@ def test_a_cavity_within_two_materials_takes_the_inner_one_away_and_the_next_the
 )
 def test_mended_bodies_have_parts_that_add_up_too(make):
     solid = measure_solid(make())
-    parts = solid.components()
+    parts = solid.parts()
     total = np.sum([one.raw for one in part_moments(parts, solid.volume)], axis=0)
     assert np.allclose(total, solid.volume.raw, rtol=1e-12, atol=1e-12 * np.abs(solid.volume.raw).max())
     assert parts.face.max() < 1 + np.unique(parts.face[parts.face >= 0]).size

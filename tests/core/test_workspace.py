@@ -5,7 +5,7 @@
 import weakref
 
 import numpy as np
-from body_moments.core.polyhedron.workspace import GAP, Workspace
+from body_moments.core.polyhedron.workspace import ROW_PADDING, Workspace
 
 
 class Block:
@@ -30,7 +30,7 @@ def test_only_the_groups_of_an_overlay_share_memory_and_arrays_do_not_follow_on_
         for j, other in enumerate(arrays[i + 1 :], i + 1):
             assert np.shares_memory(one, other) == ((i, j) in shared)
             if (i, j) not in shared and one is not block.third:  # which the short one is before
-                assert other.ctypes.data - (one.ctypes.data + one.nbytes) >= 8 * GAP
+                assert other.ctypes.data - (one.ctypes.data + one.nbytes) >= 8 * ROW_PADDING
 
 
 def test_a_block_is_kept_until_another_shape_is_asked_for_and_never_beside_it():

@@ -7,8 +7,14 @@ from math import gamma, pi, sqrt
 import numpy as np
 import pytest
 from body_moments.core.moments.moments import monomials
-from body_moments.core.moments.solid_harmonics import coupled, harmonic_moments
-from body_moments.core.shape.zernike import descriptors, loss, radial_power, zernike_moments, zernike_quadrature
+from body_moments.core.moments.solid_harmonics import couple, harmonic_moments
+from body_moments.core.shape.zernike import (
+    descriptor_error,
+    descriptors,
+    radial_power,
+    zernike_moments,
+    zernike_quadrature,
+)
 
 from tests.core import bodies, shapes
 from tests.core.recursion import moments
@@ -71,9 +77,9 @@ def test_three_points_couple_to_the_scalar_that_they_span():
     vectors = np.random.default_rng(1).normal(size=(3, 3))
     ones = [harmonic_moments(np.prod(v ** monomials(1), axis=1), 1)[1, 1] for v in vectors]
     wanted = (3 / (4 * pi)) ** 1.5 / sqrt(6) * np.linalg.det(vectors)
-    assert abs(coupled(*ones)) == pytest.approx(abs(wanted))
+    assert abs(couple(*ones)) == pytest.approx(abs(wanted))
     mirrored = [harmonic_moments(np.prod((v * [-1, 1, 1]) ** monomials(1), axis=1), 1)[1, 1] for v in vectors]
-    assert coupled(*mirrored) == pytest.approx(-coupled(*ones))
+    assert couple(*mirrored) == pytest.approx(-couple(*ones))
 
 
 @pytest.mark.parametrize("part", [shapes.WEDGE, bodies.torus(12, 8), bodies.sphere(1), shapes.STEPPED])
@@ -81,7 +87,7 @@ def test_moments_and_quadrature_agree_to_what_is_told_to_be_lost(part):
     body, found = in_ball(bodies.moved(part, bodies.rotation(3)))
     by_moments = zernike_moments(found.raw, 20)
     by_quadrature = zernike_quadrature(*body, 20)
-    lost = loss(found.raw, 20)
+    lost = descriptor_error(found.raw, 20)
     assert lost < 1e-9
     assert np.abs(descriptors(by_moments) - descriptors(by_quadrature)).max() < 10.0 * lost
     for key, one in by_moments.items():

@@ -22,7 +22,7 @@ class OBJECT_OT_body_moments_clear(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return selection.poll_selected(cls, context, any_mode=True)
+        return selection.poll_selection(cls, context, any_mode=True)
 
     def execute(self, context: Context) -> set[str]:
         objects = [
@@ -37,8 +37,8 @@ class OBJECT_OT_body_moments_clear(Operator):
             obj.property_unset(SYMMETRY)
             return properties.clear(obj) | section.clear(obj) | symmetric
 
-        count, failures = selection.each(objects, remove)
-        staleness.settle(context, objects)
+        count, failures = selection.apply_to_all(objects, remove)
+        staleness.mark_up_to_date(context, objects)
         done = finding("results_removed", count=count) if objects else finding("no_results_to_remove")
         return selection.summarize(self, count, len(objects), done, failures)
 

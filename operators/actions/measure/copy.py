@@ -17,7 +17,7 @@ from ...write.translations import localized
 from .. import selection
 
 
-def to_clipboard(operator: Operator, context: Context, text: str, done: Finding) -> None:
+def copy_text(operator: Operator, context: Context, text: str, done: Finding) -> None:
     """In background there is no clipboard, and long reports are cut short: the text goes to the standard output."""
     if bpy.app.background:
         sys.stdout.write(text.removesuffix("\n") + "\n")
@@ -44,7 +44,7 @@ class OBJECT_OT_body_moments_copy_value(Operator):
         if not self.value:
             reports.report(self, finding("no_value_to_copy"))
             return {"CANCELLED"}
-        to_clipboard(self, context, self.value, finding("value_copied", value=self.value))
+        copy_text(self, context, self.value, finding("value_copied", value=self.value))
         return {"FINISHED"}
 
 
@@ -60,20 +60,20 @@ class OBJECT_OT_body_moments_copy_report(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if not selection.poll_selected(cls, context, any_mode=True):
+        if not selection.poll_selection(cls, context, any_mode=True):
             return False
         if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
             return reports.unavailable(cls, finding("poll_measure_selected"))
         return True
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected(context)
-        outdated = {obj.name for obj in objects if staleness.reason(obj, context.scene)}
+        objects = selection.selected_measurable(context)
+        outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
         counted = [obj for obj in objects if properties.is_stored(obj)]
         caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
         caveats += total_caveats(counted, context.view_layer)
         text = report_text(context, objects, outdated, caveats)
-        to_clipboard(self, context, text, finding("report_copied", count=len(objects)))
+        copy_text(self, context, text, finding("report_copied", count=len(objects)))
         return {"FINISHED"}
 
 

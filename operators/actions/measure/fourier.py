@@ -12,15 +12,15 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
-from ....core.fourier.wave_vectors import Grid
-from ....core.numerics.float32 import decimal
+from ....core.fourier.wave_vectors import FrequencyGrid
+from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import FileError, MeasureError, finding
 from ...bodies.fourier import ObjectTransform, object_transform
 from ...bodies.measure_object import THREADS
 from ...read import measurable
 from ...settings.options import MeasureOptions
 from ...write import reports, spectrum
-from ..modal import Stepwise
+from ..modal import ModalSteps
 
 SUFFIX = ".npz"
 
@@ -118,7 +118,7 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
             return {"CANCELLED"}
 
 
-class OBJECT_OT_body_moments_fourier_run(Stepwise, _Settings, Operator):
+class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
     """Write the Fourier transform of the active object to a file"""
 
     bl_idname = "object.body_moments_fourier_run"
@@ -133,7 +133,7 @@ class OBJECT_OT_body_moments_fourier_run(Stepwise, _Settings, Operator):
         """All at once: in background there is nobody to press Esc."""
         try:
             self._begin(context)
-            return self.all_at_once(context, 1.0)
+            return self.run_all_steps(context, 1.0)
         except MeasureError as error:
             return self._refuse(error)
 
@@ -142,11 +142,11 @@ class OBJECT_OT_body_moments_fourier_run(Stepwise, _Settings, Operator):
             self._begin(context)
         except MeasureError as error:
             return self._refuse(error)
-        return self.begin_modal(context, 1.0)
+        return self.start_modal(context, 1.0)
 
     def modal(self, context: Context, event: Event) -> set[str]:
         try:
-            return Stepwise.modal(self, context, event)
+            return ModalSteps.modal(self, context, event)
         except MeasureError as error:
             return self._refuse(error)
 
@@ -167,22 +167,22 @@ class OBJECT_OT_body_moments_fourier_run(Stepwise, _Settings, Operator):
         )
         self._steps = self._work.steps()
 
-    def _grid(self, size: float) -> Grid:
+    def _grid(self, size: float) -> FrequencyGrid:
         """The grid for a body of this size in m. Where no largest frequency is asked for, its step is π over the
         size."""
-        return Grid(self.count, decimal(self.largest) or pi / size * (self.count // 2))
+        return FrequencyGrid(self.count, shortest_decimal(self.largest) or pi / size * (self.count // 2))
 
     def _finish(self, context: Context) -> set[str]:
-        found, findings = self._work.result()
+        transform, findings = self._work.result()
         try:
-            spectrum.save(self._path, found, self.frame.lower())
+            spectrum.save(self._path, transform, self.frame.lower())
         except OSError as error:
             raise FileError("fourier_not_written", error=error.strerror or str(error)) from error
-        image = spectrum.picture("Fourier Transform of {:s}".format(self._work.name), found.values, self.count)
+        image = spectrum.picture("Fourier Transform of {:s}".format(self._work.name), transform.values, self.count)
         for area in context.screen.areas if context.screen else ():
             if area.type == "IMAGE_EDITOR":
                 area.spaces.active.image = image
-        done = finding("fourier_written", count=len(found.q), file=self._path.name, image=image.name)
+        done = finding("fourier_written", count=len(transform.q), file=self._path.name, image=image.name)
         reports.report(self, done, *reports.first(findings))
         return {"FINISHED"}
 

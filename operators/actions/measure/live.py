@@ -33,9 +33,9 @@ class OBJECT_OT_body_moments_live(Operator):
         if live.is_live(obj):
             live.stop(obj)
             return {"FINISHED"}
-        found = live.start(obj, context.evaluated_depsgraph_get())
-        if found.refusal is not None:
-            reports.report(self, reports.failure(obj.name, found.refusal))
+        result = live.start(obj, context.evaluated_depsgraph_get())
+        if result.refusal is not None:
+            reports.report(self, reports.failure(obj.name, result.refusal))
         return {"FINISHED"}
 
 

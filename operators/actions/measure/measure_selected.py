@@ -12,16 +12,16 @@ from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity, finding
 from ...bodies.measure_object import Measured, measure_body
 from ...session import results
-from ...session.staleness import settle
+from ...session.staleness import mark_up_to_date
 from ...write import reports
 from ...write.messages import of_severity
 from .. import selection
-from ..modal import Stepwise
+from ..modal import ModalSteps
 
-AT_ONCE = 4  # up to so many objects are measured before the window is drawn again
+MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
 
 
-class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
+class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     """Compute the exact mass properties of the selected objects and store them as custom properties"""
 
     bl_idname = "object.body_moments_measure"
@@ -32,50 +32,50 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not _chosen(context):
+        if not _objects_to_measure(context):
             return reports.unavailable(cls, finding("poll_select_objects"))
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         self._begin(context)
-        return self.all_at_once(context, len(_chosen(context)))
+        return self.run_all_steps(context, len(_objects_to_measure(context)))
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        count = len(_chosen(context))
-        if count <= AT_ONCE or context.window is None:
+        count = len(_objects_to_measure(context))
+        if count <= MAX_OBJECTS_WITHOUT_REDRAW or context.window is None:
             return self.execute(context)
         self._begin(context)
-        return self.begin_modal(context, count)
+        return self.start_modal(context, count)
 
     def _begin(self, context: bpy.types.Context) -> None:
-        self._found: list[tuple[bpy.types.Object, Measured]] = []
-        self._refused: list[tuple[bpy.types.Object, Finding]] = []
+        self._results: list[tuple[bpy.types.Object, Measured]] = []
+        self._refusals: list[tuple[bpy.types.Object, Finding]] = []
         self._failures: list[Finding] = []
-        self._steps = self._measure(_chosen(context), context.evaluated_depsgraph_get())
+        self._steps = self._measure(_objects_to_measure(context), context.evaluated_depsgraph_get())
 
     def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Iterator[int]:
         for done, obj in enumerate(objects, 1):
             try:
-                self._found.append((obj, measure_body(obj, depsgraph)))
+                self._results.append((obj, measure_body(obj, depsgraph)))
             except Exception as error:
-                self._refused.append((obj, internal_error.finding_of(error)))
+                self._refusals.append((obj, internal_error.finding_of(error)))
             yield done
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Nothing is stored before everything is measured, so that a canceled run leaves nothing behind."""
-        for obj, refusal in self._refused:
+        for obj, refusal in self._refusals:
             self._failures.append(reports.failure(obj.name_full, refusal))
-            results.refuse(obj, refusal)
+            results.remember_failure(obj, refusal)
         stored = []
-        for obj, measured in self._found:
-            results.refuse(obj, None)
+        for obj, measured in self._results:
+            results.remember_failure(obj, None)
             try:
                 results.store(obj, measured, context.scene)
             except Exception as error:
                 self._failures.append(reports.failure(obj.name_full, error))
                 continue
             stored.append(obj)
-        settle(context, stored)
+        mark_up_to_date(context, stored)
         self._report(len(stored))
         selection.redraw(context)
         return {"FINISHED"} if stored else {"CANCELLED"}
@@ -83,19 +83,19 @@ class OBJECT_OT_body_moments_measure(Stepwise, bpy.types.Operator):
     def _report(self, stored: int) -> None:
         warned = sum(
             bool(of_severity(measured.measurement.findings, Severity.WARNING, Severity.ERROR))
-            for _, measured in self._found
+            for _, measured in self._results
         )
         tried = stored + len(self._failures)
         done = [finding("measured_several", count=stored, total=tried)] if tried > 1 else []
         if tried == stored == 1:
-            name = self._found[0][0].name
+            name = self._results[0][0].name
             done.append(finding("measured_one_with_warnings" if warned else "measured_one", object=name))
         elif warned:
             done.append(finding("with_warnings", count=warned))
         reports.report(self, *done, *reports.first(self._failures))
 
 
-def _chosen(context: bpy.types.Context) -> list[bpy.types.Object]:
+def _objects_to_measure(context: bpy.types.Context) -> list[bpy.types.Object]:
     """The selected objects; in edit mode the ones being edited."""
     return list(context.selected_objects)
 

@@ -14,10 +14,10 @@ from ...bodies.measure_object import THREADS, measure_object
 from ...read import measurable
 from ...read.fingerprint import matrix_hash, settings_hash
 from ...session import staleness
-from ...session.moments import Computed, as_csv, found, keep
+from ...session.moments import ComputedMoments, as_csv, cache_moments, computed_moments
 from ...settings.options import MeasureOptions
 from ...write import reports
-from .copy import to_clipboard
+from .copy import copy_text
 
 
 def _active(cls: type[Operator], context: Context) -> Object | None:
@@ -48,19 +48,21 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         options = MeasureOptions(order=scene.body_moments.moments_order, surface=True, threads=THREADS)
         depsgraph = context.evaluated_depsgraph_get()
         try:
-            one = measure_object(obj, depsgraph, options)
+            measurement = measure_object(obj, depsgraph, options)
         except MeasureError as error:
             reports.report(self, reports.failure(obj.name, error))
             return {"CANCELLED"}
-        if one.length is not None:
+        if measurement.length is not None:
             reports.report(self, finding("wire_without_moments", object=obj.name))
             return {"CANCELLED"}
-        area = one.area_moments.truncated(options.order)
-        volume = (one.volume_moments or replace(area * one.thickness, of=Measure.VOLUME)).truncated(options.order)
+        area = measurement.area_moments.truncate(options.order)
+        volume = (measurement.volume_moments or replace(area * measurement.thickness, measure=Measure.VOLUME)).truncate(
+            options.order
+        )
         key = (matrix_hash(obj), settings_hash(obj, scene), staleness.geometry_changes(obj))
-        keep(obj, Computed(obj.name, volume, area, one.rotation, one.location, key))
+        cache_moments(obj, ComputedMoments(obj.name, volume, area, measurement.rotation, measurement.location, key))
         done = finding("moments_computed", count=len(volume.raw), object=obj.name)
-        reports.report(self, done, *reports.first(one.findings))
+        reports.report(self, done, *reports.first(measurement.findings))
         return {"FINISHED"}
 
 
@@ -74,18 +76,18 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         obj = _active(cls, context)
-        if obj is not None and found(obj) is None:
+        if obj is not None and computed_moments(obj) is None:
             reports.unavailable(cls, finding("poll_compute_moments"))
-        return obj is not None and found(obj) is not None
+        return obj is not None and computed_moments(obj) is not None
 
     def execute(self, context: Context) -> set[str]:
-        settings, computed = context.scene.body_moments, found(context.object)
+        settings, computed = context.scene.body_moments, computed_moments(context.object)
         try:
             text = as_csv(computed, settings.moments_of, settings.moments_about, settings.frame)
         except MeasureError as error:
             reports.report(self, reports.failure(computed.name, error))
             return {"CANCELLED"}
-        to_clipboard(self, context, text, finding("moments_copied", count=len(computed.volume.raw)))
+        copy_text(self, context, text, finding("moments_copied", count=len(computed.volume.raw)))
         return {"FINISHED"}
 
 

@@ -8,8 +8,8 @@ import bpy
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, Operator
 
-from ....core.numerics.float32 import decimal
-from ....core.plane.polygon import flaws, nested
+from ....core.numerics.float32 import shortest_decimal
+from ....core.plane.polygon import find_defects, orient_loops
 from ....core.plane.section import Section, fit_plane, measure_section, region
 from ....core.verdict.finding import Finding, MeasureError, ReadError, Severity, finding
 from ....core.verdict.tolerances import NEGLIGIBLE
@@ -20,9 +20,9 @@ from ...write import properties, reports
 from ...write import section as record
 from ...write.messages import of_severity
 from .. import selection
-from .copy import to_clipboard
+from .copy import copy_text
 
-FILLED = 1e-4  # Blender's fill and the outlines differ by more than this share: the fill is wrong
+FILL_AREA_RTOL = 1e-4  # Blender's fill and the outlines differ by more than this share: the fill is wrong
 
 
 def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[Finding, ...]]:
@@ -31,52 +31,55 @@ def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[F
     Raises MeasureError where there is none.
     """
     reading = read_section(obj, depsgraph)
-    unit = decimal(depsgraph.scene.unit_settings.scale_length)
+    unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
     try:
-        section, findings = _measured(reading, unit)
+        section, findings = _measure_reading(reading, unit)
     except MeasureError as error:
         error.about(obj.name)
         raise
-    return section, reading.what, (*reading.findings, *findings)
+    return section, reading.description, (*reading.findings, *findings)
 
 
-def _measured(reading: SectionReading, unit: float) -> tuple[Section, list[Finding]]:
+def _measure_reading(reading: SectionReading, unit: float) -> tuple[Section, list[Finding]]:
     points, error, findings = reading.points * unit, reading.error * unit, []
     plane = fit_plane(points, reading.triangles, reading.rotation, reading.location * unit, error, reading.facing)
-    flat = plane.flat(points)
+    flat = plane.project(points)
     if reading.loops is not None:
-        edges = nested(flat, reading.loops)
+        edges = orient_loops(flat, reading.loops)
     else:
-        edges, turned = region(plane, points, reading.triangles, reading.faces, error)
-        if turned:
-            findings.append(finding("section_faces_reversed", count=turned))
-    found = flaws(flat, edges, error)
-    if reading.loops is not None and found.crossings:
-        raise ReadError("outlines_cross_at", count=found.crossings)
-    if reading.loops is not None and found.doubled:
+        edges, flipped = region(plane, points, reading.triangles, reading.faces, error)
+        if flipped:
+            findings.append(finding("section_faces_reversed", count=flipped))
+    defects = find_defects(flat, edges, error)
+    if reading.loops is not None and defects.crossings:
+        raise ReadError("outlines_cross_at", count=defects.crossings)
+    if reading.loops is not None and defects.overlapping:
         raise ReadError("outlines_cross")
-    if found.negative:
+    if defects.negative:
         raise ReadError("section_face_crosses_itself")
-    section = measure_section(plane, points, edges, error, found.shared)
-    if found.crossings or found.doubled:
+    section = measure_section(plane, points, edges, error, defects.shared_length)
+    if defects.crossings or defects.overlapping:
         findings.append(finding("section_faces_overlap"))
-    if found.lost:
+    if defects.too_many_pairs:
         findings.append(finding("section_overlap_unchecked"))
-    if plane.off > 4.0 * error:
-        share = float(plane.off / np.sqrt(section.area))
+    if plane.out_of_plane > 4.0 * error:
+        share = float(plane.out_of_plane / np.sqrt(section.area))
         findings.append(
             finding("section_projected_slightly" if share < NEGLIGIBLE else "section_projected", share=share)
         )
-    if reading.drawn is not None and abs(reading.drawn * unit**2 - section.area) > FILLED * section.area:
-        findings.append(finding("section_fill_wrong", share=float(reading.drawn * unit**2 / section.area)))
+    if (
+        reading.drawn_area is not None
+        and abs(reading.drawn_area * unit**2 - section.area) > FILL_AREA_RTOL * section.area
+    ):
+        findings.append(finding("section_fill_wrong", share=float(reading.drawn_area * unit**2 / section.area)))
     return section, findings
 
 
-def outdated(obj: Object, scene: bpy.types.Scene, found: record.StoredSection) -> str | None:
+def stale_reason(obj: Object, scene: bpy.types.Scene, stored: record.StoredSection) -> str | None:
     """The code of why the stored section is out of date, None where it is not."""
-    if found.unit != decimal(scene.unit_settings.scale_length):
+    if stored.unit != shortest_decimal(scene.unit_settings.scale_length):
         return "stale_unit_scale"
-    return staleness.section_reason(obj)
+    return staleness.section_stale_reason(obj)
 
 
 class OBJECT_OT_body_moments_measure_section(Operator):
@@ -92,21 +95,21 @@ class OBJECT_OT_body_moments_measure_section(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if not _chosen(context):
+        if not _objects_with_sections(context):
             return reports.unavailable(cls, finding("poll_section"))
         return True
 
     def execute(self, context: Context) -> set[str]:
         depsgraph = context.evaluated_depsgraph_get()
-        found, failures = [], []
-        for obj in _chosen(context):
+        sections, failures = [], []
+        for obj in _objects_with_sections(context):
             try:
                 properties.require_storable(obj)
-                found.append((obj, *section_of(obj, depsgraph)))
+                sections.append((obj, *section_of(obj, depsgraph)))
             except Exception as error:
                 failures.append(reports.failure(obj.name_full, error))
-        unit = decimal(context.scene.unit_settings.scale_length)
-        for obj, section, what, findings in found:
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        for obj, section, what, findings in sections:
             numbers = np.concatenate(
                 [
                     section.plane.origin,
@@ -118,17 +121,17 @@ class OBJECT_OT_body_moments_measure_section(Operator):
             )
             mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
             record.store(obj, section, what, findings, mark, unit)
-        staleness.settle_marks(context, [(obj, record.fingerprint(obj)) for obj, *_ in found])
+        staleness.mark_fingerprints(context, [(obj, record.fingerprint(obj)) for obj, *_ in sections])
         selection.redraw(context)
-        warned = sum(bool(of_severity(findings, Severity.WARNING, Severity.ERROR)) for *_, findings in found)
-        if len(found) > 1:
-            done = [finding("measured_sections", count=len(found))]
+        warned = sum(bool(of_severity(findings, Severity.WARNING, Severity.ERROR)) for *_, findings in sections)
+        if len(sections) > 1:
+            done = [finding("measured_sections", count=len(sections))]
             done += [finding("with_warnings", count=warned)] if warned else []
         else:
             code = "measured_section_with_warnings" if warned else "measured_section"
-            done = [finding(code, object=obj.name) for obj, *_ in found]
+            done = [finding(code, object=obj.name) for obj, *_ in sections]
         reports.report(self, *done, *reports.first(failures))
-        return {"FINISHED"} if found else {"CANCELLED"}
+        return {"FINISHED"} if sections else {"CANCELLED"}
 
 
 class OBJECT_OT_body_moments_copy_section(Operator):
@@ -146,14 +149,14 @@ class OBJECT_OT_body_moments_copy_section(Operator):
 
     def execute(self, context: Context) -> set[str]:
         obj = context.object
-        found = record.stored(obj)
-        code = outdated(obj, context.scene, found)
-        text = record.text(obj.name, found, None if code is None else Finding(code))
-        to_clipboard(self, context, text, finding("section_copied", object=obj.name))
+        stored = record.stored(obj)
+        code = stale_reason(obj, context.scene, stored)
+        text = record.text(obj.name, stored, None if code is None else Finding(code))
+        copy_text(self, context, text, finding("section_copied", object=obj.name))
         return {"FINISHED"}
 
 
-def _chosen(context: Context) -> list[Object]:
+def _objects_with_sections(context: Context) -> list[Object]:
     """The meshes being edited, else the selected objects that may have a section."""
     if context.mode != "EDIT_MESH":
         return [obj for obj in context.view_layer.objects.selected if obj.type in SECTION_TYPES]

@@ -13,15 +13,15 @@ from bpy.types import Context, Object, Operator
 
 from ....core.measurement import Measurement
 from ....core.verdict.finding import EditRefusedError, finding
-from ....core.verdict.health import Faults
+from ....core.verdict.health import DefectiveElements
 from ...bodies.measure_object import measure_object
 from ...session import staleness
 from ...write import properties, reports
 from .. import selection
 
-DEFECTS = {field.name: "defect_" + field.name for field in fields(Faults)}
+DEFECTS = {field.name: "defect_" + field.name for field in fields(DefectiveElements)}
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
-MOVING = {
+DEFORMING_MODIFIERS = {
     "ARMATURE",
     "CAST",
     "CORRECTIVE_SMOOTH",
@@ -75,49 +75,56 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             bpy.ops.object.mode_set(mode="OBJECT")
         objects = [obj for obj in context.view_layer.objects.selected if obj.type == "MESH"]
         depsgraph = context.evaluated_depsgraph_get()
-        found: dict[Object, Measurement] = {}
+        measurements: dict[Object, Measurement] = {}
         faults: dict[Object, dict[str, np.ndarray]] = {}
 
         def measure(obj: Object) -> bool:
-            _check(obj)
-            found[obj] = measure_object(obj, depsgraph)
+            _require_editable_mesh(obj)
+            measurements[obj] = measure_object(obj, depsgraph)
             return True
 
         def store(obj: Object) -> bool:
-            properties.store(obj, found[obj])
-            if wrong := _faults(found[obj]):
+            properties.store(obj, measurements[obj])
+            if wrong := _defects_by_kind(measurements[obj]):
                 faults[obj] = wrong
             return True
 
         # Not each stored as it is measured: Blender would evaluate the scene again for every one of them.
-        _, failures = selection.each(objects, measure)
-        count, unstored = selection.each(list(found), store)
+        _, failures = selection.apply_to_all(objects, measure)
+        count, unstored = selection.apply_to_all(list(measurements), store)
         failures += unstored
         if faults:
-            _show(context, faults)
+            _show_defects(context, faults)
         elif editing:
             bpy.ops.object.mode_set(mode="EDIT")
-        staleness.settle(context, list(found))
+        staleness.mark_up_to_date(context, list(measurements))
         done = finding("no_defects", count=count)
         if faults:
             done = finding("with_defects", count=len(faults), total=count)
-        defects = [finding("object_defects", object=obj.name, defects=_counts(found)) for obj, found in faults.items()]
+        defects = [
+            finding("object_defects", object=obj.name, defects=_counts(measurements))
+            for obj, measurements in faults.items()
+        ]
         return selection.summarize(self, count, len(objects), done, failures, defects)
 
 
-def _check(obj: Object) -> None:
+def _require_editable_mesh(obj: Object) -> None:
     """Raises where what is measured is not what could be edited."""
     if not obj.is_editable or not obj.data.is_editable:
         raise EditRefusedError("linked_object_data")
-    changing = [modifier.name for modifier in obj.modifiers if modifier.show_viewport and modifier.type not in MOVING]
+    changing = [
+        modifier.name
+        for modifier in obj.modifiers
+        if modifier.show_viewport and modifier.type not in DEFORMING_MODIFIERS
+    ]
     if changing:
         raise EditRefusedError("modified_mesh", modifiers=changing)
 
 
-def _faults(measurement: Measurement) -> dict[str, np.ndarray]:
+def _defects_by_kind(measurement: Measurement) -> dict[str, np.ndarray]:
     """By kind, without the kinds that have none."""
-    faults = measurement.health.faults
-    arrays = {field.name: np.asarray(getattr(faults, field.name), np.int64) for field in fields(faults)}
+    elements = measurement.health.defective_elements
+    arrays = {field.name: np.asarray(getattr(elements, field.name), np.int64) for field in fields(elements)}
     return {name: indices for name, indices in arrays.items() if len(indices)}
 
 
@@ -125,35 +132,35 @@ def _counts(found: dict[str, np.ndarray]) -> list[dict]:
     return [finding(DEFECTS[kind], count=len(indices)).as_record() for kind, indices in found.items()]
 
 
-def _show(context: Context, faults: dict[Object, dict[str, np.ndarray]]) -> None:
+def _show_defects(context: Context, faults: dict[Object, dict[str, np.ndarray]]) -> None:
     """Edit Mode on the faulty objects alone, with their faults selected."""
     for obj in list(context.view_layer.objects.selected):
         if obj not in faults:
             obj.select_set(False)
     if context.view_layer.objects.active not in faults:
         context.view_layer.objects.active = next(iter(faults))
-    dimensions = {indices.ndim for found in faults.values() for indices in found.values()}
+    dimensions = {indices.ndim for elements in faults.values() for indices in elements.values()}
     context.tool_settings.mesh_select_mode = (False, 2 in dimensions, 1 in dimensions)
     bpy.ops.ed.undo_push(message="Measure")  # the undo step of Edit Mode that follows holds meshes only
     bpy.ops.object.mode_set(mode="EDIT")
-    for obj, found in faults.items():
-        _select(obj, found)
+    for obj, elements in faults.items():
+        _select_elements(obj, elements)
 
 
-def _select(obj: Object, found: dict[str, np.ndarray]) -> None:
+def _select_elements(obj: Object, elements: dict[str, np.ndarray]) -> None:
     """Select exactly the faults. (k, 2) arrays are edges by their vertices, (k,) arrays are
     faces.
     """
-    edges = [indices for indices in found.values() if indices.ndim == 2]
-    faces = [indices for indices in found.values() if indices.ndim == 1]
+    edges = [indices for indices in elements.values() if indices.ndim == 2]
+    faces = [indices for indices in elements.values() if indices.ndim == 1]
     mesh = bmesh.from_edit_mesh(obj.data)
     for sequence in (mesh.verts, mesh.edges, mesh.faces):
         sequence.ensure_lookup_table()
     for sequence in (mesh.faces, mesh.edges, mesh.verts):
         for element in sequence:
             element.select = False
-    for one, other in (pair for indices in edges for pair in indices.tolist()):
-        edge = mesh.edges.get((mesh.verts[one], mesh.verts[other]))
+    for start, end in (pair for indices in edges for pair in indices.tolist()):
+        edge = mesh.edges.get((mesh.verts[start], mesh.verts[end]))
         if edge is not None:  # the diagonals of a tessellation are no edges of the mesh
             edge.hide_set(False)
             edge.select_set(True)

@@ -19,16 +19,16 @@ from bpy.types import Context, Menu, Object, Operator
 from bpy_extras.io_utils import ImportHelper
 from numpy.typing import NDArray
 
-from ....core.numerics.float32 import decimal
-from ....core.scans.formats import SUFFIXES, placed, read_scan, suffix
+from ....core.numerics.float32 import shortest_decimal
+from ....core.scans.formats import SUFFIXES, read_scan, sample_matrix, scan_suffix
 from ....core.scans.numpy_files import TYPES, read_raw
 from ....core.scans.scan import Scan
 from ....core.verdict.finding import FileError, Finding, MeasureError, finding
 from ...read.vdb import openvdb
 from ...write import reports
 
-GRID = "density"
-SLAB = 1 << 22  # samples at a time
+GRID_NAME = "density"
+SAMPLES_PER_SLAB = 1 << 22  # samples at a time
 
 
 class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
@@ -97,12 +97,14 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         path = Path(bpy.path.abspath(self.filepath))
         if not path.name or path.is_dir():
             raise FileError("no_import_file")
-        target = path.with_name(path.name[: -len(suffix(path)) or None] + ".vdb")
+        target = path.with_name(path.name[: -len(scan_suffix(path)) or None] + ".vdb")
         scan = self._scan(path)
-        matrix, decided = placed(scan, tuple(map(decimal, self.spacing)) if self.use_spacing else None, None, None)
+        matrix, decided = sample_matrix(
+            scan, tuple(map(shortest_decimal, self.spacing)) if self.use_spacing else None, None, None
+        )
         if target.exists() and not self.overwrite:
             raise FileError("file_exists", file=target.name)
-        matrix[:3] /= decimal(context.scene.unit_settings.scale_length)
+        matrix[:3] /= shortest_decimal(context.scene.unit_settings.scale_length)
         try:
             low = _write(module, target, scan, matrix)
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
@@ -116,7 +118,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
 
     def _scan(self, path: Path) -> Scan:
         try:
-            if suffix(path) == ".raw" and all(self.raw_shape):
+            if scan_suffix(path) == ".raw" and all(self.raw_shape):
                 return read_raw(path, self.raw_shape, self.raw_type, self.raw_big_endian)
             return read_scan(path)
         except OSError as error:
@@ -134,7 +136,7 @@ def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> flo
         exact = exact and np.array_equal(slab.astype(np.float32), slab)
     background = 0.0 if least >= 0.0 else float(np.floor(least) - 1.0)
     grid = (module.FloatGrid if exact else module.DoubleGrid)(background)
-    grid.name, grid.gridClass = GRID, "fog volume"
+    grid.name, grid.gridClass = GRID_NAME, "fog volume"
     grid.transform = module.createLinearTransform(matrix.T.tolist())
     for start, slab in _slabs(scan):
         grid.copyFromArray(np.ascontiguousarray(slab, np.float32 if exact else np.float64), ijk=(start, 0, 0))
@@ -149,7 +151,7 @@ def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> flo
 
 def _slabs(scan: Scan) -> Iterator[tuple[int, NDArray[np.float64]]]:
     samples = scan.samples
-    planes = max(1, SLAB // (samples.shape[1] * samples.shape[2]))
+    planes = max(1, SAMPLES_PER_SLAB // (samples.shape[1] * samples.shape[2]))
     for start in range(0, samples.shape[0], planes):
         yield start, samples[start : start + planes].astype(np.float64) * scan.slope + scan.intercept
 
@@ -158,10 +160,10 @@ def _object(context: Context, path: Path) -> Object:
     volume = bpy.data.volumes.new(path.stem)
     volume.filepath = str(path)
     obj = bpy.data.objects.new(path.stem, volume)
-    obj.body_moments.grid = GRID
+    obj.body_moments.grid = GRID_NAME
     context.collection.objects.link(obj)
-    for other in context.selected_objects:
-        other.select_set(False)
+    for previous in context.selected_objects:
+        previous.select_set(False)
     obj.select_set(True)
     context.view_layer.objects.active = obj
     return obj

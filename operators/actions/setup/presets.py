@@ -11,12 +11,12 @@ from bpy.types import Context, Object, Operator
 
 from ....core.density.materials import BY_NAME, MATERIALS
 from ....core.verdict.finding import finding
-from ...scene.transforms import require_own
-from ...settings.properties import COPIED, copy_settings
+from ...scene.transforms import require_storable_data
+from ...settings.properties import COPIED_PROPERTIES, copy_settings
 from ...write import reports
 from .. import selection
 
-PRESETS = "body_moments"  # folder of the user's presets
+PRESET_FOLDER = "body_moments"  # folder of the user's presets
 
 
 def _targets(context: Context) -> list[Object]:
@@ -26,7 +26,7 @@ def _targets(context: Context) -> list[Object]:
     return objects if active is None or active in objects else [active, *objects]
 
 
-TABLE = [
+MATERIAL_ITEMS = [
     (
         material.name,
         material.name,
@@ -51,7 +51,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
     material: EnumProperty(
         name="Material",
         description="Material to take the density from",
-        items=TABLE,
+        items=MATERIAL_ITEMS,
     )
 
     @classmethod
@@ -69,7 +69,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
         objects = _targets(context)
 
         def set_density(obj: Object) -> bool:
-            require_own(obj, "library_override_settings")
+            require_storable_data(obj, "library_override_settings")
             settings = obj.body_moments
             before = _density_of(settings)
             settings.mass_from = "DENSITY"
@@ -79,7 +79,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
             settings.material = material.name
             return before != _density_of(settings)
 
-        changed, failures = selection.each(objects, set_density)
+        changed, failures = selection.apply_to_all(objects, set_density)
         done = finding("material_set", count=changed, material=material.name)
         idle = finding("material_set_already", material=material.name)
         return selection.summarize(self, changed, len(objects), done, failures, idle=idle)
@@ -100,7 +100,7 @@ class MATERIAL_OT_body_moments_set_density(Operator):
     material: EnumProperty(
         name="Material",
         description="Entry of the material table to take the density from",
-        items=TABLE,
+        items=MATERIAL_ITEMS,
     )
     target: StringProperty(
         name="Blender Material",
@@ -146,10 +146,10 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
         objects = [obj for obj in context.view_layer.objects.selected if obj != active]
 
         def copy(obj: Object) -> bool:
-            require_own(obj, "library_override_settings")
+            require_storable_data(obj, "library_override_settings")
             return copy_settings(active.body_moments, obj.body_moments)
 
-        count, failures = selection.each(objects, copy)
+        count, failures = selection.apply_to_all(objects, copy)
         done = finding("settings_copied", count=count)
         return selection.summarize(self, count, len(objects), done, failures, idle=finding("settings_equal"))
 
@@ -160,9 +160,9 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     bl_idname = "object.body_moments_preset_add"
     bl_label = "Add Body Moments Preset"
     preset_menu = "OBJECT_PT_body_moments_presets"
-    preset_subdir = PRESETS
+    preset_subdir = PRESET_FOLDER
     preset_defines = ["settings = bpy.context.object.body_moments"]
-    preset_values = ["settings." + name for name in COPIED if name != "density_volume"]  # it is the file's
+    preset_values = ["settings." + name for name in COPIED_PROPERTIES if name != "density_volume"]  # it is the file's
 
 
 CLASSES = (

@@ -17,18 +17,18 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerProperty, StringProperty
 from bpy.types import Context, Event, Object, Operator, PropertyGroup, Scene
 
-from ....core.shape.library import UNCLEAR, Entry, Similarity, nearest, read_library, verdict
-from ....core.shape.registration import FITS, Match
-from ....core.shape.signature import Likeness, Signature, compared
+from ....core.shape.library import UNDECIDED_HANDEDNESS, Entry, Similarity, classify, rank, read_library
+from ....core.shape.registration import MAX_FIT_RTOL, RigidMatch
+from ....core.shape.signature import Likeness, Signature, similarity
 from ....core.verdict.finding import FileError, Finding, MeasureError, finding
-from ...bodies.shape import Skin, matched, surface_shape_of
+from ...bodies.shape import SurfaceDistance, register_surfaces, surface_shape_of
 from ...read import measurable_objects
 from ...write import reports
 from .. import selection
-from ..modal import Stepwise
+from ..modal import ModalSteps
 
-ORDER = 12  # of the descriptors: more than separate parts, a fourth of the time that 20 takes
-LISTED = 20
+DESCRIPTOR_ORDER = 12  # of the descriptors: more than separate parts, a fourth of the time that 20 takes
+MAX_LISTED_BODIES = 20
 MIRRORED = BoolProperty(name="Ignore Mirroring", default=False, description="Rank mirror images like copies")
 SCALED = BoolProperty(name="Ignore Size", default=False, description="Rank scaled copies like copies")
 
@@ -54,7 +54,7 @@ class BodyMomentsSearch(PropertyGroup):
 SHAPES = {similarity: "shapes_" + similarity for similarity in Similarity}  # codes of how many there are
 
 
-class _Find:
+class _SearchMixin:
     """What both searches share."""
 
     bl_options = {"REGISTER", "UNDO"}
@@ -67,29 +67,29 @@ class _Find:
             return reports.unavailable(cls, finding("poll_active_wanted"))
         return True
 
-    def look(self, context: Context) -> Iterator[float]:
+    def measure_active(self, context: Context) -> Iterator[float]:
         """Measure the active object: `shape`, and `wanted`, its signature. It stays None where there is none, which is
         reported."""
         self.wanted: Signature | None = None
         try:
             self.shape = surface_shape_of(context.object, context.evaluated_depsgraph_get())
             yield 0.0
-            self.wanted = self.shape.signature(ORDER)
+            self.wanted = self.shape.signature(DESCRIPTOR_ORDER)
         except MeasureError as error:
             reports.report(self, reports.refusal(error.about(context.object.name)))
 
-    def keep(self, context: Context, rows: list[tuple[Entry, Likeness]], looked_at: str) -> None:
+    def store_results(self, context: Context, ranked: list[tuple[Entry, Likeness]], looked_at: str) -> None:
         search = context.scene.body_moments_search
         search.wanted, search.looked_at = context.object.name, looked_at
         search.found.clear()
-        for entry, likeness in rows[:LISTED]:
+        for entry, likeness in ranked[:MAX_LISTED_BODIES]:
             row = search.found.add()
-            row.name, row.file, row.verdict = entry.name, entry.file, verdict(likeness).value
+            row.name, row.file, row.verdict = entry.name, entry.file, classify(likeness).value
             row.distance = likeness.distance(self.scaled, self.mirrored)
             row.scale = likeness.scale
 
     def report_found(self, rows: list[tuple[Entry, Likeness]], failures: list[Finding]) -> set[str]:
-        counts = Counter(verdict(likeness) for _, likeness in rows)
+        counts = Counter(classify(likeness) for _, likeness in rows)
         alike = [
             finding(SHAPES[similarity], count=counts[similarity]).as_record()
             for similarity in Similarity
@@ -105,7 +105,7 @@ class _Find:
         return {"FINISHED"}
 
 
-class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
+class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
     """Find the visible objects most similar in shape to the active object"""
 
     bl_idname = "object.body_moments_find_similar"
@@ -127,57 +127,59 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
 
     def execute(self, context: Context) -> set[str]:
         self._begin(context)
-        return self.all_at_once(context, len(self._others))
+        return self.run_all_steps(context, len(self._others))
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         if context.window is None:
             return self.execute(context)
         self._begin(context)
-        return self.begin_modal(context, len(self._others))
+        return self.start_modal(context, len(self._others))
 
     def _begin(self, context: Context) -> None:
         self._others = [
             obj for obj in measurable_objects(context.view_layer) if obj != context.object and obj.visible_get()
         ]
         self._objects: dict[Entry, Object] = {}
-        self._hands: dict[Entry, bool | None] = {}  # of those whose signatures leave it open
+        self._mirror_images: dict[Entry, bool | None] = {}  # of those whose signatures leave it open
         self._failures: list[Finding] = []
         self._steps = self._compare(context)
 
     def _compare(self, context: Context) -> Iterator[float]:
-        yield from self.look(context)
+        yield from self.measure_active(context)
         if self.wanted is None:
             return
-        wanted, skin = self.shape, None
+        active_shape, skin = self.shape, None
 
         def compare(obj: Object) -> Iterator[float]:
             nonlocal skin
             shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
-            entry = Entry(obj.name_full, "", shape.signature(ORDER))
-            likeness = compared(self.wanted, entry.signature)
-            if verdict(likeness) in UNCLEAR:
+            entry = Entry(obj.name_full, "", shape.signature(DESCRIPTOR_ORDER))
+            likeness = similarity(self.wanted, entry.signature)
+            if classify(likeness) in UNDECIDED_HANDEDNESS:
                 yield 0.6
                 if skin is None:
-                    skin = Skin(wanted)
-                    for _ in skin.grow():
+                    skin = SurfaceDistance(active_shape)
+                    for _ in skin.build():
                         yield 0.6
-                own = Skin(shape)
-                yield from (0.6 + 0.3 * share for share in own.grow())
-                self._hands[entry] = _mirrored(matched(shape, wanted, own, skin, 1.0 / likeness.scale), wanted.size)
+                skin_compared = SurfaceDistance(shape)
+                yield from (0.6 + 0.3 * share for share in skin_compared.build())
+                self._mirror_images[entry] = _is_mirror_image(
+                    register_surfaces(shape, active_shape, skin_compared, skin, 1.0 / likeness.scale), active_shape.size
+                )
             self._objects[entry] = obj
 
-        yield from selection.one_by_one(self._others, compare, self._failures)
+        yield from selection.iterate_objects(self._others, compare, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing is kept or selected before everything is compared, so that a canceled search leaves nothing."""
         if self.wanted is None:
             return {"CANCELLED"}
-        rows = [
-            (entry, replace(likeness, mirrored=self._hands.get(entry, likeness.mirrored)))
-            for entry, likeness in nearest(self.wanted, self._objects, self.scaled, self.mirrored)
+        ranked = [
+            (entry, replace(likeness, is_mirror_image=self._mirror_images.get(entry, likeness.is_mirror_image)))
+            for entry, likeness in rank(self.wanted, self._objects, self.scaled, self.mirrored)
         ]
-        self.keep(context, rows, "")
+        self.store_results(context, ranked, "")
         if self.select:
             chosen = {
                 Similarity.COPY: True,
@@ -185,14 +187,14 @@ class OBJECT_OT_body_moments_find_similar(Stepwise, _Find, Operator):
                 Similarity.SCALED_COPY: self.scaled,
                 Similarity.SCALED_MIRROR: self.mirrored and self.scaled,
             }
-            picked = [self._objects[entry] for entry, likeness in rows if chosen.get(verdict(likeness))]
+            picked = [self._objects[entry] for entry, likeness in ranked if chosen.get(classify(likeness))]
             for obj in context.view_layer.objects:
                 obj.select_set(obj in picked or obj == context.object)
         selection.redraw(context)
-        return self.report_found(rows, self._failures)
+        return self.report_found(ranked, self._failures)
 
 
-class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
+class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
     """Find the bodies of a library most similar in shape to the active object"""
 
     bl_idname = "object.body_moments_find_in_library"
@@ -218,14 +220,14 @@ class OBJECT_OT_body_moments_find_in_library(_Find, Operator):
         except FileError as error:
             reports.report(self, error.finding)
             return {"CANCELLED"}
-        for _ in self.look(context):
+        for _ in self.measure_active(context):
             pass
         if self.wanted is None:
             return {"CANCELLED"}
-        rows = nearest(self.wanted, entries, self.scaled, self.mirrored)
-        self.keep(context, rows, path.name)
+        ranked = rank(self.wanted, entries, self.scaled, self.mirrored)
+        self.store_results(context, ranked, path.name)
         causes = [without.as_record() for without in reports.first(missing)]
-        return self.report_found(rows, [finding("records_left_out", causes=causes)] if missing else [])
+        return self.report_found(ranked, [finding("records_left_out", causes=causes)] if missing else [])
 
 
 class OBJECT_OT_body_moments_select_found(Operator):
@@ -238,12 +240,12 @@ class OBJECT_OT_body_moments_select_found(Operator):
     name: StringProperty(name="Name", description="Object to select")
 
     def execute(self, context: Context) -> set[str]:
-        obj = next((one for one in context.view_layer.objects if one.name_full == self.name), None)
+        obj = next((candidate for candidate in context.view_layer.objects if candidate.name_full == self.name), None)
         if obj is None:
             reports.report(self, finding("object_not_in_view_layer", object=self.name))
             return {"CANCELLED"}
-        for other in context.view_layer.objects:
-            other.select_set(other == obj)
+        for candidate in context.view_layer.objects:
+            candidate.select_set(candidate == obj)
         context.view_layer.objects.active = obj
         return {"FINISHED"}
 
@@ -255,9 +257,9 @@ def _read(path: Path) -> tuple[list[Entry], list[Finding]]:
         raise FileError("library_file_unreadable", file=path.name, error=error.strerror or str(error)) from error
 
 
-def _mirrored(found: Match, size: float) -> bool | None:
+def _is_mirror_image(match: RigidMatch, size: float) -> bool | None:
     """Whether the surfaces say that it is a mirror image; None where they say neither."""
-    return False if found.largest <= FITS * size else True if found.mirrored else None
+    return False if match.max_distance <= MAX_FIT_RTOL * size else True if match.is_mirror_image else None
 
 
 CLASSES = (

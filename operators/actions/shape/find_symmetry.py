@@ -22,19 +22,19 @@ from bpy.props import (
 )
 from bpy.types import Context, Event, Object, Operator, PropertyGroup
 
-from ....core.inertia.canonical_frame import NOISE
+from ....core.inertia.canonical_frame import NOISE_LEVEL
 from ....core.measurement import Measurement
-from ....core.shape.symmetry import Symmetry, confirmed, symmetry
+from ....core.shape.symmetry import Symmetry, confirm, symmetry
 from ....core.verdict.finding import Finding, finding
-from ...bodies.shape import Shape, Skin, displayed, surface_shape_of
+from ...bodies.shape import Shape, SurfaceDistance, is_display_mesh, surface_shape_of
 from ...read.fingerprint import scale_hash
-from ...scene.transforms import require_own
+from ...scene.transforms import require_storable_data
 from ...session import staleness
 from ...write import reports
 from .. import selection
-from ..modal import Stepwise
+from ..modal import ModalSteps
 
-KEPT = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
+MAX_STORED_ELEMENTS = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
 
 
 class BodyMomentsElement(PropertyGroup):
@@ -69,7 +69,7 @@ class BodyMomentsSymmetry(PropertyGroup):
     elements: CollectionProperty(type=BodyMomentsElement)
 
 
-class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
+class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
     """Find the rotation axes and mirror planes of the selected objects"""
 
     bl_idname = "object.body_moments_find_symmetry"
@@ -93,47 +93,49 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return selection.poll_selected(cls, context, any_mode=True)
+        return selection.poll_selection(cls, context, any_mode=True)
 
     def execute(self, context: Context) -> set[str]:
         self._begin(context)
-        return self.all_at_once(context, len(self._objects))
+        return self.run_all_steps(context, len(self._objects))
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         self._begin(context)
         if context.window is None:
-            return self.all_at_once(context, len(self._objects))
-        return self.begin_modal(context, len(self._objects))
+            return self.run_all_steps(context, len(self._objects))
+        return self.start_modal(context, len(self._objects))
 
     def _begin(self, context: Context) -> None:
-        self._objects = selection.selected(context)
-        self._found: list[tuple[Object, Measurement, Symmetry, Symmetry]] = []
+        self._objects = selection.selected_measurable(context)
+        self._results: list[tuple[Object, Measurement, Symmetry, Symmetry]] = []
         self._failures: list[Finding] = []
 
         def find(obj: Object) -> Iterator[float]:
-            require_own(obj, "library_override_symmetry")
+            require_storable_data(obj, "library_override_symmetry")
             shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
-            skin = Skin(shape)
-            yield from (0.4 + 0.5 * share for share in skin.grow())
-            self._found.append((obj, shape.measurement, *_symmetries(shape, skin, self.tolerance)))
+            skin = SurfaceDistance(shape)
+            yield from (0.4 + 0.5 * share for share in skin.build())
+            self._results.append((obj, shape.measurement, *_find_symmetries(shape, skin, self.tolerance)))
 
-        self._steps = selection.one_by_one(self._objects, find, self._failures)
+        self._steps = selection.iterate_objects(self._objects, find, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing is kept before all are looked at, so that a canceled search leaves nothing behind."""
-        for obj, measurement, found, allowed in self._found:
-            _keep(obj, measurement, found, allowed, self.tolerance)
+        for obj, measurement, found_symmetry, allowed in self._results:
+            _store_symmetry(obj, measurement, found_symmetry, allowed, self.tolerance)
         # Blender reports what was written as a change of the object.
-        staleness.settle_marks(context, [(obj, obj.body_moments_symmetry.fingerprint) for obj, *_ in self._found])
+        staleness.mark_fingerprints(
+            context, [(obj, obj.body_moments_symmetry.fingerprint) for obj, *_ in self._results]
+        )
         symmetries = [
             finding(
-                "symmetry_found_of_display_mesh" if displayed(measurement) else "symmetry_found",
+                "symmetry_found_of_display_mesh" if is_display_mesh(measurement) else "symmetry_found",
                 object=obj.name,
-                group=found.group,
-                description=[clause.as_record() for clause in described(found)],
+                group=found_symmetry.group,
+                description=[clause.as_record() for clause in describe(found_symmetry)],
             )
-            for obj, measurement, found, _ in self._found
+            for obj, measurement, found_symmetry, _ in self._results
         ]
         selection.redraw(context)
         if self._failures or not symmetries:
@@ -144,53 +146,59 @@ class OBJECT_OT_body_moments_find_symmetry(Stepwise, Operator):
         return {"FINISHED"}
 
 
-def _symmetries(shape: Shape, skin: Skin, tolerance: float) -> tuple[Symmetry, Symmetry]:
+def _find_symmetries(shape: Shape, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
     """What the surface confirms, and what the moments allow."""
-    moments = shape.of_pieces()
+    moments = shape.piece_moments()
     # Moments are looked at as loosely as the surface.
-    allowed = symmetry(moments, max(NOISE, tolerance))
+    allowed = symmetry(moments, max(NOISE_LEVEL, tolerance))
     near = tolerance * shape.size
-    return confirmed(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
+    return confirm(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
 
 
-def _keep(obj: Object, measurement: Measurement, found: Symmetry, allowed: Symmetry, tolerance: float) -> None:
-    kept = obj.body_moments_symmetry
-    kept.group, kept.compatible, kept.tolerance = found.group, allowed.group, tolerance
-    kept.of_display_mesh = displayed(measurement)
+def _store_symmetry(
+    obj: Object, measurement: Measurement, confirmed: Symmetry, allowed: Symmetry, tolerance: float
+) -> None:
+    stored = obj.body_moments_symmetry
+    stored.group, stored.compatible, stored.tolerance = confirmed.group, allowed.group, tolerance
+    stored.of_display_mesh = is_display_mesh(measurement)
     version, geometry, _, settings = measurement.fingerprint.split(":")
-    kept.fingerprint = ":".join([version, geometry, scale_hash(obj), settings])
-    kept.elements.clear()
+    stored.fingerprint = ":".join([version, geometry, scale_hash(obj), settings])
+    stored.elements.clear()
     turn = measurement.rotation.T
-    for kind, order, direction in _elements(found)[:KEPT]:
-        element = kept.elements.add()
-        element.kind, element.order, element.direction = kind, order, turn @ _upward(turn, direction)
+    for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:
+        element = stored.elements.add()
+        element.kind, element.order, element.direction = kind, order, turn @ _canonical_direction(turn, direction)
 
 
-def _upward(turn: np.ndarray, direction: np.ndarray) -> np.ndarray:
+def _canonical_direction(turn: np.ndarray, direction: np.ndarray) -> np.ndarray:
     """Of the two directions of a line the one whose largest component, in the object's axes, is positive."""
     local = turn @ direction
     return direction if local[np.argmax(np.abs(local))] > 0.0 else -direction
 
 
-def _elements(found: Symmetry) -> list[tuple[str, int, np.ndarray]]:
-    if len(found.round_about) == 1:
-        return [("ROUND", 0, found.round_about[0])] + [("PLANE", 0, normal) for normal in found.planes]
-    return [("AXIS", order, axis) for axis, order in found.axes] + [("PLANE", 0, normal) for normal in found.planes]
+def _elements(found_symmetry: Symmetry) -> list[tuple[str, int, np.ndarray]]:
+    if len(found_symmetry.revolution_axes) == 1:
+        return [("ROUND", 0, found_symmetry.revolution_axes[0])] + [
+            ("PLANE", 0, normal) for normal in found_symmetry.planes
+        ]
+    return [("AXIS", order, axis) for axis, order in found_symmetry.axes] + [
+        ("PLANE", 0, normal) for normal in found_symmetry.planes
+    ]
 
 
-def described(found: Symmetry) -> list[Finding]:
+def describe(found_symmetry: Symmetry) -> list[Finding]:
     """What a symmetry consists of."""
-    if len(found.round_about) == 3:
+    if len(found_symmetry.revolution_axes) == 3:
         return [finding("symmetry_sphere")]
-    if len(found.round_about) == 1:
-        reversible = found.group == "D∞h"
+    if len(found_symmetry.revolution_axes) == 1:
+        reversible = found_symmetry.group == "D∞h"
         return [finding("symmetry_revolution_reversible" if reversible else "symmetry_revolution")]
     clauses = []
-    if found.axes:
-        clauses.append(finding("symmetry_axes", count=len(found.axes), order=found.axes[0][1]))
-    if found.planes:
-        clauses.append(finding("symmetry_planes", count=len(found.planes)))
-    if found.has_center and not clauses:
+    if found_symmetry.axes:
+        clauses.append(finding("symmetry_axes", count=len(found_symmetry.axes), order=found_symmetry.axes[0][1]))
+    if found_symmetry.planes:
+        clauses.append(finding("symmetry_planes", count=len(found_symmetry.planes)))
+    if found_symmetry.has_center and not clauses:
         clauses.append(finding("symmetry_inversion"))
     return clauses or [finding("symmetry_none")]
 

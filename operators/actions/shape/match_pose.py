@@ -9,19 +9,19 @@ from collections.abc import Iterator
 import numpy as np
 from bpy.types import Context, Event, Object, Operator
 
-from ....core.numerics.float32 import decimal
-from ....core.shape.registration import FITS, Match
+from ....core.numerics.float32 import shortest_decimal
+from ....core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
-from ...bodies.shape import Shape, Skin, matched, surface_shape_of
+from ...bodies.shape import Shape, SurfaceDistance, register_surfaces, surface_shape_of
 from ...scene import reframe
 from ...scene.transforms import world
 from ...write import reports
 from .. import selection
-from ..modal import Stepwise
+from ..modal import ModalSteps
 from ..snap import base as snapping
 
 
-class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
+class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
     """Move the other selected objects onto the active object"""
 
     bl_idname = "object.body_moments_match_pose"
@@ -37,7 +37,7 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if not selection.poll_selected(cls, context):
+        if not selection.poll_selection(cls, context):
             return False
         if context.object is None or not any(obj != context.object for obj in context.view_layer.objects.selected):
             return reports.unavailable(cls, finding("poll_match_selection"))
@@ -45,18 +45,18 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
 
     def execute(self, context: Context) -> set[str]:
         self._begin(context)
-        return self.all_at_once(context, len(self._others))
+        return self.run_all_steps(context, len(self._others))
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         if context.window is None:
             return self.execute(context)
         self._begin(context)
-        return self.begin_modal(context, len(self._others))
+        return self.start_modal(context, len(self._others))
 
     def _begin(self, context: Context) -> None:
-        self._others = [obj for obj in selection.selected(context) if obj != context.object]
+        self._others = [obj for obj in selection.selected_measurable(context) if obj != context.object]
         self._size = 0.0  # of the active object, once it is measured
-        self._found: list[tuple[reframe.Plan, Match]] = []
+        self._plans: list[tuple[reframe.Plan, RigidMatch]] = []
         self._failures: list[Finding] = []
         self._steps = self._compare(context)
 
@@ -68,59 +68,63 @@ class OBJECT_OT_body_moments_match_pose(Stepwise, Operator):
             reports.report(self, reports.refusal(error.about(active.name)))
             return
         yield 0.0
-        self._size, skin = target.size, Skin(target)
-        for _ in skin.grow():
+        self._size, skin = target.size, SurfaceDistance(target)
+        for _ in skin.build():
             yield 0.0
 
         def find(obj: Object) -> Iterator[float]:
-            _check(context, obj)
+            _require_movable(context, obj)
             shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
-            own = Skin(shape)
-            yield from (0.4 + 0.5 * share for share in own.grow())
-            self._found.append(_planned(context, obj, shape, target, matched(shape, target, own, skin)))
+            source_skin = SurfaceDistance(shape)
+            yield from (0.4 + 0.5 * share for share in source_skin.build())
+            self._plans.append(
+                _plan_move(context, obj, shape, target, register_surfaces(shape, target, source_skin, skin))
+            )
 
-        yield from selection.one_by_one(self._others, find, self._failures)
+        yield from selection.iterate_objects(self._others, find, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing moves before all places are found, so that a canceled run leaves everything where it was."""
         if not self._size:
             return {"CANCELLED"}
         moved, distances = [], []
-        for plan, found in self._found:  # parents first, for a child moves with its parent
+        for plan, match in self._plans:  # parents first, for a child moves with its parent
             try:
                 if _move(context, plan):
                     moved.append(plan.obj)
             except Exception as error:
                 self._failures.append(reports.failure(plan.obj.name_full, error))
                 continue
-            distances.append(_distance(plan.obj.name, found, self._size))
-        snapping.refresh(context, moved)
+            distances.append(_distance(plan.obj.name, match, self._size))
+        snapping.remeasure(context, moved)
         done = finding("poses_matched", count=len(distances), object=context.object.name)
         return selection.summarize(self, len(distances), len(self._others), done, self._failures, distances)
 
 
-def _distance(name: str, found: Match, size: float) -> Finding:
-    code = "pose_distance" if found.largest <= FITS * size else "pose_not_a_copy"
-    return finding(code, object=name, maximum=float(found.largest), mean=float(found.mean))
+def _distance(name: str, found: RigidMatch, size: float) -> Finding:
+    code = "pose_distance" if found.max_distance <= MAX_FIT_RTOL * size else "pose_not_a_copy"
+    return finding(code, object=name, maximum=float(found.max_distance), mean=float(found.mean_distance))
 
 
-def _check(context: Context, obj: Object) -> None:
+def _require_movable(context: Context, obj: Object) -> None:
     """Raises where the object cannot be laid onto the active one."""
     reframe.check_movable(obj)
-    if obj in selection.lineage(context.object):
+    if obj in selection.ancestors(context.object):
         raise EditRefusedError("active_is_child")
 
 
-def _planned(context: Context, obj: Object, shape: Shape, target: Shape, found: Match) -> tuple[reframe.Plan, Match]:
+def _plan_move(
+    context: Context, obj: Object, shape: Shape, target: Shape, match: RigidMatch
+) -> tuple[reframe.Plan, RigidMatch]:
     """Where the object lies on the target, and how well."""
-    if found.mirrored:
+    if match.is_mirror_image:
         raise EditRefusedError("mirror_image")
-    unit = decimal(context.scene.unit_settings.scale_length)
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
     matrix = world(obj)
-    matrix[:3, :3] = found.rotation @ matrix[:3, :3]
-    matrix[:3, 3] = (target.center + found.rotation @ (matrix[:3, 3] * unit - shape.center)) / unit
-    return reframe.Plan(obj, matrix, shape.size / unit, move_only=False), found
+    matrix[:3, :3] = match.rotation @ matrix[:3, :3]
+    matrix[:3, 3] = (target.center + match.rotation @ (matrix[:3, 3] * unit - shape.center)) / unit
+    return reframe.Plan(obj, matrix, shape.size / unit, move_only=False), match
 
 
 def _move(context: Context, plan: reframe.Plan) -> bool:

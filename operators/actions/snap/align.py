@@ -62,14 +62,14 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
         default="CENTER",
     )
 
-    strict: snapping.STRICT
+    strict: snapping.STRICT_PROPERTY
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return selection.poll_selected(cls, context)
+        return selection.poll_selection(cls, context)
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected(context)
+        objects = selection.selected_measurable(context)
         frame = directions(self.order)
         moved: list[Object] = []
 
@@ -80,14 +80,14 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
                 return True
             return False
 
-        _, failures = selection.each(objects, turn)
-        snapping.refresh(context, moved)
+        _, failures = selection.apply_to_all(objects, turn)
+        snapping.remeasure(context, moved)
         done = finding("aligned_to_world", count=len(moved))
         return selection.summarize(self, len(moved), len(objects), done, failures, idle=finding("already_aligned"))
 
     def _align(self, context: Context, obj: Object, frame: NDArray) -> bool:
         reframe.check_movable(obj)
-        body = snapping.body_of(context, obj, self.strict)
+        body = snapping.snap_target(context, obj, self.strict)
         goal = body.center if self.pivot == "CENTER" else np.zeros(3)
         aligned = body.is_principal(frame)
         if aligned and np.abs(body.center - goal).max() <= reframe.location_tolerance(obj, body.size):

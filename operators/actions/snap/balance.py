@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from ....core.measurement import Measurement
 from ....core.mesh.surface import Surface
 from ....core.moments.moments import Measure
-from ....core.numerics.float32 import decimal
-from ....core.statics.balance import Balanced, balance
+from ....core.numerics.float32 import shortest_decimal
+from ....core.statics.balance import BalanceResult, balance
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...bodies.measure_object import measure_object
 from ...read import Part, read_object
@@ -33,8 +33,8 @@ from ...scene.transforms import FLOAT32
 from ...write import reports
 from . import base as snapping
 
-ATTEMPTS = 6  # at a cut of faces that suits the shape that it leads to
-THERE = 1e-6  # of the body's size: what float32 coordinates leave of a center
+MAX_ATTEMPTS = 6  # at a cut of faces that suits the shape that it leads to
+REACHED_RTOL = 1e-6  # of the body's size: what float32 coordinates leave of a center
 ROUNDING = 1e-7  # of the body's size: a coordinate below is reported as 0
 
 
@@ -115,28 +115,28 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
 
     def execute(self, context: Context) -> set[str]:
         obj = context.active_object
-        unit = decimal(context.scene.unit_settings.scale_length)
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
         target = context.scene.cursor.location if self.target == "CURSOR" else self.point
-        wanted = _Wanted(
+        balance_target = _Target(
             np.array(target, np.float64) * unit,
-            np.eye(3) if self.axes == "ALL" else _across(context.scene),
+            np.eye(3) if self.axes == "ALL" else _horizontal_directions(context.scene),
             self.limit * unit,
         )
         try:
             mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, self.group)
             with paused():  # what is tried and put back is no edit
-                findings = _balance(context, obj, mesh, wanted, unit)
+                findings = _balance_mesh(context, obj, mesh, balance_target, unit)
             obj.data.update_tag()  # for others that show the mesh it is one
         except MeasureError as error:
             reports.report(self, reports.failure(obj.name_full, error))
             return {"CANCELLED"}
-        snapping.refresh(context, [obj])
+        snapping.remeasure(context, [obj])
         reports.report(self, *findings)
         return {"FINISHED"}
 
 
 @dataclass(frozen=True)
-class _Wanted:
+class _Target:
     """point: (3,) in m, across: (r, 3) along which directions, limit: of a move in m, 0 for the size of the body."""
 
     point: NDArray[np.float64]
@@ -144,7 +144,7 @@ class _Wanted:
     limit: float
 
 
-def _across(scene: bpy.types.Scene) -> NDArray[np.float64]:
+def _horizontal_directions(scene: bpy.types.Scene) -> NDArray[np.float64]:
     """(2, 3) the two directions across gravity, or across Z where there is none."""
     down = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
     if not down.any():
@@ -159,21 +159,21 @@ class _EditedMesh:
     """The mesh of an object in Edit Mode; a BMesh gives and takes its vertices one by one only."""
 
     def __init__(self, obj: Object):
-        self.obj, self.changed = obj, False
+        self.obj, self.is_changed = obj, False
         vertices = self._vertices()
         self.start = np.array([vertex.co[:] for vertex in vertices], np.float32).reshape(-1, 3)
         selected = np.fromiter((vertex.select and not vertex.hide for vertex in vertices), bool, len(vertices))
         self.movable = np.flatnonzero(selected)
-        self.willing = np.ones(len(self.movable))
+        self.weights = np.ones(len(self.movable))
         if not len(self.movable):
             raise EditRefusedError("balance_no_selection")
 
     def _vertices(self) -> bmesh.types.BMVertSeq:
         return bmesh.from_edit_mesh(self.obj.data).verts
 
-    def put(self, points: NDArray[np.float32]) -> None:
+    def set_points(self, points: NDArray[np.float32]) -> None:
         """(n, 3) where the vertices go."""
-        self.changed = True
+        self.is_changed = True
         vertices = self._vertices()
         vertices.ensure_lookup_table()
         for index in self.movable.tolist():
@@ -194,58 +194,58 @@ class _GroupedMesh:
                 if name
                 else EditRefusedError("balance_no_active_group")
             )
-        self.mesh, self.changed = obj.data, False
+        self.mesh, self.is_changed = obj.data, False
         weights = np.zeros(len(self.mesh.vertices))
         for vertex in self.mesh.vertices:  # Blender gives weights one by one only
             for entry in vertex.groups:
                 if entry.group == group.index:
                     weights[vertex.index] = entry.weight
         self.movable = np.flatnonzero(weights > 0.0)
-        self.willing = weights[self.movable]
+        self.weights = weights[self.movable]
         if not len(self.movable):
             raise EditRefusedError("balance_group_empty", group=group.name)
         self.start = np.empty(3 * len(weights), np.float32)
         self.mesh.attributes["position"].data.foreach_get("vector", self.start)
         self.start = self.start.reshape(-1, 3)
 
-    def put(self, points: NDArray[np.float32]) -> None:
+    def set_points(self, points: NDArray[np.float32]) -> None:
         """(n, 3) where the vertices go."""
-        self.changed = True
+        self.is_changed = True
         self.mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(points).ravel())
         self.mesh.update()
 
 
-def _balance(
-    context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, wanted: _Wanted, unit: float
+def _balance_mesh(
+    context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, target: _Target, unit: float
 ) -> list[Finding]:
     """Carry it out, or leave all as it was. Returns what to report."""
-    _check(obj)
-    part = _read(context, obj, mesh)
-    before = _measured(context, obj)
+    _require_balanceable(obj)
+    part = _read_surface(context, obj, mesh)
+    before = _measure(context, obj)
     linear, offset = part.matrices[0, :3, :3] * unit, part.matrices[0, :3, 3] * unit
-    start = part.surface.mapped(linear, offset)
+    start = part.surface.transform(linear, offset)
     size = float(np.linalg.norm(np.ptp(start.points, axis=0)))
-    tolerance = THERE * size + 4.0 * FLOAT32 * np.abs(np.concatenate([start.points, [wanted.point]])).max()
-    with _put_back(context, mesh):
+    tolerance = REACHED_RTOL * size + 4.0 * FLOAT32 * np.abs(np.concatenate([start.points, [target.point]])).max()
+    with _restored_on_error(context, mesh):
         surface = start
-        for _ in range(ATTEMPTS):
-            found = balance(
+        for _ in range(MAX_ATTEMPTS):
+            balanced = balance(
                 surface,
                 mesh.movable,
-                wanted.point,
-                across=wanted.across,
-                willing=mesh.willing,
-                limit=wanted.limit or size,
+                target.point,
+                across=target.across,
+                weights=mesh.weights,
+                limit=target.limit or size,
                 shell=before.kind == "shell",
             )
-            points = _moved(mesh, found, start, linear)
-            mesh.put(points)
+            points = _mesh_coordinates(mesh, balanced, start, linear)
+            mesh.set_points(points)
             context.view_layer.update()
-            after = _measured(context, obj)
-            off = np.abs(wanted.across @ (wanted.point - after.mass_properties.center)).max()
+            after = _measure(context, obj)
+            off = np.abs(target.across @ (target.point - after.mass_properties.center)).max()
             if off <= tolerance:
                 break
-            surface = replace(_read(context, obj, None).surface.mapped(linear, offset), points=start.points)
+            surface = replace(_read_surface(context, obj, None).surface.transform(linear, offset), points=start.points)
         else:
             raise EditRefusedError("balance_triangulation_varies")
     moves = (points[mesh.movable].astype(np.float64) - mesh.start[mesh.movable]) @ linear.T
@@ -258,26 +258,26 @@ def _balance(
     if obj.data.users - obj.data.use_fake_user > 1:
         findings.append(finding("balance_mesh_shared"))
     if any(
-        other.type == "MESH" and other.data.is_editmode and other.data != obj.data
-        for other in context.view_layer.objects
+        candidate.type == "MESH" and candidate.data.is_editmode and candidate.data != obj.data
+        for candidate in context.view_layer.objects
     ):
         findings.append(finding("balance_only_active", object=obj.name))
     return findings
 
 
 @contextmanager
-def _put_back(context: Context, mesh: _EditedMesh | _GroupedMesh) -> Iterator[None]:
+def _restored_on_error(context: Context, mesh: _EditedMesh | _GroupedMesh) -> Iterator[None]:
     """Put the vertices back where something fails in here."""
     try:
         yield
     except BaseException:
-        if mesh.changed:
-            mesh.put(mesh.start)
+        if mesh.is_changed:
+            mesh.set_points(mesh.start)
             context.view_layer.update()
         raise
 
 
-def _check(obj: Object) -> None:
+def _require_balanceable(obj: Object) -> None:
     """EditRefusedError where the mesh cannot be changed, or its change is not the object's."""
     if not obj.data.is_editable:
         raise EditRefusedError("balance_linked_mesh")
@@ -287,24 +287,24 @@ def _check(obj: Object) -> None:
         raise EditRefusedError("balance_wall")
 
 
-def _measured(context: Context, obj: Object) -> Measurement:
+def _measure(context: Context, obj: Object) -> Measurement:
     """The object as it is always measured; EditRefusedError where its center cannot be differentiated by its
     vertices."""
-    found = measure_object(obj, context.evaluated_depsgraph_get())
-    if found.mass_moments[0].of == Measure.MASS:
+    measurement = measure_object(obj, context.evaluated_depsgraph_get())
+    if measurement.mass_moments[0].measure == Measure.MASS:
         raise EditRefusedError("balance_varying_density")
-    if found.kind == "solid" and (found.method != "exact" or found.health.welded):
+    if measurement.kind == "solid" and (measurement.method != "exact" or measurement.health.welded):
         raise EditRefusedError("balance_unclean")
-    return found
+    return measurement
 
 
-def _read(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh | None) -> Part:
+def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh | None) -> Part:
     """The surface as it is measured; EditRefusedError where its vertices are not those of the mesh."""
     reading = read_object(obj, context.evaluated_depsgraph_get(), edges=False)
     part = reading.parts[0]
-    if reading.singular:
+    if reading.all_singular:
         raise EditRefusedError("balance_zero_scale")
-    if reading.places > 1:
+    if reading.instance_count > 1:
         raise EditRefusedError("balance_instances")
     if mesh is not None and not (
         part.surface.points.shape == mesh.start.shape and np.array_equal(part.surface.points, mesh.start)
@@ -318,10 +318,12 @@ def _read(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh | None
     return part
 
 
-def _moved(mesh: _EditedMesh | _GroupedMesh, found: Balanced, start: Surface, linear: NDArray) -> NDArray[np.float32]:
+def _mesh_coordinates(
+    mesh: _EditedMesh | _GroupedMesh, balanced: BalanceResult, start: Surface, linear: NDArray
+) -> NDArray[np.float32]:
     """(n, 3) the mesh's own coordinates: those that do not move to the bit."""
     points = mesh.start.copy()
-    moves = found.points[mesh.movable] - start.points[mesh.movable]
+    moves = balanced.points[mesh.movable] - start.points[mesh.movable]
     local = mesh.start[mesh.movable].astype(np.float64) + np.linalg.solve(linear, moves.T).T
     points[mesh.movable] = local.astype(np.float32)
     return points

@@ -19,8 +19,8 @@ from bpy.props import BoolProperty
 from bpy.types import Context, Object, Operator
 from numpy.typing import NDArray
 
-from ....core.inertia.principal_frame import EQUAL_AXES, strict_frame
-from ....core.numerics.float32 import decimal
+from ....core.inertia.principal_frame import EQUAL_AXES, zhang_chen_frame
+from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.measure_object import measure_body
@@ -31,7 +31,7 @@ from ...settings.options import MeasureOptions
 from ...write import properties, reports
 from .. import selection
 
-STRICT = BoolProperty(
+STRICT_PROPERTY = BoolProperty(
     name="Zhang and Chen's Rule",
     description=(
         "Take axes 1 and 2 in the direction of positive third moments, as in the paper. Objects for which "
@@ -39,17 +39,17 @@ STRICT = BoolProperty(
     ),
     default=False,
 )
-TURNED = 1e-3  # what float32 coordinates may turn directions by that moments of higher order fix
-DIAGONAL = 4e-7  # of the trace: what float32 coordinates leave of products of inertia
+MAX_DIRECTION_NOISE = 1e-3  # what float32 coordinates may turn directions by that moments of higher order fix
+DIAGONAL_RTOL = 4e-7  # of the trace: what float32 coordinates leave of products of inertia
 
 
 @dataclass(frozen=True)
-class Body:
+class SnapTarget:
     """An object as measured now, world axes, lengths in Blender units.
 
     center (3,), axes (3, 3) principal, as columns, det +1; inertia (3, 3) about the center in
-    kg·m²; gyration (3,) radii; size: the largest of them; finding: what was free to choose. own: the
-    axes of equal moments whose directions are the shape's own; unique: whether the shape fixes all.
+    kg·m²; gyration (3,) radii; size: the largest of them; finding: what was free to choose. shape_axes: the
+    axes of equal moments whose directions are the shape's own; is_unique: whether the shape fixes all.
     """
 
     obj: Object
@@ -59,8 +59,8 @@ class Body:
     gyration: NDArray[np.float64]
     mass: float
     finding: Finding | None
-    own: tuple[int, ...] = ()
-    unique: bool = False
+    shape_axes: tuple[int, ...] = ()
+    is_unique: bool = False
 
     @property
     def size(self) -> float:
@@ -70,39 +70,39 @@ class Body:
         """Whether the columns of `frame` are this body's principal axes, in this order and with
         these signs, as far as its coordinates can show."""
         tensor = frame.T @ self.inertia @ frame
-        limit = DIAGONAL * np.trace(tensor)
+        limit = DIAGONAL_RTOL * np.trace(tensor)
         diagonal = np.diag(tensor)
         off = np.abs(tensor - np.diag(diagonal)).max()
         along = (frame * self.axes).sum(axis=0)
         return bool(
             off <= limit
             and (np.diff(diagonal) >= -limit).all()
-            and self._has_own(frame)
-            and (self.own or (along > -0.5).all())
+            and self._matches_shape_axes(frame)
+            and (self.shape_axes or (along > -0.5).all())
         )
 
-    def _has_own(self, frame: NDArray) -> bool:
+    def _matches_shape_axes(self, frame: NDArray) -> bool:
         """Whether the axes of equal moments lie as the shape requires: a cube's sides along any of its
         own axes."""
-        cosines = (frame.T @ self.axes)[:, self.own]
-        wanted = np.eye(3)[:, self.own] if self.unique else np.round(cosines)
-        return bool((np.abs(cosines - wanted) <= TURNED).all())
+        cosines = (frame.T @ self.axes)[:, self.shape_axes]
+        expected = np.eye(3)[:, self.shape_axes] if self.is_unique else np.round(cosines)
+        return bool((np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all())
 
 
-def body_of(context: Context, obj: Object, strict: bool = False) -> Body:
+def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarget:
     """Measure an object; EditRefusedError where its numbers depend on a reference point. strict: with the axes of Zhang
     and Chen's rule, or refused where it has none."""
     measured = measure_body(obj, context.evaluated_depsgraph_get(), MeasureOptions(pose=True))
     measurement = measured.measurement
     if measurement.method.endswith("open"):
         raise EditRefusedError("open_object")
-    unit = decimal(context.scene.unit_settings.scale_length)
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
     body = measurement.mass_properties
     principal = body.principal
     if strict:
         varied = measurement.kind == "shell" or measured.body.mass is not None
-        principal = strict_frame(measurement.mass_moments[0], None if varied else measured.body.refined)
-    return Body(
+        principal = zhang_chen_frame(measurement.mass_moments[0], None if varied else measured.body.third_order)
+    return SnapTarget(
         obj=obj,
         center=body.center / unit,
         axes=principal.axes,
@@ -110,12 +110,12 @@ def body_of(context: Context, obj: Object, strict: bool = False) -> Body:
         gyration=body.radii_of_gyration / unit,
         mass=body.mass,
         finding=principal.finding,
-        own=tuple(i for i in EQUAL_AXES[principal.symmetry] if i not in principal.free),
-        unique=principal.unique,
+        shape_axes=tuple(i for i in EQUAL_AXES[principal.symmetry] if i not in principal.undetermined_axes),
+        is_unique=principal.is_unique,
     )
 
 
-def refresh(context: Context, objects: list[Object]) -> None:
+def remeasure(context: Context, objects: list[Object]) -> None:
     """Measure and store again the objects that carry results: an operator that moved them keeps
     them up to date.
     """
@@ -132,42 +132,42 @@ def refresh(context: Context, objects: list[Object]) -> None:
             internal_error.finding_of(error)
             continue
         fresh.append(obj)
-    staleness.settle(context, fresh)
+    staleness.mark_up_to_date(context, fresh)
 
 
 def reframe_selected(
     operator: Operator,
     context: Context,
-    wanted: Callable[[Object, Body], NDArray | None],
+    target_matrix: Callable[[Object, SnapTarget], NDArray | None],
     done: Finding,
     move_only: bool,
     strict: bool = False,
 ) -> set[str]:
-    """Give each selected object the matrix that `wanted` returns for it, while nothing visible moves, and report it.
-    `wanted` returns None where the object is right as it is. done: the report; it gets the value `count`.
+    """Give each selected object the matrix that `target_matrix` returns for it, while nothing visible moves, and report
+    it. `target_matrix` returns None where the object is right as it is. done: the report; it gets the value `count`.
     """
-    objects = selection.selected(context)
+    objects = selection.selected_measurable(context)
     plans: list[reframe.Plan] = []
 
     def plan(obj: Object) -> bool:
         reframe.check(obj)
-        body = body_of(context, obj, strict)
-        target = wanted(obj, body)
+        body = snap_target(context, obj, strict)
+        target = target_matrix(obj, body)
         if target is not None:
             plans.append(reframe.Plan(obj, target, body.size, move_only=move_only))
         return True
 
-    _, failures = selection.each(objects, plan)
+    _, failures = selection.apply_to_all(objects, plan)
     with paused(), selection.progress(len(plans)) as step:
         changed, refused = reframe.reframe(context, plans, step)
         failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
         if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
             plans.clear()
-            selection.each([one.obj for one in changed], plan)
+            selection.apply_to_all([plan_done.obj for plan_done in changed], plan)
             reframe.reframe(context, plans)
-    refresh(context, [plan.obj for plan in changed])
+    remeasure(context, [plan.obj for plan in changed])
     if not move_only:
-        staleness.mark_turned(plan.obj for plan in changed)
+        staleness.mark_axes_changed(plan.obj for plan in changed)
     findings = [found.of_sources([plan.obj.name]) for plan in changed for found in plan.findings]
     done = replace(done, values={"count": len(changed)})
     idle = finding("already_in_place")

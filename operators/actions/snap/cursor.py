@@ -7,8 +7,8 @@ from bpy.props import BoolProperty
 from bpy.types import Context, Object, Operator, View3DCursor
 from mathutils import Matrix
 
-from ....core.inertia.mass_properties import combined
-from ....core.numerics.float32 import decimal
+from ....core.inertia.mass_properties import combine
+from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, finding
 from ...bodies.measure_object import measure_object
 from .. import selection
@@ -29,10 +29,10 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return selection.poll_selected(cls, context, any_mode=True)
+        return selection.poll_selection(cls, context, any_mode=True)
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected(context)
+        objects = selection.selected_measurable(context)
         depsgraph = context.evaluated_depsgraph_get()
         bodies = []
 
@@ -43,22 +43,22 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
             bodies.append((measurement.mass_moments, measurement.mass_properties))
             return True
 
-        count, failures = selection.each(objects, add)
+        count, failures = selection.apply_to_all(objects, add)
         findings = []
         if bodies:
             # One body keeps the frame that was measured, with what its own exact third moments say
             # of the signs.
-            total = bodies[0][1] if len(bodies) == 1 else combined([moments for moments, _ in bodies])
+            total = bodies[0][1] if len(bodies) == 1 else combine([moments for moments, _ in bodies])
             cursor = context.scene.cursor
-            cursor.location = total.center / decimal(context.scene.unit_settings.scale_length)
+            cursor.location = total.center / shortest_decimal(context.scene.unit_settings.scale_length)
             if self.rotate:
-                _turn(cursor, total.principal.axes)
+                _rotate_cursor(cursor, total.principal.axes)
                 findings = [total.principal.finding] if total.principal.finding is not None else []
         done = finding("cursor_moved", count=count) if objects else finding("nothing_measurable")
         return selection.summarize(self, count, len(objects), done, failures, findings)
 
 
-def _turn(cursor: View3DCursor, axes: np.ndarray) -> None:
+def _rotate_cursor(cursor: View3DCursor, axes: np.ndarray) -> None:
     mode = cursor.rotation_mode
     rotation = Matrix(axes).to_quaternion()
     if mode == "QUATERNION":

@@ -11,14 +11,14 @@ from bpy.types import Context, Depsgraph, Object, Operator
 from mathutils import Matrix
 
 from ....core.verdict.finding import EditRefusedError, Finding, finding
-from ...scene.changes import Change, carry_out, dependents, rounds, side_by_side
-from ...scene.transforms import Channels, basis, world
+from ...scene.changes import SceneChange, dependents, independent_rounds, run_change, run_together
+from ...scene.transforms import TransformChannels, basis, world
 from ...write import reports
 from .. import selection
 from . import base as snapping
 
-OF = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
-KEPT = ("parent", "parent_type", "parent_bone", "empty_display_size")
+OBJECT_KEY = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
+RESTORED_PROPERTIES = ("parent", "parent_type", "parent_bone", "empty_display_size")
 
 
 class OBJECT_OT_body_moments_add_empty(Operator):
@@ -40,24 +40,26 @@ class OBJECT_OT_body_moments_add_empty(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return selection.poll_selected(cls, context)
+        return selection.poll_selection(cls, context)
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected(context)
-        existing = {empty[OF]: empty for empty in context.scene.objects if empty.type == "EMPTY" and OF in empty}
+        objects = selection.selected_measurable(context)
+        existing = {
+            empty[OBJECT_KEY]: empty for empty in context.scene.objects if empty.type == "EMPTY" and OBJECT_KEY in empty
+        }
         findings: list[Finding] = []
         failures: list[Finding] = []
         placed: list[Object] = []
 
-        def add(obj: Object) -> Change:
+        def add(obj: Object) -> SceneChange:
             yield
             try:
                 if self.parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
                     raise EditRefusedError("scale_zero_axis_of_parent_target")
-                body = snapping.body_of(context, obj)
+                body = snapping.snap_target(context, obj)
                 step(len(placed) + len(failures))
                 yield  # all are measured before the scene changes
-                if (yield from _placed(existing.get(obj), context, body, obj if self.parent else None)):
+                if (yield from _place_empty(existing.get(obj), context, body, obj if self.parent else None)):
                     findings.extend([body.finding.of_sources([obj.name])] if body.finding is not None else [])
                     placed.append(obj)
             except Exception as error:
@@ -65,8 +67,8 @@ class OBJECT_OT_body_moments_add_empty(Operator):
 
         followers = dependents(existing.values())  # what moves with an empty is measured after that
         with selection.progress(len(objects)) as step:
-            for several in rounds((obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects):
-                carry_out(context, side_by_side(map(add, several)))
+            for several in independent_rounds((obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects):
+                run_change(context, run_together(map(add, several)))
         done, idle = finding("empties_placed", count=len(placed)), finding("empties_in_place")
         return selection.summarize(self, len(placed), len(objects), done, failures, findings, idle)
 
@@ -76,20 +78,20 @@ def _new_empty(context: Context, obj: Object) -> Object:
     empty.empty_display_type = "ARROWS"
     empty.show_in_front = True  # the center of mass is mostly inside
     empty.rotation_mode = "QUATERNION"
-    empty[OF] = obj
-    own = [
+    empty[OBJECT_KEY] = obj
+    collections = [
         collection
         for collection in obj.users_collection
         if collection.library is None
         and collection.override_library is None  # others take no objects
         and collection in context.scene.collection.children_recursive
     ]
-    (own[0] if own else context.scene.collection).objects.link(empty)
+    (collections[0] if collections else context.scene.collection).objects.link(empty)
     return empty
 
 
-def _placed(
-    existing: Object | None, context: Context, body: snapping.Body, parent: Object | None
+def _place_empty(
+    existing: Object | None, context: Context, body: snapping.SnapTarget, parent: Object | None
 ) -> Generator[None, Depsgraph, bool]:
     """Move the empty, or a new one, to the body's frame; returns whether it was elsewhere. EditRefusedError where it
     cannot be there: then all is as it was."""
@@ -103,15 +105,15 @@ def _placed(
         raise
 
 
-def _moved(empty: Object, body: snapping.Body, parent: Object | None) -> Generator[None, Depsgraph, bool]:
+def _moved(empty: Object, body: snapping.SnapTarget, parent: Object | None) -> Generator[None, Depsgraph, bool]:
     """Move the empty to the body's frame; returns whether it was elsewhere. EditRefusedError where it cannot be
     there."""
     if _follows(body.obj, empty):
         raise EditRefusedError("empty_followed", empty=empty.name)
     if _is_there(empty, body) and empty.parent == parent:
         return False
-    saved = Channels(empty)
-    before = {name: getattr(empty, name) for name in KEPT}
+    saved = TransformChannels(empty)
+    before = {name: getattr(empty, name) for name in RESTORED_PROPERTIES}
     before["matrix_parent_inverse"] = empty.matrix_parent_inverse.copy()
     was = world(body.obj)
     frame = np.eye(4)
@@ -142,12 +144,12 @@ def _moved(empty: Object, body: snapping.Body, parent: Object | None) -> Generat
 
 def _follows(obj: Object, empty: Object) -> bool:
     return any(
-        one == empty or any(getattr(constraint, "target", None) == empty for constraint in one.constraints)
-        for one in selection.lineage(obj)
+        ancestor == empty or any(getattr(constraint, "target", None) == empty for constraint in ancestor.constraints)
+        for ancestor in selection.ancestors(obj)
     )
 
 
-def _is_there(empty: Object, body: snapping.Body) -> bool:
+def _is_there(empty: Object, body: snapping.SnapTarget) -> bool:
     now = world(empty)
     off = np.abs(now[:3, 3] - body.center).max()
     return bool(off <= 1e-6 * body.size + 1e-6 * np.abs(body.center).max() and body.is_principal(now[:3, :3]))

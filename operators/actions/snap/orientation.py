@@ -39,16 +39,16 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         obj = context.view_layer.objects.active
         if obj is None or not obj.select_get():
             return reports.unavailable(cls, finding("poll_active_selected"))
-        return selection.poll_selected(cls, context)
+        return selection.poll_selection(cls, context)
 
     def execute(self, context: Context) -> set[str]:
         obj = context.view_layer.objects.active
         try:
-            body = snapping.body_of(context, obj)
+            body = snapping.snap_target(context, obj)
         except MeasureError as error:
             reports.report(self, reports.failure(obj.name_full, error))
             return {"CANCELLED"}
-        place = _view(context)
+        place = _view_3d(context)
         if place is None:
             reports.report(self, finding("orientation_needs_viewport"))
             return {"CANCELLED"}
@@ -65,7 +65,7 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         return {"FINISHED"}
 
 
-def _view(context: Context) -> dict | None:
+def _view_3d(context: Context) -> dict | None:
     """A 3D view to create orientations from: the one that the operator was called from, or the
     first that is open.
     """

@@ -27,19 +27,19 @@ class OBJECT_OT_body_moments_origin_to_center(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return selection.poll_selected(cls, context)
+        return selection.poll_selection(cls, context)
 
     def execute(self, context: Context) -> set[str]:
         return snapping.reframe_selected(
             self,
             context,
-            _at_center,
+            _origin_at_center,
             finding("origins_moved"),
             move_only=True,
         )
 
 
-def _at_center(obj: Object, body: snapping.Body) -> np.ndarray | None:
+def _origin_at_center(obj: Object, body: snapping.SnapTarget) -> np.ndarray | None:
     target = world(obj)
     off = np.abs(target[:3, 3] - body.center).max()
     if off <= reframe.location_tolerance(obj, body.size):

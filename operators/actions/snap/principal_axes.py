@@ -29,24 +29,24 @@ class OBJECT_OT_body_moments_axes_to_principal(Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    strict: snapping.STRICT
+    strict: snapping.STRICT_PROPERTY
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return selection.poll_selected(cls, context)
+        return selection.poll_selection(cls, context)
 
     def execute(self, context: Context) -> set[str]:
         return snapping.reframe_selected(
             self,
             context,
-            _along_axes,
+            _matrix_along_axes,
             finding("axes_made_principal"),
             move_only=False,
             strict=self.strict,
         )
 
 
-def _along_axes(obj: Object, body: snapping.Body) -> np.ndarray | None:
+def _matrix_along_axes(obj: Object, body: snapping.SnapTarget) -> np.ndarray | None:
     if _is_there(obj, body):
         return None
     target = np.eye(4)
@@ -54,7 +54,7 @@ def _along_axes(obj: Object, body: snapping.Body) -> np.ndarray | None:
     return target
 
 
-def _is_there(obj: Object, body: snapping.Body) -> bool:
+def _is_there(obj: Object, body: snapping.SnapTarget) -> bool:
     now = world(obj)
     linear = now[:3, :3]
     if np.abs(linear.T @ linear - np.eye(3)).max() > UNIT_SCALE or np.linalg.det(linear) < 0.0:

@@ -12,11 +12,11 @@ import numpy as np
 from bpy.props import BoolProperty
 from bpy.types import Context, Object, Operator
 
-from ....core.numerics.float32 import decimal
+from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...read.quiet import paused
 from ...scene import reframe
-from ...scene.transforms import require_own, world
+from ...scene.transforms import require_storable_data, world
 from ...write import reports
 from .. import selection
 from . import base as snapping
@@ -41,19 +41,19 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return selection.poll_selected(cls, context)
+        return selection.poll_selection(cls, context)
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected(context)
-        bodies: list[snapping.Body] = []
+        objects = selection.selected_measurable(context)
+        bodies: list[snapping.SnapTarget] = []
 
         def measure(obj: Object) -> bool:
-            require_own(obj, "library_override_mass")
+            require_storable_data(obj, "library_override_mass")
             if obj.rigid_body is None and not self.add:
                 raise EditRefusedError("not_a_rigid_body")
             if obj.rigid_body is None and obj.type != "MESH":
                 raise EditRefusedError("rigid_body_needs_mesh")
-            body = snapping.body_of(context, obj)
+            body = snapping.snap_target(context, obj)
             limit = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min
             if body.mass < limit:
                 raise EditRefusedError("rigid_body_mass_too_small", mass=float(body.mass), limit=limit)
@@ -62,9 +62,9 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
 
         context.view_layer.update()  # edits of before are noted as such
         with paused():  # Blender reports a rigid body as a change of the shape
-            _, failures = selection.each(objects, measure)
+            _, failures = selection.apply_to_all(objects, measure)
             new = [body.obj for body in bodies if body.obj.rigid_body is None]
-            failures += _add(context, new)
+            failures += _add_rigid_bodies(context, new)
             changed = {obj for obj in new if obj.rigid_body is not None}
             for body in bodies:
                 if body.obj.rigid_body is not None and np.float32(body.obj.rigid_body.mass) != np.float32(body.mass):
@@ -79,7 +79,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
             and np.abs(world(body.obj)[:3, 3] - body.center).max() > reframe.location_tolerance(body.obj, body.size)
         ]
         findings = []
-        unit = decimal(context.scene.unit_settings.scale_length)
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
         if count and unit != 1.0 and context.scene.unit_settings.system != "NONE":
             findings.append(finding("rigid_body_display_scaled", factor=unit**3))
         if elsewhere and count:
@@ -88,7 +88,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
         return selection.summarize(self, count, len(objects), done, failures, findings, idle)
 
 
-def _add(context: Context, objects: list[Object]) -> list[Finding]:
+def _add_rigid_bodies(context: Context, objects: list[Object]) -> list[Finding]:
     """Make them active rigid bodies, all by one operator; why Blender makes none of some."""
     refusal = EditRefusedError("rigid_body_not_added_unknown")
     if objects:
