@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How numbers came about: what was measured, and what had to be done to measure it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Verdict(StrEnum):
+    """What a body is measured as. The first four are of solids, the least trustworthy first."""
+
+    OPEN = "open"  # not closed, and not to be closed: the numbers depend on the reference point
+    CAPPED = "capped"  # closed by caps over its holes
+    REORIENTED = "reoriented"  # closed after faces were flipped
+    EXACT = "exact"  # closed as it is
+    UNION = "union"  # overlapping components united first
+    SHELL = "shell"  # a sheet or a wall
+    WIRE = "wire"  # a curve
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the surface encloses the volume that was measured."""
+        return self in (Verdict.CAPPED, Verdict.REORIENTED, Verdict.EXACT, Verdict.UNION)
+
+
+class Source(StrEnum):
+    """What stands before the verdict where it is not the polygons that were measured."""
+
+    POLYGONS = ""
+    NURBS = "NURBS"
+    GRID = "grid"
+
+
+@dataclass(frozen=True)
+class Method:
+    """A verdict, and what it is about; as text the public contract's `method`, such as "NURBS exact"."""
+
+    verdict: Verdict
+    source: Source = Source.POLYGONS
+
+    def __str__(self) -> str:
+        return " ".join(filter(None, (self.source.value, self.verdict.value)))
+
+    @classmethod
+    def parse(cls, text: str) -> Method | None:
+        """The method that `str` has written; None where it is none."""
+        source, _, verdict = text.rpartition(" ")
+        try:
+            return cls(Verdict(verdict), Source(source))
+        except ValueError:
+            return None
+
+
+def least_trusted(verdicts: list[Verdict]) -> Verdict:
+    """Of several solids together: what holds for the least trustworthy of them."""
+    ranking = list(Verdict)
+    return min(verdicts, key=ranking.index, default=Verdict.OPEN)
