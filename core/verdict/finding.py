@@ -13,7 +13,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any
+from typing import Any, TypeVar
+
+Item = TypeVar("Item")
 
 MAX_STORED_ELEMENTS = 8  # of a finding that is stored or is a value of another one: as many as a sentence names
 
@@ -81,6 +83,48 @@ def finding(code: str, elements: Sequence[Any] = (), /, **values: Any) -> Findin
 def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:
     """The findings in their order, each once."""
     return tuple(dict.fromkeys(findings))
+
+
+def truncate(items: Sequence[Item], limit: int, count: int | None = None) -> tuple[Sequence[Item], int]:
+    """Keep the first items of a list that is shown.
+
+    Parameters
+    ----------
+    items : sequence
+        All of them, or the first of `count`.
+    limit : int
+        How many are kept at most.
+    count : int, optional
+        How many there are in all, by default as many as `items`.
+
+    Returns
+    -------
+    shown : sequence
+        The first items.
+    more : int
+        How many others there are.
+    """
+    shown = items[:limit]
+    return shown, max((count or len(items)) - len(shown), 0)
+
+
+def truncate_findings(findings: Sequence[Finding], limit: int) -> list[Finding]:
+    """Keep the first findings, and say how many more there are.
+
+    Parameters
+    ----------
+    findings : sequence of Finding
+        All of them.
+    limit : int
+        How many are kept at most.
+
+    Returns
+    -------
+    list of Finding
+        The first ones, and ``and_more`` where there are others.
+    """
+    shown, more = truncate(findings, limit)
+    return [*shown, finding("and_more", count=more)] if more else [*shown]
 
 
 class MeasureError(Exception):

@@ -21,7 +21,7 @@ from ...core.moments.moments import Moments, are_similarities, sum_moments, sum_
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals
 from ...core.solid.parts import ClosedParts
-from ...core.verdict.finding import Finding, ReadError, finding
+from ...core.verdict.finding import Finding, ReadError, finding, truncate_findings
 from ...core.verdict.method import Verdict
 from ..read import Reading
 from ..read.reading import said_of
@@ -186,9 +186,8 @@ class _FaceDensities:
         """Where the densities come from. by_area: whether components of several materials took their mean."""
         known = [(material.name, material_density(material)) for material in self.materials]
         known = [(name, value) for name, value in known if value is not None]
-        parts = [finding("density_of_material", material=name, density=value) for name, value in known[:MAX_NAMED]]
-        if len(known) > MAX_NAMED:
-            parts.append(finding("and_more", count=len(known) - MAX_NAMED))
+        parts = [finding("density_of_material", material=name, density=value) for name, value in known]
+        parts = truncate_findings(parts, MAX_NAMED)
         if self.faces_without_density:
             parts.append(finding("density_of_others", density=self.default_density))
         if by_area:

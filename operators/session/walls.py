@@ -9,7 +9,6 @@ numbers stay, and are reported as out of date.
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from dataclasses import dataclass, replace
 
 from bpy.types import Context, Object, PropertyGroup
@@ -23,34 +22,33 @@ from ..bodies.wall import WallBody, Walls
 from ..read import Reading
 from ..settings import hooks
 from ..write import properties
-from . import staleness
+from . import marks, staleness
+from .cache import SessionCache
 
 MAX_CACHED_OBJECTS = 64  # objects
-
-_cache: OrderedDict[int, _CachedWalls] = OrderedDict()  # by session uid, the last one measured last
 
 
 @dataclass(frozen=True)
 class _CachedWalls:
-    """What was measured of one object, and the fingerprint that it was given."""
+    """What was measured of one object, and what the mark that it was given says of geometry and transform."""
 
     reading: Reading
     walls: Walls
     geometry: str
-    matrix: str
+    transform: str
     unit: float
+
+
+_cache: SessionCache[_CachedWalls] = SessionCache(MAX_CACHED_OBJECTS)
 
 
 def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
     """Remember the walls that an object was measured with, if any. unit: metres per Blender unit."""
     if not isinstance(measured.body, WallBody):
         return
-    _, geometry, matrix, _ = measured.measurement.fingerprint.split(":")
+    mark = marks.Mark(*measured.measurement.fingerprint.split(":"))
     reading = replace(measured.reading, parts=[])
-    _cache[obj.session_uid] = _CachedWalls(reading, measured.body.walls.drop_arrays(), geometry, matrix, unit)
-    _cache.move_to_end(obj.session_uid)
-    while len(_cache) > MAX_CACHED_OBJECTS:
-        _cache.popitem(last=False)
+    _cache[obj] = _CachedWalls(reading, measured.body.walls.drop_arrays(), mark.geometry, mark.transform, unit)
 
 
 def max_thickness(obj: Object) -> float | None:
@@ -64,8 +62,8 @@ def max_thickness(obj: Object) -> float | None:
 
 def is_too_thick(obj: Object) -> bool:
     """Whether the thickness that is set is known to be too large."""
-    limit = max_thickness(obj)
-    return limit is not None and not shortest_decimal(obj.body_moments.thickness) * _cache[obj.session_uid].unit < limit
+    limit, cached = max_thickness(obj), _cache.get(obj)
+    return limit is not None and not shortest_decimal(obj.body_moments.thickness) * cached.unit < limit
 
 
 def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
@@ -102,15 +100,17 @@ def _walls_on_side(cached: _CachedWalls, obj: Object) -> Walls:
 
 def _current_walls(obj: Object) -> _CachedWalls | None:
     """What is kept of an object, where its stored numbers are of the same geometry and transform."""
-    cached = _cache.get(obj.session_uid)
-    parts = str(obj.get("body_fingerprint", "")).split(":")
-    return cached if cached is not None and parts[1:3] == [cached.geometry, cached.matrix] else None
+    cached, mark = _cache.get(obj), marks.parse(marks.of_results(obj))
+    if cached is None or mark is None or (mark.geometry, mark.transform) != (cached.geometry, cached.transform):
+        return None
+    return cached
 
 
 def register() -> None:
+    """Follow the settings of walls."""
     hooks.on_wall_change.append(on_wall_setting)
 
 
 def unregister() -> None:
+    """Follow them no more."""
     hooks.on_wall_change.remove(on_wall_setting)
-    _cache.clear()

@@ -7,7 +7,7 @@ Values stay numbers, strings, booleans and lists; only the table formats them:
 
     {share:percent}      a fraction, as 12.3%                {samples:size}   integers, as 2 x 3 x 4
     {thickness:length}   meters, as the scene shows them     {point:point}    three of these
-    {names}              a list, the first 8: “A”, “B”, 3 more    {side:word}     a word of ours, to be translated
+    {names}              a list, the first 8: “A”, “B”, and 3 more    {side:word}     a word of ours, to be translated
     {cause}, {causes}    another finding, or several ({"code", "values"}): their messages
     {elements}           what it is about (`Finding.elements`, of which there are `count`): 3, 5, 9, or 3 of “Cube”
 
@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ...core.verdict.finding import MAX_STORED_ELEMENTS, Finding, Severity
+from ...core.verdict.finding import MAX_STORED_ELEMENTS, Finding, Severity, truncate
 from ...core.verdict.method import Method, Verdict
 
 MAX_LISTED = MAX_STORED_ELEMENTS
@@ -58,12 +58,28 @@ def _item(item: Any) -> str:
     return "“{}”".format(item) if isinstance(item, str) else "{}".format(item)
 
 
-def truncate_list(items: Sequence[Any], count: int | None = None) -> str:
-    """The first items, names in quotation marks, and how many more there are. count: of all, where `items` are only the
-    first of them."""
-    shown = [_item(item) for item in items[:MAX_LISTED]]
-    more = (count or len(items)) - len(shown)
-    return ", ".join(shown + (["{:d} more".format(more)] if more > 0 else []))
+def truncate_list(items: Sequence[Any], count: int | None = None, translate: Callable[[str], str] = str) -> str:
+    """Write the first items of a list, names in quotation marks, and how many more there are.
+
+    Parameters
+    ----------
+    items : sequence
+        Names, numbers, or pairs of them.
+    count : int, optional
+        How many there are in all, where `items` are only the first of them.
+    translate : callable
+        Applied to the template of what is not an item.
+
+    Returns
+    -------
+    str
+        “A”, “B”, and 3 more.
+    """
+    shown, more = truncate(items, MAX_LISTED, count)
+    texts = [_item(item) for item in shown]
+    if more:
+        texts.append(translate(MESSAGES["and_more"].text).format(count=more))
+    return ", ".join(texts)
 
 
 class _Formatter(string.Formatter):
@@ -90,7 +106,7 @@ class _Formatter(string.Formatter):
         if isinstance(value, (list, tuple)) or hasattr(value, "tolist") and getattr(value, "ndim", 0):
             if len(value) and isinstance(value[0], Mapping):
                 return self._joined([self.format_field(finding, "") for finding in value])
-            return truncate_list(value)
+            return truncate_list(value, translate=self.translate)
         return super().format_field(value, format_spec)
 
     @staticmethod
@@ -106,9 +122,10 @@ def sentence(
     in meters, by default in meters."""
     entry, values = MESSAGES[finding.code], finding.values
     template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
-    elements = truncate_list(finding.elements, values.get("count"))
+    elements = truncate_list(finding.elements, values.get("count"), translate)
     text = _Formatter(translate, lengths).vformat(translate(template), (), {**values, "elements": elements})
-    return "{}: {}".format(truncate_list(values["sources"]), text) if values.get("sources") else text
+    sources = values.get("sources")
+    return "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
 
 
 def severity(finding: Finding) -> Severity:

@@ -12,7 +12,7 @@ import bpy
 from bpy.types import Operator
 
 from ...core.verdict import internal_error
-from ...core.verdict.finding import Finding, MeasureError, Severity, finding
+from ...core.verdict.finding import Finding, MeasureError, Severity, finding, truncate_findings
 from .messages import sentence, severity
 from .units import Units
 
@@ -48,9 +48,7 @@ def unavailable(operator: type[Operator], reason: Finding) -> bool:
 
 def first(findings: Sequence[Finding]) -> list[Finding]:
     """The first of the most severe findings, and how many more there are."""
-    ranked = sorted(findings, key=_rank, reverse=True)
-    more = len(ranked) - MAX_REPORTED
-    return [*ranked[:MAX_REPORTED], *([finding("and_more", count=more)] if more > 0 else [])]
+    return truncate_findings(sorted(findings, key=_rank, reverse=True), MAX_REPORTED)
 
 
 def failure(name: str, reason: Finding | Exception) -> Finding:

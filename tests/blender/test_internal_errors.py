@@ -182,8 +182,8 @@ def test_live_goes_on_with_the_others(monkeypatch):
         live._tick()
     assert live.current_numbers(spheres[0]).refusal.code == "internal_error"
     assert live.current_numbers(spheres[1]).measurement.volume == pytest.approx(2.0 * before, rel=1e-6)
-    assert set(live._tracked) == {spheres[1].session_uid}
-    live._pending.add(spheres[0].session_uid)
+    assert [live._followed.get(sphere).tracked is None for sphere in spheres] == [True, False]
+    live._followed.get(spheres[0]).is_pending = True
     live._tick()
     assert live.current_numbers(spheres[0]).measurement.volume == pytest.approx(2.0 * before, rel=1e-6)
 

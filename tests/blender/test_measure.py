@@ -309,7 +309,7 @@ def test_what_several_members_have_in_common_is_said_once_with_their_names():
     )
     names = ["Open {:02d}".format(i) for i in range(12)]
     assert said(found)["holes_capped"]["sources"] == names and len(found.findings) == 1
-    assert str(found.findings[0]).startswith(", ".join(map("“{:s}”".format, names[:8])) + ", 4 more: Holes capped")
+    assert str(found.findings[0]).startswith(", ".join(map("“{:s}”".format, names[:8])) + ", and 4 more: Holes capped")
 
 
 @pytest.mark.parametrize("overlap", [False, True])

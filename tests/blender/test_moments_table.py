@@ -197,7 +197,7 @@ def test_a_wall_s_moments_end_at_order_three(box, reported):
 def test_only_the_last_objects_are_kept(box, monkeypatch):
     from body_moments.operators.session import moments as moments_table
 
-    monkeypatch.setattr(moments_table, "MAX_CACHED_OBJECTS", 2)
+    monkeypatch.setattr(moments_table._computed, "max_size", 2)
     others = [files.add_box(center=(5 * i, 0, 0)) for i in range(3)]
     for obj in others:
         bpy.context.view_layer.objects.active = obj

@@ -4,13 +4,14 @@
 
 from itertools import product
 
+import body_moments
 import bpy
 import numpy as np
 import pytest
 from body_moments.core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from body_moments.core.nurbs.patch import Patch
 from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.session import live
+from body_moments.operators.session import handlers, live
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write.record import record
 
@@ -412,7 +413,7 @@ def test_numbers_follow_an_edit_while_live_is_on():
         points[rng.integers(64)] += rng.uniform(-0.1, 0.1, 3)
         set_points(obj.data.splines[0], points[None], weights)
         bpy.context.view_layer.update()
-        assert obj.session_uid in live._pending
+        assert live.is_pending(obj)
         found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
         now = measured(obj)
         assert str(found.method) == str(now.method) == "NURBS exact"
@@ -436,7 +437,7 @@ def test_live_numbers_follow_hooks_keys_transforms_and_frames():
     bpy.ops.object.body_moments_live()
     for frame in (1, 6, 11):
         bpy.context.scene.frame_set(frame)
-        assert obj.session_uid in live._pending
+        assert live.is_pending(obj)
         found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
         assert found.volume == pytest.approx(BALL * STORED * hook.scale.z, rel=1e-8)
     obj.scale = (1.0, 2.0, -1.0)
@@ -489,20 +490,21 @@ def test_live_numbers_follow_undo_and_stop_at_a_file_and_when_unregistered(tmp_p
     obj.data.update_tag()
     bpy.context.view_layer.update()
     bpy.ops.ed.undo_push(message="After")
-    live._pending.clear()
+    live._followed.get(obj).is_pending = False
     bpy.ops.ed.undo()
     bpy.context.view_layer.update()
     obj = bpy.context.object
-    assert live.is_live(obj) and obj.session_uid in live._pending
+    assert live.is_live(obj) and live.is_pending(obj)
     path = str(tmp_path / "live.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
-    assert not live.is_live(bpy.context.object) and not live._results and not live._pending
+    assert not live.is_live(bpy.context.object) and not len(live._followed)
     bpy.ops.object.body_moments_live()
-    live.unregister()
-    live.register()
-    assert not live._live and not live._tracked
-    assert bpy.app.handlers.depsgraph_update_post.count(live._on_depsgraph_update) == 1
+    body_moments.unregister()
+    body_moments.register()
+    assert not live.is_live(bpy.context.object) and not len(live._followed)
+    assert bpy.app.handlers.depsgraph_update_post.count(handlers._on_update) == 1
+    assert handlers.on_update.count(live._note_updates) == 1
 
 
 def test_a_hook_under_a_flattened_object_leaves_the_display_mesh():

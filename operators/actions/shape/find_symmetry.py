@@ -30,6 +30,7 @@ from ...bodies.shape import Shape, SurfaceDistance, is_display_mesh, surface_sha
 from ...read.fingerprint import scale_hash
 from ...scene.transforms import require_storable_data
 from ...session import staleness
+from ...session.marks import Mark
 from ...write import reports
 from .. import selection
 from ..modal import ModalSteps
@@ -161,8 +162,8 @@ def _store_symmetry(
     stored = obj.body_moments_symmetry
     stored.group, stored.compatible, stored.tolerance = confirmed.group, allowed.group, tolerance
     stored.of_display_mesh = is_display_mesh(measurement)
-    version, geometry, _, settings = measurement.fingerprint.split(":")
-    stored.fingerprint = ":".join([version, geometry, scale_hash(obj), settings])
+    mark = Mark(*measurement.fingerprint.split(":"))
+    stored.fingerprint = ":".join(mark._replace(transform=scale_hash(obj)))
     stored.elements.clear()
     turn = measurement.rotation.T
     for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:
