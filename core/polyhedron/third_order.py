@@ -267,7 +267,7 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
     powers, displaced = _monomial_bounds(np.array([reach, reach + half_ulp]))  # (20,) and (20,)
     x, y, z = reach.tolist()
     # The weights are off by so much in all.
-    weight = np.array([[9.0 * U * (x * tau[0] + y * tau[1] + z * tau[2])], [9.0 * U * (tau[0] + tau[1] + tau[2])]])
+    weight = np.array([[9.0 * U * (x * tau[0] + y * tau[1] + z * tau[2])], [9.0 * U * sum(tau)]])
     size = np.array(sizes)[:, None] * (1.0 + 1e-9)
     # Then come their products with the nodes, the sums, and what underflow may lose. A product of matrices may add up
     # one by one.
