@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..mesh.bvh import SortedComponents, sort_components
 from ..moments.moments import Moments, monomials, sum_moments
-from ..solid.nesting import ShellRelations, classify_pairs
+from ..solid.nesting import ComponentRelations, classify_pairs
 from ..solid.orientation import ComponentComparison
 from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.health import MeshReport
@@ -284,7 +284,7 @@ def _compare_parts(
     """How parts lie to each other, and which of them to turn; None where there are not several, or none is solid."""
     if len(parts) == 1 or not solid.any():
         return None
-    shells, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
+    components, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
     shared = np.unique(relations.intersecting)
     spans = sum(len(patch.spaces[0].spans) * len(patch.spaces[1].spans) for k in shared for patch in parts[k])
     each = min(FINE_SAMPLES_PER_SPAN, int(np.sqrt(MAX_TRIANGLES / (2.0 * max(spans, 1)))))
@@ -294,12 +294,12 @@ def _compare_parts(
             np.sort(pairs, axis=1) @ (len(parts), 1)
             for pairs in (relations.intersecting, shared[nearer.contained_in], shared[nearer.intersecting])
         )
-        relations = ShellRelations(
+        relations = ComponentRelations(
             np.concatenate([relations.contained_in, shared[nearer.contained_in][np.isin(inside, crossed)]]),
             relations.intersecting[np.isin(crossed, crossing)],
             relations.undecided_pairs,
         )
-    return ComponentComparison.from_relations(replace(shells, volume=total), relations, solid)
+    return ComponentComparison.from_relations(replace(components, volume=total), relations, solid)
 
 
 def _component_findings(comparison: ComponentComparison | None) -> list[Finding]:
@@ -318,10 +318,10 @@ def _component_findings(comparison: ComponentComparison | None) -> list[Finding]
 
 def _classify_parts(
     parts: Sequence[Sequence[Patch]], solid: NDArray[np.bool_], each: int, tolerance: float
-) -> tuple[SortedComponents, ShellRelations]:
+) -> tuple[SortedComponents, ComponentRelations]:
     """How parts lie to each other, by samples of their patches: `each` to a span. Those that are nearer than what lies
     between the samples and the patches do not cross where `each` is not the coarsest."""
-    points, triangles, shell = [], [], []
+    points, triangles, component = [], [], []
     count, off = 0, 0.0
     for number, part in enumerate(parts):
         for patch in part:
@@ -331,13 +331,13 @@ def _classify_parts(
             faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
             points.append(grid.reshape(-1, 3))
             triangles.append(faces)
-            shell.append(np.full(len(faces), number))
+            component.append(np.full(len(faces), number))
             count += len(points[-1])
             off = max(off, _sagitta(grid, each) + _sagitta(grid.swapaxes(0, 1), each))
-    points, triangles, shell = np.concatenate(points), np.concatenate(triangles), np.concatenate(shell)
-    shells = sort_components(points, triangles, shell, len(parts))
-    return shells, classify_pairs(
-        points, shells, solid, tolerance if each == SAMPLES_PER_SPAN else max(tolerance, 2.0 * off)
+    points, triangles, component = [np.concatenate(arrays) for arrays in (points, triangles, component)]
+    components = sort_components(points, triangles, component, len(parts))
+    return components, classify_pairs(
+        points, components, solid, tolerance if each == SAMPLES_PER_SPAN else max(tolerance, 2.0 * off)
     )
 
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A body of patches that is measured again and again while its control points move.
 
-All is decided anew each time as measuring does: which patches face which way, which rims are capped. Only the moments
-follow, from tables (`reevaluation`), and where few control points have moved only the spans that they act on. The
+All is decided anew each time as measuring does: which patches face which way, which holes are capped. Only the moments
+follow, from tables (`incremental`), and where few control points have moved only the spans that they act on. The
 tables' rule for rational patches is fixed and has no estimate of its own: how far it is off depends on the weights, so
 it is compared with what measuring found, of the body and of patches with its weights and points at random, as a body
 that is flat tells little of what becomes of it. Other weights are measured anew. So is a body that has gone far from
@@ -33,8 +33,15 @@ RULE_ERROR_GROWTH = 8.0  # by how much moved control points may let the rule's e
 
 
 class TrackedSolid:
-    """The body that patches bound. measure: what it is now; its volume has moments to order 3. Of a body that has
-    followed the bounds are estimates, and the area is an approximation."""
+    """The body that patches bound, while they move.
+
+    Of a body that has followed the bounds are estimates, and the area is an approximation.
+
+    Attributes
+    ----------
+    measure : PatchIntegrals
+        What it is now; its volume has moments to order 3.
+    """
 
     def __init__(self, patches: Sequence[Patch], stored: float = 0.0):
         self._measure_anew(patches, stored)
@@ -66,7 +73,20 @@ class TrackedSolid:
         return area * reach ** (monomials(3).sum(axis=1) + 1.0)
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
-        """Measure the patches as they are now; whether tables were enough for that."""
+        """Measure the patches as they are now.
+
+        Parameters
+        ----------
+        patches : sequence of Patch
+            The same ones, with other control points; any others are measured anew.
+        stored : float
+            By how much storing the control points may have moved each (unit).
+
+        Returns
+        -------
+        bool
+            Whether tables were enough for that.
+        """
         size, about = patches_size(patches), self.measure.volume.about
         if not (
             self._is_tracking and self._same_spaces(patches) and np.linalg.norm(patches_center(patches) - about) <= size

@@ -51,7 +51,9 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     mesh = given.proven or repair_surface(checked.surface, checked.tolerance)
     oriented = orient_components(checked, given, mesh, threads)
     solid = judge(checked, given, oriented)
-    if mesh.max_displacement * given.area.total > MAX_WELDED_SHARE * abs(oriented.volume.total):
+    if mesh.max_displacement and mesh.max_displacement * given.area.total > MAX_WELDED_SHARE * abs(
+        oriented.volume.total
+    ):
         mesh = repair_surface(checked.surface, checked.tolerance, weld_near=False)
         unwelded = judge(checked, given, orient_components(checked, given, mesh, threads))
         return solid if unwelded.method is Verdict.OPEN else unwelded

@@ -14,7 +14,7 @@ from ..mesh.surface import Surface
 from ..moments.moments import Moments, sum_moments
 from ..polyhedron import polyhedron_moments
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL
-from .nesting import ShellRelations, cavity_host, classify_pairs, orient_nested_shells
+from .nesting import ComponentRelations, cavity_host, classify_pairs, orient_nested_components
 from .parts import ClosedParts
 from .repaired_mesh import RepairedMesh
 from .triage import CheckedSurface, GivenIntegrals
@@ -49,10 +49,10 @@ class ComponentComparison:
 
     @classmethod
     def from_relations(
-        cls, components: SortedComponents, relations: ShellRelations, solid: NDArray[np.bool_]
+        cls, components: SortedComponents, relations: ComponentRelations, solid: NDArray[np.bool_]
     ) -> ComponentComparison:
         """Decide which components to turn, from how the solid ones lie to each other."""
-        flipped, nested, cavities = orient_nested_shells(components, relations, solid)
+        flipped, nested, cavities = orient_nested_components(components, relations, solid)
         intersecting = np.zeros(len(solid), bool)
         intersecting[relations.intersecting] = True
         host = cavity_host(relations, cavities)

@@ -27,7 +27,7 @@ class OpenParts:
     rows : (k,) int
         Their triangles with three different vertices.
     vertices : (v,) int
-        The vertices along their open edges, or all of theirs where no edge is known.
+        Sorted, the vertices along their open edges, or all of theirs where no edge is known.
     are_all : bool
         Whether no other triangle has three different vertices.
     """

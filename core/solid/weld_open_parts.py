@@ -65,9 +65,10 @@ def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     rows = parts.rows[has_distinct_vertices(mesh.triangles[parts.rows])]
     edges = find_edges(mesh.triangles[rows]) if len(rows) else None
     still_open = edges is not None and bool(np.any(edges.count % 2))
+    vertices = _unique_sorted(onto[parts.vertices], len(mesh.points))
     return mesh.with_state(
         edges=edges if parts.are_all else None,
-        open_parts=OpenParts(rows, onto[parts.vertices], parts.are_all) if still_open else None,
+        open_parts=replace(parts, rows=rows, vertices=vertices) if still_open else None,
     )
 
 
@@ -76,7 +77,7 @@ def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     parts = mesh.state.open_parts
     if parts is None:
         return mesh
-    vertices = _unique_sorted(parts.vertices, len(mesh.points))
+    vertices = parts.vertices
     reach = vertex_tolerance(mesh.points, mesh.triangles[parts.rows], vertices, tolerance)
     same = first_at_near_position(mesh.points[vertices], reach)
     if np.array_equal(same, np.arange(len(same))):
@@ -112,7 +113,7 @@ def _find_open_parts(
     odd = edges.count % 2 == 1
     if not odd.any():
         return edges, None
-    vertices = np.stack(side_ends(triangles[rows], edges.first[odd]))
+    vertices = _unique_sorted(np.concatenate(side_ends(triangles[rows], edges.first[odd])), len(surface.points))
     part, number = connected_components(len(rows), *edges.adjacency())
     is_open = np.zeros(number, bool)
     is_open[part[edges.first[odd] // 3]] = True
