@@ -36,8 +36,8 @@ class Surface:
     """
 
     points: NDArray[np.floating]
-    triangles: NDArray[np.integer] = field(default_factory=lambda: NO_TRIANGLES)
-    quads: NDArray[np.integer] = field(default_factory=lambda: NO_QUADS)
+    triangles: NDArray[np.integer] = field(default_factory=NO_TRIANGLES.view)
+    quads: NDArray[np.integer] = field(default_factory=NO_QUADS.view)
     triangle_faces: NDArray[np.integer] | None = None
     quad_faces: NDArray[np.integer] | None = None
     corner_vertices: NDArray[np.integer] | None = None
@@ -62,10 +62,10 @@ class Surface:
             wide, rest = self.points[:whole].reshape(-1, 3 * POINTS_PER_ROW), self.points[whole:]
             low = np.concatenate([rest, np.minimum.reduce(wide).reshape(-1, 3)])
             high = np.concatenate([rest, np.maximum.reduce(wide).reshape(-1, 3)])
-        low, high = (np.ascontiguousarray(points.T) for points in (low, high))
+        low, high = np.ascontiguousarray(low.T), np.ascontiguousarray(high.T)
         return np.minimum.reduce(low, axis=1).astype(np.float64), np.maximum.reduce(high, axis=1).astype(np.float64)
 
-    @property
+    @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:
         """(3,) half an ulp of the largest float32 coordinate on each axis: what storing the points may have moved
         them by. `displacement` says it for points that were float32 once; else it is zero for float64 points."""

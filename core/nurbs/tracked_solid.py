@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A body of patches that is measured again and again while its control points move.
 
-All is decided anew each time as measuring does: which patches face which way, which rims are capped. Only the moments
-follow, from tables (`reevaluation`), and where few control points have moved only the spans that they act on. The
+All is decided anew each time as measuring does: which patches face which way, which holes are capped. Only the moments
+follow, from tables (`incremental`), and where few control points have moved only the spans that they act on. The
 tables' rule for rational patches is fixed and has no estimate of its own: how far it is off depends on the weights, so
 it is compared with what measuring found, of the body and of patches with its weights and points at random, as a body
 that is flat tells little of what becomes of it. Other weights are measured anew. So is a body that has gone far from
@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials, sum_moments
+from ..verdict.method import Verdict
 from ..verdict.tolerances import WELDING_RTOL
 from .incremental import IncrementalPatchMoments
 from .patch import Patch
@@ -32,8 +33,15 @@ RULE_ERROR_GROWTH = 8.0  # by how much moved control points may let the rule's e
 
 
 class TrackedSolid:
-    """The body that patches bound. measure: what it is now; its volume has moments to order 3. Of a body that has
-    followed the bounds are estimates, and the area is an approximation."""
+    """The body that patches bound, while they move.
+
+    Of a body that has followed the bounds are estimates, and the area is an approximation.
+
+    Attributes
+    ----------
+    measure : PatchIntegrals
+        What it is now; its volume has moments to order 3.
+    """
 
     def __init__(self, patches: Sequence[Patch], stored: float = 0.0):
         self._measure_anew(patches, stored)
@@ -49,7 +57,7 @@ class TrackedSolid:
         ]
         largest = self._largest(patches, area.total)
         self._error, self._area_error = volume.rounding_error / largest, area.rounding_error[:1] / area.total
-        self._is_tracking = self.measure.method != "open"
+        self._is_tracking = self.measure.method is not Verdict.OPEN
         if self._is_tracking and any(patch.weights is not None for patch in patches):
             tables = self._assess(patches, self.measure.topology, stored).volume
             # The worst of all moments stands for each: of a symmetric body one may be right by chance.
@@ -65,7 +73,20 @@ class TrackedSolid:
         return area * reach ** (monomials(3).sum(axis=1) + 1.0)
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
-        """Measure the patches as they are now; whether tables were enough for that."""
+        """Measure the patches as they are now.
+
+        Parameters
+        ----------
+        patches : sequence of Patch
+            The same ones, with other control points; any others are measured anew.
+        stored : float
+            By how much storing the control points may have moved each (unit).
+
+        Returns
+        -------
+        bool
+            Whether tables were enough for that.
+        """
         size, about = patches_size(patches), self.measure.volume.about
         if not (
             self._is_tracking and self._same_spaces(patches) and np.linalg.norm(patches_center(patches) - about) <= size
@@ -75,7 +96,7 @@ class TrackedSolid:
         self._fluxes = [self._flux(k, patch) for k, patch in enumerate(patches)]
         self._patches = list(patches)
         measure = self._assess(patches, find_topology(patches, max(WELDING_RTOL * size, 4.0 * stored)), stored)
-        if measure.method == "open":
+        if measure.method is Verdict.OPEN:
             self._measure_anew(patches, stored)
             return False
         self.measure = measure

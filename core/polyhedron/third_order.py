@@ -101,18 +101,18 @@ def integrate(
     if largest and not 1.0 / MAX_UNSCALED_REACH < largest < MAX_UNSCALED_REACH:
         return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area=area, shell=shell, exact=exact)
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
+    job = _Integration(points, center, reach, surface.coordinate_error, count, area, shell, exact, planarity)
+    if count <= MAX_SMALL_TRIANGLES:
+        for faces in (surface.triangles, surface.quads):
+            if len(faces) and not indices_in_range(faces, len(points)):
+                raise ValueError(NO_VERTEX)
+        triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
+        return job.moments(integrate_small(points, center, triangles, area=area, shell=shell))
     # Two threads have a block each: the sums are the same with one, and with more where there is room for more.
     room, each = SCRATCH_BYTES[0] * count + SCRATCH_BYTES[1], 8 * scratch_size(3, area, exact)
     size = max(2, min(MAX_TRIANGLES_PER_BLOCK, room // (2 * each), count) // 2 * 2)
     threads = max(1, min(threads, count // MIN_TRIANGLES_PER_THREAD, room // (each * size)))
-    job = _Integration(
-        points, center, reach, surface.coordinate_error, count, area, shell, exact, planarity, size, threads
-    )
-    if count <= MAX_SMALL_TRIANGLES:
-        if not all(indices_in_range(faces, len(points)) for faces in (surface.triangles, surface.quads)):
-            raise ValueError(NO_VERTEX)
-        triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
-        return job.moments(integrate_small(points, center, triangles, area=area, shell=shell))
+    job = replace(job, size=size, threads=threads)
     return job.moments(combine_blocks(job.block_sums(job.blocks(surface))))
 
 
@@ -174,8 +174,8 @@ class _Integration:
     shell: bool
     exact: bool
     planarity: PlanarityAccumulator | None
-    size: int
-    threads: int
+    size: int = 0
+    threads: int = 1
 
     def blocks(self, surface: Surface) -> list[_Block]:
         """The faces in as few blocks as the memory allows, whatever the number of threads."""
@@ -241,77 +241,67 @@ class _Integration:
 
     def moments(self, sums: BlockSums) -> tuple[Moments, Moments]:
         """Volume and area, with their bounds."""
-        bounds = _ErrorBounds(self, sums)
+        sizes, rounding, inputs = _error_bounds(self, sums)
         raw = sums.sums / DIVISORS
-        volume = Moments(raw, self.center, Measure.VOLUME, *bounds.volume(raw))
+        error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
+        volume = Moments(raw, self.center, Measure.VOLUME, error, inputs[0])
         if not self.area:
             return volume, Moments(np.zeros(1), self.center, Measure.AREA)
-        raw = sums.areas / (DIVISORS / AREA_FACTORS) if self.shell else np.array([bounds.sizes[1] / 2.0])
-        return volume, Moments(raw, self.center, Measure.AREA, *bounds.area(raw))
+        raw = sums.areas / (DIVISORS / AREA_FACTORS) if self.shell else np.array([sizes[1] / 2.0])
+        count = len(raw)
+        error = rounding[1, :count] / 2.0 + 8.0 * U * np.abs(raw)
+        return volume, Moments(raw, self.center, Measure.AREA, error, inputs[1, :count])
 
 
-class _ErrorBounds:
-    """What the numbers may be off by, from the largest edges of each chunk of triangles and the sums of their sizes.
+def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
+    """Bounds, from the largest edges of each chunk of triangles and the sums of their sizes, for volume and area.
 
-    sizes: the sum of the |determinants| and that of the doubled areas. tau: the sum of each τ. powers: (20,) the
-    largest value of each monomial within reach. displaced_bound: (20,) the same for points that float32 has moved, by
-    `step` at most; swept_bound: the volume that a closed surface sweeps then. edges: what bounds the sum of the lengths
-    of the edges at the triangles' first corners.
+    Returns the sum of the |determinants| and that of the doubled areas; (2, 20) the errors of Σ w E[f], w the
+    determinants and the doubled areas; and (2, 20) the `input_error` of the moments.
     """
-
-    def __init__(self, job: _Integration, sums: BlockSums):
-        self.job, self.sums = job, sums
-        self.sizes, self.count = np.add.reduce(sums.sizes, axis=1).tolist(), int(np.add.reduce(sums.counts))
-        # No product of matrices, after which the threads of some BLAS keep a core busy for a while.
-        products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts).tolist()
-        self.tau = [products[i][j] + products[j][i] for i, j in ((1, 2), (2, 0), (0, 1))]
-        self.powers = _monomial_bounds(job.reach)
-        self.step = hypot(*job.half_ulp.tolist())
-        if self.step:
-            step, double = self.step, self.sizes[1] * (1.0 + 1e-9) if job.area else hypot(*self.tau)
-            lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
-            self.edges = float(np.add.reduce(lengths * sums.counts))
-            self.swept_bound = step * (double / 2.0 + step * self.edges + 2.0 * step**2 * self.count)
-            self.displaced_bound = _monomial_bounds(job.reach + job.half_ulp)
-
-    def volume(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(20,) and (20,) `error` and `input_error` of volume moments."""
-        x, y, z = self.job.reach.tolist()
-        weight = 9.0 * U * (x * self.tau[0] + y * self.tau[1] + z * self.tau[2])
-        error = self._error(weight, 0) / CONE_DIVISORS + 8.0 * U * np.abs(raw)
-        return error, self.swept_bound * self.displaced_bound if self.step else np.zeros(20)
-
-    def area(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(k,) and (k,) `error` and `input_error` of area moments."""
-        error = self._error(9.0 * U * sum(self.tau), 1)[: len(raw)] / 2.0 + 8.0 * U * np.abs(raw)
-        if not self.step:
-            return error, np.zeros(len(raw))
-        tilted = self.step * (self.edges + 2.0 * self.step * self.count)
-        reach = self.job.reach + self.job.half_ulp
-        share = self.job.half_ulp / np.where(reach > 0.0, reach, 1.0)  # of an axis along which it has no extent
-        return error, (self.displaced_bound * (tilted + EXPONENTS @ share * (self.swept_bound / self.step)))[: len(raw)]
-
-    def _error(self, weight: float, which: int) -> NDArray[np.float64]:
-        """(20,) The error of Σ w E[f], w the determinants or the doubled areas: the weights are off by `weight` in all;
-        then their products with the nodes, the sums, what underflow may lose and the rest of the third order."""
-        job, sums, size = self.job, self.sums, self.sizes[which] * (1.0 + 1e-9)
-        # A product of matrices may add up one by one.
-        steps = 3.0 * job.count if job.count <= MAX_SMALL_TRIANGLES else PAIRWISE_SUM_ROUNDINGS + sums.blocks
-        error = (weight + 1e-290 * self.count + (U * (size + weight)) * (PRODUCT_ROUNDINGS + steps)) * self.powers
-        error *= THIRD_ORDER_SHARE
-        if not job.exact:
-            e, f = sums.base, sums.side + sums.base / 2.0
-            rest = [
-                f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
-                for i, j, k in TRIPLES
-            ]
-            error[10:] += (1.0 + 1e-9) * np.add.reduce(rest * sums.sizes[which], axis=1)
-        return error
+    sizes, count = np.add.reduce(sums.sizes, axis=1).tolist(), int(np.add.reduce(sums.counts))
+    # No product of matrices, after which the threads of some BLAS keep a core busy for a while.
+    products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts).tolist()
+    tau = [products[i][j] + products[j][i] for i, j in ((1, 2), (2, 0), (0, 1))]  # the sum of each τ
+    reach, half_ulp, step = job.reach, job.half_ulp, hypot(*job.half_ulp.tolist())
+    powers, displaced = _monomial_bounds(np.array([reach, reach + half_ulp]))  # (20,) and (20,)
+    x, y, z = reach.tolist()
+    # The weights are off by so much in all.
+    weight = np.array([[9.0 * U * (x * tau[0] + y * tau[1] + z * tau[2])], [9.0 * U * sum(tau)]])
+    size = np.array(sizes)[:, None] * (1.0 + 1e-9)
+    # Then come their products with the nodes, the sums, and what underflow may lose. A product of matrices may add up
+    # one by one.
+    steps = 3.0 * job.count if job.count <= MAX_SMALL_TRIANGLES else PAIRWISE_SUM_ROUNDINGS + sums.blocks
+    rounding = (weight + 1e-290 * count + (U * (size + weight)) * (PRODUCT_ROUNDINGS + steps)) * powers
+    rounding *= THIRD_ORDER_SHARE
+    if not job.exact:  # and the rest of the third order
+        e, f = sums.base, sums.side + sums.base / 2.0
+        rest = [
+            f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
+            for i, j, k in TRIPLES
+        ]
+        for which in range(2):
+            rounding[which, 10:] += (1.0 + 1e-9) * np.add.reduce(rest * sums.sizes[which], axis=1)
+    inputs = np.zeros((2, 20))
+    if step:
+        double = sizes[1] * (1.0 + 1e-9) if job.area else hypot(*tau)
+        lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
+        edges = float(np.add.reduce(lengths * sums.counts))  # bounds their sum, at the triangles' first corners
+        # the volume that a closed surface sweeps where float32 has moved its points
+        swept = step * (double / 2.0 + step * edges + 2.0 * step**2 * count)
+        tilted = step * (edges + 2.0 * step * count)
+        moved_reach = reach + half_ulp
+        share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # of an axis along which it has no extent
+        inputs[0] = swept * displaced
+        inputs[1] = displaced * (tilted + EXPONENTS @ share * (swept / step))
+    return sizes, rounding, inputs
 
 
-def _monomial_bounds(reach: NDArray) -> NDArray[np.float64]:
-    """(20,) the largest value of each monomial within reach."""
-    return np.multiply.reduce(np.array([1.0, *reach]).take(MONOMIAL_FACTORS), axis=1)
+def _monomial_bounds(reaches: NDArray) -> NDArray[np.float64]:
+    """(k, 20) the largest value of each monomial within each of (k, 3) reaches."""
+    factors = np.ones((len(reaches), 4))
+    factors[:, 1:] = reaches
+    return np.multiply.reduce(factors.take(MONOMIAL_FACTORS, axis=1), axis=2)
 
 
 def quad_corners(triangles: NDArray) -> list[NDArray] | None:

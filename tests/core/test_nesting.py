@@ -10,7 +10,7 @@ from body_moments.core.mesh.bvh import Bvh, sort_components
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid import nesting
 from body_moments.core.solid.measure_solid import measure_solid
-from body_moments.core.solid.nesting import classify_pairs, orient_nested_shells
+from body_moments.core.solid.nesting import classify_pairs, orient_nested_components
 
 from tests.core.bodies import box, inverted, joined, moved, rotation, sphere, torus
 
@@ -190,7 +190,7 @@ def test_shells_in_shells_are_turned_where_no_material_surrounds_them(signs, tur
     order = np.random.default_rng(count).permutation(count)
     points, shells = shells_of(*[parts[k] for k in order])
     ask = np.ones(count, bool)
-    found = orient_nested_shells(shells, classify_pairs(points, shells, ask, TOUCH), ask)
+    found = orient_nested_components(shells, classify_pairs(points, shells, ask, TOUCH), ask)
     for flags, expected in zip(found, (turned, nested, cavities)):
         assert "".join("x" if flag else "-" for flag in flags[np.argsort(order)]) == expected
 
