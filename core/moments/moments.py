@@ -169,17 +169,18 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
     """Several bodies as one, about the first one's point and to the lowest of their orders. What they measure must
     be the same."""
     first = parts[0]
-    if any(part.measure != first.measure for part in parts):
+    if len({part.measure for part in parts}) > 1:
         raise ValueError("different measures")
-    order = min(part.order for part in parts)
-    parts = [part.truncate(order).about_point(first.about) for part in parts]
+    if len(parts) > 1:
+        order = min([part.order for part in parts])
+        parts = [part.truncate(order).about_point(first.about) for part in parts]
     raws = np.array([part.raw for part in parts])
     return Moments(
         raw=raws.sum(axis=0),
         about=first.about,
         measure=first.measure,
-        rounding_error=sum(part.rounding_error for part in parts) + len(parts) * U * np.abs(raws).sum(axis=0),
-        input_error=sum(part.input_error for part in parts),
+        rounding_error=sum([part.rounding_error for part in parts]) + len(parts) * U * np.abs(raws).sum(axis=0),
+        input_error=sum([part.input_error for part in parts]),
     )
 
 
@@ -195,7 +196,7 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
     matrices: (k, 4, 4), as for `Moments.transform`. about: (3,), by default the mean of the images of `moments.about`.
     """
     linear, offsets = to_trailing_axis(_validated_matrices(np.asarray(matrices, np.float64)))
-    point = moments.about[:, None]
+    point, order = moments.about[:, None], moments.order
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
     about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     raw, error, extra = np.zeros((3, len(moments.raw)))
@@ -208,13 +209,11 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
         # The images of the reference point are rounded, and the body moves with them.
         stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
         tolerance = 6 * U * (np.abs(offsets[:, part]).max(axis=0) + np.abs(about).max() + stretch * np.abs(point).max())
-        weight_error = weight_error + (len(matrices) + 6 * moments.order + 8) * U * weight
+        weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
         if len(matrices) == 1:
-            image, *bounds = _single_image(moments, maps, offset, tolerance, weight, weight_error, anisotropy)
+            image, *bounds = _single_image(moments, order, maps, offset, tolerance, weight, weight_error, anisotropy)
         else:
-            image = np.add.reduce(
-                transform_by_horner(moments.raw[:, None], moments.order, maps, offset) * weight, axis=1
-            )
+            image = np.add.reduce(transform_by_horner(moments.raw[:, None], order, maps, offset) * weight, axis=1)
             bounds = _image_error_bounds(moments, stretch, reach, tolerance, weight, weight_error, anisotropy)
         raw += image
         error += bounds[0]
@@ -231,6 +230,7 @@ def _validated_matrices(matrices: NDArray) -> NDArray[np.float64]:
 
 def _single_image(
     moments: Moments,
+    order: int,
     linear: NDArray,
     offset: NDArray,
     tolerance: NDArray,
@@ -239,7 +239,7 @@ def _single_image(
     anisotropy: NDArray,
 ) -> tuple[NDArray, NDArray, NDArray]:
     """The image under one map, (3, 3, 1) and (3, 1), and its bounds moment by moment: the same on absolute values."""
-    order, away = moments.order, np.abs(offset.T)
+    away = np.abs(offset.T)
     values = apply_linear(
         np.array(
             [moments.raw, moments.rounding_error, moments.input_error, np.abs(moments.raw) + moments.rounding_error]
@@ -304,8 +304,8 @@ def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, N
         return np.ones(linear.shape[2]), exact, exact
     a, b, c = linear
     terms = [(a[i] * b[j] * c[k], a[i] * b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
-    det = np.abs(sum(plus - minus for plus, minus in terms))
-    permanent = sum(np.abs(plus) + np.abs(minus) for plus, minus in terms)
+    det = np.abs(sum([plus - minus for plus, minus in terms]))
+    permanent = sum([np.abs(plus) + np.abs(minus) for plus, minus in terms])
     if measure == Measure.VOLUME:
         return det, 8 * U * permanent, exact
     anisotropy = _anisotropy(linear)
@@ -319,8 +319,8 @@ def _anisotropy(linear: NDArray) -> NDArray[np.float64]:
     """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for
     a flat map."""
     columns = linear.transpose(1, 0, 2)
-    a, b, c = (np.add.reduce(column * column, axis=0) for column in columns)
-    ab, ac, bc = (np.abs(np.add.reduce(columns[i] * columns[j], axis=0)) for i, j in ((0, 1), (0, 2), (1, 2)))
+    a, b, c = [np.add.reduce(column * column, axis=0) for column in columns]
+    ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j], axis=0)) for i, j in ((0, 1), (0, 2), (1, 2))]
     mean = (a + b + c) / 3.0
     off = np.maximum(np.maximum(np.abs(a - mean) + ab + ac, np.abs(b - mean) + ab + bc), np.abs(c - mean) + ac + bc)
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 
+@lru_cache
 def monomial_count(order: int) -> int:
     """The number of monomials in x, y, z of degree at most `order`."""
-    return (order + 1) * (order + 2) * (order + 3) // 6
+    return int((order + 1) * (order + 2) * (order + 3) // 6)
 
 
+@lru_cache
 def order_from_count(count: int) -> int:
     """The lowest order that has at least `count` monomials."""
     order = 0
@@ -38,9 +40,10 @@ def monomials(order: int) -> NDArray[np.int64]:
     return table
 
 
+@lru_cache
 def count_of_degree(degree: int) -> int:
     """How many monomials have exactly this degree."""
-    return (degree + 1) * (degree + 2) // 2
+    return int((degree + 1) * (degree + 2) // 2)
 
 
 @lru_cache

@@ -26,8 +26,7 @@ import bpy
 from bpy.app.handlers import persistent
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
-from ..read.digest import shape_digest
-from ..read.fingerprint import VERSION, matrix_hash, scale_hash, settings_hash
+from ..read.fingerprint import VERSION, matrix_hash, scale_hash, settings_hash, shape_digest
 from ..read.quiet import is_paused, paused
 from ..write import section
 

@@ -19,7 +19,7 @@ from ...core.verdict.finding import MeasureError
 from ..bodies.measure_object import Measured
 from ..bodies.measurement import measurement_of
 from ..bodies.request import Request
-from ..bodies.wall import WallBody, Walls
+from ..bodies.wall import Walls
 from ..read import Reading
 from ..settings import hooks
 from ..write import properties
@@ -42,9 +42,7 @@ class _CachedWalls:
 
 
 def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
-    """Remember the walls that an object was measured with, if any. unit: metres per Blender unit."""
-    if not isinstance(measured.body, WallBody):
-        return
+    """Remember the walls that an object was measured with. unit: metres per Blender unit."""
     _, geometry, matrix, _ = measured.measurement.fingerprint.split(":")
     reading = replace(measured.reading, parts=[])
     _cache[obj.session_uid] = _CachedWalls(reading, measured.body.walls.drop_arrays(), geometry, matrix, unit)
