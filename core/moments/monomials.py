@@ -28,7 +28,8 @@ def order_from_count(count: int) -> int:
 def monomial_index(p: int, q: int, r: int) -> int:
     """Where raw[p,q,r] stands: graded by degree, within a degree by (q+r, r)."""
     s = q + r
-    return monomial_count(p + s - 1) + s * (s + 1) // 2 + r
+    n = p + s
+    return n * (n + 1) * (n + 2) // 6 + s * (s + 1) // 2 + r
 
 
 @lru_cache

@@ -65,9 +65,11 @@ class Request:
 
         Raises MeasureError where the settings name none that can be read.
         """
-        if self.given.density is not None or self.given.mass is not None or self.options.kind == "wire":
+        options, settings = self.options, self.obj.body_moments
+        is_given = self.given.density is not None or options.mass is not None
+        if is_given or options.kind == "wire" or settings.density_from == "VALUE":
             return None
-        return density_field(self.obj.body_moments)
+        return density_field(settings)
 
     @cached_property
     def surfaces(self) -> Reading:

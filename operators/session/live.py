@@ -89,6 +89,7 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
 def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Let the object's numbers follow its edits; the first of them."""
     _live.add(obj.session_uid)
+    _listen()
     return update(obj, depsgraph)
 
 
@@ -164,29 +165,41 @@ def _forget(uid: int) -> None:
         cache.discard(uid)
     for cache in (_results, _tracked):
         cache.pop(uid, None)
+    if not _live:
+        _ignore()
 
 
 @persistent
 def _on_load(*_args) -> None:
     for cache in (_live, _pending, _results, _tracked):
         cache.clear()
+    _ignore()
 
 
-HANDLERS = (
-    ("depsgraph_update_post", _on_depsgraph_update),
-    ("frame_change_post", _on_depsgraph_update),
-    ("load_post", _on_load),
-)
+UPDATES = ("depsgraph_update_post", "frame_change_post")
+
+
+def _listen() -> None:
+    """Hear of updates: as long as an object has Live on."""
+    for name in UPDATES:
+        handlers = getattr(bpy.app.handlers, name)
+        if _on_depsgraph_update not in handlers:
+            handlers.append(_on_depsgraph_update)
+
+
+def _ignore() -> None:
+    for name in UPDATES:
+        handlers = getattr(bpy.app.handlers, name)
+        if _on_depsgraph_update in handlers:
+            handlers.remove(_on_depsgraph_update)
 
 
 def register() -> None:
-    for name, function in HANDLERS:
-        getattr(bpy.app.handlers, name).append(function)
+    bpy.app.handlers.load_post.append(_on_load)
 
 
 def unregister() -> None:
-    for name, function in reversed(HANDLERS):
-        getattr(bpy.app.handlers, name).remove(function)
+    bpy.app.handlers.load_post.remove(_on_load)
     if bpy.app.timers.is_registered(_tick):
         bpy.app.timers.unregister(_tick)
     _on_load()

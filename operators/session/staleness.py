@@ -27,7 +27,7 @@ from bpy.app.handlers import persistent
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ..read.fingerprint import VERSION, matrix_hash, scale_hash, settings_hash, shape_digest
-from ..read.quiet import is_paused, paused
+from ..read.quiet import paused
 from ..write import section
 
 EDITED_REASON = "edited"
@@ -209,7 +209,7 @@ def _instancing_objects(updated: list[Object], collections: set[Collection]) -> 
 def _on_depsgraph_update(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
     global _generation, _undo_pending
     _generation += 1
-    if is_paused() or depsgraph is None or depsgraph.mode != "VIEWPORT":
+    if paused.depth or depsgraph is None or depsgraph.mode != "VIEWPORT":
         return
     undone, _undo_pending = _undo_pending, False
     updated: dict[Object, None] = {}

@@ -38,7 +38,7 @@ def _rank(found: Finding) -> int:
 
 def report(operator: Operator, *findings: Finding) -> None:
     """One report of findings, as severe as the most severe of them."""
-    worst = max(findings, key=_rank)
+    worst = findings[0] if len(findings) == 1 else max(findings, key=_rank)
     operator.report({LEVELS[severity(worst)]}, text(*findings))
 
 

@@ -502,6 +502,10 @@ def test_live_numbers_follow_undo_and_stop_at_a_file_and_when_unregistered(tmp_p
     live.unregister()
     live.register()
     assert not live._live and not live._tracked
+    assert live._on_depsgraph_update not in bpy.app.handlers.depsgraph_update_post
+    bpy.ops.object.body_moments_live()
+    bpy.ops.object.body_moments_live()
+    bpy.ops.object.body_moments_live()
     assert bpy.app.handlers.depsgraph_update_post.count(live._on_depsgraph_update) == 1
 
 
