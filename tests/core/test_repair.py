@@ -192,10 +192,13 @@ def test_the_verdict_follows_from_what_the_stages_hand_on():
     assert judge(checked, given, turned).method is Verdict.REORIENTED
     unclosed = replace(oriented, mesh=replace(body, open=np.ones(1, bool)))
     assert judge(checked, given, unclosed).method is Verdict.OPEN
-    raw = oriented.volume.raw.copy()
-    raw[1] = 0.6 * raw[0]  # the center would be outside of the box
-    impossible = judge(checked, given, replace(oriented, volume=Moments(raw, oriented.volume.about)))
-    assert impossible.method is Verdict.OPEN and [item.code for item in impossible.findings] == ["self_intersecting"]
+    about = oriented.volume.about
+    outside = oriented.volume.about_point(about - [0.6, 0.0, 0.0]).raw  # the center would be outside of the box
+    negative = oriented.volume.raw * np.where(np.arange(20) == 4, -1.0, 1.0)
+    for raw in (outside, negative):
+        impossible = judge(checked, given, replace(oriented, volume=Moments(raw, about)))
+        assert impossible.method is Verdict.OPEN
+        assert [item.code for item in impossible.findings] == ["self_intersecting"]
     flat = judge(checked, given, replace(oriented, is_solid=False, solid=np.zeros(1, bool)))
     assert flat.method is Verdict.OPEN and not flat.volume.raw.any() and flat.volume.rounding_error[0] >= 1.0
     assert [item.code for item in flat.findings] == ["flat_surface"]
