@@ -16,7 +16,7 @@ from .verdict.health import MeshReport
 from .verdict.method import Method
 
 # where a density came from that is the same everywhere
-DENSITY_FROM_VALUE, DENSITY_FROM_MASS = finding("density_from_value"), finding("density_from_mass")
+UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = finding("density_from_value"), finding("density_from_mass")
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ class Measurement:
     @property
     def has_uniform_density(self) -> bool:
         """Whether the density is the same everywhere."""
-        return self.density_from in (DENSITY_FROM_VALUE, DENSITY_FROM_MASS)
+        return self.density_from in UNIFORM_DENSITIES
 
     def in_object_frame(self) -> MassProperties:
         """The mass properties in the object's own frame."""

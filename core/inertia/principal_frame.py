@@ -203,9 +203,10 @@ def _second_order_frame(
         third = skewness, skewness_error
         if refine is not None and not _is_decided(np.abs(skewness[fixed]), skewness_error[fixed], noise[fixed]):
             third = _third_scores(refine(), shift, real, axes)
-        scores[fixed] = [
-            _signed_skewness(*arrays) for arrays in zip(*(arrays[fixed].tolist() for arrays in (*third, noise)))
-        ]
+        values, errors = third[0][fixed], third[1][fixed]
+        is_clear = np.abs(values) > noise[fixed] + errors
+        first = np.arange(len(fixed)), is_clear.argmax(axis=1)  # zero where none of them is more than noise
+        scores[fixed] = np.where(is_clear[first], values[first], 0.0)
     inertia = (spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total)
     extents = SecondMomentAxes(axes, real, free, step * np.sqrt(scale), float(tilts.max()), noise_factor * NOISE_LEVEL)
     return _SecondOrderFrame(
@@ -216,12 +217,6 @@ def _second_order_frame(
         skewness[:, 0],
         noise[:, 0] + skewness_error[:, 0],
     )
-
-
-def _signed_skewness(scores: list[float], errors: list[float], noises: list[float]) -> float:
-    """How clearly third moments point along an axis, signed; zero where they do not. noises: below which a score is
-    none."""
-    return next((value for value, error, noise in zip(scores, errors, noises) if abs(value) > noise + error), 0.0)
 
 
 def _is_decided(size: NDArray, error: NDArray, noise: NDArray) -> bool:
@@ -261,7 +256,7 @@ def _sign_consistent_frames(axes: NDArray, scores: NDArray) -> NDArray[np.float6
     size = np.abs(scores)
     fixed = [i for i in range(3) if scores[i]]
     if len(fixed) == 3:  # the weakest gives way; of equal ones the last
-        fixed.remove(max(i for i in fixed if size[i] <= size.min() * (1.0 + EQUAL_SCORES_RTOL)))
+        fixed.remove(max([i for i in fixed if size[i] <= size.min() * (1.0 + EQUAL_SCORES_RTOL)]))
     return axes * HALF_TURN_SIGNS[(HALF_TURN_SIGNS[:, fixed] * scores[fixed] > 0.0).all(axis=1), None]
 
 

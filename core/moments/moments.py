@@ -16,12 +16,21 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .affine_maps import apply_linear, apply_translation, to_trailing_axis, transform_by_horner
-from .monomials import monomial_count, monomial_index, monomials, order_from_count, product_indices
+from .affine_maps import transform_by_horner
+from .monomials import (
+    count_of_degree,
+    monomial_count,
+    monomial_index,
+    monomials,
+    order_from_count,
+    product_indices,
+    quotient_indices,
+)
 
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
 FLOAT32_HALF_ULP = 2.0**-24  # of float32, relatively
@@ -169,17 +178,18 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
     """Several bodies as one, about the first one's point and to the lowest of their orders. What they measure must
     be the same."""
     first = parts[0]
-    if any(part.measure != first.measure for part in parts):
+    if len({part.measure for part in parts}) > 1:
         raise ValueError("different measures")
-    order = min(part.order for part in parts)
-    parts = [part.truncate(order).about_point(first.about) for part in parts]
+    if len(parts) > 1:
+        order = min([part.order for part in parts])
+        parts = [part.truncate(order).about_point(first.about) for part in parts]
     raws = np.array([part.raw for part in parts])
     return Moments(
         raw=raws.sum(axis=0),
         about=first.about,
         measure=first.measure,
-        rounding_error=sum(part.rounding_error for part in parts) + len(parts) * U * np.abs(raws).sum(axis=0),
-        input_error=sum(part.input_error for part in parts),
+        rounding_error=sum([part.rounding_error for part in parts]) + len(parts) * U * np.abs(raws).sum(axis=0),
+        input_error=sum([part.input_error for part in parts]),
     )
 
 
@@ -194,8 +204,10 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
 
     matrices: (k, 4, 4), as for `Moments.transform`. about: (3,), by default the mean of the images of `moments.about`.
     """
-    linear, offsets = to_trailing_axis(_validated_matrices(np.asarray(matrices, np.float64)))
-    point = moments.about[:, None]
+    matrices = _validated_matrices(np.asarray(matrices, np.float64))
+    affine = np.ascontiguousarray(matrices[:, :3].transpose(1, 2, 0))
+    linear, offsets = affine[:, :3], affine[:, 3]
+    point, order = moments.about[:, None], moments.order
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
     about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     raw, error, extra = np.zeros((3, len(moments.raw)))
@@ -208,13 +220,11 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
         # The images of the reference point are rounded, and the body moves with them.
         stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
         tolerance = 6 * U * (np.abs(offsets[:, part]).max(axis=0) + np.abs(about).max() + stretch * np.abs(point).max())
-        weight_error = weight_error + (len(matrices) + 6 * moments.order + 8) * U * weight
+        weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
         if len(matrices) == 1:
-            image, *bounds = _single_image(moments, maps, offset, tolerance, weight, weight_error, anisotropy)
+            image, *bounds = _single_image(moments, order, maps, offset, tolerance, weight, weight_error, anisotropy)
         else:
-            image = np.add.reduce(
-                transform_by_horner(moments.raw[:, None], moments.order, maps, offset) * weight, axis=1
-            )
+            image = np.add.reduce(transform_by_horner(moments.raw[:, None], order, maps, offset) * weight, axis=1)
             bounds = _image_error_bounds(moments, stretch, reach, tolerance, weight, weight_error, anisotropy)
         raw += image
         error += bounds[0]
@@ -231,6 +241,7 @@ def _validated_matrices(matrices: NDArray) -> NDArray[np.float64]:
 
 def _single_image(
     moments: Moments,
+    order: int,
     linear: NDArray,
     offset: NDArray,
     tolerance: NDArray,
@@ -239,7 +250,7 @@ def _single_image(
     anisotropy: NDArray,
 ) -> tuple[NDArray, NDArray, NDArray]:
     """The image under one map, (3, 3, 1) and (3, 1), and its bounds moment by moment: the same on absolute values."""
-    order, away = moments.order, np.abs(offset.T)
+    away = np.abs(offset.T)
     values = apply_linear(
         np.array(
             [moments.raw, moments.rounding_error, moments.input_error, np.abs(moments.raw) + moments.rounding_error]
@@ -255,6 +266,59 @@ def _single_image(
         moved = monomials(order)[raised, axis] * tolerance * weight * size[: len(raised)]
         rounding[raised] += moved
     return weight * image, rounding, weight * (mapped_input + anisotropy * (size + mapped_input))
+
+
+def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
+    """(m, K): m functionals F, (m, K), under a linear map (3, 3), the first as it is, the others under |map|.
+
+    For one map it is faster than Horner's scheme to turn first, degree by degree, and to shift then, axis by axis. The
+    image's monomials as polynomials of the old ones are those of one degree less times a form.
+    """
+    forms, out = np.array([linear, np.abs(linear)]), np.array(values)
+    table = np.ones((2, 1, 1))
+    for degree in range(1, order + 1):
+        count, below = count_of_degree(degree), count_of_degree(degree - 1)
+        padded = np.concatenate([table, np.zeros((2, below, 1))], axis=2)
+        raised = padded[:, :, quotient_indices(degree, below)]  # times x, y, z: (2, below, 3, rows)
+        table = np.empty((2, count, count))
+        for axis, old, new in (
+            (0, slice(0, below), slice(0, below)),
+            (1, slice(below - degree, below), slice(below, count - 1)),
+            (2, slice(below - 1, below), slice(count - 1, count)),
+        ):
+            np.einsum("mrjc,mj->mrc", raised[:, old], forms[:, axis], out=table[:, new])
+        part = slice(monomial_count(degree - 1), monomial_count(degree))
+        out[0, part] = np.add.reduce(table[0] * values[0, part], axis=1)
+        out[1:, part] = np.einsum("rc,mc->mr", table[1], values[1:, part])
+    return out
+
+
+@lru_cache
+def _cube_layout(order: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """(K,) where each monomial stands in a flat table of all exponents up to `order`, and (n, n) the binomials."""
+    p, q, r = monomials(order).T
+    n = order + 1
+    return (p * n + q) * n + r, np.array([[float(math.comb(i, j)) for j in range(n)] for i in range(n)])
+
+
+def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
+    """(m, K): each of m functionals F, (m, K), with its own offset, (m, 3): F[(x+t)^α], one axis after the other."""
+    positions, binomials = _cube_layout(order)
+    n = order + 1
+    lag = np.subtract.outer(np.arange(n), np.arange(n))
+    for axis in range(3):
+        powers = np.multiply.accumulate(
+            np.concatenate([np.ones((len(values), 1)), np.repeat(offsets[:, axis, None], order, axis=1)], axis=1),
+            axis=1,
+        )
+        table = binomials * powers[:, np.maximum(lag, 0)]
+        cube = np.zeros((len(values), n**3))
+        cube[:, positions] = values  # what stands above `order` is no moment, and must not come back
+        cube = np.moveaxis(cube.reshape(-1, n, n, n), axis + 1, 1)
+        with np.errstate(over="ignore", invalid="ignore"):
+            cube = np.einsum("mpi,miqr->mpqr", table, cube)
+        values = np.moveaxis(cube, 1, axis + 1).reshape(len(values), -1)[:, positions]
+    return values
 
 
 def _image_error_bounds(
@@ -304,8 +368,8 @@ def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, N
         return np.ones(linear.shape[2]), exact, exact
     a, b, c = linear
     terms = [(a[i] * b[j] * c[k], a[i] * b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
-    det = np.abs(sum(plus - minus for plus, minus in terms))
-    permanent = sum(np.abs(plus) + np.abs(minus) for plus, minus in terms)
+    det = np.abs(sum([plus - minus for plus, minus in terms]))
+    permanent = sum([np.abs(plus) + np.abs(minus) for plus, minus in terms])
     if measure == Measure.VOLUME:
         return det, 8 * U * permanent, exact
     anisotropy = _anisotropy(linear)
@@ -319,8 +383,8 @@ def _anisotropy(linear: NDArray) -> NDArray[np.float64]:
     """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for
     a flat map."""
     columns = linear.transpose(1, 0, 2)
-    a, b, c = (np.add.reduce(column * column, axis=0) for column in columns)
-    ab, ac, bc = (np.abs(np.add.reduce(columns[i] * columns[j], axis=0)) for i, j in ((0, 1), (0, 2), (1, 2)))
+    a, b, c = [np.add.reduce(column * column, axis=0) for column in columns]
+    ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j], axis=0)) for i, j in ((0, 1), (0, 2), (1, 2))]
     mean = (a + b + c) / 3.0
     off = np.maximum(np.maximum(np.abs(a - mean) + ab + ac, np.abs(b - mean) + ab + bc), np.abs(c - mean) + ac + bc)
     with np.errstate(invalid="ignore", divide="ignore"):

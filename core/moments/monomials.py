@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 
+@lru_cache
 def monomial_count(order: int) -> int:
     """The number of monomials in x, y, z of degree at most `order`."""
-    return (order + 1) * (order + 2) * (order + 3) // 6
+    return int((order + 1) * (order + 2) * (order + 3) // 6)
 
 
+@lru_cache
 def order_from_count(count: int) -> int:
     """The lowest order that has at least `count` monomials."""
     order = 0
@@ -26,7 +28,8 @@ def order_from_count(count: int) -> int:
 def monomial_index(p: int, q: int, r: int) -> int:
     """Where raw[p,q,r] stands: graded by degree, within a degree by (q+r, r)."""
     s = q + r
-    return monomial_count(p + s - 1) + s * (s + 1) // 2 + r
+    n = p + s
+    return n * (n + 1) * (n + 2) // 6 + s * (s + 1) // 2 + r
 
 
 @lru_cache
@@ -38,9 +41,10 @@ def monomials(order: int) -> NDArray[np.int64]:
     return table
 
 
+@lru_cache
 def count_of_degree(degree: int) -> int:
     """How many monomials have exactly this degree."""
-    return (degree + 1) * (degree + 2) // 2
+    return int((degree + 1) * (degree + 2) // 2)
 
 
 @lru_cache

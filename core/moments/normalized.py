@@ -7,8 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..verdict.finding import MeasureError
-from .affine_maps import apply_translation
-from .moments import Measure, Moments, U
+from .moments import Measure, Moments, U, apply_translation
 from .monomials import monomials
 
 

@@ -21,7 +21,6 @@ from ...core.solid.measure_solid import SolidIntegrals
 from ...core.verdict.finding import Finding, ReadError
 from ...core.verdict.health import MeshReport
 from ...core.verdict.method import Method, Verdict
-from ..settings.options import MeasureOptions
 from .instances import area_of_instances
 
 MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
@@ -100,24 +99,6 @@ class Body:
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
         """Yield the surfaces where they stand, in float64: around what is solid, or the sheets as they are."""
         return iter(())
-
-    def extent(self, options: MeasureOptions) -> Moments:
-        """Return what the density is of: the volume, of a shell that of its sheet or wall, of a wire its length.
-
-        Raises
-        ------
-        ReadError
-            Where there is none.
-        """
-        if self.length is not None:
-            return self.length
-        shell = options.kind == "shell"
-        volume = self.area * options.thickness if shell and self.wall is None else self.wall or self.volume
-        if not volume.raw[0] > 0.0:
-            if self.face_count and not self.area.total > 0.0:
-                raise ReadError("no_face_area")
-            raise ReadError("no_thickness" if shell and self.area.total > 0.0 else "no_volume")
-        return volume
 
 
 @dataclass(frozen=True, eq=False)

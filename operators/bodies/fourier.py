@@ -20,10 +20,11 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Verdict
 from ..read import Reading, read_object, shows_flat_region
+from ..read.reading import to_si
 from ..settings.density import density_field
-from ..settings.options import MeasureOptions, with_object_settings
-from .instances import to_si
+from ..settings.options import MeasureOptions
 from .mesh import mesh_body
+from .request import with_object_settings
 
 
 @dataclass(frozen=True)

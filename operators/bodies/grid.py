@@ -26,6 +26,8 @@ from .body import MAX_MASS_MOMENT, Body, MeshBody
 from .mesh import mesh_body
 from .request import Request
 
+MEASURED_AS = frozenset({"solid", "shell", "wire"})  # the others to be refused
+
 
 @dataclass(frozen=True, eq=False)
 class GridBody(Body):

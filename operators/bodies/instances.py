@@ -89,13 +89,6 @@ def instances_overlap(reading: Reading) -> bool:
     return boxes_overlap(np.concatenate(centers), np.concatenate(extents))
 
 
-def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:
-    """World matrices to SI."""
-    scaled = np.array(matrices, np.float64)
-    scaled[:, :3] *= unit
-    return scaled
-
-
 def area_of_instances(
     surface: Surface, area: Moments, matrices: NDArray, measured: Callable[[Surface], Moments] | None
 ) -> Iterator[Moments]:

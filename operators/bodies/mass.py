@@ -24,11 +24,12 @@ from ...core.solid.parts import ClosedParts
 from ...core.verdict.finding import Finding, ReadError, finding, truncate_findings
 from ...core.verdict.method import Verdict
 from ..read import Reading
-from ..read.reading import said_of
+from ..read.reading import said_of, to_si
 from ..settings.density import DensityField, material_density
 from ..settings.digest import density_key
 from .body import MAX_MASS_MOMENT, MeshBody
-from .instances import area_of_instances, findings_by_part, to_si, with_sources
+from .instances import area_of_instances, findings_by_part, with_sources
+from .measurement import extent
 from .polynomial_mass import polynomial_mass_result
 from .request import Request
 from .voxel_filled import filled_by_volume
@@ -58,6 +59,7 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
     density, options = request.density, request.options
     shell = options.kind == "shell"
     factor = options.thickness if shell else 1.0
+    extent(body, options)  # refused before it is weighed
     if density.kind == "volume":
         if shell:
             raise ReadError("density_volume_of_shell")

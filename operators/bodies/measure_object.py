@@ -55,8 +55,8 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
         with ExitStack() as opened:
             request = Request.of(obj, depsgraph, options, opened=opened)
             for kind in KINDS:
-                reading = kind.read(request)
-                if reading is not None:  # the last one reads or refuses
+                reading = kind.read(request) if request.options.kind in kind.MEASURED_AS else None
+                if reading is not None:  # the last one of them reads or refuses
                     break
             body = kind.body(reading, request)
             return Measured(measurement_of(reading, body, request), reading, body)

@@ -38,9 +38,9 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
     options = request.options
     shell, wire = options.kind == "shell", options.kind == "wire"
     thin, solid = shell and body.wall is None, body.wall or body.volume
-    extent = body.extent(options)
-    volume = body.volume if wire else extent
-    moments, factor, density = _weighed(body, extent, solid, thin, options)
+    measured = extent(body, options)
+    volume = body.volume if wire else measured
+    moments, factor, density = _weighed(body, measured, solid, thin, options)
     rotation = np.asarray(reading.rotation, np.float64)
     higher = _higher(body, shell)
     uses_high_order = options.pose or body.face_count <= MAX_FACES_HIGH_ORDER
@@ -54,7 +54,9 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
     left_open = not uses_high_order and higher is not None and not properties.principal.is_unique
     frame = (finding("axes_from_third_order"),) if left_open else ()
     given = DENSITY_FROM_VALUE if options.mass is None else DENSITY_FROM_MASS
-    volume_moments, area_moments = _to_order(body, options) or (None if thin else solid, body.area)
+    volume_moments, area_moments = None if thin else solid, body.area
+    if options.order is not None:
+        volume_moments, area_moments = _to_order(body, options) or (volume_moments, area_moments)
     rounding, moved = properties.rounding_error, properties.input_error
     return Measurement(
         name=reading.name,
@@ -73,7 +75,7 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
         findings=(*reading.findings, *body.findings, *frame),
         rotation=rotation,
         location=np.asarray(reading.location, np.float64) * request.unit,
-        length=float(extent.raw[0]) if wire else None,
+        length=float(measured.raw[0]) if wire else None,
         display_volume=body.display_volume,
         error_bound={
             **_bounds(volume.rounding_error, body.area.rounding_error, rounding),
@@ -86,15 +88,34 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
     )
 
 
+def extent(body: Body, options: MeasureOptions) -> Moments:
+    """Return what the density is of: the volume, of a shell that of its sheet or wall, of a wire its length.
+
+    Raises
+    ------
+    ReadError
+        Where there is none.
+    """
+    if body.length is not None:
+        return body.length
+    shell = options.kind == "shell"
+    volume = body.area * options.thickness if shell and body.wall is None else body.wall or body.volume
+    if not volume.raw[0] > 0.0:
+        if body.face_count and not body.area.total > 0.0:
+            raise ReadError("no_face_area")
+        raise ReadError("no_thickness" if shell and body.area.total > 0.0 else "no_volume")
+    return volume
+
+
 def _weighed(
-    body: Body, extent: Moments, solid: Moments, thin: bool, options: MeasureOptions
+    body: Body, measured: Moments, solid: Moments, thin: bool, options: MeasureOptions
 ) -> tuple[Moments, float, float]:
     """The moments that carry the mass, the mass in kg per unit of them, and the density."""
     if body.mass is not None:
         factor = 1.0 if options.mass is None else options.mass / body.mass.total
-        moments, density = body.mass, body.mass.total * factor / extent.total
+        moments, density = body.mass, body.mass.total * factor / measured.total
     else:
-        density = options.density if options.mass is None else options.mass / extent.total
+        density = options.density if options.mass is None else options.mass / measured.total
         moments, factor = (body.area, density * options.thickness) if thin else (body.length or solid, density)
     if not density > 0.0:
         raise ReadError("zero_density" if options.mass is None else "zero_mass")
@@ -119,7 +140,7 @@ def _frame_moments(body: Body, shell: bool) -> Moments:
 def _to_order(body: Body, options: MeasureOptions) -> tuple[Moments | None, Moments] | None:
     """The moments of volume and area to the order that was asked for; None where a body has them anyway."""
     shell, order = options.kind == "shell", options.order
-    if order is None or (order < KNOWN_ORDER and (shell or not options.surface)):
+    if order < KNOWN_ORDER and (shell or not options.surface):
         return None
     if not body.any_order:
         if order > KNOWN_ORDER or (options.surface and not shell):

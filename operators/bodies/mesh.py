@@ -4,20 +4,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface, join_surfaces
-from ...core.moments.moments import Moments, sum_moments, sum_of_images
+from ...core.moments.moments import Moments, are_similarities, sum_moments, sum_of_images
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals, measure_solid
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import DefectiveElements, MeshReport
 from ...core.verdict.method import Method, Verdict, least_trusted
 from ..read import Part, Reading, shows_flat_region
+from ..read.reading import to_si
 from ..read.union import union_surface
 from .body import Body, MeshBody, triangle_count
 from .instances import (
@@ -28,12 +29,13 @@ from .instances import (
     not_compared,
     singular_instances_message,
     singular_reason,
-    to_si,
     with_sources,
 )
 from .mass import weigh
 from .request import Request
 from .wall import find_walls
+
+MEASURED_AS = frozenset({"solid", "shell"})
 
 MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared with each other as shells of one mesh
 DRAWN_CODES = ("surface_drawn_as_polygons", "curves_drawn_as_polygons")
@@ -56,7 +58,6 @@ def body(reading: Reading, request: Request) -> Body:
     shell = options.kind == "shell"
     made = mesh_body(reading, request.unit, shell=shell, union=options.overlap == "union", threads=options.threads)
     if request.density is not None:
-        made.extent(options)  # refused before it is weighed
         made = weigh(reading, made, request)
     if shell and options.wall != "thin":
         return find_walls(reading, made, options.wall).body(options.thickness)
@@ -81,8 +82,9 @@ def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, thread
 def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
     """Each part measured once in its own coordinates, and mapped to wherever it stands."""
     volumes, areas, healths, verdicts, findings, by_part, parts = [], [], [], [], [], [], []
-    drawn = _drawn(reading)
-    if not shell and reading.instance_count > 1 and instances_overlap(reading):
+    drawn = _drawn(reading) if reading.findings else set()
+    alone = reading.instance_count == 1
+    if not shell and not alone and instances_overlap(reading):
         if sum(triangle_count(part.surface) * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
             return _joined_body(reading, unit, threads)
         findings.append(not_compared(reading))
@@ -90,10 +92,13 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
         solid = measure_solid(part.surface, shell=shell, threads=threads)
         matrices = to_si(part.matrices, unit)
         volumes.append(sum_of_images(solid.volume, matrices))
-        measured = (lambda surface: polyhedron_moments(surface, area_order=3, threads=threads)[1]) if shell else None
-        image_areas = list(area_of_instances(part.surface, solid.area, matrices, measured))
+        if are_similarities(matrices[:, :3, :3]).all():
+            image_areas = [sum_of_images(solid.area, matrices)]
+        else:
+            image_areas = list(area_of_instances(part.surface, solid.area, matrices, _area(threads) if shell else None))
         areas.extend(image_areas)
-        stretch = volumes[-1].total / solid.volume.total if solid.volume.total else 0.0  # Σ |det|
+        total = float(solid.volume.raw[0])
+        stretch = float(volumes[-1].raw[0]) / total if total else 0.0  # Σ |det|
         healths.append(
             (
                 replace(solid.health, volume_spread=solid.health.volume_spread * stretch),
@@ -103,19 +108,25 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
         )
         flat = not shell and not solid.volume.raw.any()
         verdicts.append(None if flat else Verdict(solid.method))
-        by_part.append((part.source_object_name, _part_findings(part, solid, shell, flat, drawn)))
+        if shell or solid.findings:
+            by_part.append((part.source_object_name, _part_findings(part, solid, shell, flat, drawn)))
+        else:
+            by_part.append((part.source_object_name, ()))
         parts.append((solid, matrices))
-    findings += findings_by_part(by_part, reading.name)
+    if any([found for _, found in by_part]):
+        findings += findings_by_part(by_part, reading.name)
     of_solids = [verdict for verdict in verdicts if verdict]
     if of_solids and len(of_solids) < len(verdicts):
         findings.append(finding("flat_instance_sources", count=verdicts.count(None), total=len(verdicts)))
     return MeshBody(
         sum_moments(volumes),
         sum_moments(areas),
-        merge_health(healths),
-        Method(least_trusted(of_solids)),
+        healths[0][0] if alone else merge_health(healths),
+        Method(of_solids[0] if len(of_solids) == 1 else least_trusted(of_solids)),
         tuple(findings),
-        face_count=_face_count(parts),
+        face_count=sum(
+            [len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads) for solid, _ in parts]
+        ),
         solids=tuple(parts),
         sheets=tuple([part.surface for part in reading.parts]),
         threads=threads,
@@ -130,8 +141,13 @@ def _part_findings(part: Part, solid: SolidIntegrals, shell: bool, flat: bool, d
     return [] if flat else _of_drawn(solid.findings, [part], drawn)
 
 
-def _face_count(solids: list[tuple[SolidIntegrals, NDArray]]) -> int:
-    return sum([len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads) for solid, _ in solids])
+def _area(threads: int) -> Callable[[Surface], Moments]:
+    """What measures the area of a mapped surface."""
+
+    def measured(surface: Surface) -> Moments:
+        return polyhedron_moments(surface, area_order=3, threads=threads)[1]
+
+    return measured
 
 
 def _joined_body(reading: Reading, unit: float, threads: int) -> MeshBody:
@@ -175,7 +191,7 @@ def _single_surface_body(
         health,
         Method(verdict),
         tuple(findings),
-        face_count=_face_count(solids),
+        face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
         solids=tuple(solids),
         sheets=(surface,),
         threads=threads,

@@ -26,6 +26,7 @@ from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
 from ..read import Part, Reading
+from ..read.reading import to_si
 from .body import Body, MeshBody
 from .instances import (
     each_once,
@@ -35,10 +36,11 @@ from .instances import (
     not_compared,
     singular_instances_message,
     singular_reason,
-    to_si,
 )
 from .mesh import mesh_body
 from .request import Request
+
+MEASURED_AS = frozenset({"solid", "shell"})
 
 MIN_CREASE_ANGLE = 0.02  # radians: less is what float32 leaves of a surface without
 HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)}  # of a wall, in thicknesses

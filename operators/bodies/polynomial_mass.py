@@ -24,9 +24,10 @@ from ...core.polyhedron import polyhedron_moments
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.method import Verdict
 from ..read import Reading
+from ..read.reading import to_si
 from ..settings.density import DensityField
 from .body import MeshBody
-from .instances import group_by_similarity, to_si
+from .instances import group_by_similarity
 
 MAX_CHECKED_INSTANCES = 50  # different places whose points are looked at one by one
 

@@ -22,6 +22,8 @@ from .body import Body
 from .request import Request
 from .wire import DEGREE, curves_in_world
 
+MEASURED_AS = frozenset({"shell"})
+
 
 @dataclass
 class RegionReading(Reading):
@@ -61,7 +63,7 @@ def read(request: Request) -> RegionReading | None:
     """Return the region that a curve object bounds, where it is to be a thin shell of one density and shows nothing
     else; None where its curves bound none, but Blender fills them. Raises MeasureError where nothing is filled."""
     obj, options = request.obj, request.options
-    if options.kind != "shell" or obj.type != "CURVE" or options.wall != "thin":
+    if obj.type != "CURVE" or options.wall != "thin":
         return None
     if request.density is not None or not shows_flat_region(obj):
         return None

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import bpy
@@ -14,7 +14,7 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
 from ..read import Reading, read_object
 from ..settings.density import DensityField, density_field
-from ..settings.options import AS_SET, MeasureOptions, with_object_settings
+from ..settings.options import AS_SET, MeasureOptions
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,9 +65,11 @@ class Request:
 
         Raises MeasureError where the settings name none that can be read.
         """
-        if self.given.density is not None or self.given.mass is not None or self.options.kind == "wire":
+        options, settings = self.options, self.obj.body_moments
+        is_given = self.given.density is not None or options.mass is not None
+        if is_given or options.kind == "wire" or settings.density_from == "VALUE":
             return None
-        return density_field(self.obj.body_moments)
+        return density_field(settings)
 
     @cached_property
     def surfaces(self) -> Reading:
@@ -81,3 +83,26 @@ class Request:
         )
         reading.findings.extend(self.findings)
         return reading
+
+
+def with_object_settings(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> MeasureOptions:
+    """The options with every gap filled from the object's settings."""
+    settings = obj.body_moments
+    density, mass = options.density, options.mass
+    kind = options.kind or settings.kind.lower()
+    if density is None and mass is None:
+        given = settings.linear_density if kind == "wire" else settings.density
+        density, mass = (
+            (shortest_decimal(given), None)
+            if settings.mass_from == "DENSITY"
+            else (None, shortest_decimal(settings.mass))
+        )
+    return replace(
+        options,
+        kind=kind,
+        density=density,
+        mass=mass,
+        thickness=shortest_decimal(settings.thickness) * unit if options.thickness is None else options.thickness,
+        overlap=options.overlap or settings.overlap.lower(),
+        wall=options.wall or settings.wall.lower(),
+    )

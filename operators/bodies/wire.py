@@ -20,6 +20,8 @@ from ..read import Reading, read_lines
 from .body import Body
 from .request import Request
 
+MEASURED_AS = frozenset({"wire"})
+
 DEGREE = monomials(3).sum(axis=1)
 
 
@@ -40,9 +42,9 @@ class WireBody(Body):
         return self.length
 
 
-def read(request: Request) -> Reading | None:
+def read(request: Request) -> Reading:
     """Return the curves of an object that is to be measured as a wire. Raises MeasureError for what has none."""
-    return read_lines(request.obj, request.depsgraph) if request.options.kind == "wire" else None
+    return read_lines(request.obj, request.depsgraph)
 
 
 def body(reading: Reading, request: Request) -> Body:

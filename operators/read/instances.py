@@ -237,7 +237,9 @@ class InstanceCollector:
         if not len(mesh.polygons):
             vertices, edges = self.faceless
             self.faceless = (vertices + len(mesh.vertices), edges + len(mesh.edges))
-        return mesh_surface(mesh, edges=self.edges), self._read_attributes(mesh, owner)
+        wanted = self.materials or self.attribute is not None
+        attributes = self._read_attributes(mesh, owner) if wanted else FaceAttributes()
+        return mesh_surface(mesh, edges=self.edges), attributes
 
     def _read_attributes(self, mesh, owner) -> FaceAttributes:
         vertices = None
@@ -310,12 +312,8 @@ def shows_itself(obj, instanced: bool) -> bool:
 def _needs_instance_list(obj) -> bool:
     if obj.instance_type in {"VERTS", "FACES"}:
         return True
-    return any(
-        modifier.type == "PARTICLE_SYSTEM"
-        and modifier.show_viewport
-        and modifier.particle_system.settings.render_type in {"OBJECT", "COLLECTION"}
-        for modifier in obj.modifiers
-    )
+    systems = [modifier for modifier in obj.modifiers if modifier.type == "PARTICLE_SYSTEM" and modifier.show_viewport]
+    return any([modifier.particle_system.settings.render_type in {"OBJECT", "COLLECTION"} for modifier in systems])
 
 
 def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:

@@ -110,8 +110,10 @@ def vertex_values(mesh, name: str) -> NDArray[np.float64]:
 
 
 def _attribute(mesh, name: str, member: str, shape: tuple[int, ...], dtype) -> NDArray:
-    # Where there are no elements there may be no attribute either.
-    return _array(mesh.attributes[name].data, member, shape, dtype) if shape[0] else np.empty(shape, dtype)
+    array = np.empty(shape, dtype)
+    if shape[0]:  # where there are no elements there may be no attribute either
+        mesh.attributes[name].data.foreach_get(member, array.reshape(-1))
+    return array
 
 
 def _array(data, member: str, shape: tuple[int, ...], dtype) -> NDArray:

@@ -110,7 +110,7 @@ def evaluated_geometry(obj, depsgraph, reader):
     Raises ReadError about `reader`, the object for which `obj` is read, where Blender has not
     evaluated `obj` in full.
     """
-    reason = _sculpt_mode_reason(obj)
+    reason = _sculpt_mode_reason(obj) if obj.mode == "SCULPT" else None
     if reason is None:
         try:
             return obj.evaluated_get(depsgraph).evaluated_geometry()
@@ -128,8 +128,6 @@ def why_not_evaluated(obj, depsgraph) -> Finding:
 
 def _sculpt_mode_reason(obj) -> Finding | None:
     """Why what the viewport shows of an object in Sculpt Mode is not its evaluated mesh; None where it is."""
-    if obj.mode != "SCULPT":
-        return None
     if obj.use_dynamic_topology_sculpting:
         return finding("dynamic_topology")
     for modifier in obj.modifiers:

@@ -21,6 +21,7 @@ from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError
 from ..bodies.measure_object import Measured
+from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
@@ -50,7 +51,8 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
     """Write what was measured on the object, and remember what its sliders need. EditRefusedError where the object
     cannot hold results."""
     properties.store(obj, measured.measurement)
-    walls.cache_walls(obj, measured, _unit(scene))
+    if isinstance(measured.body, WallBody):
+        walls.cache_walls(obj, measured, _unit(scene))
 
 
 def remember_failure(obj: Object, reason: Finding | None) -> None:

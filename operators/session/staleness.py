@@ -25,8 +25,7 @@ from collections.abc import Iterable
 import bpy
 from bpy.types import Context, Depsgraph, Object, Scene
 
-from ..read.digest import shape_digest
-from ..read.fingerprint import VERSION, matrix_hash, scale_hash, settings_hash
+from ..read.fingerprint import VERSION, matrix_hash, scale_hash, settings_hash, shape_digest
 from ..read.quiet import is_paused, paused
 from . import handlers, marks
 from .affected import instancing_objects, volume_filled_objects

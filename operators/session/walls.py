@@ -18,7 +18,7 @@ from ...core.verdict.finding import MeasureError
 from ..bodies.measure_object import Measured
 from ..bodies.measurement import measurement_of
 from ..bodies.request import Request
-from ..bodies.wall import WallBody, Walls
+from ..bodies.wall import Walls
 from ..read import Reading
 from ..settings import hooks
 from ..write import properties
@@ -43,9 +43,7 @@ _cache: SessionCache[_CachedWalls] = SessionCache(MAX_CACHED_OBJECTS)
 
 
 def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
-    """Remember the walls that an object was measured with, if any. unit: metres per Blender unit."""
-    if not isinstance(measured.body, WallBody):
-        return
+    """Remember the walls that an object was measured with. unit: metres per Blender unit."""
     mark = marks.Mark(*measured.measurement.fingerprint.split(":"))
     reading = replace(measured.reading, parts=[])
     _cache[obj] = _CachedWalls(reading, measured.body.walls.drop_arrays(), mark.geometry, mark.transform, unit)

@@ -186,12 +186,12 @@ def findings(obj: bpy.types.Object) -> tuple[Finding, ...]:
 
 def warning_lines(findings: Iterable[Finding]) -> str:
     """The English sentences of the warnings, one a line."""
-    return "\n".join(sentence(finding) for finding in of_severity(findings, Severity.WARNING))
+    return "\n".join([sentence(finding) for finding in of_severity(findings, Severity.WARNING)])
 
 
 def findings_text(findings: Iterable[Finding]) -> str:
     """Findings as JSON text, to be read by `findings_in`."""
-    return json.dumps(plain([finding.as_record() for finding in findings]), ensure_ascii=False, allow_nan=False)
+    return json.dumps([plain(finding.as_record()) for finding in findings], ensure_ascii=False, allow_nan=False)
 
 
 def findings_in(text: object) -> tuple[Finding, ...]:

@@ -6,7 +6,6 @@ of the interface and lengths in the scene's units."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 
 import bpy
 from bpy.types import Operator
@@ -22,12 +21,15 @@ LEVELS = {Severity.NOTE: "INFO", Severity.WARNING: "WARNING", Severity.ERROR: "E
 
 def text(*findings: Finding) -> str:
     """The sentences of findings, one after the other."""
-    lengths = partial(Units.of(bpy.context.scene.unit_settings).text, "length")
     joined = ""
-    for shown in (sentence(one, bpy.app.translations.pgettext_rpt, lengths) for one in findings):
+    for shown in [sentence(found, bpy.app.translations.pgettext_rpt, _length) for found in findings]:
         between = " " if joined.endswith(".") else ". " if shown.endswith(".") else "; "
         joined += between + shown if joined else shown
     return joined
+
+
+def _length(meters: float) -> str:
+    return Units.of(bpy.context.scene.unit_settings).text("length", meters)
 
 
 def _rank(found: Finding) -> int:
@@ -36,7 +38,7 @@ def _rank(found: Finding) -> int:
 
 def report(operator: Operator, *findings: Finding) -> None:
     """One report of findings, as severe as the most severe of them."""
-    worst = max(findings, key=_rank)
+    worst = findings[0] if len(findings) == 1 else max(findings, key=_rank)
     operator.report({LEVELS[severity(worst)]}, text(*findings))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from body_moments.core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from body_moments.core.nurbs.patch import Patch
+from body_moments.core.verdict.method import Method, Source, Verdict
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.session import handlers, live
 from body_moments.operators.settings.options import MeasureOptions
@@ -367,9 +368,8 @@ def test_instances_of_a_surface_are_measured_as_it_is():
 
 def test_a_union_needs_polygons_and_says_so():
     obj = primitive("sphere")
-    assert (
-        measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(overlap="union")).method.verdict
-        == "NURBS exact"
+    assert measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(overlap="union")).method == Method(
+        Verdict.EXACT, Source.NURBS
     )
     other = primitive("sphere")
     other.location.x = 1.0

@@ -459,11 +459,11 @@ def test_numbers_are_whole_in_the_narrowest_sidebar(monkeypatch):
 
 
 def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
-    from body_moments.operators.bodies import measure_object as measure
+    from body_moments.operators.bodies import request
 
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
-    monkeypatch.setattr(measure, "read_object", lambda *_: pytest.fail("the panel measures"))
+    monkeypatch.setattr(request, "read_object", lambda *_: pytest.fail("the panel measures"))
     before = {key: str(obj[key]) for key in obj.keys() if key.startswith("body_")}  # noqa: SIM118
     drawn()
     assert {key: str(obj[key]) for key in obj.keys() if key.startswith("body_")} == before  # noqa: SIM118

@@ -25,7 +25,7 @@ from ...bodies.shape import SurfaceDistance, register_surfaces, surface_shape_of
 from ...read import measurable_objects
 from ...write import reports
 from .. import selection
-from ..modal import ModalSteps
+from ..modal import ModalSteps, redraw
 
 DESCRIPTOR_ORDER = 12  # of the descriptors: more than separate parts, a fourth of the time that 20 takes
 MAX_LISTED_BODIES = 20
@@ -190,7 +190,7 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
             picked = [self._objects[entry] for entry, likeness in ranked if chosen.get(classify(likeness))]
             for obj in context.view_layer.objects:
                 obj.select_set(obj in picked or obj == context.object)
-        selection.redraw(context)
+        redraw(context)
         return self.report_found(ranked, self._failures)
 
 

@@ -33,7 +33,7 @@ from ...session import staleness
 from ...session.marks import Mark
 from ...write import reports
 from .. import selection
-from ..modal import ModalSteps
+from ..modal import ModalSteps, redraw
 
 MAX_STORED_ELEMENTS = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
 
@@ -138,7 +138,7 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
             )
             for obj, measurement, found_symmetry, _ in self._results
         ]
-        selection.redraw(context)
+        redraw(context)
         if self._failures or not symmetries:
             count = len(symmetries)
             done = finding("symmetry_searched", count=count) if self._objects else finding("nothing_measurable")

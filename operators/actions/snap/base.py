@@ -31,6 +31,7 @@ from ...session import results, staleness
 from ...settings.options import MeasureOptions
 from ...write import properties, reports
 from .. import selection
+from ..modal import progress
 
 STRICT_PROPERTY = BoolProperty(
     name="Zhang and Chen's Rule",
@@ -159,7 +160,7 @@ def reframe_selected(
         return True
 
     _, failures = selection.apply_to_all(objects, plan)
-    with paused(), selection.progress(len(plans)) as step:
+    with paused(), progress(len(plans)) as step:
         changed, refused = reframe.reframe(context, plans, step)
         failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
         if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
