@@ -4,7 +4,7 @@
 
 from .materials import MATERIALS
 from .piecewise_mass import solid_mass_moments
-from .polynomial import Polynomial, parse
+from .polynomial import Polynomial, parse_polynomial
 from .spline_grid import TrivariateSpline, density_moments, grid_moments
 from .voxel_fill import inside_moments
 
@@ -15,6 +15,6 @@ __all__ = [
     "density_moments",
     "grid_moments",
     "inside_moments",
-    "parse",
+    "parse_polynomial",
     "solid_mass_moments",
 ]

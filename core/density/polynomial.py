@@ -4,7 +4,7 @@
 
 Coefficients are rational numbers, so that a polynomial can be developed about any point without rounding: what is
 rounded is one coefficient at a time, at the point where it is used. An expression is parsed by `ast`, and only what is
-named in `parse` is taken; nothing is evaluated.
+named in `parse_polynomial` is taken; nothing is evaluated.
 
 On a box a polynomial lies between the least and the largest of its Bernstein coefficients (G. T. Cargo and O. Shisha,
 "The Bernstein form of a polynomial", J. Res. Nat. Bur. Standards 70B, 1966); halving the box brings the two closer.
@@ -118,7 +118,7 @@ class Polynomial:
         return boxes[0][0] - tolerance
 
 
-def parse(text: str) -> Polynomial:
+def parse_polynomial(text: str) -> Polynomial:
     """The polynomial that an expression such as `1000 + 20*z` means, or a list of coefficients (`1000, 0, 0, 20`) in
     the order of `Polynomial.from_coefficients`.
 

@@ -12,9 +12,28 @@ EDGES_PER_BLOCK = 3 << 16
 
 
 def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
-    """(count,) the connected component of each node, in the order of their first nodes, and how many there are.
+    """Number the connected components of a graph.
 
-    a, b: the ends of the links between the nodes.
+    Parameters
+    ----------
+    count : int
+        Nodes.
+    a, b : (k,) integer arrays
+        The two ends of each link.
+
+    Returns
+    -------
+    component : (count,) integer array
+        The component of each node, numbered in the order of their first nodes.
+    number : int
+        Components.
+
+    Examples
+    --------
+    >>> from body_moments.core.numerics import connected_components
+    >>> component, number = connected_components(4, np.array([0, 2]), np.array([1, 3]))
+    >>> component.tolist(), number
+    ([0, 0, 1, 1], 2)
     """
     label, number = None, count
     while True:

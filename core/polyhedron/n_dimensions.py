@@ -34,10 +34,24 @@ UNDERFLOW = 2.0**-1000  # of a body of size 1: far above what products of its co
 
 @dataclass(frozen=True, eq=False)
 class SimplexMoments:
-    """Moments in n dimensions to some order.
+    """Moments in n dimensions to some order; `moments[p, q, …]` is one of them.
 
-    raw: (K,) ∫ x^α about `about`, in the order of `multi_indices`. about: (n,). rounding_error: (K,) bound of |raw -
-    exact| for the coordinates and the point as given.
+    Attributes
+    ----------
+    raw : (K,) array
+        ∫ x^α about `about`, in the order of `multi_indices`.
+    about : (n,) array
+    order : int
+    rounding_error : (K,) array
+        Bounds of |raw - exact| for the coordinates and the point as given.
+
+    Examples
+    --------
+    >>> from body_moments.core.polyhedron import enclosed_moments
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> moments = enclosed_moments(square, [[0, 1], [1, 2], [2, 3], [3, 0]], 2, about=(0, 0))
+    >>> round(moments[1, 1], 12), moments.bound((1, 1)) < 1e-14
+    (0.25, True)
     """
 
     raw: NDArray[np.float64]
@@ -71,13 +85,42 @@ def multi_index_position(dimension: int, order: int, exponents: tuple[int, ...])
 def enclosed_moments(
     points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLike | None = None, signs: ArrayLike | None = None
 ) -> SimplexMoments:
-    """The moments of the n-volume that the simplices enclose, positive where the boundary is oriented outward.
+    """Return the moments of what a boundary of simplices encloses, in any dimension.
 
-    points: (m, n). simplices: (k, n) indices, outward where det(v_1, …, v_n) > 0 for a body around the origin: edges
-    counter-clockwise in the plane, triangles counter-clockwise from outside in space. about: (n,), by default the
-    center of the points' box. signs: (k,) 1 or -1, the orientation of each simplex beside the order of its corners; on
-    a line, where a corner alone has none, it tells the upper ends from the lower ones. ValueError for coordinates that
-    are not finite and for indices that name no point; MeasureError where moments are beyond the range of numbers.
+    Parameters
+    ----------
+    points : (m, n) array_like
+    simplices : (k, n) array_like of int
+        Outward where det(v_1, …, v_n) > 0 for a body around the origin: edges counter-clockwise in the plane, triangles
+        counter-clockwise from outside in space.
+    order : int
+    about : (n,) array_like, optional
+        By default the center of the points' box.
+    signs : (k,) array_like, optional
+        1 or -1, the orientation of each simplex beside the order of its corners; on a line, where a corner alone has
+        none, it distinguishes upper ends from lower ones.
+
+    Returns
+    -------
+    SimplexMoments
+        Positive where the boundary is oriented outward.
+
+    Raises
+    ------
+    ValueError
+        If coordinates are not finite or an index has no point.
+    MeasureError
+        If moments are beyond the range of numbers.
+
+    Notes
+    -----
+    Sheynin and Tuzikov's formulas, which hold in any dimension; the recursion of Pozo et al.
+
+    Examples
+    --------
+    >>> from body_moments.core.polyhedron import enclosed_moments
+    >>> round(enclosed_moments([[0, 0], [2, 0], [0, 2]], [[0, 1], [1, 2], [2, 0]], 0)[0, 0], 12)
+    2.0
     """
     return _measure(points, simplices, order, about, signs, enclosed=True)
 
@@ -85,8 +128,29 @@ def enclosed_moments(
 def facet_moments(
     points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLike | None = None
 ) -> SimplexMoments:
-    """The moments of the boundary itself by its (n-1)-measure: length in the plane, area in space, the number of
-    points on a line. Arguments as for `enclosed_moments`."""
+    """Return the moments of the boundary itself: by length in the plane, by area in space, by number of points on a
+    line.
+
+    Parameters
+    ----------
+    points, simplices, order, about
+        As for `enclosed_moments`.
+
+    Returns
+    -------
+    SimplexMoments
+
+    Raises
+    ------
+    ValueError, MeasureError
+        As `enclosed_moments`.
+
+    Examples
+    --------
+    >>> from body_moments.core.polyhedron import facet_moments
+    >>> round(facet_moments([[0, 0], [3, 0], [3, 4]], [[0, 1], [1, 2], [2, 0]], 0)[0, 0], 12)
+    12.0
+    """
     return _measure(points, simplices, order, about, None, enclosed=False)
 
 
