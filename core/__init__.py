@@ -6,7 +6,7 @@ Every body becomes raw moments about a stated point (`Moments`), and everything 
 `from body_moments.core import ...` has the dozen names that most uses need:
 
     Surface                                  triangles and quads over shared points
-    measure_solid, polyhedron_moments        the body that a surface bounds, repaired on a copy; its moments to any order
+    measure_solid, polyhedron_moments        the body in a surface, repaired on a copy; its moments to any order
     grid_moments, read_scan                  densities sampled on a grid; files of samples
     Moments, MassProperties                  raw moments; mass, center, inertia and principal moments
     principal_frame, pose_matrix             principal axes, unique where the body allows it; the pose
@@ -27,7 +27,7 @@ The packages, each with its own public names in its `__init__` (imports run from
     solid        whether a surface bounds a solid; holes capped, faces flipped, shells nested; its moments
     plane        polygons with holes, section properties
     fourier      Fourier transforms in closed form, and on large grids to a tolerance (Barnett et al. 2019)
-    density      materials, polynomials, piecewise densities, grids and trivariate splines (Soldea et al., sections 4, 5)
+    density      materials, polynomials, piecewise densities, grids and trivariate splines (Soldea et al., 4 and 5)
     nurbs        B-spline curves and patches (Soldea, Elber and Rivlin, sections 2, 3), Blender's knots
     offset       walls of real thickness
     statics      derivatives by every vertex; the least change of shape that moves the center

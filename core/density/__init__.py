@@ -6,11 +6,13 @@ from .materials import MATERIALS
 from .piecewise_mass import solid_mass_moments
 from .polynomial import Polynomial, parse_polynomial
 from .spline_grid import TrivariateSpline, density_moments, grid_moments
+from .spline_tables import SplineAxis
 from .voxel_fill import inside_moments
 
 __all__ = [
     "MATERIALS",
     "Polynomial",
+    "SplineAxis",
     "TrivariateSpline",
     "density_moments",
     "grid_moments",

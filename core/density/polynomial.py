@@ -38,14 +38,43 @@ CORNERS = tuple(product((0, -1), repeat=3))
 
 @dataclass(frozen=True, eq=False)
 class Polynomial:
-    """Σ c x^p y^q z^r. terms: c by (p, q, r), none of them zero."""
+    """A polynomial density, Σ c x^p y^q z^r, with exact coefficients. Call it with (n, 3) points for its values.
+
+    Parameters
+    ----------
+    terms : dict of (p, q, r) to Fraction
+        The coefficients, none of them zero.
+
+    Examples
+    --------
+    >>> from body_moments.core.density import Polynomial
+    >>> density = Polynomial.from_coefficients([1000, 0, 0, 20])
+    >>> density(np.array([[0.0, 0.0, 2.0]])).tolist(), density.degree
+    ([1040.0], 1)
+    """
 
     terms: dict[Exponents, Fraction]
 
     @classmethod
     def from_coefficients(cls, coefficients: ArrayLike) -> Polynomial:
-        """From the coefficients of 1, x, y, z, x², xy, xz, y², yz, z², … in this order, as many as there are; taken
-        exactly. ValueError where one is not finite, MeasureError where there are too many."""
+        """Make a polynomial from the coefficients of 1, x, y, z, x², xy, xz, y², yz, z², …, as many as there are.
+
+        Parameters
+        ----------
+        coefficients : (k,) array_like
+            Taken exactly.
+
+        Returns
+        -------
+        Polynomial
+
+        Raises
+        ------
+        ValueError
+            If one is not finite.
+        MeasureError
+            If there are too many.
+        """
         values = np.asarray(coefficients, float).tolist()
         if not all(map(math.isfinite, values)):
             raise ValueError("coefficients must be finite")
@@ -64,14 +93,14 @@ class Polynomial:
         return values
 
     def float_terms(self) -> dict[Exponents, float]:
-        """The terms, each rounded once. MeasureError where one is beyond the range of numbers."""
+        """Return the terms, each rounded once; MeasureError if one is beyond the range of numbers."""
         try:
             return {powers: float(value) for powers, value in self.terms.items()}
         except OverflowError as error:
             raise MeasureError("polynomial_beyond_numbers") from error
 
     def translate(self, point: ArrayLike) -> Polynomial:
-        """The polynomial q with q(u) = p(point + u), exactly."""
+        """Return the polynomial q with q(u) = p(point + u), exactly."""
         terms = self.terms
         for axis, value in enumerate(np.asarray(point, float).tolist()):
             if value:
@@ -94,10 +123,19 @@ class Polynomial:
         return result
 
     def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
-        """A number that the polynomial is nowhere below on the box.
+        """Return a number that the polynomial is nowhere below on a box.
 
-        The box is halved as long as that may still prove it not negative, HALVINGS times at most; rounding, some 1e-13
-        of the sum of the terms' sizes, is taken off.
+        The box is halved as long as that may still prove it not negative, at most `MAX_BOXES` times; rounding, some
+        1e-13 of the sum of the terms' sizes, is subtracted.
+
+        Parameters
+        ----------
+        low, high : (3,) array_like
+            Opposite corners of the box.
+
+        Returns
+        -------
+        float
         """
         low, high = np.asarray(low, float), np.asarray(high, float)
         local = self.translate(low).coefficients()
@@ -119,10 +157,28 @@ class Polynomial:
 
 
 def parse_polynomial(text: str) -> Polynomial:
-    """The polynomial that an expression such as `1000 + 20*z` means, or a list of coefficients (`1000, 0, 0, 20`) in
-    the order of `Polynomial.from_coefficients`.
+    """Parse a polynomial that a person typed.
 
-    MeasureError, which names the offending part, where it means none.
+    Parameters
+    ----------
+    text : str
+        An expression such as ``1000 + 20*z``, or a list of coefficients (``1000, 0, 0, 20``) in the order of
+        `Polynomial.from_coefficients`.
+
+    Returns
+    -------
+    Polynomial
+
+    Raises
+    ------
+    MeasureError
+        If the text is no polynomial; the finding names the offending part.
+
+    Examples
+    --------
+    >>> from body_moments.core.density import parse_polynomial
+    >>> parse_polynomial("1000 + 20*z**2").coefficients()[[0, 9]].tolist()
+    [1000.0, 20.0]
     """
     text = text.strip()
     if not text:

@@ -28,10 +28,27 @@ MAX_ORDER = 16  # of the splines: far above any use
 
 @dataclass(frozen=True, eq=False)
 class SplineAxis:
-    """The spline space of one direction.
+    """The spline space of one direction of a trivariate spline.
 
-    knots: (n + k,) ascending. order: k, the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic.
-    domain: (low, high) where the functions are cut off ("clipped"), None for full supports ("floating ends").
+    Parameters
+    ----------
+    knots : (n + k,) array
+        Ascending.
+    order : int
+        k, the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic.
+    domain : (low, high), optional
+        Where the functions are cut off ("clipped"); None for full supports ("floating ends").
+
+    Raises
+    ------
+    ValueError
+        If the knots, the order or the domain make no such space.
+
+    Examples
+    --------
+    >>> from body_moments.core.density import SplineAxis
+    >>> SplineAxis.uniform(3).knots.tolist()
+    [-0.5, 0.5, 1.5, 2.5]
     """
 
     knots: NDArray[np.float64]

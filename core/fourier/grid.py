@@ -48,10 +48,41 @@ ERROR_CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)
 
 
 class GridTransform(Transform):
-    """As `Transform`, on a grid and to a tolerance, in the unit of the values.
+    """A transform on a regular grid, to a tolerance: `steps` does the work, `result` returns the spectrum.
 
-    The outcome is "approximate", or exact where that costs less. ValueError also where double precision does not
-    reach the tolerance.
+    The result is "approximate", or exact where that costs less.
+
+    Parameters
+    ----------
+    surface : Surface
+    grid : FrequencyGrid
+    of : Measure
+        Volume or area.
+    tolerance : float
+        Absolute, in the unit of the values.
+    threads : int
+
+    Raises
+    ------
+    ValueError
+        If double precision does not reach the tolerance, and as `solid_transform`.
+    MeasureError
+        As `solid_transform`.
+
+    Notes
+    -----
+    The non-uniform fast transform of Barnett, Magland and af Klinteberg (2019); see the module.
+
+    Examples
+    --------
+    >>> from body_moments.core.fourier import FrequencyGrid, GridTransform
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.moments import Measure
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> transform = GridTransform(surface, FrequencyGrid(4, 10.0), Measure.VOLUME, 1e-8)
+    >>> done = list(transform.steps())
+    >>> round(float(abs(transform.result().values.reshape(4, 4, 4)[2, 2, 2])) * 6, 6)
+    1.0
     """
 
     def __init__(self, surface: Surface, grid: FrequencyGrid, of: Measure, tolerance: float, threads: int = 1):

@@ -27,10 +27,33 @@ SERIES_TERMS = 10  # of sinc(t) - 1 for t up to 1
 
 
 def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
-    """F(q) = ∫ exp(-i q·x) dA over polygons at wave vectors (M, 2).
+    """Return the Fourier transform of polygons in the plane, F(q) = ∫ exp(-i q·x) dA, in closed form.
 
-    loops: outlines (n, 2), counter-clockwise; holes clockwise. Where they overlap, each one counts, with its sign.
-    ValueError for loops that are not three or more rows of two finite numbers, MeasureError for such wave vectors.
+    Parameters
+    ----------
+    loops : sequence of (n, 2) array_like
+        Outlines counter-clockwise, holes clockwise. Where they overlap, each counts, with its sign.
+    q : (M, 2) array_like
+        Wave vectors, rad per unit of length.
+
+    Returns
+    -------
+    Spectrum
+        Values in unit².
+
+    Raises
+    ------
+    ValueError
+        If a loop is not three or more rows of two finite numbers.
+    MeasureError
+        If the wave vectors are not finite (M, 2).
+
+    Examples
+    --------
+    >>> from body_moments.core.fourier import polygon_transform
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> np.round(polygon_transform([square], [[0.0, 0.0], [np.pi, 0.0]]).values, 6).tolist()
+    [(1+0j), -0.63662j]
     """
     q = wave_vectors(q, 2)
     corners = [np.asarray(loop, np.float64) for loop in loops]

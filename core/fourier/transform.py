@@ -40,17 +40,71 @@ ROUNDING_FACTOR = 64.0
 
 
 def solid_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int = 1) -> Spectrum:
-    """F(q) = ∫ exp(-i q·x) dV of the body in a closed surface, at wave vectors (M, 3) or on a grid.
+    """Return the Fourier transform of the body in a closed surface, F(q) = ∫ exp(-i q·x) dV, in closed form.
 
-    Signed as a volume is: positive for outward faces. MeasureError for an open surface, for none, for wave vectors
-    that are not finite and for sizes beyond the range of numbers; ValueError for coordinates that are not finite and
-    for indices that name no point.
+    Parameters
+    ----------
+    surface : Surface
+        Closed. The transform is signed as a volume is: positive for outward faces.
+    q : (M, 3) array_like, or FrequencyGrid
+        Wave vectors, rad per unit of length.
+    threads : int
+
+    Returns
+    -------
+    Spectrum
+        Values in unit³.
+
+    Raises
+    ------
+    MeasureError
+        If the surface is open or has no faces, wave vectors are not finite, or sizes are beyond the range of numbers.
+    ValueError
+        If coordinates are not finite, or an index has no point.
+
+    Notes
+    -----
+    The body that Zhang and Chen (2001) sum over tetrahedra, here by the divergence theorem; see the module.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, solid_transform
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> spectrum = solid_transform(surface, [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]])
+    >>> np.round(spectrum.values * 6, 6).tolist()
+    [(1+0j), (0.062359-0.879355j)]
     """
     return run_to_completion(Transform(surface, q, Measure.VOLUME, threads))
 
 
 def surface_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int = 1) -> Spectrum:
-    """∫ exp(-i q·x) dA over a surface, closed or not, at wave vectors (M, 3) or on a grid."""
+    """Return ∫ exp(-i q·x) dA over a surface, closed or not.
+
+    Parameters
+    ----------
+    surface : Surface
+    q : (M, 3) array_like, or FrequencyGrid
+        Wave vectors, rad per unit of length.
+    threads : int
+
+    Returns
+    -------
+    Spectrum
+        Values in unit².
+
+    Raises
+    ------
+    MeasureError, ValueError
+        As `solid_transform`, but for open surfaces.
+
+    Examples
+    --------
+    >>> from body_moments.core.fourier import surface_transform
+    >>> from body_moments.core.mesh import Surface
+    >>> triangle = Surface.from_triangles(np.eye(4, 3, -1), [[0, 1, 2]])
+    >>> np.round(surface_transform(triangle, [[0.0, 0.0, 5.0]]).values, 9).tolist()
+    [(0.5+0j)]
+    """
     return run_to_completion(Transform(surface, q, Measure.AREA, threads))
 
 
@@ -62,7 +116,21 @@ def run_to_completion(transform: Transform) -> Spectrum:
 
 
 class Transform:
-    """A transform under way: `steps` does the work, `result` tells the outcome. measure: volume or area."""
+    """A transform under way: `steps` does the work, `result` returns the spectrum.
+
+    Parameters
+    ----------
+    surface : Surface
+    q : (M, 3) array_like, or FrequencyGrid
+    of : Measure
+        Volume or area.
+    threads : int
+
+    Raises
+    ------
+    MeasureError, ValueError
+        As `solid_transform`.
+    """
 
     def __init__(self, surface: Surface, q: ArrayLike | FrequencyGrid, of: Measure, threads: int = 1):
         self.q = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
@@ -88,7 +156,7 @@ class Transform:
         return total
 
     def steps(self) -> Iterator[float]:
-        """Do the work, and tell after each share of it how much is done, from 0 to 1."""
+        """Do the work; yield after each part of it the fraction done, from 0 to 1."""
         shares = self._tasks()
         if self.threads == 1:
             results = map(self._run_task, shares)
@@ -146,7 +214,7 @@ class Transform:
         return slice(part.start * columns, part.stop * columns), sums
 
     def result(self) -> Spectrum:
-        """The spectrum, when all steps are done."""
+        """Return the spectrum, when all steps are done."""
         faces, values = self.faces, self.sums + self.rest
         if self.measure == Measure.AREA:
             values, unit, moments = values + faces.area, 2, self.area

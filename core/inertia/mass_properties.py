@@ -44,7 +44,7 @@ class MassProperties:
     >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     >>> properties = MassProperties.from_moments(polyhedron_moments(surface)[0], density=6000.0)
     >>> round(properties.mass, 9), np.round(properties.principal.moments, 6).tolist()
-    (1000.0, [50.0, 100.0, 100.0])
+    (1000.0, [62.5, 62.5, 100.0])
     """
 
     mass: float

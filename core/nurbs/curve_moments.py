@@ -40,7 +40,26 @@ def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
 
 
 def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
-    """∫ x^p y^q z^r ds along the curves, about the middle of their box; `error` is an estimate."""
+    """Return ∫ x^p y^q z^r ds along curves, about the middle of their box.
+
+    Parameters
+    ----------
+    curves : sequence of Curve
+    order : int
+
+    Returns
+    -------
+    Moments
+        Of length; `rounding_error` is an estimate, by comparing Gauss rules.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Curve, length_moments
+    >>> from body_moments.core.numerics import clamped_space
+    >>> line = Curve(clamped_space(2), np.array([[0.0, 0.0, 0.0], [3.0, 4.0, 0.0]]))
+    >>> round(length_moments([line]).total, 9)
+    5.0
+    """
     about = curves_center(curves)
     reach, degree = _reach(curves, about), monomials(order).sum(axis=1)
 

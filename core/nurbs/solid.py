@@ -32,10 +32,25 @@ MAX_TRIANGLES = 1_000_000  # compared where samples cross
 
 @dataclass(frozen=True, eq=False)
 class PatchIntegrals:
-    """volume: Moments of the body; its error is an estimate. area: Moments of the patches, without caps; an estimate.
-    method: "exact", "capped", "reoriented" or "open". findings: the decisions taken.
-    patches: those whose signed sum `volume` is, caps among them. signs: (n,) how each of those that were given counts:
-    1, -1, or 0 for a flat part. topology: how they close.
+    """What measuring the body that patches bound came to.
+
+    Attributes
+    ----------
+    volume : Moments
+        Of the body; its rounding error is an estimate.
+    area : Moments
+        Of the patches, without caps; its rounding error is an estimate.
+    health : MeshReport
+    method : str
+        "exact", "capped", "reoriented" or "open".
+    findings : tuple of Finding
+        The decisions taken.
+    patches : tuple of Patch
+        Those whose signed sum `volume` is, caps among them.
+    signs : (n,) array
+        How each of the given patches counts: 1, -1, or 0 for a flat part.
+    topology : PatchTopology
+        How they close.
     """
 
     volume: Moments
@@ -51,10 +66,41 @@ class PatchIntegrals:
 def measure_patches(
     patches: Sequence[Patch], *, order: int = 3, area_order: int = 0, stored: float = 0.0
 ) -> PatchIntegrals:
-    """The moments of the body that patches bound, in their own coordinates and unit.
+    """Measure the body that patches bound, in their own coordinates and unit.
 
-    order: of the volume's moments; area_order: of the area's. stored: by how much storing the control points may have
-    moved each, for the moments' `input_error`. MeasureError where there is nothing to measure.
+    Parameters
+    ----------
+    patches : sequence of Patch
+    order : int
+        Of the volume's moments.
+    area_order : int
+        Of the area's.
+    stored : float
+        How far storing the control points may have moved each, for the moments' `input_error`.
+
+    Returns
+    -------
+    PatchIntegrals
+        The moments, the method and the findings.
+
+    Raises
+    ------
+    MeasureError
+        If there is nothing to measure.
+
+    Notes
+    -----
+    Soldea, Elber and Rivlin, sections 2 and 3, by a radial flux; see `patch_moments`.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Patch, measure_patches
+    >>> from body_moments.core.numerics import clamped_space
+    >>> line, corners = clamped_space(2), np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
+    >>> around = np.stack([np.insert(corners, 2, z, axis=1) for z in (0.0, 1.0)], axis=1)
+    >>> body = measure_patches([Patch((clamped_space(2, (0.25, 0.5, 0.75)), line), around)])
+    >>> str(body.method), round(body.volume.total, 9)
+    ('capped', 1.0)
     """
     if not patches:
         raise MeasureError("no_patches")
@@ -155,9 +201,39 @@ def assess(
 def measure_sheet(
     patches: Sequence[Patch], inner: float, outer: float, *, stored: float = 0.0
 ) -> tuple[Moments, Moments, bool]:
-    """The volume moments to order 3 of a sheet of real thickness, from the height `inner` to `outer` along the patches'
-    normals, their area's moments, and whether both estimates are below the tolerance. MeasureError where the sheet
-    would run through itself."""
+    """Measure a sheet of real thickness along patches.
+
+    Parameters
+    ----------
+    patches : sequence of Patch
+    inner, outer : float
+        The heights along the patches' normals between which the sheet lies.
+    stored : float
+        As for `measure_patches`.
+
+    Returns
+    -------
+    sheet : Moments
+        Of the sheet's volume, to order 3.
+    area : Moments
+        Of the patches, to order 3.
+    precise : bool
+        Whether both error estimates are below the tolerance.
+
+    Raises
+    ------
+    MeasureError
+        If the sheet would run through itself.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Patch, measure_sheet
+    >>> from body_moments.core.numerics import clamped_space
+    >>> square = np.array([[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]])
+    >>> sheet, area, precise = measure_sheet([Patch((clamped_space(2), clamped_space(2)), square)], 0.0, 0.1)
+    >>> round(sheet.total, 9), round(area.total, 9), precise
+    (0.1, 1.0, True)
+    """
     about = patches_center(patches)
     area, fine = area_moments(patches, 3, about)
     sheet, settled = sheet_moments(patches, inner, outer, 3, about)

@@ -32,8 +32,31 @@ RULE_ERROR_GROWTH = 8.0  # by how much moved control points may let the rule's e
 
 
 class TrackedSolid:
-    """The body that patches bound. measure: what it is now; its volume has moments to order 3. Of a body that has
-    followed the bounds are estimates, and the area is an approximation."""
+    """The body that patches bound, measured again and again while their control points move.
+
+    Parameters
+    ----------
+    patches : sequence of Patch
+    stored : float
+        As for `measure_patches`.
+
+    Attributes
+    ----------
+    measure : PatchIntegrals
+        What the body is now, its volume with moments to order 3. After `update` its bounds are estimates, and the area
+        is an approximation.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Patch, TrackedSolid
+    >>> from body_moments.core.numerics import clamped_space
+    >>> line, corners = clamped_space(2), np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
+    >>> around = np.stack([np.insert(corners, 2, z, axis=1) for z in (0.0, 1.0)], axis=1)
+    >>> patch = Patch((clamped_space(2, (0.25, 0.5, 0.75)), line), around)
+    >>> body = TrackedSolid([patch])
+    >>> body.update([patch.transform(np.diag([1.0, 1.0, 1.5, 1.0]))]), round(body.measure.volume.total, 9)
+    (True, 1.5)
+    """
 
     def __init__(self, patches: Sequence[Patch], stored: float = 0.0):
         self._measure_anew(patches, stored)
@@ -65,7 +88,19 @@ class TrackedSolid:
         return area * reach ** (monomials(3).sum(axis=1) + 1.0)
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
-        """Measure the patches as they are now; whether tables were enough for that."""
+        """Measure the patches as they are now.
+
+        Parameters
+        ----------
+        patches : sequence of Patch
+        stored : float
+            As for `measure_patches`.
+
+        Returns
+        -------
+        bool
+            Whether tables were enough; otherwise everything was measured anew.
+        """
         size, about = patches_size(patches), self.measure.volume.about
         if not (
             self._is_tracking and self._same_spaces(patches) and np.linalg.norm(patches_center(patches) - about) <= size

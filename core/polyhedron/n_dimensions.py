@@ -128,8 +128,7 @@ def enclosed_moments(
 def facet_moments(
     points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLike | None = None
 ) -> SimplexMoments:
-    """Return the moments of the boundary itself: by length in the plane, by area in space, by number of points on a
-    line.
+    """Return the moments of the boundary itself: length in the plane, area in space, points on a line.
 
     Parameters
     ----------

@@ -47,13 +47,35 @@ MIN_REPORTED_AMBIGUITY = 1e-6  # of the volume: below, nobody needs to know
 
 @dataclass(frozen=True, eq=False)
 class SolidIntegrals:
-    """volume: Moments to order 3, about the body's reference point. area: Moments of the input's faces, without caps.
-    method: "exact", "capped", "reoriented" or "open". findings: the decisions taken; those about the whole surface have
-    no elements.
+    """What measuring the body that a surface bounds came to.
 
     Of a body that is flat the volume's moments are zero; of an open one they depend on the reference point. Where
     vertices were welded across gaps, `input_error` bounds what that may have changed too.
-    repaired_surface: the surface whose signed sum `volume` is. parts: gives the same by closed part.
+
+    Attributes
+    ----------
+    volume : Moments
+        To order 3, about the body's reference point.
+    area : Moments
+        Of the input's faces, without caps.
+    health : MeshReport
+        The input before anything was repaired.
+    method : str
+        "exact", "capped", "reoriented" or "open".
+    findings : tuple of Finding
+        The decisions taken; those about the whole surface have no elements.
+    repaired_surface : Surface
+        The surface whose signed sum `volume` is: its moments to any order are the body's.
+    parts : callable
+        Returns the same by closed part.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, measure_solid
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2]])
+    >>> body = measure_solid(surface)
+    >>> str(body.method), [found.code for found in body.findings], round(body.exact_third_order().total * 6, 9)
+    ('capped', ['holes_capped'], 1.0)
     """
 
     volume: Moments
@@ -65,7 +87,7 @@ class SolidIntegrals:
     parts: Callable[[], ClosedParts]
 
     def exact_third_order(self, threads: int = 1) -> Moments:
-        """`volume` with its third order exact to rounding, for what its bounds leave undecided."""
+        """Return `volume` with its third order exact to rounding, for what its bounds leave undecided."""
         return polyhedron_moments(self.repaired_surface, exact=True, threads=threads)[0]
 
 
@@ -76,11 +98,38 @@ def measure_solid(
     threads: int = 1,
     weld_near: bool = True,
 ) -> SolidIntegrals:
-    """The moments of the body that a surface bounds, in the surface's own coordinates and unit, and how they came.
+    """Measure the body that a surface bounds, in the surface's own coordinates and unit.
 
-    shell: the area's moments to order 3 (else order 0). threads: for the sums over faces, and for the verdict.
-    weld_near: whether vertices along open edges that differ by rounding are welded, unless the body is so thin that it
-    would collapse. MeasureError where there are no faces, or a face uses a vertex that has no finite position.
+    An open, flipped or doubled surface is repaired on a copy, and each decision is a finding; see the module.
+
+    Parameters
+    ----------
+    surface : Surface
+    shell : bool
+        Whether the area's moments are to order 3, otherwise order 0.
+    threads : int
+        For the sums over faces, and for the verdict.
+    weld_near : bool
+        Whether vertices along open edges that differ by rounding are welded, unless the body is so thin that it would
+        collapse.
+
+    Returns
+    -------
+    SolidIntegrals
+        The moments, the method and the findings.
+
+    Raises
+    ------
+    MeasureError
+        If there are no faces, or a face uses a vertex that has no finite position.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, measure_solid
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 3, 2]])
+    >>> body = measure_solid(surface)
+    >>> str(body.method), round(body.volume.total * 6, 9), body.health.defective_elements.flipped_faces.tolist()
+    ('reoriented', 1.0, [3])
     """
     given = surface
     surface, vertices, size = _drop_unused_vertices(surface)

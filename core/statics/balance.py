@@ -38,7 +38,21 @@ SLIVER_RTOL = 1e-9  # of its longest side squared: a triangle without a normal
 
 @dataclass(frozen=True, eq=False)
 class BalanceResult:
-    """points: (n, 3) float64 where the vertices go. before, after: (3,) the center."""
+    """Where vertices go so that the center comes to its target.
+
+    Attributes
+    ----------
+    points : (n, 3) array
+        float64.
+    before, after : (3,) arrays
+        The center.
+
+    Examples
+    --------
+    >>> from body_moments.core.statics import BalanceResult
+    >>> BalanceResult(np.zeros((4, 3)), np.zeros(3), np.ones(3)).after.tolist()
+    [1.0, 1.0, 1.0]
+    """
 
     points: NDArray[np.float64]
     before: NDArray[np.float64]
@@ -55,12 +69,41 @@ def balance(
     limit: float = np.inf,
     shell: bool = False,
 ) -> BalanceResult:
-    """Moves the vertices `movable`, (k,), as little as possible so that the center of mass comes to `target`, (3,).
+    """Move vertices as little as possible so that the center of mass comes to a point.
 
-    across: (r, 3) orthonormal rows: along these directions only; by default all three. weights: (k,) above 0 to 1.
-    limit: how far a vertex may move. shell: the mass is in the surface, else in the body it bounds, which must be
-    closed. Uniform density, and all lengths in one unit.
-    MeasureError where the center cannot come there, or where faces would be turned over.
+    Parameters
+    ----------
+    surface : Surface
+    movable : (k,) integer array
+        The vertices that may move.
+    target : (3,) array
+    across : (r, 3) array, optional
+        Orthonormal rows: move the center along these directions only; by default all three.
+    weights : (k,) array, optional
+        Above 0 to 1: how freely each vertex moves.
+    limit : float
+        How far a vertex may move.
+    shell : bool
+        Whether the mass is in the surface, otherwise in the body it bounds, which must be closed. Uniform density, and
+        all lengths in one unit.
+
+    Returns
+    -------
+    BalanceResult
+
+    Raises
+    ------
+    MeasureError
+        If the center cannot come there, or faces would be turned over.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.statics import balance
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> result = balance(surface, np.arange(4), np.array([0.25, 0.25, 0.3]))
+    >>> np.round(result.after, 9).tolist()
+    [0.25, 0.25, 0.3]
     """
     across = np.eye(3) if across is None else np.asarray(across, np.float64)
     movable = np.asarray(movable, np.intp)

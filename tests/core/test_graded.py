@@ -198,7 +198,8 @@ def test_the_input_bound_follows_the_density():
     points, triangles = prism()
     volume = moments_of(points, triangles, 4)
     one, ten = (
-        polynomial_mass_of_images(volume, parse_polynomial(text), np.eye(4)[None]).input_error for text in ("1 + z", "10 + 10*z")
+        polynomial_mass_of_images(volume, parse_polynomial(text), np.eye(4)[None]).input_error
+        for text in ("1 + z", "10 + 10*z")
     )
     assert np.allclose(ten, 10.0 * one) and one[0] >= volume.input_error[0]
 
@@ -210,7 +211,9 @@ def test_a_cylinder_with_a_linear_density():
     angle = 2.0 * np.pi * np.arange(n) / n
     outline = list(zip((radius * np.cos(angle)).tolist(), (radius * np.sin(angle)).tolist()))
     points, faces = exact.prism(outline, 0.0, height, [tuple(range(n))])
-    found = polynomial_mass_of_images(moments_of(points, exact.fan(faces), 4), parse_polynomial("1000 + 20*z"), np.eye(4)[None])
+    found = polynomial_mass_of_images(
+        moments_of(points, exact.fan(faces), 4), parse_polynomial("1000 + 20*z"), np.eye(4)[None]
+    )
     area = n / 2.0 * radius**2 * np.sin(2.0 * np.pi / n)
     body = MassProperties.from_moments(found)
     assert body.mass == pytest.approx(area * height * (a + b * height / 2.0), rel=1e-14)
