@@ -18,9 +18,11 @@ from numpy.typing import NDArray
 
 from ..mesh.bvh import SortedComponents, sort_components
 from ..moments.moments import Moments, monomials, sum_moments
-from ..solid.nesting import ShellRelations, classify_pairs, orient_nested_shells
+from ..solid.nesting import ShellRelations, classify_pairs
+from ..solid.orientation import ComponentComparison
 from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.health import MeshReport
+from ..verdict.method import Verdict
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL, NEGLIGIBLE, WELDING_RTOL
 from .patch import Patch
 from .patch_moments import area_moments, area_slope, control_box, patches_center, sheet_moments, volume_moments
@@ -32,23 +34,24 @@ MAX_TRIANGLES = 1_000_000  # compared where samples cross
 
 @dataclass(frozen=True, eq=False)
 class PatchIntegrals:
-    """What measuring the body that patches bound came to.
+    """The moments of the body that patches bound, and how they came about.
 
     Attributes
     ----------
     volume : Moments
-        Of the body; its rounding error is an estimate.
+        Of the body; its error is an estimate.
     area : Moments
-        Of the patches, without caps; its rounding error is an estimate.
+        Of the patches, without caps; an estimate.
     health : MeshReport
-    method : str
-        "exact", "capped", "reoriented" or "open".
+        What the input is like.
+    method : Verdict
+        EXACT, CAPPED, REORIENTED or OPEN.
     findings : tuple of Finding
         The decisions taken.
     patches : tuple of Patch
-        Those whose signed sum `volume` is, caps among them.
-    signs : (n,) array
-        How each of the given patches counts: 1, -1, or 0 for a flat part.
+        Those whose signed sum ``volume`` is, caps among them.
+    signs : (n,) float
+        How each patch that was given counts: 1, -1, or 0 for one of a flat part.
     topology : PatchTopology
         How they close.
     """
@@ -56,37 +59,49 @@ class PatchIntegrals:
     volume: Moments
     area: Moments
     health: MeshReport
-    method: str
+    method: Verdict
     findings: tuple[Finding, ...]
     patches: tuple[Patch, ...]
     signs: NDArray[np.float64]
     topology: PatchTopology
 
 
+@dataclass(frozen=True, eq=False)
+class _PatchVerdict:
+    """What was decided about parts. solid, flipped, counted: (c,) those with a volume, those to turn, and those that
+    the sum is of. caps: (c, 3) how many flat and curved holes of each were capped, and the caps' area. comparison:
+    where there are several."""
+
+    solid: NDArray[np.bool_]
+    flipped: NDArray[np.bool_]
+    counted: NDArray[np.bool_]
+    caps: NDArray[np.float64]
+    comparison: ComponentComparison | None
+
+
 def measure_patches(
     patches: Sequence[Patch], *, order: int = 3, area_order: int = 0, stored: float = 0.0
 ) -> PatchIntegrals:
-    """Measure the body that patches bound, in their own coordinates and unit.
+    """Measure the body that B-spline patches bound.
 
     Parameters
     ----------
     patches : sequence of Patch
-    order : int
-        Of the volume's moments.
-    area_order : int
-        Of the area's.
+        In any order and orientation.
+    order, area_order : int
+        Of the volume's moments, and of the area's.
     stored : float
-        How far storing the control points may have moved each, for the moments' `input_error`.
+        By how much storing the control points may have moved each (unit), for the moments' `input_error`.
 
     Returns
     -------
     PatchIntegrals
-        The moments, the method and the findings.
+        In the patches' own coordinates and unit.
 
     Raises
     ------
     MeasureError
-        If there is nothing to measure.
+        Where there is nothing to measure.
 
     Notes
     -----
@@ -136,66 +151,117 @@ def assess(
     stored: float,
     findings: Sequence[Finding] = (),
 ) -> PatchIntegrals:
-    """What the moments of parts, as they face, come to, with findings.
+    """Judge what the moments of parts, as they face, come to.
 
-    measured: of each of `oriented_parts`, as `volume_moments` gives them. area: of all patches; slope: as `area_slope`
-    gives it. findings: further ones.
+    Parameters
+    ----------
+    patches : sequence of Patch
+    topology : PatchTopology
+    parts : sequence of lists of Patch
+        As `oriented_parts` gives them.
+    measured : sequence of (Moments, bool)
+        Of each part, as `volume_moments` gives them.
+    area : Moments
+        Of all patches.
+    slope : float
+        As `area_slope` gives it.
+    stored : float
+        As for `measure_patches`.
+    findings : sequence of Finding
+        Further ones.
     """
-    size, findings = patches_size(patches), list(findings)
+    size = patches_size(patches)
+    verdict = _judge_parts(parts, topology, measured, area.total, size, stored)
+    turned_parts = [
+        (part, moments, settled, -1.0 if flip else 1.0)
+        for part, (moments, settled), flip, keep in zip(parts, measured, verdict.flipped, verdict.counted)
+        if keep
+    ]
+    volumes = [moments * sign for _, moments, _, sign in turned_parts]
+    volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
+    is_open = bool(topology.unclosable.any() or not verdict.solid.any())
+    if is_open and volume.total < 0.0:
+        volume = replace(volume, raw=-volume.raw)
+    volume, area = _with_input_errors(volume, area, slope, topology, stored, size)
+    misoriented = _misoriented_count(topology)
+    further = list(findings)
+    if not all(settled for *_, settled, _ in turned_parts):
+        further.append(finding("volume_error_estimate_large"))
+    outward = tuple(
+        patch.reverse_orientation() if sign < 0.0 else patch for part, *_, sign in turned_parts for patch in part
+    )
+    counted = np.where(verdict.flipped, -1.0, 1.0) * verdict.counted
+    return PatchIntegrals(
+        volume,
+        area,
+        _health(topology, verdict, area.total),
+        _method(is_open, verdict, misoriented),
+        (
+            *_orientation_findings(topology, misoriented, verdict.flipped),
+            *_closing_findings(topology, verdict.solid, area.total, volume.total, size),
+            *_component_findings(verdict.comparison),
+            *further,
+        ),
+        outward,
+        counted[topology.component] * np.where(topology.flipped, -1.0, 1.0),
+        topology,
+    )
+
+
+def _judge_parts(
+    parts: Sequence[list[Patch]],
+    topology: PatchTopology,
+    measured: Sequence[tuple[Moments, bool]],
+    area: float,
+    size: float,
+    stored: float,
+) -> _PatchVerdict:
+    """Which parts have a volume, and which of them are inside out."""
     caps = np.zeros((topology.number, 3))
     for loop in topology.loops:
         if not loop.zero_area:
             caps[topology.component[loop.patch]] += (loop.is_planar, not loop.is_planar, loop.area)
-    capped = caps.any(axis=1)
-    noise = np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * stored, CLOSED_SHEET_VOLUME_RTOL * size) * area.total
+    threshold = np.where(caps.any(axis=1), FLAT_CAP_VOLUME_RTOL * size + 4.0 * stored, CLOSED_SHEET_VOLUME_RTOL * size)
     total = np.array([moments.total for moments, _ in measured])
-    solid = ~topology.unclosable & (np.abs(total) > noise)
-    turn, compared = _compare_parts(parts, total, solid, max(WELDING_RTOL * size, 4.0 * stored))
-    counted_parts = solid if solid.any() else topology.unclosable
-    volumes = [
-        moments * (-1.0 if flip else 1.0) for (moments, _), flip, keep in zip(measured, turn, counted_parts) if keep
-    ]
-    if not all(fine for (_, fine), keep in zip(measured, counted_parts) if keep):
-        findings.append(finding("volume_error_estimate_large"))
-    volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
-    is_open = bool(topology.unclosable.any() or not solid.any())
-    if is_open and volume.total < 0.0:
-        volume = replace(volume, raw=-volume.raw)
+    solid = ~topology.unclosable & (np.abs(total) > threshold * area)
+    comparison = _compare_parts(parts, total, solid, max(WELDING_RTOL * size, 4.0 * stored))
+    flipped = solid & (total < 0.0) if comparison is None else comparison.flipped
+    return _PatchVerdict(solid, flipped, solid if solid.any() else topology.unclosable, caps, comparison)
+
+
+def _with_input_errors(
+    volume: Moments, area: Moments, slope: float, topology: PatchTopology, stored: float, size: float
+) -> tuple[Moments, Moments]:
+    """Volume and area with the bounds of what storing the control points may have changed."""
     reach = size + 4.0 * stored
-    # caps move with their rims
+    # caps move with their boundaries
     skin = area.total + sum(loop.area for loop in topology.loops)
-    volume = replace(volume, input_error=_input_error(volume, stored, topology.seam_gap, skin, reach))
-    area = replace(area, input_error=_input_error(area, stored, 0.0, slope + area.total / reach, reach))
-    mixed = _misoriented_count(topology)
-    findings = [
-        *_orientation_findings(topology, mixed, turn),
-        *_closing_findings(topology, solid, area.total, volume.total, size),
-        *compared["findings"],
-        *findings,
-    ]
-    share = float(caps[solid, 2].sum() / area.total) if area.total > 0.0 else 0.0
-    method = (
-        "open" if is_open else "capped" if capped[solid].any() else "reoriented" if mixed or turn.any() else "exact"
+    return (
+        replace(volume, input_error=_input_error(volume, stored, topology.seam_gap, skin, reach)),
+        replace(area, input_error=_input_error(area, stored, 0.0, slope + area.total / reach, reach)),
     )
-    health = MeshReport(
-        closed=not (topology.unclosable.any() or capped.any()),
+
+
+def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
+    """misoriented: patches that face against the rest of their part."""
+    if is_open:
+        return Verdict.OPEN
+    if verdict.caps[verdict.solid].any():
+        return Verdict.CAPPED
+    return Verdict.REORIENTED if misoriented or verdict.flipped.any() else Verdict.EXACT
+
+
+def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> MeshReport:
+    return MeshReport(
+        closed=not (topology.unclosable.any() or verdict.caps.any()),
         boundary_edges=topology.open_sides,
         non_manifold_edges=topology.non_manifold_sides,
         inconsistent_edges=topology.misoriented_sides,
         components=topology.number,
-        inverted_components=int(turn.sum()),
-        cap_area_share=share,
-        **compared["counts"],
+        inverted_components=int(verdict.flipped.sum()),
+        cap_area_share=float(verdict.caps[verdict.solid, 2].sum() / area) if area > 0.0 else 0.0,
+        **({} if verdict.comparison is None else verdict.comparison.counts()),
     )
-    outward = [
-        patch.reverse_orientation() if flip else patch
-        for part, flip, keep in zip(parts, turn, counted_parts)
-        if keep
-        for patch in part
-    ]
-    counted = np.where(turn, -1.0, 1.0) * counted_parts
-    signs = counted[topology.component] * np.where(topology.flipped, -1.0, 1.0)
-    return PatchIntegrals(volume, area, health, method, tuple(findings), tuple(outward), signs, topology)
 
 
 def measure_sheet(
@@ -257,14 +323,12 @@ def _input_error(moments: Moments, stored: float, gap: float, area: float, reach
 
 
 def _compare_parts(
-    parts: list[list[Patch]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
-) -> tuple[NDArray[np.bool_], dict]:
-    """Which parts to turn, with the counts and findings about parts in others' material."""
-    flipped = solid & (total < 0.0)
+    parts: Sequence[list[Patch]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
+) -> ComponentComparison | None:
+    """How parts lie to each other, and which of them to turn; None where there are not several, or none is solid."""
     if len(parts) == 1 or not solid.any():
-        return flipped, {"counts": {}, "findings": []}
+        return None
     shells, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
-    shells = replace(shells, volume=total)
     shared = np.unique(relations.intersecting)
     spans = sum(len(patch.spaces[0].spans) * len(patch.spaces[1].spans) for k in shared for patch in parts[k])
     each = min(FINE_SAMPLES_PER_SPAN, int(np.sqrt(MAX_TRIANGLES / (2.0 * max(spans, 1)))))
@@ -279,23 +343,21 @@ def _compare_parts(
             relations.intersecting[np.isin(crossed, crossing)],
             relations.undecided_pairs,
         )
-    flipped, nested, cavities = orient_nested_shells(shells, relations, solid)
-    crossing = len(np.unique(relations.intersecting))
-    findings = []
-    if nested.any():
-        findings.append(finding("components_nested", count=int(nested.sum())))
-    if crossing:
-        findings.append(finding("components_overlap", count=crossing))
-    if relations.undecided_pairs:
-        findings.append(finding("overlap_unchecked", count=int(relations.undecided_pairs)))
-    return flipped, {
-        "counts": {
-            "nested_components": int(nested.sum()),
-            "cavities": int(cavities.sum()),
-            "overlapping_components": crossing,
-        },
-        "findings": findings,
-    }
+    return ComponentComparison.from_relations(replace(shells, volume=total), relations, solid)
+
+
+def _component_findings(comparison: ComponentComparison | None) -> list[Finding]:
+    """About parts in others' material, and parts that go through others."""
+    findings: list[Finding] = []
+    if comparison is None:
+        return findings
+    if comparison.nested.any():
+        findings.append(finding("components_nested", count=int(comparison.nested.sum())))
+    if comparison.intersecting.any():
+        findings.append(finding("components_overlap", count=int(comparison.intersecting.sum())))
+    if comparison.undecided_pairs:
+        findings.append(finding("overlap_unchecked", count=int(comparison.undecided_pairs)))
+    return findings
 
 
 def _classify_parts(

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials, sum_moments
+from ..verdict.method import Verdict
 from ..verdict.tolerances import WELDING_RTOL
 from .incremental import IncrementalPatchMoments
 from .patch import Patch
@@ -72,7 +73,7 @@ class TrackedSolid:
         ]
         largest = self._largest(patches, area.total)
         self._error, self._area_error = volume.rounding_error / largest, area.rounding_error[:1] / area.total
-        self._is_tracking = self.measure.method != "open"
+        self._is_tracking = self.measure.method is not Verdict.OPEN
         if self._is_tracking and any(patch.weights is not None for patch in patches):
             tables = self._assess(patches, self.measure.topology, stored).volume
             # The worst of all moments stands for each: of a symmetric body one may be right by chance.
@@ -110,7 +111,7 @@ class TrackedSolid:
         self._fluxes = [self._flux(k, patch) for k, patch in enumerate(patches)]
         self._patches = list(patches)
         measure = self._assess(patches, find_topology(patches, max(WELDING_RTOL * size, 4.0 * stored)), stored)
-        if measure.method == "open":
+        if measure.method is Verdict.OPEN:
             self._measure_anew(patches, stored)
             return False
         self.measure = measure

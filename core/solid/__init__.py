@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether a surface bounds a solid, what has to be repaired to measure it, and its moments."""
 
-from .measure_solid import SolidIntegrals, measure_solid
+from .judgement import SolidIntegrals
+from .measure_solid import measure_solid
 
 __all__ = [
     "SolidIntegrals",

@@ -16,11 +16,27 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import segment_ranges
+from ..numerics.arrays import segment_ranges, unique_pairs
 from ..numerics.graph import connected_components
 
 MAX_GAP_ASPECT = 1e-3  # width by length, at most, of a gap that counts as none
 MAX_END_PAIRS = 4_000_000  # of ends that meet; beyond, ends are joined in the order of their numbers
+
+
+def side_ends(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
+    """The vertices from which and to which sides run. Side 3t + i runs from corner i of triangle t to the next one."""
+    triangle, corner = sides // 3, sides % 3
+    return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
+
+
+def vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
+    """(k, 2) sides as pairs of vertices, the lower first."""
+    return np.sort(np.stack(side_ends(triangles, sides), axis=1), axis=1)
+
+
+def as_vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
+    """(k, 2) sides as pairs of vertices, the lower first, sorted, each once."""
+    return unique_pairs(vertex_pairs(triangles, sides))
 
 
 def join_sides(
