@@ -18,6 +18,7 @@ from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.method import Verdict
 from ..read import Reading, read_object, shows_flat_region
 from ..settings.density import density_field
 from ..settings.options import MeasureOptions, with_object_settings
@@ -82,7 +83,7 @@ def object_transform(
         else:
             if options.kind == "wire":
                 raise ReadError("fourier_of_wire")
-            if body.method == "open":
+            if body.method.verdict == Verdict.OPEN:
                 raise ReadError("fourier_of_open_surface")
             parts = [(solid.repaired_surface, matrices) for solid, matrices in body.solids]
             of, total = Measure.VOLUME, body.volume.total

@@ -19,8 +19,6 @@ from ...core.verdict.finding import Finding, finding
 from ...core.verdict.health import DefectiveElements, MeshReport
 from ..read import Reading
 
-METHOD_RANK = ("open", "capped", "reoriented", "exact")  # methods: of several, the first counts
-
 
 def singular_reason(reading: Reading) -> Finding:
     """Why nothing of a singular reading encloses anything."""

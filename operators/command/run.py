@@ -26,6 +26,7 @@ from ...core.measurement import Measurement
 from ...core.scans import formats as scans
 from ...core.verdict import internal_error
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding
+from ...core.verdict.method import Source
 from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
 from ..bodies.shape import NoShapeError, shape_of
@@ -243,7 +244,7 @@ class Run:
         findings = ()
         if self.options.signature and shape.has_surface:
             more["signature"] = shape.signature().as_record()
-            if shape.measurement.method.startswith("NURBS"):
+            if shape.measurement.method.source == Source.NURBS:
                 findings = (finding("signature_of_display_mesh"),)
         elif self.options.signature:
             more["signature"] = None

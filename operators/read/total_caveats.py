@@ -9,6 +9,7 @@ from collections.abc import Collection, Iterable, Iterator
 from bpy.types import LayerCollection, Object, ViewLayer
 
 from ...core.verdict.finding import Finding, finding
+from ...core.verdict.method import Method, Verdict
 
 
 def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Finding]:
@@ -41,10 +42,10 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
     return findings
 
 
-def open_body_caveats(methods: Iterable[tuple[str, str]]) -> list[Finding]:
+def open_body_caveats(methods: Iterable[tuple[str, Method | None]]) -> list[Finding]:
     """The same of bodies, given as names and methods, whose own numbers depend on a reference point."""
     methods = list(methods)
-    names = sorted(name for name, method in methods if method.endswith("open"))
+    names = sorted(name for name, method in methods if method is not None and method.verdict == Verdict.OPEN)
     return [finding("total_of_open_objects", objects=names)] if names and len(methods) > 1 else []
 
 

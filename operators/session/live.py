@@ -20,17 +20,17 @@ from bpy.app.handlers import persistent
 from bpy.types import Depsgraph, Object, Scene
 
 from ...core.measurement import Measurement
-from ...core.numerics.float32 import shortest_decimal
 from ...core.nurbs.tracked_solid import TrackedSolid
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError
-from ..bodies.body import MeasuredBody
+from ...core.verdict.method import Method, Source, Verdict
+from ..bodies.body import Body
 from ..bodies.measure_object import measure_object
-from ..bodies.measurement import as_measurement
+from ..bodies.measurement import measurement_of
+from ..bodies.request import Request
 from ..read import read_patches
 from ..read.fingerprint import settings_hash
-from ..settings.density import density_field
-from ..settings.options import MeasureOptions, with_object_settings
+from ..settings.options import MeasureOptions
 
 MAX_WAIT = 2.0  # s between two measurements of a body that takes long
 
@@ -98,10 +98,10 @@ def stop(obj: Object) -> None:
 
 
 def _measure(obj: Object, depsgraph: Depsgraph) -> Measurement:
-    unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
     plain = MeasureOptions(compare=False)
-    options = with_object_settings(plain, obj, unit)
-    followed = options.kind == "solid" and options.overlap == "signed" and density_field(obj.body_moments) is None
+    request = Request.of(obj, depsgraph, plain)
+    options, unit = request.options, request.unit
+    followed = options.kind == "solid" and options.overlap == "signed" and request.density is None
     reading = read_patches(obj, depsgraph) if followed else None
     if reading is None or reading.all_singular:
         return measure_object(obj, depsgraph, plain)
@@ -118,16 +118,15 @@ def _measure(obj: Object, depsgraph: Depsgraph) -> Measurement:
     else:
         body.update(patches, stored)
     measure = body.measure
-    measured_body = MeasuredBody(
+    measured_body = Body(
         measure.volume,
         measure.area,
         measure.health,
-        "NURBS " + measure.method,
+        Method(Verdict(measure.method), Source.NURBS),
         (*part.splines.findings, *measure.findings),
-        third_order=lambda: measure.volume,
         estimated=True,
     )
-    return as_measurement(obj, reading, measured_body, options, unit)
+    return measurement_of(reading, measured_body, request)
 
 
 @persistent

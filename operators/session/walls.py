@@ -17,11 +17,11 @@ from bpy.types import Context, Object, PropertyGroup
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import MeasureError
 from ..bodies.measure_object import Measured
-from ..bodies.measurement import as_measurement
-from ..bodies.wall import Walls
+from ..bodies.measurement import measurement_of
+from ..bodies.request import Request
+from ..bodies.wall import WallBody, Walls
 from ..read import Reading
 from ..settings import hooks
-from ..settings.options import MeasureOptions, with_object_settings
 from ..write import properties
 from . import staleness
 
@@ -43,11 +43,11 @@ class _CachedWalls:
 
 def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
     """Remember the walls that an object was measured with, if any. unit: metres per Blender unit."""
-    if measured.walls is None:
+    if not isinstance(measured.body, WallBody):
         return
     _, geometry, matrix, _ = measured.measurement.fingerprint.split(":")
     reading = replace(measured.reading, parts=[])
-    _cache[obj.session_uid] = _CachedWalls(reading, measured.walls.drop_arrays(), geometry, matrix, unit)
+    _cache[obj.session_uid] = _CachedWalls(reading, measured.body.walls.drop_arrays(), geometry, matrix, unit)
     _cache.move_to_end(obj.session_uid)
     while len(_cache) > MAX_CACHED_OBJECTS:
         _cache.popitem(last=False)
@@ -86,10 +86,10 @@ def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
         or obj.override_library is not None
     ):
         return
-    options = with_object_settings(MeasureOptions(), obj, cached.unit)
+    request = Request.of(obj, unit=cached.unit)
     try:
-        body = _walls_on_side(cached, obj).body(options.thickness, check_overlap=False)
-        measurement = as_measurement(obj, cached.reading, body, options, cached.unit)
+        body = _walls_on_side(cached, obj).body(request.options.thickness, check_overlap=False)
+        measurement = measurement_of(cached.reading, body, request)
     except MeasureError:  # the panel shows how thick it may be
         return
     properties.store(obj, measurement)

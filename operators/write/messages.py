@@ -23,6 +23,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...core.verdict.finding import MAX_STORED_ELEMENTS, Finding, Severity
+from ...core.verdict.method import Method, Verdict
 
 MAX_LISTED = MAX_STORED_ELEMENTS
 
@@ -1334,6 +1335,17 @@ METHODS = {
     "union": ("Union", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits"),
     "wire": ("Wire", "The mass is along the curve"),
 }
+
+
+def method_key(method: Method | None, walled: bool) -> str:
+    """Return the entry of METHODS that a method belongs to, "" for none. walled: whether a shell is a wall."""
+    if method is None:
+        return ""
+    if walled and method.verdict == Verdict.SHELL:
+        return "wall"
+    return str(method) if str(method) in METHODS else method.verdict.value
+
+
 # Counts of the health record, as `report_text` and Select Defects name them: one, several.
 HEALTH = {
     "boundary_edges": ("boundary edge", "boundary edges"),

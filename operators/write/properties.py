@@ -23,6 +23,7 @@ from ...core.inertia.principal_frame import PrincipalFrame
 from ...core.measurement import Measurement
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
+from ...core.verdict.method import Method, Source, Verdict
 from .messages import of_severity, sentence
 from .record import TENSOR, plain
 
@@ -168,8 +169,13 @@ def is_stored(obj: bpy.types.Object) -> bool:
     return numbers(obj) is not None
 
 
-def method(obj: bpy.types.Object) -> str:
-    """How the stored numbers came about, "" where there are none."""
+def method(obj: bpy.types.Object) -> Method | None:
+    """How the stored numbers came about; None where there are none, or this version does not know their method."""
+    return Method.parse(method_text(obj))
+
+
+def method_text(obj: bpy.types.Object) -> str:
+    """The method as it is stored, "" where there are no numbers."""
     return str(obj.get("body_method", ""))
 
 
@@ -212,8 +218,14 @@ def _has_sentence(finding: Finding) -> bool:
 
 def is_estimated(obj: bpy.types.Object) -> bool:
     """Whether the stored bounds are estimates: those of splines are, and those of solids filled with a grid."""
-    word = method(obj)
-    return word.startswith("NURBS") or word == "wire" or (word.startswith("grid") and obj.type != "VOLUME")
+    how = method(obj)
+    if how is None:
+        return False
+    return (
+        how.source == Source.NURBS
+        or how.verdict == Verdict.WIRE
+        or (how.source == Source.GRID and obj.type != "VOLUME")
+    )
 
 
 def optional(obj: bpy.types.Object, key: str) -> float | None:

@@ -59,7 +59,7 @@ def record(
         "name": measurement.name,
         "type": measurement.type,
         "kind": measurement.kind,
-        "method": measurement.method,
+        "method": str(measurement.method),
         "density": measurement.density,
         **({} if measurement.has_uniform_density else {"density_from": str(measurement.density_from)}),
         "mass": properties.mass,

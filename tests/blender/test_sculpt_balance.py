@@ -182,7 +182,7 @@ def test_a_thin_shell_is_balanced_by_its_area():
     edit(obj)
     bpy.context.scene.cursor.location = (0.12, 0.0, 0.0)
     assert balance() == {"FINISHED"}
-    assert measured(obj).method == "shell"
+    assert str(measured(obj).method) == "shell"
     assert np.abs(center(obj)[:2] - (0.12, 0.0)).max() < 1e-6
 
 

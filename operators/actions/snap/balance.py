@@ -26,6 +26,7 @@ from ....core.moments.moments import Measure
 from ....core.numerics.float32 import shortest_decimal
 from ....core.statics.balance import BalanceResult, balance
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ....core.verdict.method import Method, Verdict
 from ...bodies.measure_object import measure_object
 from ...read import Part, read_object
 from ...read.quiet import paused
@@ -293,7 +294,7 @@ def _measure(context: Context, obj: Object) -> Measurement:
     measurement = measure_object(obj, context.evaluated_depsgraph_get())
     if measurement.mass_moments[0].measure == Measure.MASS:
         raise EditRefusedError("balance_varying_density")
-    if measurement.kind == "solid" and (measurement.method != "exact" or measurement.health.welded):
+    if measurement.kind == "solid" and (measurement.method != Method(Verdict.EXACT) or measurement.health.welded):
         raise EditRefusedError("balance_unclean")
     return measurement
 

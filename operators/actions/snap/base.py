@@ -23,6 +23,7 @@ from ....core.inertia.principal_frame import EQUAL_AXES, zhang_chen_frame
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import EditRefusedError, Finding, finding
+from ....core.verdict.method import Verdict
 from ...bodies.measure_object import measure_body
 from ...read.quiet import paused
 from ...scene import reframe
@@ -94,7 +95,7 @@ def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarg
     and Chen's rule, or refused where it has none."""
     measured = measure_body(obj, context.evaluated_depsgraph_get(), MeasureOptions(pose=True))
     measurement = measured.measurement
-    if measurement.method.endswith("open"):
+    if measurement.method.verdict == Verdict.OPEN:
         raise EditRefusedError("open_object")
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     body = measurement.mass_properties
