@@ -52,7 +52,7 @@ class FrequencyGrid:
 
     def axis(self) -> NDArray[np.float64]:
         """(count,) the frequencies along each axis."""
-        return (np.arange(self.count) - self.half) * self.step
+        return (np.arange(self.count, dtype=np.float64) - self.half) * self.step
 
     def vectors(self) -> NDArray[np.float64]:
         """(count³, 3) every wave vector, the last axis fastest."""

@@ -5,12 +5,15 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+Index = TypeVar("Index", int, NDArray[np.int64])  # one, or an array of them
 
-def monomial_count(order: int) -> int:
+
+def monomial_count(order: Index) -> Index:
     """The number of monomials in x, y, z of degree at most `order`."""
     return (order + 1) * (order + 2) * (order + 3) // 6
 
@@ -23,7 +26,7 @@ def order_from_count(count: int) -> int:
     return order
 
 
-def monomial_index(p: int, q: int, r: int) -> int:
+def monomial_index(p: Index, q: Index, r: Index) -> Index:
     """Where raw[p,q,r] stands: graded by degree, within a degree by (q+r, r)."""
     s = q + r
     return monomial_count(p + s - 1) + s * (s + 1) // 2 + r

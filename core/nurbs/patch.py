@@ -44,7 +44,11 @@ class Patch:
 
     def reverse_orientation(self) -> Patch:
         """The same surface facing the other way."""
-        return Patch(self.spaces[::-1], self.points.swapaxes(0, 1), None if self.weights is None else self.weights.T)
+        return Patch(
+            (self.spaces[1], self.spaces[0]),
+            self.points.swapaxes(0, 1),
+            None if self.weights is None else self.weights.T,
+        )
 
     def evaluate_grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
         """(len(s), len(t), 3) its points."""
@@ -54,12 +58,12 @@ class Patch:
 
     def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
         """(m, n, 3) its points where its control points weigh what two tables, (m, count_s) and (n, count_t), say."""
-        points = self.points
+        points, bottom = self.points, None
         if self.weights is not None:
             points = points * self.weights[..., None]
             bottom = np.einsum("ai,bi->ab", np.einsum("ai,ij->aj", tables[0], self.weights), tables[1])
         top = np.einsum("ajd,bj->abd", np.einsum("ai,ijd->ajd", tables[0], points), tables[1])
-        return top if self.weights is None else top / bottom[..., None]
+        return top if bottom is None else top / bottom[..., None]
 
     def side(self, axis: int, end: int) -> Curve:
         """The curve that bounds the patch where s (axis 0) or t (axis 1) is first (end 0) or last (end 1)."""
