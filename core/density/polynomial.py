@@ -309,9 +309,9 @@ def _translate(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dic
     result: dict[Exponents, Fraction] = {}
     for powers, value in terms.items():
         for k in range(powers[axis] + 1):
-            lower = (*powers[:axis], k, *powers[axis + 1 :])
+            p, q, r = (*powers[:axis], k, *powers[axis + 1 :])
             factor = math.comb(powers[axis], k) * by ** (powers[axis] - k)
-            result[lower] = result.get(lower, 0) + value * factor
+            result[p, q, r] = result.get((p, q, r), Fraction(0)) + value * factor
     return _nonzero(result)
 
 

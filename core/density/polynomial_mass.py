@@ -46,7 +46,7 @@ def polynomial_mass_of_images(
     turn, shift = to_trailing_axis(fields)
     point, extent = moments.about[:, None], np.abs(moments.about)[:, None]
     origins = (linear * point).sum(axis=1) + offsets
-    about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
+    center: NDArray[np.float64] = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     origins_local = (turn * point).sum(axis=1) + shift
     origin = origins_local.mean(axis=1)
     terms = density.translate(origin).float_terms()
@@ -60,11 +60,11 @@ def polynomial_mass_of_images(
             * ((np.abs(turn[:, :, part]) * extent).sum(axis=1) + np.abs(shift[:, part]) + np.abs(origin)[:, None])
         )
         weighed, weighed_error, weighed_input = _mass_functional(moments, order, terms, forms, misplacement)
-        maps, offset = linear[:, :, part], origins[:, part] - about[:, None]
+        maps, offset = linear[:, :, part], origins[:, part] - center[:, None]
         weight, weight_error, anisotropy = measure_scale_factors(moments.measure, maps)
         weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
         raw += (transform_by_horner(weighed, order, maps, offset) * weight).sum(axis=1)
-        tolerance = 6.0 * U * ((np.abs(maps) * extent).sum(axis=1) + np.abs(offsets[:, part]) + np.abs(about)[:, None])
+        tolerance = 6.0 * U * ((np.abs(maps) * extent).sum(axis=1) + np.abs(offsets[:, part]) + np.abs(center)[:, None])
         reach = np.abs(maps), np.abs(offset)
         size = transform_by_horner(np.abs(weighed) + weighed_error, order, reach[0], reach[1] + tolerance)
         rounding = weight * transform_by_horner(weighed_error, order, *reach) + weight_error * size
@@ -73,7 +73,7 @@ def polynomial_mass_of_images(
         moved = transform_by_horner(weighed_input, order, *reach)
         error += rounding.sum(axis=1)
         inputs += (weight * (moved + anisotropy * (size + moved))).sum(axis=1)
-    return Moments(raw, about, Measure.MASS, error, inputs)
+    return Moments(raw, center, Measure.MASS, error, inputs)
 
 
 def _mass_functional(

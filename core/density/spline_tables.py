@@ -70,7 +70,7 @@ class SplineAxis:
     @classmethod
     def uniform(cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0) -> SplineAxis:
         """`count` functions, the i-th centered at origin + i spacing: samples as coefficients, full supports."""
-        return cls(origin + spacing * (np.arange(count + order) - order / 2.0), order)
+        return cls(origin + spacing * (np.arange(count + order, dtype=np.float64) - order / 2.0), order)
 
     def clip(self) -> SplineAxis:
         """The same functions cut off where they stop to sum to one: the domain [t_{k-1}, t_n]."""

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import Moments, U, monomials
+from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arrays import batches
 from ..numerics.quadrature import triangle_rule
 from ..verdict.finding import MeasureError
@@ -99,7 +99,7 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
                 size[n] += np.abs(term).sum()
         terms = max(terms, len(pieces))
     units = 40 + 4 * order + int(shape[2]) + int(math.log2(terms + 1))
-    return Moments(total, about, "mass", units * U * size), volume
+    return Moments(total, about, Measure.MASS, units * U * size), volume
 
 
 def _powers(x: NDArray, order: int) -> list[NDArray]:

@@ -10,6 +10,7 @@ regular grid stays one.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -86,7 +87,7 @@ class BodyTransform:
         """Do the work; yield after each part of it the fraction done, from 0 to 1."""
         done, everything = 0, sum(self.weights)
         for weight, (surface, offsets) in zip(self.weights, self.jobs):
-            if self.tolerance is None:
+            if self.tolerance is None or not isinstance(self.q, FrequencyGrid):
                 transform = Transform(surface, self.q, self.measure, self.threads)
             else:
                 transform = GridTransform(surface, self.q, self.measure, self.tolerance, self.threads)
@@ -102,8 +103,8 @@ class BodyTransform:
             self.spectrum = part_spectrum if self.spectrum is None else self.spectrum + part_spectrum
 
     def result(self) -> Spectrum:
-        """Return the spectrum of everything together, when all steps are done."""
-        return self.spectrum
+        """The spectrum of everything together, when all steps are done."""
+        return cast("Spectrum", self.spectrum)  # there are parts, and each has added to it
 
 
 def _distinct_images(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray[np.float64]]]:

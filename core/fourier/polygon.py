@@ -86,7 +86,8 @@ def _edge_sum(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> ND
     for begin in range(0, len(q), size):
         block = q[begin : begin + size].T
         m, t, across = (
-            sum(np.multiply.outer(a, b) for a, b in zip(block, vectors)) for vectors in (middle / 2.0, half, normal)
+            sum((np.multiply.outer(a, b) for a, b in zip(block, vectors)), np.zeros(()))
+            for vectors in (middle / 2.0, half, normal)
         )
         v = -2.0 * np.sin(m) * (np.sin(m) + 1j * np.cos(m))  # exp(-i q·x) - 1
         less = _sinc_minus_one(t)

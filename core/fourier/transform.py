@@ -133,7 +133,7 @@ class Transform:
     """
 
     def __init__(self, surface: Surface, q: ArrayLike | FrequencyGrid, of: Measure, threads: int = 1):
-        self.q = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
+        self.q = waves = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
         self.measure, self.threads = of, threads
         self.faces = self.direct = SortedTriangles(surface)
         self.volume, self.area = polyhedron_moments(surface, area_order=0, threads=threads)
@@ -143,7 +143,7 @@ class Transform:
             if self.gap > OPEN_AREA_RTOL * self.faces.area:
                 raise MeasureError("fourier_of_open_surface")
         scale = self.faces.scale
-        self.waves = GridWaves(q, scale) if isinstance(q, FrequencyGrid) else ListWaves(self.q * scale)
+        self.waves = GridWaves(waves, scale) if isinstance(waves, FrequencyGrid) else ListWaves(waves * scale)
         self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)
 
     def _vector_sum(self) -> NDArray[np.complex128]:
@@ -220,12 +220,12 @@ class Transform:
             values, unit, moments = values + faces.area, 2, self.area
         else:
             values, unit, moments = self._to_transform(values), 3, self.volume
-        if isinstance(self.q, FrequencyGrid):
-            q, values = self.q.vectors(), self.q.expand(values)
-        else:
-            q, ordered = self.q, values
-            values = np.empty_like(ordered)
+        q = self.q
+        if isinstance(self.waves, ListWaves):
+            ordered, values = values, np.empty_like(values)
             values[self.waves.order] = ordered
+        if isinstance(q, FrequencyGrid):
+            q, values = q.vectors(), q.expand(values)
         values *= faces.scale**unit
         turn = phase_factors(q, faces.center)
         error = faces.scale**unit * (U * ROUNDING_FACTOR * faces.area + self.gap)

@@ -68,8 +68,8 @@ class FrequencyGrid:
         return self.largest / self.half
 
     def axis(self) -> NDArray[np.float64]:
-        """Return the (count,) frequencies along each axis."""
-        return (np.arange(self.count) - self.half) * self.step
+        """(count,) the frequencies along each axis."""
+        return (np.arange(self.count, dtype=np.float64) - self.half) * self.step
 
     def vectors(self) -> NDArray[np.float64]:
         """Return every wave vector, (count³, 3), the last axis fastest."""

@@ -202,6 +202,7 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
     points, scale = _sphere_directions(), degree**2 * span
     height = _contract(tensor, degree, points)
     points = points[height >= height.max() - within - (degree * MAX_START_GAP) ** 2 / 4.0 * span]
+    uphill = np.zeros_like(points)
     for _ in range(ASCENT_STEPS):
         contracted_twice = _contract(tensor, degree - 2, points)
         contracted_once = degree * np.einsum("nij,nj->ni", contracted_twice, points)

@@ -437,7 +437,7 @@ def _nearest(candidates: Sequence[NDArray], preferred_axes: NDArray, tilt: float
         columns = np.abs(local[i]) > np.abs(local[i]).max(axis=0) - equal
         return [bool(local[i][np.argmax(columns[:, axis]), axis] > 0.0) for axis in range(3)]
 
-    ways = [along(i) for i in near]
+    ways = [along(i) for i in near.tolist()]
     near = near[[way == max(ways) for way in ways]]
     for entry in local.reshape(-1, 9).T:  # what is left may still be several frames, in an order of no meaning
         near = near[entry[near] > entry[near].max() - equal]

@@ -94,7 +94,7 @@ class PlanarityAccumulator:
             maybe[narrow] = True
             unsure = start + np.flatnonzero(maybe > bent)
             volume[np.flatnonzero(~bent)] = 0.0
-        self.quads[start] = _PlanarityPartial(len(bent), count, float(np.add.reduce(volume)), unsure)
+        self.quads[start] = _PlanarityPartial(len(bent), int(count), float(np.add.reduce(volume)), unsure)
 
     def add_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
         """Every `step`-th from each of these rows on. lengths: (len(starts), k) of their normals."""

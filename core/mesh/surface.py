@@ -99,24 +99,13 @@ class Surface:
         return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
 
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
-        """Map the points by `linear @ x + offset` in float64. A mirroring map reverses the faces, so that outward stays
-        outward; the diagonals stay where Blender drew them.
-
-        Parameters
-        ----------
-        linear : (3, 3) array_like
-        offset : (3,) array_like
-
-        Returns
-        -------
-        Surface
-            Of triangles alone.
-        """
-        linear = np.asarray(linear, np.float64)
+        """The surface with points `linear @ x + offset` in float64. A mirroring map turns the faces' winding, so
+        that outward stays outward; the diagonals stay where Blender drew them."""
+        rows = np.asarray(linear, np.float64)
         x, y, z = self.points.T.astype(np.float64)
-        points = np.stack([a[0] * x + a[1] * y + a[2] * z + t for a, t in zip(linear, offset)], axis=1)
+        points = np.stack([a[0] * x + a[1] * y + a[2] * z + t for a, t in zip(rows, np.asarray(offset))], axis=1)
         triangles, faces = self.all_triangles()
-        if np.linalg.det(linear) < 0.0:
+        if np.linalg.det(rows) < 0.0:
             triangles = triangles[:, ::-1]
         return replace(
             self,
@@ -125,7 +114,7 @@ class Surface:
             triangle_faces=faces,
             quads=NO_QUADS,
             quad_faces=None,
-            displacement=np.abs(linear) @ self.coordinate_error,
+            displacement=np.abs(rows) @ self.coordinate_error,
         )
 
     @classmethod

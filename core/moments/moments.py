@@ -14,8 +14,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -93,8 +94,8 @@ class Moments:
     raw: NDArray[np.float64]
     about: NDArray[np.float64]
     measure: Measure = Measure.VOLUME
-    rounding_error: NDArray[np.float64] = field(default=None)
-    input_error: NDArray[np.float64] = field(default=None)
+    rounding_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)  # zeros, once it is made
+    input_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "measure", Measure(self.measure))
@@ -227,8 +228,8 @@ class Moments:
         ValueError
             If the matrix is not finite (4, 4), or no similarity where one is needed.
         """
-        matrix = _validated_matrices(np.asarray(matrix, np.float64)[None])[0]
-        return sum_of_images(self, matrix[None], matrix[:3, :3] @ self.about + matrix[:3, 3])
+        affine = _validated_matrices(np.asarray(matrix, np.float64)[None])[0]
+        return sum_of_images(self, affine[None], affine[:3, :3] @ self.about + affine[:3, 3])
 
 
 def sum_moments(parts: Sequence[Moments]) -> Moments:
@@ -266,8 +267,9 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
         raw=raws.sum(axis=0),
         about=first.about,
         measure=first.measure,
-        rounding_error=sum(part.rounding_error for part in parts) + len(parts) * U * np.abs(raws).sum(axis=0),
-        input_error=sum(part.input_error for part in parts),
+        rounding_error=sum((part.rounding_error for part in parts), np.zeros(1))
+        + len(parts) * U * np.abs(raws).sum(axis=0),
+        input_error=sum((part.input_error for part in parts), np.zeros(1)),
     )
 
 
@@ -307,17 +309,19 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
     linear, offsets = to_trailing_axis(_validated_matrices(np.asarray(matrices, np.float64)))
     point = moments.about[:, None]
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
-    about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
+    center: NDArray[np.float64] = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     raw, error, extra = np.zeros((3, len(moments.raw)))
     block = max(MAPS_PER_BLOCK * 20 // len(moments.raw), 16)
     for start in range(0, len(matrices), block):
         part = slice(start, start + block)
         maps = linear[:, :, part]
         weight, weight_error, anisotropy = measure_scale_factors(moments.measure, maps)
-        offset = origins[:, part] - about[:, None]
+        offset = origins[:, part] - center[:, None]
         # The images of the reference point are rounded, and the body moves with them.
         stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
-        tolerance = 6 * U * (np.abs(offsets[:, part]).max(axis=0) + np.abs(about).max() + stretch * np.abs(point).max())
+        tolerance = (
+            6 * U * (np.abs(offsets[:, part]).max(axis=0) + np.abs(center).max() + stretch * np.abs(point).max())
+        )
         weight_error = weight_error + (len(matrices) + 6 * moments.order + 8) * U * weight
         if len(matrices) == 1:
             image, *bounds = _single_image(moments, maps, offset, tolerance, weight, weight_error, anisotropy)
@@ -329,7 +333,7 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
         raw += image
         error += bounds[0]
         extra += bounds[1]
-    return Moments(raw, about, moments.measure, error, extra)
+    return Moments(raw, center, moments.measure, error, extra)
 
 
 def _validated_matrices(matrices: NDArray) -> NDArray[np.float64]:
@@ -414,8 +418,8 @@ def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, N
         return np.ones(linear.shape[2]), exact, exact
     a, b, c = linear
     terms = [(a[i] * b[j] * c[k], a[i] * b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
-    det = np.abs(sum(plus - minus for plus, minus in terms))
-    permanent = sum(np.abs(plus) + np.abs(minus) for plus, minus in terms)
+    det = np.abs(sum((plus - minus for plus, minus in terms), exact))
+    permanent = sum((np.abs(plus) + np.abs(minus) for plus, minus in terms), exact)
     if measure == Measure.VOLUME:
         return det, 8 * U * permanent, exact
     anisotropy = _anisotropy(linear)

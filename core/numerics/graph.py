@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 EDGES_PER_BLOCK = 3 << 16
 
 
-def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
-    """Number the connected components of a graph.
+def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
+    """(count,) the connected component of each node, in the order of their first nodes, and how many there are.
 
     Parameters
     ----------

@@ -78,8 +78,10 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
     normal: (3,) unit. about: (3,) a point of the plane, by default the mean of the control points. A curve that runs
     clockwise bounds a hole. Of polynomial curves the moments are exact and `error` is rounding.
     """
-    about = np.mean([curve.points.mean(axis=0) for curve in curves], axis=0) if about is None else np.asarray(about)
-    reach, degree = _reach(curves, about), monomials(order).sum(axis=1)
+    center: NDArray[np.float64] = (
+        np.mean([curve.points.mean(axis=0) for curve in curves], axis=0) if about is None else np.asarray(about)
+    )
+    reach, degree = _reach(curves, center), monomials(order).sum(axis=1)
 
     def flux(place: NDArray, velocity: NDArray) -> NDArray:
         x, y, z = place
@@ -90,15 +92,15 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
     exact = [curve for curve in curves if curve.weights is None]
     for curve in exact:
         points = ceil((order + 2) * (curve.space.order - 1) / 2)
-        contributions, length = _piece_integrals(*_bezier_pieces(curve, about), max(points, 1), flux, order)
+        contributions, length = _piece_integrals(*_bezier_pieces(curve, center), max(points, 1), flux, order)
         values, size = values + contributions.sum(axis=0), size + length.sum()
     rational = [curve for curve in curves if curve.weights is not None]
     if rational:
-        more, estimate, length = _integrate(rational, flux, reach, order, about, reach, VOLUME_RTOL)
+        more, estimate, length = _integrate(rational, flux, reach, order, center, reach, VOLUME_RTOL)
         values, size = values + more, size + length
     powers = reach ** (degree + 1.0)
     error = (estimate / max(reach, 1e-300) * powers + ROUNDING * U * 8 * size * powers) / (degree + 2.0)
-    return Moments(values / (degree + 2.0), about, Measure.AREA, error)
+    return Moments(values / (degree + 2.0), center, Measure.AREA, error)
 
 
 def _reach(curves: Sequence[Curve], about: NDArray) -> float:

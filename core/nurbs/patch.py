@@ -68,8 +68,12 @@ class Patch:
         return replace(self, points=self.points @ np.asarray(matrix)[:3, :3].T + np.asarray(matrix)[:3, 3])
 
     def reverse_orientation(self) -> Patch:
-        """Return the same surface facing the other way."""
-        return Patch(self.spaces[::-1], self.points.swapaxes(0, 1), None if self.weights is None else self.weights.T)
+        """The same surface facing the other way."""
+        return Patch(
+            (self.spaces[1], self.spaces[0]),
+            self.points.swapaxes(0, 1),
+            None if self.weights is None else self.weights.T,
+        )
 
     def evaluate_grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
         """Return its (len(s), len(t), 3) points."""
@@ -78,13 +82,13 @@ class Patch:
         )
 
     def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
-        """Return the (m, n, 3) points where two tables, (m, count_s) and (n, count_t), weight its control points."""
-        points = self.points
+        """(m, n, 3) its points where its control points weigh what two tables, (m, count_s) and (n, count_t), say."""
+        points, bottom = self.points, None
         if self.weights is not None:
             points = points * self.weights[..., None]
             bottom = np.einsum("ai,bi->ab", np.einsum("ai,ij->aj", tables[0], self.weights), tables[1])
         top = np.einsum("ajd,bj->abd", np.einsum("ai,ijd->ajd", tables[0], points), tables[1])
-        return top if self.weights is None else top / bottom[..., None]
+        return top if bottom is None else top / bottom[..., None]
 
     def side(self, axis: int, end: int) -> Curve:
         """Return the curve that bounds the patch where s (axis 0) or t (axis 1) is first (end 0) or last (end 1)."""

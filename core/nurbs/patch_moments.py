@@ -212,8 +212,8 @@ def _slope_of_tile(
         np.matmul(np.matmul(s_table, net), np.ascontiguousarray(t_table.T))
         for s_table, t_table in ((s, t), (s_slope, t), (s, t_slope))
     )
-    rational = len(net) == 4
-    if rational:
+    s_bottom = t_bottom = None
+    if len(net) == 4:  # rational
         bottom = place[3]
         place, s_bottom, t_bottom = place[:3] / bottom, by_s[3] / bottom, by_t[3] / bottom
         by_s, by_t = by_s[:3] / bottom - place * s_bottom, by_t[:3] / bottom - place * t_bottom
@@ -223,11 +223,12 @@ def _slope_of_tile(
     unit = normal / np.where(length > 0.0, length, 1.0) * weights
     s_force, t_force = np.stack(cross(by_t, unit)), np.stack(cross(unit, by_s))
     parts = [(s_slope, s_force, t), (s, t_force, t_slope)]
-    if rational:
+    if s_bottom is not None and t_bottom is not None:
         parts.append((s, -(s_force * s_bottom + t_force * t_bottom), t))
-    return sum(
+    products = (
         np.matmul(np.matmul(np.ascontiguousarray(s_table.T), force), t_table) for s_table, force, t_table in parts
     )
+    return sum(products, np.zeros(()))
 
 
 def sheet_moments(
@@ -261,7 +262,7 @@ def sheet_moments(
             product = _offset_jacobian(along, across, turning, unit, height)
             if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
                 raise MeasureError("wall_thicker_than_curvature")
-        terms = 0.0
+        terms = np.zeros(())
         for height, step in zip(heights, steps):
             element = step * _offset_jacobian(along, across, turning, unit, height)
             terms = terms + weighted_monomials(s + height * unit, element, order, 1)

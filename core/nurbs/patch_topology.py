@@ -153,8 +153,8 @@ def _coincident_sides(
     middle = points.shape[1] // 2
     side_points = points[wide]
     first, last = side_points[:, 0], side_points[:, -1]
-    pairs = _close_pairs(np.concatenate([first + last, 2.0 * side_points[:, middle]], axis=1), 2.0 * tolerance)
-    coincident = list(_distance_between(points, *(wide[k] for k in pairs), tolerance))
+    left, right = _close_pairs(np.concatenate([first + last, 2.0 * side_points[:, middle]], axis=1), 2.0 * tolerance)
+    coincident = list(_distance_between(points, wide[left], wide[right], tolerance))
     loose = np.ones(len(points), bool)
     loose[[side for _, i, j, _ in coincident for side in (i, j)]] = False
     # The same curve by other parameters: between the same ends, or without ends.

@@ -144,15 +144,18 @@ class TrackedSolid:
         """Whether their function spaces are the same, those of rational patches being made by their weights too."""
         return len(patches) == len(self._patches) and all(
             new.spaces == old.spaces
-            and (new.weights is None if old.weights is None else np.array_equal(new.weights, old.weights))
+            and (
+                new.weights is None
+                if old.weights is None
+                else new.weights is not None and np.array_equal(new.weights, old.weights)
+            )
             for new, old in zip(patches, self._patches)
         )
 
     def _flux(self, k: int, patch: Patch) -> Moments:
         old = self._patches[k]
         moved_controls = np.argwhere((patch.points != old.points).any(axis=2))
-        if not len(moved_controls):
-            return self._fluxes[k]
+        flux = self._fluxes[k]
         if len(moved_controls) > MAX_SINGLE_UPDATES:
             return self._evaluators[k].moments(patch.points)
         for i, j in moved_controls:

@@ -109,7 +109,7 @@ def moments_from_apexes(
 ) -> list[Number]:
     """As `moments`, with an apex for each face: any point of its plane, p⊥ among them."""
     exponents = exponents_to(order)
-    sums = [0] * len(exponents)
+    sums: list[Number] = [0] * len(exponents)
     for face, apex in zip(faces, apexes):
         corners = [points[i] for i in face]
         for a, b in zip(corners, [*corners[1:], corners[0]]):

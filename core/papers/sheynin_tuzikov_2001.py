@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from math import comb, factorial, sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -59,7 +60,7 @@ def surface_moments(
     faces: Sequence[Sequence[int]],
     order: int,
     about: Vector = (0, 0, 0),
-    root: Callable[[Number], Number] = sqrt,
+    root: Callable[[Any], Number] = sqrt,
 ) -> list[Number]:
     """∫ x^p y^q z^r dA over the faces; arguments as for `volume_moments`.
 
@@ -97,7 +98,7 @@ def _sum_over_faces(
     weight: Callable[[Vector, Vector, Vector], Number],
 ) -> list[Number]:
     points = [subtract(point, about) for point in points]
-    sums = [0] * len(exponents_to(order))
+    sums: list[Number] = [0] * len(exponents_to(order))
     for face in faces:
         for j in range(1, len(face) - 1):
             a, b, c = points[face[0]], points[face[j]], points[face[j + 1]]
@@ -120,7 +121,7 @@ def _compositions(n: int) -> Iterator[tuple[tuple[int, int, int], int]]:
 
 
 def _powers(value: Number, order: int) -> list[Number]:
-    powers = [1]
+    powers: list[Number] = [1]
     for _ in range(order):
         powers.append(powers[-1] * value)
     return powers

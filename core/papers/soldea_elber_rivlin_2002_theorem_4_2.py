@@ -14,7 +14,8 @@ exact with `fractions.Fraction`.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from numbers import Number
+
+from ..numerics.vectors import Number
 
 
 def integral_of_basis(knots: Sequence[Number], i: int, k: int, power: int, t: Number) -> Number:

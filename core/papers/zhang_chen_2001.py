@@ -38,7 +38,7 @@ def signed_volume(points: Sequence[Vector], triangles: Sequence[tuple[int, int, 
 
 
 def mesh_moments(
-    points: Sequence[Vector], shapes: Sequence[Sequence[int]], exponents: Sequence[tuple[int, ...]]
+    points: Sequence[Sequence[Number]], shapes: Sequence[Sequence[int]], exponents: Sequence[tuple[int, ...]]
 ) -> list[Number]:
     """Eq. 9: ∫ x^p y^q (z^r) over the inside for each row of exponents.
 
@@ -47,8 +47,8 @@ def mesh_moments(
     """
     dimension = len(points[0])
     measure = _triangle if dimension == 2 else _tetrahedron
-    sums = [0] * len(exponents)
-    total = 0
+    sums: list[Number] = [0] * len(exponents)
+    total: Number = 0
     for shape in shapes:
         corners = [points[i] for i in shape]
         size = measure(*corners)

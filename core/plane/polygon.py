@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arrays import segment_ranges
+from ..numerics.arrays import segment_ranges, sums_by_index
 from ..numerics.graph import connected_components
 from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, facet_moments
 from ..verdict.finding import MeasureError
@@ -84,7 +84,7 @@ def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLi
     >>> round(moments[0, 0], 9), round(moments[2, 0] * 3, 9)
     (1.0, 1.0)
     """
-    edges = np.asarray(edges)
+    points, edges = np.asarray(points), np.asarray(edges)
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)] if len(edges) else [np.zeros(1)] * 2
     loose = int(np.count_nonzero(ends[0] != ends[1]))
     if loose:
@@ -187,7 +187,7 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
     origin = points[edges[0, 0]]
     a, b = (points[edges[:, i]] - origin for i in (0, 1))
     outline = connected_components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]
-    sums = np.bincount(outline, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0)
+    sums = sums_by_index(outline, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0)
     return sums[np.unique(outline)]
 
 

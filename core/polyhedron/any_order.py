@@ -23,6 +23,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import chain, islice
 from math import factorial, frexp
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,8 +131,9 @@ class _StreamIntegrator:
         reach: float | None,
     ):
         self.order, self.area, self.threads, self.progress = order, area, max(1, threads), progress
-        self.center = about
-        self.exponent = None if reach is None else _exponent(reach)
+        # None until the first piece is seen, where nobody has given them
+        self.center = cast("NDArray[np.float64]", about)
+        self.exponent = cast("int", None if reach is None else _exponent(reach))
         self.idle: list[AnyOrderKernel] = []
         self.half_ulp = np.zeros(3)
 
@@ -223,7 +225,7 @@ class _StreamIntegrator:
         return len(task.faces), block_sums
 
     @staticmethod
-    def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray], int]]:
+    def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray] | NDArray, int]]:
         """The corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles; and
         how many there are in a block that is full. Each block is judged by itself, so that it does not depend on its
         neighbours."""

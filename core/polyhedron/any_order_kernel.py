@@ -243,7 +243,13 @@ class AnyOrderKernel:
         self.workspace = Workspace(partial(_Block, order=order, weights=self.weights))
 
     def block_sums(
-        self, points: NDArray, center: NDArray, scale: float, half_ulp: NDArray, faces: Sequence[NDArray], size: int
+        self,
+        points: NDArray,
+        center: NDArray,
+        scale: float,
+        half_ulp: NDArray,
+        faces: Sequence[NDArray] | NDArray,
+        size: int,
     ) -> Sums:
         """The sums over a block of faces, all triangles or all pairs. size: how many are in one that is full.
 
@@ -261,7 +267,7 @@ class AnyOrderKernel:
 
     @staticmethod
     def _gather_corners(
-        block: _Block, points: NDArray, faces: Sequence[NDArray], center: NDArray, scale: float
+        block: _Block, points: NDArray, faces: Sequence[NDArray] | NDArray, center: NDArray, scale: float
     ) -> None:
         """The corners' coordinates and the edges from the first corner."""
         k = len(faces[0])
@@ -319,7 +325,7 @@ def _first_row(run: int) -> int:
 
 def _sliced_dot(products: str, weights: NDArray, terms: NDArray, out: NDArray) -> None:
     """Scalar products over slices of the rows, and over what is left of them then."""
-    np.add.reduce(np.einsum(products, weights, terms), -1, None, out)
+    np.add.reduce(np.einsum(products, weights, terms), axis=-1, out=out)
 
 
 def _add_last(sums: NDArray, powers: NDArray, degree: int, total: NDArray) -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from math import isfinite
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +25,36 @@ from .third_order import box_center, finite_box, nothing
 
 MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 THIRD = 3  # orders up to this one have their own kernel
+
+
+@overload
+def polyhedron_moments(
+    body: Surface | Iterable[Surface | NDArray],
+    order: int = THIRD,
+    *,
+    area_order: None = None,
+    about: ArrayLike | None = None,
+    reach: float | None = None,
+    exact: bool = False,
+    threads: int = 1,
+    progress: Callable[[int], None] | None = None,
+    planarity: PlanarityAccumulator | None = None,
+) -> tuple[Moments, None]: ...
+
+
+@overload
+def polyhedron_moments(
+    body: Surface | Iterable[Surface | NDArray],
+    order: int = THIRD,
+    *,
+    area_order: int,
+    about: ArrayLike | None = None,
+    reach: float | None = None,
+    exact: bool = False,
+    threads: int = 1,
+    progress: Callable[[int], None] | None = None,
+    planarity: PlanarityAccumulator | None = None,
+) -> tuple[Moments, Moments]: ...
 
 
 def polyhedron_moments(
@@ -125,7 +155,7 @@ def polyhedron_moments(
             raise MeasureError("moments_overflow", order=int(order))
     else:
         volume, area = any_order.integrate(stream, highest, area_order is not None, threads, progress, about, reach)
-    if area_order is None:
+    if area_order is None or area is None:
         return _to_order(volume, order), None
     return _to_order(volume, order), _to_order(area, area_order)
 

@@ -179,10 +179,10 @@ def _measure(
     low, high = used.min(axis=0), used.max(axis=0)
     if not all(map(isfinite, [*low, *high])):
         raise ValueError("coordinates must be finite")
-    about = low / 2.0 + high / 2.0 if about is None else np.asarray(about, np.float64)
-    if about.shape != (dimension,) or not np.isfinite(about).all():
+    center: NDArray[np.float64] = low / 2.0 + high / 2.0 if about is None else np.asarray(about, np.float64)
+    if center.shape != (dimension,) or not np.isfinite(center).all():
         raise ValueError("about must be finite (d,)")
-    reach = float(np.maximum(np.abs(high - about), np.abs(low - about)).max())
+    reach = float(np.maximum(np.abs(high - center), np.abs(low - center)).max())
     exponent = int(np.frexp(reach)[1]) if reach else 0  # the body is brought to size 1, which rounds nothing
 
     if signs is not None and np.shape(signs) != (len(simplices),):
@@ -196,7 +196,7 @@ def _measure(
         vertices = simplices[start : start + block].T
         corners = np.ascontiguousarray(points[vertices].transpose(0, 2, 1))  # (n corners, n coordinates, k)
         edges = np.ldexp(corners[1:] - corners[:1], -exponent)
-        corners = np.ldexp(corners - about[:, None], -exponent)
+        corners = np.ldexp(corners - center[:, None], -exponent)
         weight, weight_size = _weights(corners, edges, enclosed)
         if signs is not None:
             weight = weight * np.asarray(signs, np.float64)[start : start + block]
@@ -220,7 +220,7 @@ def _measure(
         raw, error = np.ldexp(raw * factor, power), np.ldexp(error * factor, power)
     if not np.isfinite(raw).all():
         raise MeasureError("moments_overflow", order=int(order))
-    return SimplexMoments(raw, about, order, error + np.finfo(np.float64).smallest_subnormal)
+    return SimplexMoments(raw, center, order, error + np.finfo(np.float64).smallest_subnormal)
 
 
 def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
@@ -241,9 +241,11 @@ def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
 def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(k,) det or |N| of each simplex, and the same in absolute values."""
     normal, size = _normals(edges)
+    nothing = np.zeros(edges.shape[2])
     if enclosed:
-        return sum(v * n for v, n in zip(corners[0], normal)), sum(np.abs(v) * s for v, s in zip(corners[0], size))
-    return reduce(np.hypot, normal, 0.0), reduce(np.hypot, size, 0.0)
+        determinant = sum((v * n for v, n in zip(corners[0], normal)), nothing)
+        return determinant, sum((np.abs(v) * s for v, s in zip(corners[0], size)), nothing)
+    return reduce(np.hypot, normal, nothing), reduce(np.hypot, size, nothing)
 
 
 def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
@@ -253,11 +255,11 @@ def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
     """
     dimension = len(edges) + 1
     ones = np.ones(edges.shape[2])
-    minors = {(): (ones, ones)}
+    minors: dict[tuple[int, ...], tuple[NDArray, NDArray]] = {(): (ones, ones)}
     for row, edge in enumerate(edges):
-        grown = {}
+        grown: dict[tuple[int, ...], tuple[NDArray, NDArray]] = {}
         for columns in combinations(range(dimension), row + 1):
-            value = size = 0.0
+            value = size = np.zeros(())
             for i, column in enumerate(columns):
                 minor, minor_size = minors[columns[:i] + columns[i + 1 :]]
                 value = value + (-1) ** (row + i) * (edge[column] * minor)

@@ -99,7 +99,7 @@ def integrate(
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
     largest = max(reach.tolist())
     if largest and not 1.0 / MAX_UNSCALED_REACH < largest < MAX_UNSCALED_REACH:
-        return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area=area, shell=shell, exact=exact)
+        return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area, shell, exact)
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
     # Two threads have a block each: the sums are the same with one, and with more where there is room for more.
     room, each = SCRATCH_BYTES[0] * count + SCRATCH_BYTES[1], 8 * scratch_size(3, area, exact)
@@ -137,7 +137,7 @@ def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float
 
 
 def _measure_rescaled(
-    surface: Surface, exponent: int, threads: int, about: NDArray | None, **options: bool
+    surface: Surface, exponent: int, threads: int, about: NDArray | None, area: bool, shell: bool, exact: bool
 ) -> tuple[Moments, Moments]:
     """The moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
     triangles, faces = surface.all_triangles()
@@ -145,7 +145,7 @@ def _measure_rescaled(
     small = Surface(points, triangles, triangle_faces=faces, displacement=np.ldexp(surface.coordinate_error, -exponent))
     results = []
     about = None if about is None else np.ldexp(about, -exponent)
-    for moments in integrate(small, threads, about=about, **options):
+    for moments in integrate(small, threads, about=about, area=area, shell=shell, exact=exact):
         powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.measure == Measure.VOLUME else 2))
         with np.errstate(over="ignore"):  # what becomes infinite is refused by who asked for it
             results.append(

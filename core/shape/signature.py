@@ -92,15 +92,16 @@ class Signature:
     def from_record(cls, record: dict) -> Signature:
         """Read a signature from JSON; FileError if the record is none."""
         try:
-            arrays = {
-                name: np.array(record[name], np.float64).reshape(-1)
+            arrays = [
+                np.array(record[name], np.float64).reshape(-1)
                 for name in ("invariants", "zernike", "fourier", "chirality")
-            }
-            result = cls(size=float(record["size"]), **arrays)
+            ]
+            invariants, zernike, fourier, chirality = arrays
+            result = cls(float(record["size"]), invariants, zernike, fourier, chirality)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError("signature_unrecognized") from error
         if not (
-            np.isfinite(np.concatenate(list(arrays.values()))).all()
+            np.isfinite(np.concatenate(arrays)).all()
             and result.size > 0.0
             and len(result.zernike)
             and len(result.chirality) == len(_chiral_triples())

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
+from ..numerics.arrays import sums_by_index
 from ..offset.walls import first_positive_root
 from ..polyhedron import polyhedron_moments
 from ..verdict.finding import MeasureError
@@ -141,10 +142,10 @@ def _newton_solve(
     """(n, 3) and (3,) the points and the center, and how far it stays from its target, 0 where it comes there. start:
     as of `_Problem.evaluate`."""
     points, (center, residual, gradient) = problem.start, start
-    multiplier = np.zeros(len(step_directions))
+    multiplier, far = np.zeros(len(step_directions)), np.inf
     slope = _center_jacobian(step_directions, multiplier, gradient[:, movable], limit)
     for _ in range(MAX_NEWTON_STEPS):
-        far = np.linalg.norm(residual)
+        far = float(np.linalg.norm(residual))
         if far <= problem.tolerance:
             return points, center, 0.0
         change, share = np.linalg.solve(slope, residual), 1.0
@@ -211,7 +212,7 @@ class _Problem:
 
     def _moments(self, points: NDArray) -> Moments:
         volume, area = polyhedron_moments(replace(self.surface, points=points), area_order=3 if self.shell else 0)
-        return area if self.shell else volume
+        return area if self.shell and area is not None else volume
 
     def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
         """(3,) the center, (r,) how far it is from its target, and (r, n, 3) its derivatives; None where the body has
@@ -267,17 +268,17 @@ class _Fans:
         corner = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
         self.owner, self.vertex = corner // self.count, corner % self.count
         self.share = 1.0 / np.bincount(self.owner, minlength=number)[self.owner]
-        area = np.bincount(faces, np.linalg.norm(vectors, axis=1) / 2.0, number)
-        self.areas = np.bincount(self.vertex, area[self.owner] * self.share, self.count)
+        area = sums_by_index(faces, np.linalg.norm(vectors, axis=1) / 2.0, number)
+        self.areas = sums_by_index(self.vertex, area[self.owner] * self.share, self.count)
         middles = np.stack(
-            [np.bincount(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)], axis=1
+            [sums_by_index(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)], axis=1
         )
         whole = np.bincount(faces, minlength=number)[faces] == 1
         boundary, owners = _face_boundaries(triangles[~whole], faces[~whole], self.count)
         fan = np.concatenate([triangles[whole], np.concatenate([boundary, self.count + owners[:, None]], axis=1)])
         owners = np.concatenate([faces[whole], owners])
         self.points = np.concatenate([points, middles])
-        facing = np.stack([np.bincount(faces, column, number) for column in vectors.T], axis=1)[owners]
+        facing = np.stack([sums_by_index(faces, column, number) for column in vectors.T], axis=1)[owners]
         self.opposed = (normals(self.points, fan) * facing).sum(axis=1) < 0.0  # where a face is not convex
         self.fan = fan
 
@@ -296,7 +297,7 @@ class _Fans:
         gradient /= total
         vertex_gradient, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)
         for column, shared in zip(vertex_gradient.T, middle.T):
-            column += np.bincount(self.vertex, shared[self.owner] * self.share, self.count)
+            column += sums_by_index(self.vertex, shared[self.owner] * self.share, self.count)
         return vertex_gradient.reshape(-1, 3, 3)
 
 

@@ -13,7 +13,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any
+from typing import Any, TypeAlias
+
+from numpy.typing import NDArray
+
+Elements: TypeAlias = Sequence[Any] | NDArray[Any]  # of a mesh: faces, or edges as pairs
 
 MAX_STORED_ELEMENTS = 8  # of a finding that is stored or is a value of another one: as many as a sentence names
 
@@ -60,7 +64,7 @@ class Finding:
 
     code: str
     values: Mapping[str, Any] = field(default_factory=dict)
-    elements: Sequence[Any] = ()
+    elements: Elements = ()
 
     def as_record(self) -> dict[str, Any]:
         """Return the code, the values and the first elements as plain values for JSON, to be read by `from_record`."""
@@ -89,8 +93,8 @@ class Finding:
         return _sentence_of(self)
 
 
-def finding(code: str, elements: Sequence[Any] = (), /, **values: Any) -> Finding:
-    """Make a finding of that code, about these elements, with these values."""
+def finding(code: str, elements: Elements = (), /, **values: Any) -> Finding:
+    """A finding of that code, about these elements, with these values."""
     return Finding(code, values, elements)
 
 
@@ -132,7 +136,7 @@ class MeasureError(Exception):
     'no_faces'
     """
 
-    def __init__(self, reason: str | Finding, /, *, subject: str = "", elements: Sequence[Any] = (), **values: Any):
+    def __init__(self, reason: str | Finding, /, *, subject: str = "", elements: Elements = (), **values: Any):
         self.finding = reason if isinstance(reason, Finding) else Finding(reason, values, elements)
         self.subject = subject
         super().__init__(self.finding.code)
