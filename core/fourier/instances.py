@@ -103,7 +103,7 @@ class BodyTransform:
             self.spectrum = part_spectrum if self.spectrum is None else self.spectrum + part_spectrum
 
     def result(self) -> Spectrum:
-        """The spectrum of everything together, when all steps are done."""
+        """Return the spectrum of everything together, when all steps are done."""
         return cast("Spectrum", self.spectrum)  # there are parts, and each has added to it
 
 

@@ -68,7 +68,7 @@ class FrequencyGrid:
         return self.largest / self.half
 
     def axis(self) -> NDArray[np.float64]:
-        """(count,) the frequencies along each axis."""
+        """Return the (count,) frequencies along each axis."""
         return (np.arange(self.count, dtype=np.float64) - self.half) * self.step
 
     def vectors(self) -> NDArray[np.float64]:

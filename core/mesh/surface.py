@@ -99,8 +99,19 @@ class Surface:
         return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
 
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
-        """The surface with points `linear @ x + offset` in float64. A mirroring map turns the faces' winding, so
-        that outward stays outward; the diagonals stay where Blender drew them."""
+        """Map the points by `linear @ x + offset` in float64. A mirroring map reverses the faces, so that outward stays
+        outward; the diagonals stay where Blender drew them.
+
+        Parameters
+        ----------
+        linear : (3, 3) array_like
+        offset : (3,) array_like
+
+        Returns
+        -------
+        Surface
+            Of triangles alone.
+        """
         rows = np.asarray(linear, np.float64)
         x, y, z = self.points.T.astype(np.float64)
         points = np.stack([a[0] * x + a[1] * y + a[2] * z + t for a, t in zip(rows, np.asarray(offset))], axis=1)

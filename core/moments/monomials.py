@@ -14,7 +14,22 @@ Index = TypeVar("Index", int, NDArray[np.int64])  # one, or an array of them
 
 
 def monomial_count(order: Index) -> Index:
-    """The number of monomials in x, y, z of degree at most `order`."""
+    """Return the number of monomials in x, y, z of degree at most `order`.
+
+    Parameters
+    ----------
+    order : int
+
+    Returns
+    -------
+    int
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import monomial_count
+    >>> monomial_count(3), monomial_count(20)
+    (20, 1771)
+    """
     return (order + 1) * (order + 2) * (order + 3) // 6
 
 
@@ -27,7 +42,23 @@ def order_from_count(count: int) -> int:
 
 
 def monomial_index(p: Index, q: Index, r: Index) -> Index:
-    """Where raw[p,q,r] stands: graded by degree, within a degree by (q+r, r)."""
+    """Return where raw[p, q, r] stands: graded by degree, within a degree by (q + r, r).
+
+    Parameters
+    ----------
+    p, q, r : int
+        The exponents of x, y and z.
+
+    Returns
+    -------
+    int
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import monomial_index
+    >>> monomial_index(1, 0, 0), monomial_index(2, 0, 0), monomial_index(0, 0, 2)
+    (1, 4, 9)
+    """
     s = q + r
     return monomial_count(p + s - 1) + s * (s + 1) // 2 + r
 

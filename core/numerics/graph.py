@@ -12,7 +12,7 @@ EDGES_PER_BLOCK = 3 << 16
 
 
 def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
-    """(count,) the connected component of each node, in the order of their first nodes, and how many there are.
+    """Number the connected components of a graph.
 
     Parameters
     ----------

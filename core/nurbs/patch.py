@@ -68,7 +68,7 @@ class Patch:
         return replace(self, points=self.points @ np.asarray(matrix)[:3, :3].T + np.asarray(matrix)[:3, 3])
 
     def reverse_orientation(self) -> Patch:
-        """The same surface facing the other way."""
+        """Return the same surface facing the other way."""
         return Patch(
             (self.spaces[1], self.spaces[0]),
             self.points.swapaxes(0, 1),
@@ -82,7 +82,7 @@ class Patch:
         )
 
     def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
-        """(m, n, 3) its points where its control points weigh what two tables, (m, count_s) and (n, count_t), say."""
+        """Return the (m, n, 3) points where two tables, (m, count_s) and (n, count_t), weight its control points."""
         points, bottom = self.points, None
         if self.weights is not None:
             points = points * self.weights[..., None]

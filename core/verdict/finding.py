@@ -13,11 +13,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from numpy.typing import NDArray
+if TYPE_CHECKING:  # the add-on's root imports this module where there is no numpy
+    from numpy.typing import NDArray
 
-Elements: TypeAlias = Sequence[Any] | NDArray[Any]  # of a mesh: faces, or edges as pairs
+Elements: TypeAlias = "Sequence[Any] | NDArray[Any]"  # of a mesh: faces, or edges as pairs
 
 MAX_STORED_ELEMENTS = 8  # of a finding that is stored or is a value of another one: as many as a sentence names
 
@@ -94,7 +95,7 @@ class Finding:
 
 
 def finding(code: str, elements: Elements = (), /, **values: Any) -> Finding:
-    """A finding of that code, about these elements, with these values."""
+    """Make a finding of that code, about these elements, with these values."""
     return Finding(code, values, elements)
 
 
