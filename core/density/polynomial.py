@@ -145,7 +145,7 @@ class Polynomial:
         tolerance = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
         for axis in range(3):
             net = np.moveaxis(np.tensordot(_to_bernstein(self.degree), net, (1, axis)), 0, axis)
-        boxes = [(float(net.min()), 0, net)]  # a heap: the least bound first; the number settles ties
+        boxes = [(float(net.min()), 0, net)]  # a heap: the least bound first; the number breaks ties
         for number in range(1, 2 * MAX_BOXES, 2):
             least, _, net = boxes[0]
             if least >= -tolerance or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values

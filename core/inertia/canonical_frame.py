@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frames that a body's moments beyond second order choose: one where it has no symmetry, else one for each rotation
-that takes the body to itself, as far as these moments can tell.
+that takes the body to itself, as far as these moments show.
 
 First a finite set of frames is found that turns with the body. Axes of different second moments are fixed up to their
 signs. Around one such axis the other two are turned to make the first clear harmonic ∫ (x+iy)^m ... real and positive:
@@ -28,9 +28,9 @@ MAX_ORDER = 6  # by which the axes of every prism to a hexagon's, of a cube and 
 NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times what float32 coordinates make
 # of it with the degree: as the moments of a normal distribution grow
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
-CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones only where there is no other
+CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones are used only without a better one
 FLAT_EXTENT_RTOL = 1e-6  # of the largest extent: along an axis of less, a body is a lamina and has no skewness
-MAX_EQUAL_SHARE = 0.25  # of what tells directions apart: at most that much is taken for equal
+MAX_EQUAL_SHARE = 0.25  # of what distinguishes directions: at most that much counts as equal
 START_DIRECTIONS = 240  # directions from which extreme ones are looked for
 MAX_START_GAP = 0.18  # from any direction to the nearest of them
 ASCENT_STEPS = 16  # from there to a maximum, most of them for those that are hardly curved

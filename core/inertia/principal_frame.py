@@ -397,7 +397,7 @@ def _sign_consistent_frames(axes: NDArray, scores: NDArray) -> NDArray[np.float6
     """(k, 3, 3) the right-handed frames along the axes that agree with the scores."""
     size = np.abs(scores)
     fixed = [i for i in range(3) if scores[i]]
-    if len(fixed) == 3:  # the weakest gives way; of equal ones the last
+    if len(fixed) == 3:  # the weakest is dropped; of equal ones the last
         fixed.remove(max(i for i in fixed if size[i] <= size.min() * (1.0 + EQUAL_SCORES_RTOL)))
     return axes * HALF_TURN_SIGNS[(HALF_TURN_SIGNS[:, fixed] * scores[fixed] > 0.0).all(axis=1), None]
 
@@ -410,7 +410,7 @@ def complete_free_axes(frame: NDArray, free: tuple[int, ...], preferred_axes: ND
         return preferred_axes.copy()
     first, second = free
     fixed = frame[:, 3 - first - second]
-    # (first, second, fixed) is right-handed for both pairs: maximise first·p1 + (fixed x first)·p2 over the plane.
+    # (first, second, fixed) is right-handed for both pairs: maximize first·p1 + (fixed x first)·p2 over the plane.
     wish = preferred_axes[:, first] + np.cross(preferred_axes[:, second], fixed)
     wish = wish - fixed * (fixed @ wish)
     if np.linalg.norm(wish) < 1e-6:  # half a turn away: any direction is as near; take the one along a preferred axis

@@ -41,7 +41,7 @@ def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int)
 
 
 def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
-    """Whether any two of k boxes share more than a rim of rounding. centers, extents: (k, 3), half the sides.
+    """Whether any two of k boxes overlap by more than rounding. centers, extents: (k, 3), half the sides.
 
     A flat box inside another one meets it, though it overlaps it by nothing.
     """

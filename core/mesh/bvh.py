@@ -3,7 +3,7 @@
 """Shells with a tree of boxes each, and what is asked of them: is a place inside one, does one go through another.
 
 A place is located by the winding number, counted along a ray that is parallel to no axis; the crossings are counted in
-the plane across the ray with signs that neighbouring triangles share, so that no ray slips through between two of them
+the plane across the ray with signs that neighboring triangles share, so that no ray slips through between two of them
 (half-open edges, the watertight rule of rasterizers). Both questions walk down the trees with all pairs and points at
 once, in bounded pieces of work.
 """

@@ -69,7 +69,8 @@ class PlanarityAccumulator:
         self.degenerate_limit = 2.0 * np.sqrt(_degenerate_limit(3.0 * size * size, error))
         self.quads: dict[int, _PlanarityPartial] = {}
         self.triangles: dict[int, _PlanarityPartial] = {}
-        # What is looked at one by one is brought to about size 1, lest sixth powers of small lengths underflow.
+        # What is looked at one by one is brought to about size 1, so that sixth powers of small lengths do not
+        # underflow.
         self.exponent = int(np.frexp(max(size, float(np.finfo(np.float32).tiny)))[1])
 
     def add_quads(self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray) -> None:
@@ -104,7 +105,7 @@ class PlanarityAccumulator:
             )
 
     def planarity(self) -> Planarity:
-        """What was seen, and where that does not tell or nothing was seen, what is found by looking."""
+        """What the kernel reported; where that is missing or does not decide, what a pass over the faces finds."""
         surface, triangle_faces = self.surface, self.surface.triangle_faces
         merged = _merge_blocks(self.quads, len(surface.quads))
         volumes, degenerate = self._classify_rows(surface.quads[merged.undecided], QUAD)

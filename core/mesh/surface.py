@@ -94,7 +94,7 @@ class Surface:
         if self.points.dtype != np.float32 or not len(self.points):
             return np.zeros(3)
         low, high = self.box
-        # The largest float32 has the ulp of 2^127, though no number above it to tell.
+        # The largest float32 has the ulp of 2^127, although no larger number exists to measure it by.
         largest = np.minimum(np.maximum(high, -low), 2.0**127)
         return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
 

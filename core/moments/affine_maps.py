@@ -115,7 +115,7 @@ def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[
         )
         table = binomials * powers[:, np.maximum(lag, 0)]
         cube = np.zeros((len(values), n**3))
-        cube[:, positions] = values  # what stands above `order` is no moment, and must not come back
+        cube[:, positions] = values  # entries above `order` are not moments and must not be returned
         cube = np.moveaxis(cube.reshape(-1, n, n, n), axis + 1, 1)
         with np.errstate(over="ignore", invalid="ignore"):
             cube = np.einsum("mpi,miqr->mpqr", table, cube)

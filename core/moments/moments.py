@@ -384,7 +384,7 @@ def _image_error_bounds(
 
     By degree: where the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product
     of n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest
-    of its degree. An offset that may be off by `tolerance` changes it by at most n slack times n-1 forms.
+    of its degree. An offset that may be off by `tolerance` changes it by at most n `tolerance` times n-1 forms.
     """
     order = moments.order
     degree = monomials(order).sum(axis=1)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-# corners at a time: enough for calls that threads gain by. A multiple of 3 and 4, lest faces are split
+# corners at a time: large enough for threads to help. A multiple of 3 and 4, so that no face is split
 EDGES_PER_BLOCK = 3 << 16
 
 

@@ -26,7 +26,7 @@ def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
     >>> np.round(rotation_matrix([1, 0, 0, 1]), 6).tolist()
     [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
     """
-    q = np.array(quaternion, np.float64)  # before the norm: mathutils hands out float32
+    q = np.array(quaternion, np.float64)  # before the norm: mathutils returns float32
     w, x, y, z = q / np.linalg.norm(q)
     return np.array(
         [

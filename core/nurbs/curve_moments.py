@@ -121,7 +121,7 @@ def _integrate(
     curves' length. largest: what the density is at most, for each unit of length. kinks: whether it has some where a
     curve turns back.
 
-    A piece is settled when two rules agree to the tolerance of its own length, or of its share of the curve's.
+    A piece is done when two rules agree to the tolerance of its own length, or of its share of the curve's.
     """
     degree = monomials(order).sum(axis=1)
     unit = reach ** degree.astype(np.float64)
@@ -138,7 +138,7 @@ def _integrate(
             if kinks:
                 differ += _turn_back_lengths(net)
             differ += largest * _undersampled_lengths(net)
-            # What is no number, of moments beyond its range, is not halved.
+            # A piece whose moments overflow is not halved.
             good = ~(differ > tolerance * np.maximum(size, share) * largest) | (depth >= MAX_DEPTH)
             values += fine[good].sum(axis=0)
             estimate += float(differ[good].sum())

@@ -6,7 +6,7 @@ With the directions d of its vertices (see `offset`), a triangle sweeps the pris
 triangle, with Jacobian J = Σ λ_k N(s)·d_k, where N(s) = (e + s f) × (e' + s f') is the normal of the triangle moved by
 s, e, e' its edges and f, f' the differences of its directions. J x^α is a polynomial of degree |α| + 2 in s and |α| + 1
 in the barycentric coordinates λ: six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate it exactly over
-the triangle, coefficient by coefficient. Neighbouring prisms share the ruled surface over their edge, so that their sum
+the triangle, coefficient by coefficient. Neighboring prisms share the ruled surface over their edge, so that their sum
 is the wall, with no gap.
 
 J is linear in λ, hence positive on a prism exactly where its three quadratics N(s)·d_k in s are: their first roots are
@@ -35,7 +35,7 @@ from .directions import UNEVEN_RTOL, blocks, offset_directions
 ORDER = 3
 COEFFICIENT_COUNT = ORDER + 3  # coefficients in s: degrees 0 to 5
 TOUCHING_RTOL = 1e-6  # of the size: nearer sides touch
-MAX_UNORIENTED_SHARE = 0.01  # of the area: where more of it faces nobody knows which way, there is no wall
+MAX_UNORIENTED_SHARE = 0.01  # of the area: above it, too many faces have lost their direction for a wall
 JACOBIAN_ROUNDINGS = 20.0  # u: what rounds a Jacobian, relative to the product of the lengths in it
 INNER_NODES, OUTER_NODES = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
 NODES = np.concatenate(
@@ -151,7 +151,8 @@ class OffsetSolid:
 
     def _overlaps(self, points: NDArray, tolerance: float) -> bool:
         """Whether the walls of parts reach into one another or into themselves, where no edge need pierce a face: skins
-        that have moved past each other, or that are flush. Each wall is a closed body: both its sides and its rim."""
+        that have moved past each other, or that are flush. Each wall is a closed body: both its sides and the strip
+        along its boundary."""
         part, number = connected_components(
             len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
         )

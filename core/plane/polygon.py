@@ -25,7 +25,7 @@ SAMPLES_PER_OUTLINE = 16  # midpoints of an outline's edges that are asked what 
 # of edges that are compared, and of rays and the edges they may meet; more rays are thinned out
 MAX_EDGE_PAIRS = 10_000_000
 PAIRS_PER_BLOCK = 1 << 18  # of those at a time
-RAYS_PER_BLOCK = 64  # neighbouring rays at a time, which meet much the same edges
+RAYS_PER_BLOCK = 64  # neighboring rays at a time, which meet much the same edges
 GRID_CELLS = 1024  # along a side of the grid that edges are compared in
 TOUCH_RTOL = 1e-9  # of the polygon's size: edges that pass each other by less than this touch
 

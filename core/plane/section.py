@@ -128,7 +128,7 @@ class Section:
 
     @property
     def _noise(self) -> float:
-        """What tells nothing of the axes. Where bounds are wide the moments are those of axes all the same."""
+        """What rounding can make of the axes. Where bounds are wide the moments are still those of axes."""
         return min(self.rounding_error["second"] + self.input_error["second"], MAX_NOISE_SHARE * self.principal[0])
 
     @property
@@ -148,7 +148,8 @@ class Section:
 
 
 def principal_angle(second: NDArray, noise: float) -> float:
-    """Where axis 1 lies, in (-π/2, π/2]; a product of inertia below `noise` is none, lest it turn the axis over."""
+    """Where axis 1 lies, in (-π/2, π/2]; a product of inertia below `noise` is none, so that it cannot turn the axis
+    over."""
     first, last, mixed = second.tolist()
     if abs(mixed) <= noise:
         return 0.0 if first >= last else pi / 2.0

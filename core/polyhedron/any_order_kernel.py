@@ -96,7 +96,7 @@ class _Block:
     corners: (3, c, k). edges: (3, c-1, k). apex_vectors: (w, c-2, k), the weights of the triangles a, b, c and a, c, d;
     both: (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree.
     weighted_products: (w, 3, c, k), weights times corners. room: for what is needed for a moment.
-    total: (w, K), the sums. chunks: as in `Sums`; neighbours stand below each other in the (CHUNK, m) that a row is.
+    total: (w, K), the sums. chunks: as in `Sums`; neighbors stand below each other in the (CHUNK, m) that a row is.
     """
 
     def __init__(self, workspace: Workspace, count: int, k: int, *, order: int, weights: int):

@@ -8,7 +8,7 @@ Sheynin and Tuzikov's formulae hold in any dimension. Over the simplex of the or
 
 and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, for det and |α|+n-1 for |α|+n. Each
 factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), here a degree at a time over blocks of
-simplices. det = v_1·N, with N, the generalised cross product of the facet's edges, from minors, largest first.
+simplices. det = v_1·N, with N, the generalized cross product of the facet's edges, from minors, largest first.
 
 Bounds. Nothing but products and sums: each step's rounding is relative to the same expression in absolute values,
 which the recursion computes beside the value. So `error` is rigorous, and tight to the number of operations.
@@ -249,7 +249,7 @@ def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[
 
 
 def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
-    """The n components of the generalised cross product of n-1 edges, and the same with every term positive.
+    """The n components of the generalized cross product of n-1 edges, and the same with every term positive.
 
     edges: (n-1, n, k). Minors by Laplace's expansion along the last row, smaller ones shared.
     """

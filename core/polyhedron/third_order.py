@@ -56,7 +56,7 @@ MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small` is faster
 MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs more than it saves
 # triangles that are worth a thread: of fewer the calls are short, and wait for the interpreter
 MIN_TRIANGLES_PER_THREAD = 250_000
-# reaches beyond this, or below its inverse, are scaled, lest a product of six overflow or vanish
+# reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow or vanish
 MAX_UNSCALED_REACH = 2.0**100
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
@@ -147,7 +147,7 @@ def _measure_rescaled(
     about = None if about is None else np.ldexp(about, -exponent)
     for moments in integrate(small, threads, about=about, area=area, shell=shell, exact=exact):
         powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.measure == Measure.VOLUME else 2))
-        with np.errstate(over="ignore"):  # what becomes infinite is refused by who asked for it
+        with np.errstate(over="ignore"):  # the caller refuses what becomes infinite
             results.append(
                 replace(
                     moments,

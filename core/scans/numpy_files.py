@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, whose shape and type their name tells."""
+"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, whose shape and type are in their name."""
 
 from __future__ import annotations
 

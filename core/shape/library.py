@@ -32,7 +32,7 @@ class Similarity(StrEnum):
     DIFFERENT = "different"
 
 
-# the signatures do not tell the hand
+# the signatures do not decide the hand
 UNDECIDED_HANDEDNESS = (Similarity.COPY_OR_MIRROR, Similarity.SCALED_COPY_OR_MIRROR)
 
 
@@ -46,7 +46,7 @@ class Entry:
 
     @property
     def label(self) -> str:
-        """FILE:NAME, by which the command line tells bodies of one name apart."""
+        """FILE:NAME, by which the command line distinguishes bodies of one name."""
         return _label(self.file, self.name)
 
 

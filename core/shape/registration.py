@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Laying one body onto another by their poses, and what is left between them.
 
-The pose leaves as many ways as the body has rotations, and all of them are tried. So are half turns about the axes, for
-noise may decide a sign. The residual is measured on the surfaces, in both directions, so that neither may be a part of
-the other; where a few points are farther apart than all points are in a better way, no more of them are looked at.
-A mirror image is recognized as such: a reflection fits, and no rotation does.
+The pose leaves as many choices as the body has rotations, and all of them are tried. So are half turns about the
+axes, for noise may decide a sign. The residual is measured on the surfaces, in both directions, so that neither may be
+a part of the other; where a few points are farther apart than all points are in a better way, no more of them are
+looked at. A mirror image is recognized as such: a reflection fits, and no rotation does.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ HALF_TURNS = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-
 EQUAL_RESIDUAL_RTOL = 1e-4  # of the size: residuals nearer than this are equal, and the smallest turn is taken
 MAX_FIT_RTOL = 1e-3  # of the size: below, a body lies on the other one
 FIRST_SAMPLES = 32  # points of each surface that are looked at first
-MIRROR_SHARE = 0.2  # a reflection that leaves less than this share of what rotations leave tells a mirror image
+MIRROR_SHARE = 0.2  # a reflection that leaves less than this share of what rotations leave means a mirror image
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@
     chirality    couplings in threes whose degrees add up to an odd number: a mirror image has the same with the
                  opposite sign, and a body that is its own mirror image has none.
 
-Size is told apart, as the radius of gyration. What is compared is smooth in the shape: noise of the points changes it
+Size is kept apart, as the radius of gyration. What is compared is smooth in the shape: noise of the points changes it
 little, and nothing switches.
 """
 
@@ -45,7 +45,7 @@ FREQUENCIES = np.arange(1.0, 13.0)  # what orders to 20 resolve to a millionth
 MAX_SIMILAR_DIFFERENCE = 0.1  # beyond this nobody would call two shapes similar
 MIN_CHIRALITY = 1e-11  # a chirality below this is rounding
 CHIRALITY_NOISE_FACTOR = 10.0  # by the difference of two shapes: what noise that makes it may make of chiralities
-# chiralities whose difference is less than this share of their sum, or the other way round, tell a hand
+# chiralities whose difference is less than this share of their sum, or the reverse, decide the hand
 CLEAR_CHIRALITY_SHARE = 0.2
 
 

@@ -34,7 +34,7 @@ class DefectiveElements:
 
 @dataclass(frozen=True, eq=False)
 class MeshReport:
-    """The input, before anything was mended.
+    """The input, before anything was repaired.
 
     closed: in space: equal positions are one, and gaps without area are none.
     welded: whether positions had to be welded to judge.

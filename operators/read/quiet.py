@@ -22,5 +22,5 @@ def paused() -> Iterator[None]:
 
 
 def is_paused() -> bool:
-    """Whether changes that Blender reports now are no edits."""
+    """Whether changes that Blender reports now are not edits."""
     return _is_paused

@@ -15,7 +15,7 @@ from ...core.verdict.finding import Finding, ReadError, finding
 
 @dataclass(frozen=True, eq=False)
 class DensityField:
-    """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of metres, along the
+    """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of meters, along the
     world's axes or each surface's own; text: as it was typed. attribute: the name of that of the vertices."""
 
     kind: str
