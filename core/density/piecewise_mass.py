@@ -11,7 +11,7 @@ Pattern Recognition 34, 2001). With h_α its coefficients and n = |α|,
 A density that is linear on the triangle is one more coordinate: with a' = (a, ρ_a) and so on, ∫ ρ x^α over the triangle
 is 2 area α! h_(α,1) / (n+3)!. So it costs one order and no more, and is exact.
 
-Rounding is bounded as in `polyhedron`: determinants are off by at most 9 u reach·τ, doubled areas by 9 u Σ τ, and the
+Rounding is bounded as in `third_order`: determinants are off by at most 9 u reach·τ, doubled areas by 9 u Σ τ, and the
 table adds no more than 9 roundings for each order and each corner to sums whose terms are bounded by those of |x|.
 """
 

@@ -86,7 +86,7 @@ class Polynomial:
         return max((sum(powers) for powers in self.terms), default=0)
 
     def coefficients(self) -> NDArray[np.float64]:
-        """(K,) in the order of `moments.monomials`, each rounded once."""
+        """(K,) in the order of `monomials`, each rounded once."""
         values = np.zeros(monomial_count(self.degree))
         for powers, value in self.float_terms().items():
             values[monomial_index(*powers)] = value

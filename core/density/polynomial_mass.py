@@ -31,12 +31,13 @@ def polynomial_mass_of_images(
 ) -> Moments:
     """The mass moments of k images of one body with a polynomial density, as one body, of the order that is left.
 
-    moments: of the volume or area, to order n + the degree. matrices: (k, 4, 4) the images, as for `map_sum`.
+    moments: of the volume or area, to order n + the degree. matrices: (k, 4, 4) the images, as for `sum_of_images`.
     fields: (k, 4, 4) from the body's own coordinates to those that the density is a polynomial of, taken exactly; by
     default they are the images'. about: (3,), by default the mean of the images of `moments.about`.
 
-    error: rounding, on top of what `moments.error` comes to; input: what `moments.input` comes to. Of a body with a
-    negative density somewhere both hold all the same. ValueError where the moments' order is below the degree.
+    error: rounding, on top of what `moments.rounding_error` comes to; input: what `moments.input_error` comes to. Of a
+    body with a negative density somewhere both hold all the same. ValueError where the moments' order is below the
+    degree.
     """
     order = moments.order - density.degree
     if order < 0:
@@ -79,7 +80,7 @@ def polynomial_mass_of_images(
 def _mass_functional(
     moments: Moments, order: int, terms: Terms, forms: tuple[NDArray, NDArray], misplacement: NDArray
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """(K, k) each: G, the bound of its rounding, and what becomes of `moments.input`.
+    """(K, k) each: G, the bound of its rounding, and what becomes of `moments.input_error`.
 
     forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) what their constants may be off by.
     """

@@ -6,7 +6,7 @@ The volumetric scheme of Soldea, Elber and Rivlin. The integrals separate,
 
     ∫ u^p v^q w^r f = Σ_ijk p_ijk U[p,i] V[q,j] W[r,k],
 
-so three small tables (density_tables.py) are all there is to precompute, and the sum is three contractions: the first
+so three small tables (`spline_tables`) are all there is to precompute, and the sum is three contractions: the first
 along the axis that is contiguous in memory, in blocks that stay in the cache, the others on what little is left. A grid
 may therefore be larger than memory. One coefficient adds its change times a product of three table columns: O(1).
 

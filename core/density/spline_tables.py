@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One-dimensional tables ∫ t^l B_i(t) dt, all that the moments of a trivariate B-spline need.
 
-Soldea, Elber and Rivlin integrate t^l B_{i,k} by l nested sums (Theorem 4.2, kept in `soldea.py` as the reference).
+Soldea, Elber and Rivlin integrate t^l B_{i,k} by l nested sums (Theorem 4.2, kept in `core.papers` as the reference).
 Over a full support the same integral has a closed form, positive wherever the knots are:
 
     ∫ t^l B_{i,k} = (t_{i+k} - t_i) / k · h_l(t_i, ..., t_{i+k}) / binomial(k + l, l),

@@ -123,7 +123,7 @@ def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[n
 
 
 def _batches(triangles: NDArray, shape: NDArray) -> Iterator[slice]:
-    """Slices of the triangles that are expected to give about PIECES pieces each."""
+    """Slices of the triangles that are expected to give about PIECES_PER_BATCH pieces each."""
     spans = np.minimum(np.ptp(triangles, axis=1), shape) + 1.0
     expected = spans[:, 0] * spans[:, 1] + spans[:, 1] * spans[:, 2] + spans[:, 2] * spans[:, 0]
     return batches(expected, PIECES_PER_BATCH)

@@ -244,8 +244,8 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
 
 
 def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
-    """(m,) how many points along a side keep each D within tolerance, for |q| times the diameters; MOST + 1 where MOST
-    do not."""
+    """(m,) how many points along a side keep each D within tolerance, for |q| times the diameters; MAX_POINTS_PER_SIDE
+    + 1 where that many do not."""
     span, limits = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000)), []
     for n in range(1, MAX_POINTS_PER_SIDE + 1):
         ratio = span / 4.0 / (2 * n + 1)

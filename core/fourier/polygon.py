@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Fourier transform of plane polygons with holes, in closed form at any frequency.
 
-What `fourier` says of a body holds one dimension lower: with the edges e, their outward normals n of the same length,
+What `transform` says of a body holds one dimension lower: with the edges e, their outward normals n of the same length,
 the phases m in their middles and half the phase t along them
 
     ∫ exp(-i q·x) dA = i/q² Σ (q·n) (exp(-i m) sinc(t) - 1).

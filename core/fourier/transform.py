@@ -3,7 +3,7 @@
 """The Fourier transform of a body and of a surface, in closed form at any frequency.
 
 Zhang and Chen (2001) add up tetrahedra, whose formula divides by q·a, by q·(a-b) and so on: it fails near every plane
-across an edge. The divergence theorem leaves one division, by q². With N = (b-a) x (c-a) and `triangle_waves`'s D
+across an edge. The divergence theorem leaves one division, by q². With N = (b-a) x (c-a) and `triangle_kernel`'s D
 
     ∫ exp(-i q·x) dV = i/q² Σ (q·N) (D - 1/2),    ∫ exp(-i q·x) dA = Σ |N| D.
 
@@ -11,8 +11,8 @@ The N of a closed surface add up to zero; therefore 1/2 may be taken off each D,
 q·x, and nothing cancels as q goes to 0.
 
 Error. u = 2^-53, A the area, R the reach from the center. A phase is off by a few u |q| R, a D by that or by a few u,
-and |D - 1/2| is below 1 and below |q| R; q·N/q² is at most |N|/|q|. In all that is ERROR u A R whatever q is. N is
-found in twice the precision, or slivers would be worse. So is the phase of the center, which may be far off.
+and |D - 1/2| is below 1 and below |q| R; q·N/q² is at most |N|/|q|. In all that is ROUNDING_FACTOR u A R whatever q is.
+N is found in twice the precision, or slivers would be worse. So is the phase of the center, which may be far off.
 """
 
 from __future__ import annotations
@@ -147,7 +147,7 @@ class Transform:
         self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)
 
     def _vector_sum(self) -> NDArray[np.complex128]:
-        """(3,) ∫ n exp(-i q·x) dA at ASKEW, parallel to it for a closed surface."""
+        """(3,) ∫ n exp(-i q·x) dA at GENERIC_WAVE_VECTOR, parallel to it for a closed surface."""
         waves, total = ListWaves(GENERIC_WAVE_VECTOR), np.zeros(3, np.complex128)
         for run in self.faces.blocks(PAIRS_PER_BLOCK):
             block = self.faces.block(run)

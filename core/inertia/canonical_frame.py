@@ -67,7 +67,7 @@ class EquivalentFrames:
 
 
 def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray) -> EquivalentFrames:
-    """moments: to some order from 3 to ORDER, about any point. starts: (k, 3, 3) the frames along the spread's axes
+    """moments: to some order from 3 to MAX_ORDER, about any point. starts: (k, 3, 3) the frames along the spread's axes
     that third moments allow. MeasureError where their size is beyond the range of numbers."""
     central = moments.about_center()
     total = central.raw[0]
@@ -130,8 +130,8 @@ def _fix_rotation_about_axis(
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, NDArray[np.complex128], float] | None:
-    """The first harmonic about that axis of the bases that is above noise, CLEAR ones before weaker ones: its m, (n,)
-    its value in each basis, and what of it is noise."""
+    """The first harmonic about that axis of the bases that is above noise, those above CLEAR_HARMONIC before weaker
+    ones: its m, (n,) its value in each basis, and what of it is noise."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order, size = [first, second, axis], _extents(spread)
     harmonics = {}
@@ -196,8 +196,8 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
     several times. span: between the largest and the least value.
 
     From the highest points of all over it: along the sphere the function is a trigonometric polynomial, so that by
-    Bernstein's inequality it loses at most (degree GAP)² span / 4 on the way from a maximum to the nearest of them.
-    Steps are Newton's in the directions that are curved, and always uphill.
+    Bernstein's inequality it loses at most (degree MAX_START_GAP)² span / 4 on the way from a maximum to the nearest of
+    them. Steps are Newton's in the directions that are curved, and always uphill.
     """
     points, scale = _sphere_directions(), degree**2 * span
     height = _contract(tensor, degree, points)
@@ -223,7 +223,7 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
 
 @lru_cache
 def _sphere_directions() -> NDArray[np.float64]:
-    """(SPREAD, 3) directions spread evenly: Fibonacci's lattice."""
+    """(START_DIRECTIONS, 3) directions spread evenly: Fibonacci's lattice."""
     i = np.arange(START_DIRECTIONS) + 0.5
     z, turn = 1.0 - 2.0 * i / START_DIRECTIONS, np.pi * (1.0 + 5.0**0.5) * i
     r = np.sqrt(1.0 - z * z)

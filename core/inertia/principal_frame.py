@@ -7,8 +7,8 @@ inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third m
 every body with a mirror plane, where M_300 is noise, so it is made robust: an axis is scored by its skewness, or where
 that is noise by the other third moments odd in that axis only; the two axes with the clearest scores turn positive and
 the third completes a right-handed frame. What equal moments or a want of skewness leave, moments to sixth order decide
-(see `canonical`). What is still free is the body's own freedom: there the frame nearest to the axes that the caller
-prefers is taken, and `finding` says so.
+(see `canonical_frame`). What is still free is the body's own freedom: there the frame nearest to the axes that the
+caller prefers is taken, and `finding` says so.
 
 The pose of a body is its center at the origin and that frame along the axes: two copies of a part, however they lie and
 whatever their faces, have one pose.

@@ -4,10 +4,10 @@
 
 raw[p,q,r] = ∫ (x-ox)^p (y-oy)^q (z-oz)^r d(of), positive integrals, p+q+r ≤ order. They add, they scale by a density
 and they map linearly under an affine map, so a sum of objects is a sum and an instance is a map. Two bounds go with
-every number and add and map as it does: `error`, what rounding (or a stated truncation) may have changed, and
+every number and add and map as it does: `rounding_error`, what rounding (or a stated truncation) may have changed, and
 `input_error`, what storing coordinates as float32 may have changed.
 
-What affine maps do to them is in `affine`.
+What affine maps do to them is in `affine_maps`.
 """
 
 from __future__ import annotations
@@ -380,7 +380,8 @@ def _image_error_bounds(
     weight_error: NDArray,
     anisotropy: NDArray,
 ) -> tuple[NDArray, NDArray]:
-    """(K,) and (K,) what `error`, with the rounding of the maps, and `input_error` become under k maps together.
+    """(K,) and (K,) what `rounding_error`, with the rounding of the maps, and `input_error` become under k maps
+    together.
 
     By degree: where the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product
     of n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest

@@ -76,7 +76,7 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
     """The area moments of the region in a plane that closed curves bound, counter-clockwise seen from the normal's tip.
 
     normal: (3,) unit. about: (3,) a point of the plane, by default the mean of the control points. A curve that runs
-    clockwise bounds a hole. Of polynomial curves the moments are exact and `error` is rounding.
+    clockwise bounds a hole. Of polynomial curves the moments are exact and `rounding_error` is rounding.
     """
     center: NDArray[np.float64] = (
         np.mean([curve.points.mean(axis=0) for curve in curves], axis=0) if about is None else np.asarray(about)

@@ -85,8 +85,8 @@ def volume_moments(
     """The volume moments of the body that closed, outward patches bound.
 
     about: (3,), by default the middle of their box. Patches that do not close are closed by the cone from there.
-    Returns the moments, whose `error` is an estimate of truncation (zero for polynomial patches) and rounding, and
-    whether the truncation is below `tolerance`.
+    Returns the moments, whose `rounding_error` is an estimate of truncation (zero for polynomial patches) and rounding,
+    and whether the truncation is below `tolerance`.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
     degree, flux = _degrees(order), partial(flux_sums, order=order)
@@ -121,7 +121,7 @@ def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) ->
 
 
 def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
-    """The area moments of patches by quadrature; `error` is an estimate. Otherwise as `volume_moments`.
+    """The area moments of patches by quadrature; `rounding_error` is an estimate. Otherwise as `volume_moments`.
 
     Where a patch turns over between two neighboring points, or a cell's side and its first point, what lies between
     them counts as error, so that such a cell is cut.

@@ -3,7 +3,7 @@
 """A body of patches that is measured again and again while its control points move.
 
 All is decided anew each time as measuring does: which patches face which way, which holes are capped. Only the moments
-follow, from tables (`reevaluation`), and where few control points have moved only the spans that they act on. The
+follow, from tables (`incremental`), and where few control points have moved only the spans that they act on. The
 tables' rule for rational patches is fixed and has no estimate of its own: how far it is off depends on the weights, so
 it is compared with what measuring found, of the body and of patches with its weights and points at random, as a body
 that is flat says little about what becomes of it. Other weights are measured anew. So is a body that has gone far from

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Walls: the material between a surface and its offset, with moments that are polynomials in the thickness.
 
-With the directions d of its vertices (see `offset`), a triangle sweeps the prism x = p + s d, both linear on the
+With the directions d of its vertices (see `directions`), a triangle sweeps the prism x = p + s d, both linear on the
 triangle, with Jacobian J = Σ λ_k N(s)·d_k, where N(s) = (e + s f) × (e' + s f') is the normal of the triangle moved by
 s, e, e' its edges and f, f' the differences of its directions. J x^α is a polynomial of degree |α| + 2 in s and |α| + 1
 in the barycentric coordinates λ: six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate it exactly over
@@ -410,8 +410,8 @@ class _Prisms:
 def _propagate_error(
     bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(20, 6) and (20, 6) `error` and `input_error` from the sums of `_Prisms.bounds`, with every point within reach[0]
-    of the middle and every direction within reach[1], by axis."""
+    """(20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`, with every point within
+    reach[0] of the middle and every direction within reach[1], by axis."""
     place, step = reach[0] + stored, reach[1]
 
     def times(row: NDArray, exponents: list[int]) -> NDArray[np.float64]:

@@ -99,7 +99,7 @@ def tensor(points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tu
 
 
 def moments(points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int) -> list[Number]:
-    """∫ x^p y^q z^r dV to any order, in the order of `moments.monomials`: a fan over each face from an apex in its
+    """∫ x^p y^q z^r dV to any order, in the order of `monomials`: a fan over each face from an apex in its
     plane, here its first corner's. Arguments as for `tensor`."""
     return moments_from_apexes(points, faces, [points[face[0]] for face in faces], order)
 

@@ -47,7 +47,7 @@ def sigma(exponents: tuple[int, int, int], a: Vector, b: Vector, c: Vector) -> N
 def volume_moments(
     points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int, about: Vector = (0, 0, 0)
 ) -> list[Number]:
-    """∫ x^p y^q z^r dV of the solid within outward polygons, in the order of `moments.monomials`, about `about`.
+    """∫ x^p y^q z^r dV of the solid within outward polygons, in the order of `monomials`, about `about`.
 
     points: rows of x, y, z, of one exact or inexact type. faces: corner indices, counter-clockwise from outside.
     """
@@ -109,7 +109,7 @@ def _sum_over_faces(
 
 
 def exponents_to(order: int) -> list[tuple[int, int, int]]:
-    """(p, q, r) of all monomials to an order, in the order of `moments.monomials`."""
+    """(p, q, r) of all monomials to an order, in the order of `monomials`."""
     return [tuple(row) for row in monomials(order).tolist()]
 
 

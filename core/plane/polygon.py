@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Polygons with holes in the plane, as directed edges: the inside lies to the left of each.
 
-Area moments of any order are those of a boundary of 1-simplices (Sheynin and Tuzikov in two dimensions; see `simplex`):
-over an edge a, b the triangle with the origin gives (a x b)·S_pq·p! q! / (p+q+2)!. Outer outlines run counter-
-clockwise, holes clockwise, separate regions simply add. What makes a region ambiguous, outlines that cross or lie on
-one another, is found by `find_defects`: no sum over edges would show it.
+Area moments of any order are those of a boundary of 1-simplices (Sheynin and Tuzikov in two dimensions; see
+`n_dimensions`): over an edge a, b the triangle with the origin gives (a x b)·S_pq·p! q! / (p+q+2)!. Outer outlines run
+counter- clockwise, holes clockwise, separate regions simply add. What makes a region ambiguous, outlines that cross or
+lie on one another, is found by `find_defects`: no sum over edges would show it.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et
 simplices. det = v_1·N, with N, the generalized cross product of the facet's edges, from minors, largest first.
 
 Bounds. Nothing but products and sums: each step's rounding is relative to the same expression in absolute values,
-which the recursion computes beside the value. So `error` is rigorous, and tight to the number of operations.
+which the recursion computes beside the value. So `rounding_error` is rigorous, and tight to the number of operations.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class SimplexMoments:
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
     """(K, n) all exponents of degree at most `order`, by degree, the first exponents largest first; read-only. In three
-    dimensions the order of `moments.monomials`."""
+    dimensions the order of `monomials`."""
     exponents = [row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)]
     table = np.array(exponents, np.int64).reshape(-1, dimension)
     table.flags.writeable = False

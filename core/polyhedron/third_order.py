@@ -11,8 +11,8 @@ triangle with edge e and f from the middle to the third corner
 
     E[x x' x''] = f f' f'' / 10 + (f e' e'' + e f' e'' + e e' f'') / 120.
 
-They are of the order of an edge cubed: large meshes leave them out, and add their bound to `error`; small ones, and
-large ones on request, take them along.
+They are of the order of an edge cubed: large meshes leave them out, and add their bound to `rounding_error`; small
+ones, and large ones on request, take them along.
 
 Rounding. Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the
 product of its edges, not to the body's size cubed; that keeps the bound small for fine meshes and far from the origin.
@@ -275,14 +275,14 @@ class _ErrorBounds:
             self.displaced_bound = _monomial_bounds(job.reach + job.half_ulp)
 
     def volume(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(20,) and (20,) `error` and `input_error` of volume moments."""
+        """(20,) and (20,) `rounding_error` and `input_error` of volume moments."""
         x, y, z = self.job.reach.tolist()
         weight = 9.0 * U * (x * self.tau[0] + y * self.tau[1] + z * self.tau[2])
         error = self._error(weight, 0) / CONE_DIVISORS + 8.0 * U * np.abs(raw)
         return error, self.swept_bound * self.displaced_bound if self.step else np.zeros(20)
 
     def area(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(k,) and (k,) `error` and `input_error` of area moments."""
+        """(k,) and (k,) `rounding_error` and `input_error` of area moments."""
         error = self._error(9.0 * U * sum(self.tau), 1)[: len(raw)] / 2.0 + 8.0 * U * np.abs(raw)
         if not self.step:
             return error, np.zeros(len(raw))

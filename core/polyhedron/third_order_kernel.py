@@ -34,7 +34,7 @@ from ..mesh.surface import flipped_quads
 from .workspace import Workspace, gather
 
 SLICES_PER_ROW = 32  # of a row that einsum adds up
-COLUMNS_PER_CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES
+COLUMNS_PER_CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES_PER_ROW
 MIN_FLIP_COSINE = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
 FLOAT32_UNDERFLOW = 1e-36  # the cosine up to which they do at its other end
@@ -55,7 +55,7 @@ class BlockSums:
     """What some blocks add.
 
     sums, areas: (20,) Σ weight, 48, 120 and 2880 ∫ of the monomials of first to third order in the order of
-    `moments.monomials`, over the cones, and over their faces as if they were cones of unit height.
+    `monomials`, over the cones, and over their faces as if they were cones of unit height.
     side, base: (3, n) the largest components of b-a (or d-a) and c-a in each chunk of triangles. sizes: (2, n)
     Σ |determinant| and Σ doubled area. counts: (n,) triangles. blocks: how many there were.
     """
@@ -342,7 +342,7 @@ def _weighted_calls(corners: NDArray, weights: NDArray, weighted: NDArray, table
 
 
 def _in_slices(table: NDArray) -> NDArray[np.float64]:
-    """(m, SLICES, ·) rows whose products can be summed."""
+    """(m, SLICES_PER_ROW, ·) rows whose products can be summed."""
     return table.reshape(len(table), SLICES_PER_ROW, -1)
 
 

@@ -134,7 +134,8 @@ class Likeness:
 
     def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
         """0 for a copy; also for one of another size, and for a mirror image, where that does not matter. Where it
-        does, a difference of size or hand counts as much as one of shape, but never for more than ALIKE."""
+        does, a difference of size or hand counts as much as one of shape, but never for more than
+        MAX_SIMILAR_DIFFERENCE."""
         size, hand = (
             MAX_SIMILAR_DIFFERENCE * tanh(abs(value) / MAX_SIMILAR_DIFFERENCE)
             for value in (log(self.scale), self.chirality_difference)

@@ -3,10 +3,10 @@
 """The rotations and reflections about its center that take a body to itself.
 
 Moments show which ones can: a rotation takes one of the frames in which all moments to some order are alike to another
-one (see `canonical`), and a reflection takes a frame of the body to one of its mirror image. So every symmetry that the
-body has is among them, and moments of higher order, or details smaller than noise, may rule some out again; the body's
-geometry decides (`confirm`). The group is named by its Schoenflies symbol: C1 has nothing, D2h is a box, Oh a cube,
-C∞v a body of revolution, K a ball.
+one (see `canonical_frame`), and a reflection takes a frame of the body to one of its mirror image. So every symmetry
+that the body has is among them, and moments of higher order, or details smaller than noise, may rule some out again;
+the body's geometry decides (`confirm`). The group is named by its Schoenflies symbol: C1 has nothing, D2h is a box, Oh
+a cube, C∞v a body of revolution, K a ball.
 """
 
 from __future__ import annotations
