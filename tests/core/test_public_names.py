@@ -22,6 +22,13 @@ PUBLIC = {
     for name in module.__all__
     if inspect.isclass(getattr(module, name)) or inspect.isfunction(inspect.unwrap(getattr(module, name)))
 }
+# What core.papers offers are modules: their functions.
+PUBLIC |= {
+    (module.__name__, name): thing
+    for module in (getattr(FACES[".papers"], name) for name in FACES[".papers"].__all__)
+    for name, thing in vars(module).items()
+    if inspect.isfunction(thing) and thing.__module__ == module.__name__ and not name.startswith("_")
+}
 # A class or function is documented once, wherever it is offered.
 DOCUMENTED = {"{0.__module__}.{0.__qualname__}".format(inspect.unwrap(thing)): thing for thing in PUBLIC.values()}
 
