@@ -205,7 +205,7 @@ def edges_from_mesh(surface: Surface, triangles: NDArray[np.integer]) -> Edges |
     ends = np.minimum(start, stop).astype(np.int64) * width + np.maximum(start, stop)
     if not np.array_equal(ends[first][of_side], ends):
         return None
-    # A mesh may name an edge twice, and each would pass for a boundary edge.
+    # A mesh may name an edge twice, and each would pass for a rim.
     at_rim = np.zeros(width, bool)
     at_rim[start[mesh_edges.boundary_sides()]] = at_rim[stop[mesh_edges.boundary_sides()]] = True
     doubtful = ends[first[at_rim[start[first]] & at_rim[stop[first]]]]

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How the closed shells of one body lie to each other: apart, one in another, or through one another.
 
-Pairs whose boxes overlap are found by a sweep. Each pair is then asked twice (`bvh`): points just under the skin
+Pairs whose boxes overlap are found by a sweep. Each pair is then asked twice (`shell_tree`): points just under the skin
 of the smaller shell are located in the larger one; then edges of one that pierce triangles of the other are looked for.
 What touches within the tolerance does not cross.
 """
