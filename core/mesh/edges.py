@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import first_occurrence
+from ..numerics.arrays import first_occurrence, sums_by_index
 from ..numerics.graph import EDGES_PER_BLOCK, connected_components
 from .surface import Surface
 
@@ -62,6 +62,8 @@ def _sides_at(surface: Surface) -> Callable[[int], tuple[NDArray[np.int32], NDAr
     """A function of where a block of corners starts: the face of each, and whether the side that starts there runs to a
     higher vertex. None where faces and corners do not fit."""
     corners, quads, triangles = surface.corner_vertices, len(surface.quads), len(surface.triangles)
+    if corners is None:
+        return None
     if not triangles and surface.quad_faces is None:
         size = 4
     elif not quads and surface.triangle_faces is None:
@@ -118,7 +120,7 @@ class Edges:
 
     def signed_use_count(self, flipped: NDArray[np.bool_]) -> NDArray[np.float64]:
         """(e,) sides that run upward minus sides that run downward, once the `flipped` triangles are reversed."""
-        return np.bincount(self.of_side, np.where(self.upward ^ np.repeat(flipped, 3), 1.0, -1.0))
+        return sums_by_index(self.of_side, np.where(self.upward ^ np.repeat(flipped, 3), 1.0, -1.0))
 
     def manifold_side_pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """The two sides of every edge that has exactly two."""

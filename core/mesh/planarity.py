@@ -67,7 +67,8 @@ class PlanarityAccumulator:
         self.extent = size = float((high - low).max())
         self.quads: dict[int, _PlanarityPartial] = {}
         self.triangles: dict[int, _PlanarityPartial] = {}
-        # What is looked at one by one is brought to about size 1, lest sixth powers of small lengths underflow.
+        # What is looked at one by one is brought to about size 1, so that sixth powers of small lengths do not
+        # underflow.
         self.exponent = int(np.frexp(max(size, float(np.finfo(np.float32).tiny)))[1])
 
     @cached_property
@@ -98,7 +99,7 @@ class PlanarityAccumulator:
             maybe[narrow] = True
             unsure = start + np.flatnonzero(maybe > bent)
             volume[np.flatnonzero(~bent)] = 0.0
-        self.quads[start] = _PlanarityPartial(len(bent), count, float(np.add.reduce(volume)), unsure)
+        self.quads[start] = _PlanarityPartial(len(bent), int(count), float(np.add.reduce(volume)), unsure)
 
     def add_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
         """Every `step`-th from each of these rows on. lengths: (len(starts), k) of their normals."""
@@ -108,7 +109,7 @@ class PlanarityAccumulator:
             )
 
     def planarity(self) -> Planarity:
-        """What was seen, and where that does not tell or nothing was seen, what is found by looking."""
+        """What the kernel reported; where that is missing or does not decide, what a pass over the faces finds."""
         surface, triangle_faces = self.surface, self.surface.triangle_faces
         non_planar_count, seen_volume, total_volume, degenerate = 0, 0.0, 0.0, NO_FACES
         if len(surface.quads):

@@ -4,19 +4,20 @@
 
 raw[p,q,r] = ∫ (x-ox)^p (y-oy)^q (z-oz)^r d(of), positive integrals, p+q+r ≤ order. They add, they scale by a density
 and they map linearly under an affine map, so a sum of objects is a sum and an instance is a map. Two bounds go with
-every number and add and map as it does: `error`, what rounding (or a stated truncation) may have changed, and
+every number and add and map as it does: `rounding_error`, what rounding (or a stated truncation) may have changed, and
 `input_error`, what storing coordinates as float32 may have changed.
 
-What affine maps do to them is in `affine`.
+What affine maps do to them is in `affine_maps`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -52,7 +53,14 @@ THIRD_MOMENT_INDEX = np.array(
 
 
 class Measure(StrEnum):
-    """What moments are integrals over."""
+    """What moments are integrals over.
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import Measure
+    >>> Measure("area") is Measure.AREA
+    True
+    """
 
     VOLUME = "volume"
     AREA = "area"
@@ -62,21 +70,41 @@ class Measure(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Moments:
-    """Moments of one body to some order.
+    """Raw moments of one body about a stated point, ∫ (x-ox)^p (y-oy)^q (z-oz)^r dm, with error bounds.
 
-    raw: (K,) float64 in the order of `monomials`, unit^(dimension of `measure` + degree).
-    about: (3,) the point they are taken about, in the same coordinates.
-    measure: what they measure.
-    rounding_error: (K,) bound of |raw - exact| for the coordinates as given: rounding, and truncation where a source
-    says so.
-    input_error: (K,) bound of the change when every coordinate moves by its float32 half ulp; zero for float64 sources.
+    They add (`+`), scale by a density (`*`) and follow affine maps (`transform`). `moments[p, q, r]` is one of them.
+
+    Parameters
+    ----------
+    raw : (K,) array
+        All p+q+r ≤ order in the order of `monomials`, in unit^(dimension of `measure` + degree).
+    about : (3,) array
+        The point they are taken about, in the body's coordinates.
+    measure : Measure
+        What they are integrals over: volume, area, length or mass.
+    rounding_error : (K,) array, optional
+        Bounds of |raw - exact| for the coordinates as given: rounding, and truncation where a source states so. Zero by
+        default.
+    input_error : (K,) array, optional
+        Bounds of the change when every coordinate moves by half an ulp of its float32 value. Zero by default, and for
+        float64 sources.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> volume, _ = polyhedron_moments(surface, about=(0, 0, 0))
+    >>> round(volume.total * 6, 12), round(volume[2, 0, 0] * 60, 12), np.round(volume.center, 12).tolist()
+    (1.0, 1.0, [0.25, 0.25, 0.25])
+    >>> round((volume * 7850.0 + volume.about_center() * 1000.0).total * 6, 9)
+    8850.0
     """
 
     raw: NDArray[np.float64]
     about: NDArray[np.float64]
     measure: Measure = Measure.VOLUME
-    rounding_error: NDArray[np.float64] = field(default=None)
-    input_error: NDArray[np.float64] = field(default=None)
+    rounding_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)  # zeros, once it is made
+    input_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "measure", Measure(self.measure))
@@ -95,7 +123,7 @@ class Moments:
 
     @property
     def total(self) -> float:
-        """The volume, area or mass itself."""
+        """The volume, area, length or mass itself."""
         return float(self.raw[0])
 
     @property
@@ -112,12 +140,12 @@ class Moments:
         return self.raw[THIRD_MOMENT_INDEX]
 
     def truncate(self, order: int) -> Moments:
-        """The same moments to a lower order."""
+        """Return the same moments to a lower order."""
         k = monomial_count(order)
         return replace(self, raw=self.raw[:k], rounding_error=self.rounding_error[:k], input_error=self.input_error[:k])
 
     def __mul__(self, factor: float) -> Moments:
-        """Scaled by a constant: a density, a thickness, a sign."""
+        """Scale by a constant: a density, a thickness, a sign."""
         size = abs(factor)
         return replace(
             self,
@@ -129,11 +157,26 @@ class Moments:
     __rmul__ = __mul__
 
     def __add__(self, other: Moments) -> Moments:
-        """Both bodies together, about the first one's point, to the lower of the two orders."""
+        """Add another body, about this one's point, to the lower of the two orders."""
         return sum_moments([self, other.about_point(self.about)])
 
     def about_point(self, point: ArrayLike) -> Moments:
-        """The same body about another point, by the binomial theorem."""
+        """Return the moments of the same body about another point, by the binomial theorem.
+
+        Parameters
+        ----------
+        point : (3,) array_like
+            In the coordinates of `about`.
+
+        Returns
+        -------
+        Moments
+
+        Raises
+        ------
+        ValueError
+            If the point is not three finite numbers.
+        """
         point = np.asarray(point, np.float64)
         if np.array_equal(point, self.about):
             return self
@@ -150,11 +193,22 @@ class Moments:
         return replace(self, raw=raw, about=point, rounding_error=error + rounding * size, input_error=moved)
 
     def about_center(self) -> Moments:
-        """The central moments."""
+        """Return the central moments."""
         return self.about_point(self.center)
 
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> Moments:
-        """The moments in another frame, about its origin. rotation: (3, 3), its axes as columns; origin: (3,)."""
+        """Return the moments in another frame, about its origin.
+
+        Parameters
+        ----------
+        rotation : (3, 3) array_like
+            The frame's axes as columns.
+        origin : (3,) array_like
+
+        Returns
+        -------
+        Moments
+        """
         matrix = np.eye(4)
         matrix[:3, :3] = np.asarray(rotation, np.float64).T
         matrix[:3, 3] = -matrix[:3, :3] @ np.asarray(origin, np.float64)
@@ -164,19 +218,54 @@ class Moments:
         )
 
     def transform(self, matrix: ArrayLike) -> Moments:
-        """The moments of the body's image under an affine map.
+        """Return the moments of the body's image under an affine map, about the image of `about`.
 
-        matrix: (4, 4), new = matrix[:3, :3] @ old + matrix[:3, 3]. The new `about` is the image of the old one.
-        Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity
-        only: ValueError otherwise; what a float32 rotation lacks of a similarity goes into `input_error`.
+        Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity only;
+        what a float32 rotation lacks of one goes into `input_error`.
+
+        Parameters
+        ----------
+        matrix : (4, 4) array_like
+            new = matrix[:3, :3] @ old + matrix[:3, 3].
+
+        Returns
+        -------
+        Moments
+
+        Raises
+        ------
+        ValueError
+            If the matrix is not finite (4, 4), or no similarity where one is needed.
         """
-        matrix = _validated_matrices(np.asarray(matrix, np.float64)[None])[0]
-        return sum_of_images(self, matrix[None], matrix[:3, :3] @ self.about + matrix[:3, 3])
+        affine = _validated_matrices(np.asarray(matrix, np.float64)[None])[0]
+        return sum_of_images(self, affine[None], affine[:3, :3] @ self.about + affine[:3, 3])
 
 
 def sum_moments(parts: Sequence[Moments]) -> Moments:
-    """Several bodies as one, about the first one's point and to the lowest of their orders. What they measure must
-    be the same."""
+    """Add several bodies, about the first one's point and to the lowest of their orders.
+
+    Parameters
+    ----------
+    parts : sequence of Moments
+        At least one, all of the same measure.
+
+    Returns
+    -------
+    Moments
+
+    Raises
+    ------
+    ValueError
+        If they measure different things.
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import Moments, sum_moments
+    >>> left, right = (Moments(np.array([1.0, 0.0, 0.0, 0.0]), np.array([x, 0.0, 0.0])) for x in (0.0, 2.0))
+    >>> both = sum_moments([left, right])
+    >>> both.total, both.center.tolist()
+    (2.0, [1.0, 0.0, 0.0])
+    """
     first = parts[0]
     if len({part.measure for part in parts}) > 1:
         raise ValueError("different measures")
@@ -188,8 +277,9 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
         raw=raws.sum(axis=0),
         about=first.about,
         measure=first.measure,
-        rounding_error=sum([part.rounding_error for part in parts]) + len(parts) * U * np.abs(raws).sum(axis=0),
-        input_error=sum([part.input_error for part in parts]),
+        rounding_error=sum([part.rounding_error for part in parts], np.zeros(1))
+        + len(parts) * U * np.abs(raws).sum(axis=0),
+        input_error=sum([part.input_error for part in parts], np.zeros(1)),
     )
 
 
@@ -200,26 +290,50 @@ def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
 
 
 def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None = None) -> Moments:
-    """The images of one body under k affine maps, as one body: instances.
+    """Add the images of one body under several affine maps: instances.
 
-    matrices: (k, 4, 4), as for `Moments.transform`. about: (3,), by default the mean of the images of `moments.about`.
+    Parameters
+    ----------
+    moments : Moments
+    matrices : (k, 4, 4) array
+        As for `Moments.transform`.
+    about : (3,) array_like, optional
+        The point of the result; by default the mean of the images of `moments.about`.
+
+    Returns
+    -------
+    Moments
+
+    Raises
+    ------
+    ValueError
+        If the matrices are not finite (k, 4, 4), or not similarities where areas or lengths need them.
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import Moments, sum_of_images
+    >>> matrices = np.stack([np.eye(4), np.diag([2.0, 2.0, 2.0, 1.0])])
+    >>> round(sum_of_images(Moments(np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(3)), matrices).total, 9)
+    9.0
     """
     matrices = _validated_matrices(np.asarray(matrices, np.float64))
     affine = np.ascontiguousarray(matrices[:, :3].transpose(1, 2, 0))
     linear, offsets = affine[:, :3], affine[:, 3]
     point, order = moments.about[:, None], moments.order
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
-    about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
+    center: NDArray[np.float64] = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     raw, error, extra = np.zeros((3, len(moments.raw)))
     block = max(MAPS_PER_BLOCK * 20 // len(moments.raw), 16)
     for start in range(0, len(matrices), block):
         part = slice(start, start + block)
         maps = linear[:, :, part]
         weight, weight_error, anisotropy = measure_scale_factors(moments.measure, maps)
-        offset = origins[:, part] - about[:, None]
+        offset = origins[:, part] - center[:, None]
         # The images of the reference point are rounded, and the body moves with them.
         stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
-        tolerance = 6 * U * (np.abs(offsets[:, part]).max(axis=0) + np.abs(about).max() + stretch * np.abs(point).max())
+        tolerance = (
+            6 * U * (np.abs(offsets[:, part]).max(axis=0) + np.abs(center).max() + stretch * np.abs(point).max())
+        )
         weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
         if len(matrices) == 1:
             image, *bounds = _single_image(moments, order, maps, offset, tolerance, weight, weight_error, anisotropy)
@@ -229,7 +343,7 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
         raw += image
         error += bounds[0]
         extra += bounds[1]
-    return Moments(raw, about, moments.measure, error, extra)
+    return Moments(raw, center, moments.measure, error, extra)
 
 
 def _validated_matrices(matrices: NDArray) -> NDArray[np.float64]:
@@ -330,11 +444,12 @@ def _image_error_bounds(
     weight_error: NDArray,
     anisotropy: NDArray,
 ) -> tuple[NDArray, NDArray]:
-    """(K,) and (K,) what `error`, with the rounding of the maps, and `input_error` become under k maps together.
+    """(K,) and (K,) what `rounding_error`, with the rounding of the maps, and `input_error` become under k maps
+    together.
 
     By degree: where the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product
     of n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest
-    of its degree. An offset that may be off by `tolerance` changes it by at most n slack times n-1 forms.
+    of its degree. An offset that may be off by `tolerance` changes it by at most n `tolerance` times n-1 forms.
     """
     order = moments.order
     degree = monomials(order).sum(axis=1)
@@ -368,8 +483,8 @@ def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, N
         return np.ones(linear.shape[2]), exact, exact
     a, b, c = linear
     terms = [(a[i] * b[j] * c[k], a[i] * b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
-    det = np.abs(sum([plus - minus for plus, minus in terms]))
-    permanent = sum([np.abs(plus) + np.abs(minus) for plus, minus in terms])
+    det = np.abs(sum([plus - minus for plus, minus in terms], exact))
+    permanent = sum([np.abs(plus) + np.abs(minus) for plus, minus in terms], exact)
     if measure == Measure.VOLUME:
         return det, 8 * U * permanent, exact
     anisotropy = _anisotropy(linear)

@@ -102,6 +102,20 @@ def measure_patches(
     ------
     MeasureError
         Where there is nothing to measure.
+
+    Notes
+    -----
+    Soldea, Elber and Rivlin, sections 2 and 3, by a radial flux; see `patch_moments`.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Patch, measure_patches
+    >>> from body_moments.core.numerics import clamped_space
+    >>> line, corners = clamped_space(2), np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
+    >>> around = np.stack([np.insert(corners, 2, z, axis=1) for z in (0.0, 1.0)], axis=1)
+    >>> body = measure_patches([Patch((clamped_space(2, (0.25, 0.5, 0.75)), line), around)])
+    >>> str(body.method), round(body.volume.total, 9)
+    ('capped', 1.0)
     """
     if not patches:
         raise MeasureError("no_patches")
@@ -253,9 +267,39 @@ def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> Mes
 def measure_sheet(
     patches: Sequence[Patch], inner: float, outer: float, *, stored: float = 0.0
 ) -> tuple[Moments, Moments, bool]:
-    """The volume moments to order 3 of a sheet of real thickness, from the height `inner` to `outer` along the patches'
-    normals, their area's moments, and whether both estimates are below the tolerance. MeasureError where the sheet
-    would run through itself."""
+    """Measure a sheet of real thickness along patches.
+
+    Parameters
+    ----------
+    patches : sequence of Patch
+    inner, outer : float
+        The heights along the patches' normals between which the sheet lies.
+    stored : float
+        As for `measure_patches`.
+
+    Returns
+    -------
+    sheet : Moments
+        Of the sheet's volume, to order 3.
+    area : Moments
+        Of the patches, to order 3.
+    precise : bool
+        Whether both error estimates are below the tolerance.
+
+    Raises
+    ------
+    MeasureError
+        If the sheet would run through itself.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Patch, measure_sheet
+    >>> from body_moments.core.numerics import clamped_space
+    >>> square = np.array([[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]])
+    >>> sheet, area, precise = measure_sheet([Patch((clamped_space(2), clamped_space(2)), square)], 0.0, 0.1)
+    >>> round(sheet.total, 9), round(area.total, 9), precise
+    (0.1, 1.0, True)
+    """
     about = patches_center(patches)
     area, fine = area_moments(patches, 3, about)
     sheet, settled = sheet_moments(patches, inner, outer, 3, about)

@@ -6,7 +6,7 @@ All is decided anew each time as measuring does: which patches face which way, w
 follow, from tables (`incremental`), and where few control points have moved only the spans that they act on. The
 tables' rule for rational patches is fixed and has no estimate of its own: how far it is off depends on the weights, so
 it is compared with what measuring found, of the body and of patches with its weights and points at random, as a body
-that is flat tells little of what becomes of it. Other weights are measured anew. So is a body that has gone far from
+that is flat says little about what becomes of it. Other weights are measured anew. So is a body that has gone far from
 the point about which its moments are taken.
 """
 
@@ -33,14 +33,30 @@ RULE_ERROR_GROWTH = 8.0  # by how much moved control points may let the rule's e
 
 
 class TrackedSolid:
-    """The body that patches bound, while they move.
+    """The body that patches bound, measured again and again while their control points move.
 
-    Of a body that has followed the bounds are estimates, and the area is an approximation.
+    Parameters
+    ----------
+    patches : sequence of Patch
+    stored : float
+        As for `measure_patches`.
 
     Attributes
     ----------
     measure : PatchIntegrals
-        What it is now; its volume has moments to order 3.
+        What the body is now, its volume with moments to order 3. After `update` its bounds are estimates, and the area
+        is an approximation.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Patch, TrackedSolid
+    >>> from body_moments.core.numerics import clamped_space
+    >>> line, corners = clamped_space(2), np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
+    >>> around = np.stack([np.insert(corners, 2, z, axis=1) for z in (0.0, 1.0)], axis=1)
+    >>> patch = Patch((clamped_space(2, (0.25, 0.5, 0.75)), line), around)
+    >>> body = TrackedSolid([patch])
+    >>> body.update([patch.transform(np.diag([1.0, 1.0, 1.5, 1.0]))]), round(body.measure.volume.total, 9)
+    (True, 1.5)
     """
 
     def __init__(self, patches: Sequence[Patch], stored: float = 0.0):
@@ -78,14 +94,13 @@ class TrackedSolid:
         Parameters
         ----------
         patches : sequence of Patch
-            The same ones, with other control points; any others are measured anew.
         stored : float
-            By how much storing the control points may have moved each (unit).
+            As for `measure_patches`.
 
         Returns
         -------
         bool
-            Whether tables were enough for that.
+            Whether tables were enough; otherwise everything was measured anew.
         """
         size, about = patches_size(patches), self.measure.volume.about
         if not (
@@ -129,15 +144,18 @@ class TrackedSolid:
         """Whether their function spaces are the same, those of rational patches being made by their weights too."""
         return len(patches) == len(self._patches) and all(
             new.spaces == old.spaces
-            and (new.weights is None if old.weights is None else np.array_equal(new.weights, old.weights))
+            and (
+                new.weights is None
+                if old.weights is None
+                else new.weights is not None and np.array_equal(new.weights, old.weights)
+            )
             for new, old in zip(patches, self._patches)
         )
 
     def _flux(self, k: int, patch: Patch) -> Moments:
         old = self._patches[k]
         moved_controls = np.argwhere((patch.points != old.points).any(axis=2))
-        if not len(moved_controls):
-            return self._fluxes[k]
+        flux = self._fluxes[k]
         if len(moved_controls) > MAX_SINGLE_UPDATES:
             return self._evaluators[k].moments(patch.points)
         for i, j in moved_controls:

@@ -11,8 +11,8 @@ triangle with edge e and f from the middle to the third corner
 
     E[x x' x''] = f f' f'' / 10 + (f e' e'' + e f' e'' + e e' f'') / 120.
 
-They are of the order of an edge cubed: large meshes leave them out, and add their bound to `error`; small ones, and
-large ones on request, take them along.
+They are of the order of an edge cubed: large meshes leave them out, and add their bound to `rounding_error`; small
+ones, and large ones on request, take them along.
 
 Rounding. Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the
 product of its edges, not to the body's size cubed; that keeps the bound small for fine meshes and far from the origin.
@@ -56,7 +56,7 @@ MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small` is faster
 MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs more than it saves
 # triangles that are worth a thread: of fewer the calls are short, and wait for the interpreter
 MIN_TRIANGLES_PER_THREAD = 250_000
-# reaches beyond this, or below its inverse, are scaled, lest a product of six overflow or vanish
+# reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow or vanish
 MAX_UNSCALED_REACH = 2.0**100
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
@@ -99,7 +99,7 @@ def integrate(
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
     largest = max(reach.tolist())
     if largest and not 1.0 / MAX_UNSCALED_REACH < largest < MAX_UNSCALED_REACH:
-        return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area=area, shell=shell, exact=exact)
+        return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area, shell, exact)
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
     job = _Integration(points, center, reach, surface.coordinate_error, count, area, shell, exact, planarity)
     if count <= MAX_SMALL_TRIANGLES:
@@ -137,7 +137,7 @@ def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float
 
 
 def _measure_rescaled(
-    surface: Surface, exponent: int, threads: int, about: NDArray | None, **options: bool
+    surface: Surface, exponent: int, threads: int, about: NDArray | None, area: bool, shell: bool, exact: bool
 ) -> tuple[Moments, Moments]:
     """The moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
     triangles, faces = surface.all_triangles()
@@ -145,9 +145,9 @@ def _measure_rescaled(
     small = Surface(points, triangles, triangle_faces=faces, displacement=np.ldexp(surface.coordinate_error, -exponent))
     results = []
     about = None if about is None else np.ldexp(about, -exponent)
-    for moments in integrate(small, threads, about=about, **options):
+    for moments in integrate(small, threads, about=about, area=area, shell=shell, exact=exact):
         powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.measure == Measure.VOLUME else 2))
-        with np.errstate(over="ignore"):  # what becomes infinite is refused by who asked for it
+        with np.errstate(over="ignore"):  # the caller refuses what becomes infinite
             results.append(
                 replace(
                     moments,

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, whose shape and type their name tells."""
+"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, whose shape and type are in their name."""
 
 from __future__ import annotations
 
@@ -35,6 +35,7 @@ def read_npy(path: Path) -> Scan:
 def read_npz(path: Path) -> Scan:
     """The array called “density”, else the first of three dimensions. It is read to the end of its entry, where
     zipfile compares the checksum; of the others the headers alone are read."""
+    array = None
     try:
         with zipfile.ZipFile(path) as archive:
             entries = archive.infolist()
@@ -52,7 +53,7 @@ def read_npz(path: Path) -> Scan:
         raise damaged(path, "damage_archive", error=str(error).rstrip(".")) from error
     except Exception as error:  # as above, and whatever unpacking raises
         raise damaged(path, "damage_arrays") from error
-    if not name:
+    if not name or array is None:
         raise FileError("no_3d_array")
     others = [volume for volume in volumes if volume != name]
     findings = (finding("arrays_left_out", array=name, arrays=others),) if others else ()

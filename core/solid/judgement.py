@@ -47,6 +47,14 @@ class SolidIntegrals:
         The decisions taken; those about the whole surface have no elements.
     oriented : OrientedSolid
         The surface that was measured, and its components.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, measure_solid
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2]])
+    >>> body = measure_solid(surface)
+    >>> str(body.method), [found.code for found in body.findings], round(body.exact_third_order().total * 6, 9)
+    ('capped', ['holes_capped'], 1.0)
     """
 
     volume: Moments

@@ -45,6 +45,14 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     ------
     MeasureError
         Where there are no faces, or a face uses a vertex that has no finite position.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, measure_solid
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 3, 2]])
+    >>> body = measure_solid(surface)
+    >>> str(body.method), round(body.volume.total * 6, 9), body.health.defective_elements.flipped_faces.tolist()
+    ('reoriented', 1.0, [3])
     """
     checked = check_surface(surface)
     given = integrate_and_prove(checked, shell, threads)

@@ -13,15 +13,26 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+
+if TYPE_CHECKING:  # the add-on's root imports this module where there is no numpy
+    from numpy.typing import NDArray
 
 Item = TypeVar("Item")
+Elements: TypeAlias = "Sequence[Any] | NDArray[Any]"  # of a mesh: faces, or edges as pairs
 
 MAX_STORED_ELEMENTS = 8  # of a finding that is stored or is a value of another one: as many as a sentence names
 
 
 class Severity(StrEnum):
-    """How much a finding matters: a note is no reason to doubt the numbers, an error leaves none."""
+    """How much a finding matters: a note does not question the numbers, an error means there are none.
+
+    Examples
+    --------
+    >>> from body_moments.core.verdict import Severity
+    >>> [str(severity) for severity in Severity]
+    ['note', 'warning', 'error']
+    """
 
     NOTE = "note"
     WARNING = "warning"
@@ -30,7 +41,7 @@ class Severity(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Finding:
-    """One decision or observation.
+    """One decision or observation, as data. `str` is its sentence.
 
     Attributes
     ----------
@@ -42,14 +53,23 @@ class Finding:
         the finding is about, where that is not simply the measured object.
     elements : sequence
         Mesh elements that it is about, in the input's numbers: faces as integers, edges as pairs of vertices.
+
+    Examples
+    --------
+    >>> from body_moments.core import Finding
+    >>> found = Finding("flipped_faces", {"count": 2}, (4, 7))
+    >>> found.as_record()
+    {'code': 'flipped_faces', 'values': {'count': 2}, 'elements': [4, 7]}
+    >>> Finding.from_record(found.as_record()) == found
+    True
     """
 
     code: str
     values: Mapping[str, Any] = field(default_factory=dict)
-    elements: Sequence[Any] = ()
+    elements: Elements = ()
 
     def as_record(self) -> dict[str, Any]:
-        """The code, the values and the first elements as plain values for JSON, to be read by `from_record`."""
+        """Return the code, the values and the first elements as plain values for JSON, to be read by `from_record`."""
         record = {"code": self.code, "values": dict(self.values)}
         first = self.elements[:MAX_STORED_ELEMENTS]
         if len(first):
@@ -58,11 +78,11 @@ class Finding:
 
     @classmethod
     def from_record(cls, record: Mapping[str, Any]) -> Finding:
-        """The finding that `as_record` has written."""
+        """Return the finding that `as_record` has written."""
         return cls(str(record["code"]), dict(record["values"]), tuple(record.get("elements", ())))
 
     def of_sources(self, names: Sequence[str]) -> Finding:
-        """The same, said of the surfaces of these objects."""
+        """Return the same finding about the surfaces of these objects."""
         return replace(self, values={**self.values, "sources": list(names)})
 
     def __eq__(self, other: object) -> bool:
@@ -75,13 +95,13 @@ class Finding:
         return _sentence_of(self)
 
 
-def finding(code: str, elements: Sequence[Any] = (), /, **values: Any) -> Finding:
-    """A finding of that code, about these elements, with these values."""
+def finding(code: str, elements: Elements = (), /, **values: Any) -> Finding:
+    """Make a finding of that code, about these elements, with these values."""
     return Finding(code, values, elements)
 
 
 def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """The findings in their order, each once."""
+    """Return the findings in their order, each once."""
     return tuple(dict.fromkeys(findings))
 
 
@@ -133,21 +153,40 @@ class MeasureError(Exception):
     Raised for what the user's objects, settings, files or queries make impossible. Wrong arguments of a programmer are
     ValueError and TypeError; any other exception is a fault of the program.
 
+    Parameters
+    ----------
+    reason : str or Finding
+        A code, or the finding itself.
+    subject : str
+        The name of the object or file that it is about, where that is known.
+    elements : sequence
+        Of the finding that a code makes.
+    **values
+        Of the finding that a code makes.
+
     Attributes
     ----------
     finding : Finding
         Why, and what to do.
     subject : str
-        The name of the object or file that it is about, where that is known.
+
+    Examples
+    --------
+    >>> from body_moments.core import MeasureError, Surface, measure_solid
+    >>> try:
+    ...     measure_solid(Surface.from_triangles(np.zeros((0, 3)), np.zeros((0, 3), int)))
+    ... except MeasureError as error:
+    ...     error.finding.code
+    'no_faces'
     """
 
-    def __init__(self, reason: str | Finding, /, *, subject: str = "", elements: Sequence[Any] = (), **values: Any):
+    def __init__(self, reason: str | Finding, /, *, subject: str = "", elements: Elements = (), **values: Any):
         self.finding = reason if isinstance(reason, Finding) else Finding(reason, values, elements)
         self.subject = subject
         super().__init__(self.finding.code)
 
     def about(self, subject: str) -> MeasureError:
-        """The same error, about an object or a file, unless it is about another one already."""
+        """Return the same error, about an object or a file unless it is about another one already."""
         self.subject = self.subject or subject
         return self
 
@@ -169,11 +208,25 @@ class EditRefusedError(MeasureError):
 
 
 class FileError(MeasureError):
-    """A file cannot be read or written."""
+    """A file cannot be read or written.
+
+    Examples
+    --------
+    >>> from body_moments.core.verdict import FileError
+    >>> FileError("file_missing", subject="scan.nrrd").subject
+    'scan.nrrd'
+    """
 
 
 class QueryError(MeasureError):
-    """What was asked for cannot be answered: a name, a point, an order that does not exist."""
+    """What was asked for cannot be answered: a name, a point, an order that does not exist.
+
+    Examples
+    --------
+    >>> from body_moments.core.verdict import QueryError
+    >>> QueryError("name_unknown", name="Cube").finding.values
+    {'name': 'Cube'}
+    """
 
 
 def _plain(found: Finding) -> str:

@@ -65,7 +65,7 @@ def _join_negative_values(argv: list[str]) -> list[str]:
 
 def _keep_files(options: argparse.Namespace, parser: argparse.ArgumentParser) -> None:
     """Ends with a message where a result would be written over a file that is read, or, without --force, over one that
-    is no result of ours. `options.forced`: those of the targets that --force is about.
+    is not a result of ours. `options.forced`: those of the targets that --force is about.
     """
     options.forced = []
     # Also the file that is open, whether or not it is measured, and that of the wave vectors.

@@ -288,11 +288,11 @@ def _objects_to_measure(
 ) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]]]:
     """The objects to measure, each under a name of its own, and an error for each name of none.
 
-    What the view layer excludes is among them: reading it tells why it cannot be measured.
+    What the view layer excludes is among them: reading it reports why it cannot be measured.
     """
     scene, layer = bpy.context.scene, bpy.context.view_layer
     same = Counter(obj.name for obj in scene.objects)
-    # A linked object may have a local one's name; the full name tells the library too.
+    # A linked object may have a local one's name; the full name has the library too.
     labels = {obj: obj.name if same[obj.name] == 1 else obj.name_full for obj in scene.objects}
     if names is None:
         candidates = {*measurable_objects(layer), *_excluded(scene, layer)}

@@ -3,7 +3,7 @@
 """The findings for what reading an object decided, and for why there was nothing to read.
 
 The viewport is what is read. Where the render would show another body, by Blender's settings as far
-as they tell, that is a finding; a node tree that asks where it runs is beyond them.
+as they report, that is a finding; a node tree that asks where it runs is beyond them.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What stored numbers were computed from, in a text short enough for a property: geometry, transform and settings.
 
-The geometry's part is a digest of the moments themselves: no two shapes that a person would tell apart share twenty
+The geometry's part is a digest of the moments themselves: no two shapes that a person would distinguish share twenty
 moments to the last bit, and it costs nothing. Transform and settings can be digested without measuring, so a panel
 may compare them while it draws. Beside them stands a digest of the shape that a mesh object shows, cheap enough to be
 taken whenever Blender re-evaluates it.

@@ -34,7 +34,7 @@ MAX_DEPTH = 8
 
 
 class _NeedsInstanceList(Exception):
-    """The instances are of a kind that only Blender's own list of instances tells."""
+    """The instances are of a kind that only Blender's own list of instances has."""
 
 
 class InstanceCollector:
@@ -55,7 +55,7 @@ class InstanceCollector:
         self.root = root
         self.depsgraph = depsgraph
         self.materials, self.attribute, self.edges = materials, attribute, edges
-        # A geometry set owns the meshes that it hands out, and the keys are their addresses.
+        # A geometry set owns the meshes that it returns, and the keys are their addresses.
         self._owners: list[object] = []
         self.collections: dict[object, None] = {}
         self._reset()

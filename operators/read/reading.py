@@ -15,7 +15,7 @@ from ...core.nurbs.patch import Patch
 from ...core.verdict.finding import Finding
 
 # Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
-# float32 entries alone may have made it: such a matrix cannot be told from one that flattens.
+# float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
 SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 
 
@@ -121,8 +121,7 @@ def said_of(result: Finding, source: str, whole: str) -> Finding:
 
 
 def are_singular(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """(k,) whether each of the (k, 4, 4) maps is singular, as far as entries that were float32 can
-    tell."""
+    """(k,) whether each of the (k, 4, 4) maps is singular, as far as entries that were float32 show."""
     columns = matrices[:, :3, :3].transpose(1, 2, 0).copy()
     # By the largest entry first, so that no square of a very small or large scale leaves the range
     # of float64.

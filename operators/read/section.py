@@ -33,8 +33,8 @@ class SectionReading:
     """Faces or outlines as arrays, in the world, Blender units.
 
     description: of what object or part, in words. points: (n, 3). triangles: (m, 3), facing as drawn, and faces: (m,)
-    the face of each; for outlines fans that tell the plane, with loops: the points of each closed outline, in order.
-    facing: (3,) where the plane has to look, None where the triangles tell. error: how far float32 storage may have
+    the face of each; for outlines fans that give the plane, with loops: the points of each closed outline, in order.
+    facing: (3,) where the plane has to look, None where the triangles decide. error: how far float32 storage may have
     moved a point. drawn_area: the area that Blender fills, of outlines in a plane. rotation, location: the object
     frame, or where a zero scale leaves `decompose()` without a rotation, the right-angled axes that are left.
     """

@@ -142,7 +142,7 @@ def _agrees(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray, toler
 
 
 def _interpolating_patch(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray) -> Patch | None:
-    """The patch of the same spaces and weights that goes through the samples; None where they do not tell it."""
+    """The patch of the same spaces and weights that goes through the samples; None where they do not determine it."""
     inverses = []
     for table in sample:
         acting = table.any(axis=0)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One grid of a volume by the openvdb module that comes with Blender, block by block where there is something.
 
-An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side. The depth at which a value is held tells whether a node of
+An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side. The depth at which a value is held shows whether a node of
 128 is there at all, so the empty rest of a sparse grid costs nothing.
 """
 

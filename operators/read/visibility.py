@@ -3,7 +3,7 @@
 """What can be read, and whether Blender has evaluated it.
 
 Blender does not evaluate what is disabled in viewports, excluded from the view layer or in another
-scene, and then hands out the object without its modifiers and at its last place as if nothing were
+scene, and then returns the object without its modifiers and at its last place as if nothing were
 wrong. `evaluated_geometry()` is the one test: it refuses such an object, also where only the
 object's transform was evaluated for another's sake. What is merely hidden (the eye), or is
 evaluated because something shown needs it, is read rightly and said.
@@ -54,7 +54,7 @@ def shows_flat_region(obj) -> bool:
 
 
 def measurable_objects(view_layer) -> list:
-    """The measurable objects of a view layer by name, hidden ones included: reading them tells what
+    """The measurable objects of a view layer by name, hidden ones included: reading them reports what
     can be done.
 
     Without those that only others show, and so are in their records: children of objects that
@@ -105,7 +105,7 @@ def require_kind(obj) -> None:
 
 
 def evaluated_geometry(obj, depsgraph, reader):
-    """The object's `GeometrySet`, which owns the meshes that it hands out.
+    """The object's `GeometrySet`, which owns the meshes that it returns.
 
     Raises ReadError about `reader`, the object for which `obj` is read, where Blender has not
     evaluated `obj` in full.

@@ -12,7 +12,7 @@ is kept. Otherwise all is put back. Other users of the data keep it as it is; th
 changed get a copy of their own, shared among them.
 
 Objects that have nothing to do with each other are changed side by side. One that is refused so is tried again alone,
-lest another's change was the reason.
+in case another's change was the reason.
 """
 
 from __future__ import annotations

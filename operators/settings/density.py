@@ -8,14 +8,14 @@ from dataclasses import dataclass
 
 import bpy
 
-from ...core.density.polynomial import Polynomial, parse
+from ...core.density.polynomial import Polynomial, parse_polynomial
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 
 
 @dataclass(frozen=True, eq=False)
 class DensityField:
-    """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of metres, along the
+    """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of meters, along the
     world's axes or each surface's own; text: as it was typed. attribute: the name of that of the vertices."""
 
     kind: str
@@ -44,7 +44,7 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
         return DensityField("materials")
     if settings.density_from == "POLYNOMIAL":
         text = settings.density_polynomial.strip()
-        return DensityField("polynomial", parse(text), settings.density_frame == "WORLD", text)
+        return DensityField("polynomial", parse_polynomial(text), settings.density_frame == "WORLD", text)
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:
             raise ReadError("density_volume_missing")

@@ -12,7 +12,7 @@ class MeasureOptions:
     """What overrides the objects' own settings; None leaves the setting. SI units.
 
     kind: "solid", "shell" or "wire"; density: kg/m³, of a wire kg/m; mass: kg; thickness: m; overlap: "signed" or
-    "union"; wall: of a shell, "thin", "inward", "outward" or "centered"; unit_scale: metres per Blender unit, else the
+    "union"; wall: of a shell, "thin", "inward", "outward" or "centered"; unit_scale: meters per Blender unit, else the
     scene's. order: of the moments that the measurement is to hold; None for what mass properties need. surface: those
     of the area too. pose: the principal frame follows the body's shape to sixth order however many faces it has.
     compare: whether what needs no display mesh is compared with it.

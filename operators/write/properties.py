@@ -78,7 +78,7 @@ class StoredProperties:
     error_bound: dict
 
     def in_world(self, matrix_world, unit: float) -> StoredProperties:
-        """The same in the world frame. matrix_world: of the object; unit: metres per Blender unit."""
+        """The same in the world frame. matrix_world: of the object; unit: meters per Blender unit."""
         location, turn, _ = matrix_world.decompose()
         to_object = rotation_matrix(turn).T
         origin = -to_object @ np.array(location, np.float64) * unit
@@ -240,7 +240,7 @@ def density_from(obj: bpy.types.Object) -> str:
 
 
 def numbers(obj: bpy.types.Object) -> tuple[tuple[float, ...], ...] | None:
-    """The stored numbers as they are, in the order of LENGTHS; None where one is missing or is no finite number."""
+    """The stored numbers as they are, in the order of LENGTHS; None where one is missing or not finite."""
     values = []
     for key, length in LENGTHS.items():
         value = obj.get(key)

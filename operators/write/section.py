@@ -44,7 +44,7 @@ ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest of several values: what float32
 
 @dataclass(frozen=True, eq=False)
 class StoredSection:
-    """unit: metres per Blender unit when it was measured."""
+    """unit: meters per Blender unit when it was measured."""
 
     section: Section
     description: str

@@ -8,7 +8,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.density.polynomial import parse
+from body_moments.core.density.polynomial import parse_polynomial
 from body_moments.core.inertia.mass_properties import combine
 from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.operators.bodies.measure_object import measure_object
@@ -489,7 +489,7 @@ def test_a_negative_density_is_refused_with_its_place(text):
         measure(obj)
     values = caught.value.finding.values
     assert caught.value.finding.code == "density_negative" and values["density"] < 0.0 and values["frame"] == "object"
-    assert parse(text)(np.array([values["point"]]))[0] == pytest.approx(values["density"])
+    assert parse_polynomial(text)(np.array([values["point"]]))[0] == pytest.approx(values["density"])
 
 
 def test_a_density_that_only_may_be_negative_is_said_and_one_that_touches_zero_is_not():

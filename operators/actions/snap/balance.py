@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sculpt Balance: move chosen vertices least so that the center of mass comes over a point, "make it stand".
 
-Which vertices: the selected ones in Edit Mode, those of a vertex group in Object Mode, as willingly as their weights
+Which vertices: the selected ones in Edit Mode, those of a vertex group in Object Mode, as freely as their weights
 say. The change is made on the mesh itself and measured again, the way the object is always measured; where faces that
 are not flat were cut anew by it, it is found again for the new cut. What does not come there is put back.
 """
@@ -125,7 +125,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         )
         try:
             mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, self.group)
-            with paused():  # what is tried and put back is no edit
+            with paused():  # what is tried and restored is not an edit
                 findings = _balance_mesh(context, obj, mesh, balance_target, unit)
             obj.data.update_tag()  # for others that show the mesh it is one
         except MeasureError as error:
