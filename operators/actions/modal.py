@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
 from dataclasses import replace
 from time import perf_counter
 
@@ -25,6 +26,10 @@ class ModalSteps:
 
     PROGRESS: Finding
     CANCELED: Finding
+    _steps: Generator[float, None, None]
+
+    def _finish(self, context: Context) -> set[str]:
+        raise NotImplementedError
 
     def run_all_steps(self, context: Context, count: float) -> set[str]:
         """Every step, in one call of the operator. count: what the last step yields."""

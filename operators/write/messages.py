@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ...core.verdict.finding import MAX_STORED_ELEMENTS, Finding, Severity
+from ...core.verdict.finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity
 
 MAX_LISTED = MAX_STORED_ELEMENTS
 
@@ -57,7 +57,7 @@ def _item(item: Any) -> str:
     return "“{}”".format(item) if isinstance(item, str) else "{}".format(item)
 
 
-def truncate_list(items: Sequence[Any], count: int | None = None) -> str:
+def truncate_list(items: Elements, count: int | None = None) -> str:
     """The first items, names in quotation marks, and how many more there are. count: of all, where `items` are only the
     first of them."""
     shown = [_item(item) for item in items[:MAX_LISTED]]

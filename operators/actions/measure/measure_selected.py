@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator
 
 import bpy
 
@@ -53,7 +53,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         self._failures: list[Finding] = []
         self._steps = self._measure(_objects_to_measure(context), context.evaluated_depsgraph_get())
 
-    def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Iterator[int]:
+    def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Generator[int, None, None]:
         for done, obj in enumerate(objects, 1):
             try:
                 self._results.append((obj, measure_body(obj, depsgraph)))
