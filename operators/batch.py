@@ -48,7 +48,7 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
             options = arguments.parse(argv, file_needed)
     except SystemExit as ended:
         # the help, where it was asked for
-        return ended.code if _write_result(printed.getvalue(), None, channel) else INTERNAL_ERROR
+        return int(ended.code or ALL_MEASURED) if _write_result(printed.getvalue(), None, channel) else INTERNAL_ERROR
 
     from .command import results
     from .command.run import Run
@@ -161,6 +161,8 @@ def _load_package() -> None:
     """Make the add-on's folder the package PACKAGE, whatever it is called."""
     root = Path(__file__).resolve().parent.parent
     spec = importlib.util.spec_from_file_location(PACKAGE, root / "__init__.py", submodule_search_locations=[str(root)])
+    if spec is None or spec.loader is None:
+        raise ImportError(str(root))
     package = importlib.util.module_from_spec(spec)
     sys.modules[PACKAGE] = package
     spec.loader.exec_module(package)

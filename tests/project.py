@@ -7,7 +7,7 @@
     python tests/project.py build        build the extension's zip into dist/
     python tests/project.py benchmark    times and ratios against trimesh and libigl
     python tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
-    python tests/project.py lint         check the style
+    python tests/project.py lint         check the rules, the format and the types
 
 Each sets up what it needs in .envs/: one environment for each Blender that exists as a Python
 module, with the Python which that module is made for. Environments are used again until their
@@ -285,7 +285,7 @@ def run_tests(runner: Runner, python: Path, version: str, group: str, extra: lis
 
 
 def test(options: argparse.Namespace) -> int:
-    """Pass the tests: both Blenders side by side, then the window's alone, then the style."""
+    """Pass the tests: both Blenders side by side, then the window's alone, then what `lint` checks."""
     groups = options.only or GROUPS
     extra = [*options.pytest, *(["-k", options.k] if options.k else [])]
     runner, outcomes, left_out = Runner(), [], []
@@ -380,8 +380,14 @@ def tables(options: argparse.Namespace) -> int:
 
 
 def lint(options: argparse.Namespace) -> int:
+    """Check the rules, the format and the types: all three, whatever the first ones say."""
     python = prepare("lint", sys.executable, RUNNING, ["requirements-lint.txt"])
-    return show([python, "-m", "ruff", "check", "--no-cache", ROOT])
+    checks = (
+        ["ruff", "check", "--no-cache", ROOT],
+        ["ruff", "format", "--check", "--no-cache", ROOT],
+        ["basedpyright", "--project", ROOT / "pyproject.toml", "--pythonpath", python],
+    )
+    return int(any([show([python, "-m", *check]) for check in checks]))  # a list: none is skipped
 
 
 def main() -> int:
@@ -395,7 +401,7 @@ def main() -> int:
         (build, "build the extension's zip"),
         (benchmark, "times and ratios against trimesh and libigl"),
         (tables, "the paper's tables of trivariate densities beside ours"),
-        (lint, "check the style"),
+        (lint, "check the rules, the format and the types"),
     ):
         command = commands.add_parser(function.__name__, help=text)
         command.set_defaults(function=function)

@@ -92,7 +92,7 @@ class Patch:
 
     def side(self, axis: int, end: int) -> Curve:
         """Return the curve that bounds the patch where s (axis 0) or t (axis 1) is first (end 0) or last (end 1)."""
-        weigh = self.spaces[axis].end_weights[end]
+        weigh: NDArray[np.float64] = self.spaces[axis].end_weights[end]
         points, weights = self.points, self.weights
         if weights is None:
             return Curve(self.spaces[1 - axis], np.tensordot(weigh, points, (0, axis)))

@@ -10,18 +10,22 @@ it is caught.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
-
-if TYPE_CHECKING:  # the add-on's root imports this module where there is no numpy
-    from numpy.typing import NDArray
+from typing import Any, Protocol, TypeVar
 
 Item = TypeVar("Item")
-Elements: TypeAlias = "Sequence[Any] | NDArray[Any]"  # of a mesh: faces, or edges as pairs
 
 MAX_STORED_ELEMENTS = 8  # of a finding that is stored or is a value of another one: as many as a sentence names
+
+
+class Elements(Protocol):
+    """Of a mesh: a sequence or an array of faces, or of edges as pairs."""
+
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Any]: ...
+    def __getitem__(self, part: slice, /) -> Elements: ...
 
 
 class Severity(StrEnum):
@@ -51,7 +55,7 @@ class Finding:
         What the sentence is filled with: numbers, strings, booleans, lists of these, and findings as mappings with the
         keys ``code`` and ``values``. Everything is plain enough for JSON. ``sources`` names the objects whose surfaces
         the finding is about, where that is not simply the measured object.
-    elements : sequence
+    elements : sequence or array
         Mesh elements that it is about, in the input's numbers: faces as integers, edges as pairs of vertices.
 
     Examples

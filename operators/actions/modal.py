@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from time import perf_counter
@@ -52,6 +52,10 @@ class ModalSteps:
 
     PROGRESS: Finding
     CANCELED: Finding
+    _steps: Generator[float, None, None]
+
+    def _finish(self, context: Context) -> set[str]:
+        raise NotImplementedError
 
     def run_all_steps(self, context: Context, count: float) -> set[str]:
         """Every step, in one call of the operator. count: what the last step yields."""

@@ -6,7 +6,7 @@ one report a run.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 
 from bpy.types import Context, Object, Operator
 
@@ -60,7 +60,7 @@ def summarize(
 
 def iterate_objects(
     objects: Iterable[Object], action: Callable[[Object], Iterator[float] | None], failures: list[Finding]
-) -> Iterator[float]:
+) -> Generator[float, None, None]:
     """Run `action` on one object after the other: it does the work, or returns an iterator that does it in steps and
     yields its share that is done. Yields how many objects are done. Why an object was refused, or that the work on it
     failed, is added to `failures`: none of them ends the others.

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 
 import bpy
@@ -37,7 +37,7 @@ class ObjectTransform:
     factor: float
     findings: tuple[Finding, ...]
 
-    def steps(self) -> Iterator[float]:
+    def steps(self) -> Generator[float, None, None]:
         """Do the work. Yields the fraction done. Raises MeasureError."""
         try:
             yield from self.transform.steps()

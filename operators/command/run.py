@@ -240,8 +240,8 @@ class Run:
             shape = shape_of(obj, depsgraph, measure_options)
         except NoShapeError as refusal:
             return refusal.measurement, dict.fromkeys(requested), (refusal.finding,)
-        more = {"pose": shape.pose()} if self.options.pose else {}
-        findings = ()
+        more: dict[str, Any] = {"pose": shape.pose()} if self.options.pose else {}
+        findings: tuple[Finding, ...] = ()
         if self.options.signature and shape.has_surface:
             more["signature"] = shape.signature().as_record()
             if shape.measurement.method.source == Source.NURBS:

@@ -57,22 +57,22 @@ class InstanceCollector:
         self.materials, self.attribute, self.edges = materials, attribute, edges
         # A geometry set owns the meshes that it returns, and the keys are their addresses.
         self._owners: list[object] = []
-        self.collections: dict[object, None] = {}
+        self.collections: dict[bpy.types.Collection, None] = {}
         self._reset()
 
     def _reset(self) -> None:
         self.faceless = (0, 0)
         self.left_out: Counter[str] = Counter()
-        self.sources: dict[object, None] = {}
-        self.drawn: dict[object, None] = {}
+        self.sources: dict[bpy.types.Object, None] = {}
+        self.drawn: dict[bpy.types.Object, None] = {}
         self.vanished_count = 0
         self._surfaces: dict[Hashable, Surface] = {}
-        self.splines: dict[Hashable, SplineReading | None] = {}
+        self.splines: dict[bpy.types.Object, SplineReading | None] = {}
         self._attributes: dict[Hashable, FaceAttributes] = {}
         self._patches: dict[Hashable, SplineReading | None] = {}
         self._matrices: dict[Hashable, list[NDArray[np.float64]]] = {}
         self._names: dict[Hashable, str] = {}
-        self._path: list[object] = []
+        self._path: list[bpy.types.Object] = []
 
     def collect(self) -> None:
         """Read the root object and its instances."""
@@ -162,9 +162,9 @@ class InstanceCollector:
     def _add_instances(self, geometry, matrices: NDArray) -> bool:
         """Add what the geometry set instances at every place of it; whether there was anything."""
         cloud = geometry.instances_pointcloud()
-        count = len(cloud.points) if cloud is not None else 0
-        if not count:
+        if cloud is None or not len(cloud.points):
             return False
+        count = len(cloud.points)
         flat = np.empty(16 * count, np.float32)
         cloud.attributes["instance_transform"].data.foreach_get("value", flat)
         # Stored column by column.

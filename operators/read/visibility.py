@@ -12,6 +12,7 @@ evaluated because something shown needs it, is read rightly and said.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 from ...core.verdict.finding import Finding, ReadError, finding
 
@@ -152,11 +153,12 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
         (lambda layer: layer.collection.hide_viewport, "collection_disabled"),
         (lambda layer: layer.hide_viewport, "collection_hidden"),
     ):
-        blocking = [next(filter(blocks, path), None) for path in branches]
-        if all(blocking):
-            return finding(code, collection=blocking[0].collection.name)
-        reasons += [finding(code, collection=layer.collection.name) for layer in blocking if layer is not None]
-        barred |= {k for k, layer in enumerate(blocking) if layer is not None}
+        blocking = {k: layer for k, path in enumerate(branches) for layer in islice(filter(blocks, path), 1)}
+        named = [finding(code, collection=layer.collection.name) for layer in blocking.values()]
+        if len(blocking) == len(branches):
+            return named[0]
+        reasons += named
+        barred |= blocking.keys()
     if len(barred) == len(branches):
         return reasons[-1]  # one for each of its collections: the mildest
     if obj.hide_get(view_layer=depsgraph.view_layer):

@@ -141,8 +141,8 @@ def _volume(obj, depsgraph):
 class _OwnedVolume:
     """A volume with the geometry set that may own it."""
 
-    geometry: object
-    data: object
+    geometry: bpy.types.GeometrySet
+    data: bpy.types.Volume
 
 
 def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):

@@ -26,7 +26,7 @@ import bpy
 from bpy.types import Context, Depsgraph, Object, Scene
 
 from ..read.fingerprint import VERSION, matrix_hash, scale_hash, settings_hash, shape_digest
-from ..read.quiet import is_paused, paused
+from ..read.quiet import paused
 from . import handlers, marks
 from .affected import instancing_objects, volume_filled_objects
 from .cache import SessionCache
@@ -208,7 +208,7 @@ def _set_edited(obj: Object, mark: str, is_edited: bool) -> None:
 
 def _note_updates(updates: handlers.Updates) -> None:
     global _undo_pending
-    if is_paused():
+    if paused.depth:
         return
     undone, _undo_pending = _undo_pending, False
     if not (updates.reshaped or updates.moved or updates.collections):

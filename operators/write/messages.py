@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ...core.verdict.finding import MAX_STORED_ELEMENTS, Finding, Severity, truncate
+from ...core.verdict.finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
 from ...core.verdict.method import Method, Verdict
 
 MAX_LISTED = MAX_STORED_ELEMENTS
@@ -58,7 +58,7 @@ def _item(item: Any) -> str:
     return "“{}”".format(item) if isinstance(item, str) else "{}".format(item)
 
 
-def truncate_list(items: Sequence[Any], count: int | None = None, translate: Callable[[str], str] = str) -> str:
+def truncate_list(items: Elements, count: int | None = None, translate: Callable[[str], str] = str) -> str:
     """Write the first items of a list, names in quotation marks, and how many more there are.
 
     Parameters

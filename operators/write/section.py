@@ -119,7 +119,8 @@ def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -
         np.array(values["centroid"]),
         np.array(values["second"]),
         np.array(values["reach"]),
-        *map(int, values["counts"]),
+        int(values["counts"][0]),
+        int(values["counts"][1]),
         dict(zip(BOUND_KEYS, values["error"])),
         dict(zip(BOUND_KEYS, values["input"])),
     )

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator
 
 import bpy
 
@@ -52,7 +52,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         self._steps = self._measure(objects, context.evaluated_depsgraph_get())
         return len(objects)
 
-    def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Iterator[int]:
+    def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Generator[int, None, None]:
         for done, obj in enumerate(objects, 1):
             try:
                 self._results.append((obj, measure_body(obj, depsgraph)))

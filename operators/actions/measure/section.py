@@ -150,6 +150,8 @@ class OBJECT_OT_body_moments_copy_section(Operator):
     def execute(self, context: Context) -> set[str]:
         obj = context.object
         stored = record.stored(obj)
+        if stored is None:
+            return {"CANCELLED"}
         code = stale_reason(obj, context.scene, stored)
         text = record.text(obj.name, stored, None if code is None else Finding(code))
         copy_text(self, context, text, finding("section_copied", object=obj.name))

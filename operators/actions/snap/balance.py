@@ -151,7 +151,8 @@ def _horizontal_directions(scene: bpy.types.Scene) -> NDArray[np.float64]:
     if not down.any():
         down = np.array((0.0, 0.0, -1.0))
     down /= np.linalg.norm(down)
-    side = np.cross(down, np.eye(3)[np.argmin(np.abs(down))])
+    farthest: NDArray[np.float64] = np.eye(3)[np.argmin(np.abs(down))]
+    side = np.cross(down, farthest)
     side /= np.linalg.norm(side)
     return np.array([side, np.cross(down, side)])
 
