@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, Finding, finding
+from .limits import DEFAULT_LIMITS, Limits
 from .nifti import read_nifti
 from .nrrd import read_nrrd
 from .numpy_files import read_named_raw, read_npy, read_npz
@@ -35,8 +36,9 @@ def scan_suffix(path: str | Path) -> str:
     return next((end for end in sorted(SUFFIXES, key=len, reverse=True) if name.endswith(end)), "")
 
 
-def read_scan(path: str | Path) -> Scan:
-    """The scan in a file, by its suffix. FileError where it is none or damaged, OSError where it cannot be opened."""
+def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
+    """The scan in a file, by its suffix. FileError where it is none, damaged or beyond a limit, OSError where it cannot
+    be opened."""
     path = Path(path)
     read = READERS.get(scan_suffix(path))
     if read is None:
@@ -46,9 +48,10 @@ def read_scan(path: str | Path) -> Scan:
     with open(path, "rb"):
         pass  # where it cannot be opened this says why; what reads it would take it for damaged
     try:
-        scan = read(path)
+        scan = read(path, limits)
     except MemoryError as error:
         raise FileError("scan_out_of_memory") from error
+    limits.check(path, "samples", scan.samples.size)
     if not np.isfinite(scan.matrix).all() or not abs(np.linalg.det(scan.matrix[:3, :3])) > 0.0:
         raise FileError("scan_placement")
     if not (math.isfinite(scan.slope) and math.isfinite(scan.intercept)):

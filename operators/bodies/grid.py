@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -47,16 +47,18 @@ def density_body(
     findings: tuple[Finding, ...] = (),
     slope: float = 1.0,
     intercept: float = 0.0,
+    progress: Callable[[int], None] = lambda samples: None,
 ) -> MeasuredBody:
     """The body of samples at matrix @ (i, j, k, 1), in metres, that stand for slope · sample + intercept.
 
-    background: a value that counts as empty.
+    background: a value that counts as empty. progress: called with how many samples are about to be read.
     """
     if min(shape) < 1:
         raise ReadError("grid_empty")
     weigh = options.to_densities(background)
 
     def densities(block: NDArray) -> NDArray[np.float64]:
+        progress(block.size)
         return weigh(block if slope == 1.0 and intercept == 0.0 else block * slope + intercept)
 
     mass = grid_moments(samples, shape, matrix, options.spline_order, value=densities)

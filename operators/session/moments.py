@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections import OrderedDict
 from dataclasses import dataclass
 from functools import lru_cache
@@ -22,6 +23,7 @@ from ...core.moments.moments import Moments, monomial_count, monomials
 from ...core.moments.normalized import normalize
 from ...core.verdict.finding import Finding, MeasureError, ReadError
 from ..read.fingerprint import matrix_hash, settings_hash
+from ..write.terminal import visible
 from ..write.units import number
 from . import staleness
 
@@ -157,7 +159,7 @@ def as_csv(computed: ComputedMoments, of: str, about: str, frame: str) -> str:
     text = io.StringIO()
     text.write(
         "# {:s}: {:s} moments, {:s} frame, {:s}\n".format(
-            computed.name,
+            re.sub("[,;]", " ", visible(computed.name)),  # or what follows would be a cell of its own
             of.lower(),
             frame.lower(),
             {

@@ -22,6 +22,7 @@ from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from . import properties
 from .messages import HEALTH, METHODS
 from .record import TENSOR, described, document, plain
+from .terminal import visible
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
 DIGITS = 7  # as many as float32 coordinates carry
@@ -69,7 +70,7 @@ def text(document: dict[str, Any]) -> str:
         lines += [
             "{}{}: {}".format(INDENT, failure["name"] or "File", failure["reason"]) for failure in document["errors"]
         ]
-    return "\n".join(lines) + "\n"
+    return "".join(visible(line) + "\n" for line in lines)
 
 
 def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
