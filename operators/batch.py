@@ -138,6 +138,9 @@ def _run_script() -> None:
         # Not by the table of messages, which cannot be imported either where numpy is missing.
         sys.stderr.write("body_moments: {}. Install it, or use Blender.\n".format(error))
         code = WRONG_USAGE
+    except KeyboardInterrupt:
+        sys.stderr.write("body_moments: interrupted\n")
+        code = INTERRUPTED
     except Exception:
         traceback.print_exc()
         code = INTERNAL_ERROR

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import math
 import os
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -69,6 +70,8 @@ def _check_target(option: str, target: Path | None, parser: argparse.ArgumentPar
         parser.error(str(finding("usage_folder_missing", option=option, folder=str(target.parent))))
     if target.is_dir():
         parser.error(str(finding("usage_is_folder", option=option, path=str(target))))
+    with suppress(FileNotFoundError):
+        os.stat(target)
     folder = Path(os.path.realpath(target)).parent
     if not (target.exists() and not target.is_file() or os.access(folder, os.W_OK)):
         parser.error(str(finding("usage_folder_read_only", option=option, folder=str(folder))))

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from ...core.verdict.finding import finding
 from ..write.terminal import tell
 
-PERIOD = 10.0  # seconds between reports of progress
+PERIOD = 5.0  # seconds between reports of progress
 
 _requested = False
 

@@ -17,7 +17,7 @@ _ALLOW = {"-y": True, "--enable-autoexec": True, "-Y": False, "--disable-autoexe
 def scripts_of_open_file() -> Iterator[Finding]:
     """A finding where Blender was allowed to run scripts and the open file has some."""
     if bpy.data.filepath and _allowed(sys.argv):
-        names = [*_texts(), *_drivers()]
+        names = [*dict.fromkeys((*_texts(), *_drivers()))]
         if names:
             yield finding("scripts_allowed", names=names)
 
