@@ -25,7 +25,7 @@ from contextlib import redirect_stdout, suppress
 from pathlib import Path
 
 PACKAGE = "body_moments"  # the add-on's name when this file is run as a script
-ALL_MEASURED, SOME_FAILED, WRONG_USAGE, INTERNAL_ERROR = 0, 1, 2, 70
+ALL_MEASURED, SOME_FAILED, WRONG_USAGE, INTERRUPTED, INTERNAL_ERROR = 0, 1, 2, 3, 70
 
 _command = None
 
@@ -37,9 +37,26 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     standard output, which nothing else in this process reaches from then on. file_needed: whether
     no file can be open.
     """
-    from .command import arguments, output, similar
+    from ..core.verdict.finding import finding
+    from .command import interruption, output
+    from .write.terminal import tell
 
     channel = output.claim_stdout() if channel is None else channel
+    try:
+        with interruption.interruptible():
+            return _answer(argv, channel, file_needed)
+    except KeyboardInterrupt:
+        tell(finding("interrupted"))
+        return INTERRUPTED
+    except Exception:
+        traceback.print_exc()
+        return INTERNAL_ERROR
+
+
+def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
+    """Do what is asked for, and return the exit code."""
+    from .command import arguments, similar
+
     printed = io.StringIO()
     try:
         with redirect_stdout(printed):
@@ -48,52 +65,47 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
             options = arguments.parse(argv, file_needed)
     except SystemExit as ended:
         # the help, where it was asked for
-        return int(ended.code or ALL_MEASURED) if _write_result(printed.getvalue(), None, channel) else INTERNAL_ERROR
+        return int(ended.code or ALL_MEASURED) if _write_result(printed.getvalue(), None, channel) else SOME_FAILED
 
     from .command import results
     from .command.run import Run
     from .write.record import FORMATS
 
     run = Run(options)
-    try:
-        run.measure()
-        text = FORMATS[options.format](run.documents)
-    except Exception:
-        traceback.print_exc()
-        return INTERNAL_ERROR
+    run.measure()
+    text = FORMATS[options.format](run.documents)
     check = results.guard("output", options.output in options.forced)
-    if not _write_result(text, options.output, channel, check) or run.internal_errors:
+    is_written = _write_result(text, options.output, channel, check)
+    if run.internal_errors:
         return INTERNAL_ERROR
-    return SOME_FAILED if run.errors else ALL_MEASURED
+    return SOME_FAILED if run.errors or not is_written else ALL_MEASURED
 
 
 def _similar(options, channel: int) -> int:
     """Compare what was measured, and print the nearest."""
     from ..core.verdict.finding import MeasureError
     from .command import similar
+    from .write.terminal import tell
 
     try:
         text, failures = similar.answer(options)
     except MeasureError as error:
-        sys.stderr.write("body_moments: {}\n".format(error))
+        tell(error)
         return WRONG_USAGE
-    except Exception:
-        traceback.print_exc()
-        return INTERNAL_ERROR
-    if not _write_result(text, None, channel):
-        return INTERNAL_ERROR
-    return SOME_FAILED if failures else ALL_MEASURED
+    is_written = _write_result(text, None, channel)
+    return SOME_FAILED if failures or not is_written else ALL_MEASURED
 
 
 def _write_result(text: str, path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> bool:
     """Whether a result could be written; the reason goes to the standard error where it could not."""
     from ..core.verdict.finding import finding
     from .command import output
+    from .write.terminal import tell
 
     try:
         output.write(text, path, channel, check)
     except OSError as error:
-        sys.stderr.write("body_moments: {}\n".format(finding("usage_result_not_written", error=str(error))))
+        tell(finding("usage_result_not_written", error=error.strerror or str(error)))
         return False
     return True
 
@@ -126,6 +138,9 @@ def _run_script() -> None:
         # Not by the table of messages, which cannot be imported either where numpy is missing.
         sys.stderr.write("body_moments: {}. Install it, or use Blender.\n".format(error))
         code = WRONG_USAGE
+    except KeyboardInterrupt:
+        sys.stderr.write("body_moments: interrupted\n")
+        code = INTERRUPTED
     except Exception:
         traceback.print_exc()
         code = INTERNAL_ERROR

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, Finding, finding
+from .limits import DEFAULT_LIMITS, Limits
 from .nifti import read_nifti
 from .nrrd import read_nrrd
 from .numpy_files import read_named_raw, read_npy, read_npz
@@ -51,12 +52,14 @@ def scan_suffix(path: str | Path) -> str:
     return next((end for end in sorted(SUFFIXES, key=len, reverse=True) if name.endswith(end)), "")
 
 
-def read_scan(path: str | Path) -> Scan:
+def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     """Read the scan in a file, by its suffix: NRRD, NIfTI-1, .npy, .npz, or .raw called NAME_XxYxZ_TYPE.raw.
 
     Parameters
     ----------
     path : str or Path
+    limits : Limits
+        What its header may ask for.
 
     Returns
     -------
@@ -66,7 +69,7 @@ def read_scan(path: str | Path) -> Scan:
     Raises
     ------
     FileError
-        If the file is no scan, or damaged.
+        If the file is no scan, damaged or beyond a limit.
     OSError
         If it cannot be opened.
 
@@ -90,9 +93,10 @@ def read_scan(path: str | Path) -> Scan:
     with open(path, "rb"):
         pass  # where it cannot be opened this says why; what reads it would take it for damaged
     try:
-        scan = read(path)
+        scan = read(path, limits)
     except MemoryError as error:
         raise FileError("scan_out_of_memory") from error
+    limits.check(path, "samples", scan.samples.size)
     if not np.isfinite(scan.matrix).all() or not abs(np.linalg.det(scan.matrix[:3, :3])) > 0.0:
         raise FileError("scan_placement")
     if not (math.isfinite(scan.slope) and math.isfinite(scan.intercept)):

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import FileError
+from .limits import Limits
 from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samples
 
 HEADER = 348  # bytes
@@ -23,7 +24,7 @@ ByteOrder: TypeAlias = Literal["<", ">"]
 BYTE_ORDERS: tuple[ByteOrder, ...] = ("<", ">")
 
 
-def read_nifti(path: Path) -> Scan:
+def read_nifti(path: Path, limits: Limits) -> Scan:
     """The scan, mapped where it is not packed."""
     packed = path.name.lower().endswith(".gz")
     head = _head(path, packed)
@@ -50,9 +51,10 @@ def read_nifti(path: Path) -> Scan:
     if not 348.0 <= offset < 1 << 40 or offset != int(offset):
         raise FileError("nifti_offset", offset=offset)
     matrix, placed = _sample_matrix(head, order)
-    samples = (
-        unpack_samples(path, 0, dtype, shape, int(offset)) if packed else map_samples(path, dtype, shape, int(offset))
-    )
+    if packed:
+        samples = unpack_samples(path, 0, dtype, shape, int(offset), limits)
+    else:
+        samples = map_samples(path, dtype, shape, int(offset))
     if slope == 0.0:  # by the standard: not scaled
         slope, intercept = 1.0, 0.0
     return Scan(samples, matrix, UNITS.get(head[123] & 7), placed, slope, intercept)

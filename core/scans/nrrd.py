@@ -6,16 +6,18 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError
+from .limits import Limits
 from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
 
-MAX_HEADER_BYTES = 1 << 20  # bytes of a header, at most
+HEADER_BLOCK = 1 << 16  # bytes of a header that are read at a time
+MAX_AXES = 16
 UNITS = {
     "m": 1.0,
     "meter": 1.0,
@@ -46,15 +48,29 @@ TYPES = {
     }.items()
     for name in names.split(",")
 }
+_HEADER_END = re.compile(rb"\r?\n\r?\n")
 
 
-def read_nrrd(path: Path) -> Scan:
+def read_nrrd(path: Path, limits: Limits) -> Scan:
     """The scan, mapped where it is raw."""
+    fields, start = read_header(path, limits)
+    return _nrrd(path, fields, start, limits)
+
+
+def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
+    """The fields by their names in lower case, and where the samples begin; None where the file ends before. FileError
+    where it is no NRRD file, or the header has no end within the limit."""
+    head, end = bytearray(), None
     with open(path, "rb") as file:
-        head = file.read(MAX_HEADER_BYTES)
-    if not re.match(rb"NRRD000[1-5]\r?\n", head):
+        while not end and (block := file.read(HEADER_BLOCK)):
+            seen = max(0, len(head) - 3)
+            head += block
+            if not re.match(rb"NRRD000[1-5]\r?\n", head):
+                raise FileError("nrrd_unrecognized")
+            end = _HEADER_END.search(head, seen)
+            limits.check(path, "header_bytes", end.end() if end else len(head))
+    if not head:
         raise FileError("nrrd_unrecognized")
-    end = re.search(rb"\r?\n\r?\n", head)
     fields = {}
     text = head[: end.start() if end else len(head)].decode("latin-1")
     for line in text.splitlines()[1:]:
@@ -63,10 +79,15 @@ def read_nrrd(path: Path) -> Scan:
         name, colon, value = line.partition(":")
         if colon:
             fields[name.strip().lower()] = value.strip()
-    return _nrrd(path, fields, end.end() if end else None)
+    return fields, end.end() if end else None
 
 
-def _nrrd(path: Path, fields: dict[str, str], start: int | None) -> Scan:
+def data_file(fields: dict[str, str]) -> str | None:
+    """The name of the file that has the samples, where it is another one."""
+    return fields.get("data file", fields.get("datafile"))
+
+
+def _nrrd(path: Path, fields: dict[str, str], start: int | None, limits: Limits) -> Scan:
     def needed(name: str) -> str:
         if name not in fields:
             raise FileError("nrrd_field_missing", field=name)
@@ -95,22 +116,24 @@ def _nrrd(path: Path, fields: dict[str, str], start: int | None) -> Scan:
         _single_value(numbers(name, int, "0"), name)
         for name in (_alias(fields, "line skip"), _alias(fields, "byte skip"))
     )
-    source, name = path, fields.get("data file", fields.get("datafile"))
+    source, name = path, data_file(fields)
     if name is not None:
         if name.upper().startswith("LIST") or "%" in name or len(name.split()) > 3:
             raise FileError("nrrd_several_files")
         source, start = path.parent / name, 0
         if not source.is_file():
             raise FileError("nrrd_data_file_missing", file=name)
+        if not (limits.allow_outside or source.resolve().is_relative_to(path.parent.resolve())):
+            raise FileError("nrrd_data_file_outside", file=name)
     elif start is None:
         raise FileError("nrrd_header_unended")
     if line_skip:
-        start = _skip_lines(source, start, line_skip)
+        start = _skip_lines(source, start, line_skip, limits)
     encoding = needed("encoding").lower()
     if encoding == "raw":
         samples = map_samples(source, dtype, shape, start + max(byte_skip, 0), from_end=byte_skip == -1)
     elif encoding in ("gzip", "gz"):
-        samples = unpack_samples(source, start, dtype, shape, byte_skip)
+        samples = unpack_samples(source, start, dtype, shape, byte_skip, limits)
     else:
         raise FileError("nrrd_encoding", encoding=encoding)
     return Scan(samples, matrix, unit, placed)
@@ -127,11 +150,11 @@ def _alias(fields: dict[str, str], name: str) -> str:
     return name if name in fields else name.replace(" ", "")
 
 
-def _skip_lines(path: Path, start: int, count: int) -> int:
+def _skip_lines(path: Path, start: int, count: int, limits: Limits) -> int:
     with open(path, "rb") as file:
         file.seek(start)
         for _ in range(count):
-            if not file.readline(MAX_HEADER_BYTES).endswith(b"\n"):
+            if not file.readline(limits.header_bytes).endswith(b"\n"):
                 raise damaged(path, "damage_lines")
         return file.tell()
 
@@ -145,10 +168,7 @@ def _sample_matrix(
     units = {UNITS.get(word.strip().lower()) for word in words[:3]}
     unit = units.pop() if len(units) == 1 else None
     if "space directions" in fields:
-        directions = [
-            _vector(text, "space directions") for text in re.findall(r"\([^)]*\)|none", fields["space directions"])
-        ]
-        directions = [row for row in directions if row is not None]
+        directions = [row for row in _vectors(fields["space directions"], "space directions") if row is not None]
         if len(directions) != 3:
             raise FileError("nrrd_space_directions")
         matrix[:3, :3] = np.array(directions).T
@@ -167,11 +187,23 @@ def _sample_matrix(
     return matrix, bool(spacings), unit
 
 
+def _vectors(text: str, name: str) -> Iterator[list[float] | None]:
+    """Vectors in parentheses, with “none” between them. Each character is looked at once."""
+    rest = text.strip()
+    for _ in range(MAX_AXES):
+        vector, end, rest = rest.partition("none" if rest.startswith("none") else ")")
+        yield _vector(vector + end, name)
+        rest = rest.lstrip()
+        if not rest:
+            return
+    raise FileError("nrrd_vector", field=name, text=text)
+
+
 def _vector(text: str, name: str) -> list[float] | None:
     if text == "none":
         return None
     try:
-        row = [float(word) for word in text.strip().strip("()").split(",")]
+        row = [float(word) for word in text[1:-1].split(",", 3)] if text[0] + text[-1] == "()" else []
     except ValueError:
         row = []
     if len(row) != 3 or not np.isfinite(row).all():

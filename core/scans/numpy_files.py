@@ -11,43 +11,56 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, finding
+from .limits import DEFAULT_LIMITS, Limits
 from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
 
 TYPES = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float32", "float64")
 ENTRY = b"PK\1\2"  # how an entry of a zip archive's directory begins
+MAX_ARRAY_HEADER = 10_000  # bytes, as for numpy.load
 
 
-def read_npy(path: Path) -> Scan:
+def read_npy(path: Path, _limits: Limits) -> Scan:
     """The array, mapped."""
+    return Scan(real_samples(map_array(path)), np.eye(4))
+
+
+def map_array(path: Path) -> NDArray:
+    """The array of any shape and type but objects, mapped. FileError where the file is not just that, OSError where it
+    cannot be opened."""
+    with open(path, "rb") as file:
+        start = file.read(12)
     try:
+        _check_array_header(start)
         array = np.lib.format.open_memmap(path, mode="r")
     except MemoryError:
         raise
     except Exception as error:  # of a damaged header NumPy evaluates what it finds, and may raise anything
         raise damaged(path, "damage_array") from error
-    real_samples(array)
     check_length(path, path.stat().st_size - array.offset, array.nbytes)
-    return Scan(array, np.eye(4))
+    return array
 
 
-def read_npz(path: Path) -> Scan:
+def read_npz(path: Path, limits: Limits) -> Scan:
     """The array called “density”, else the first of three dimensions. It is read to the end of its entry, where
     zipfile compares the checksum; of the others the headers alone are read."""
     array = None
     try:
         with zipfile.ZipFile(path) as archive:
             entries = archive.infolist()
+            limits.check(path, "entries", len(entries))
             if any(ENTRY in entry.comment + entry.extra for entry in entries):
                 raise zipfile.BadZipFile("overlapping entries")  # by a wrong length
             heads = {entry.filename: _npz_header(archive, entry) for entry in entries}
             volumes = [name.removesuffix(".npy") for name, shape in heads.items() if len(shape) == 3]
             name = "density" if "density" in volumes else volumes[0] if volumes else None
             if name:
+                limits.check(path, "unpacked_bytes", archive.getinfo(name + ".npy").file_size)
                 with archive.open(name + ".npy") as file:
                     array = np.lib.format.read_array(file, allow_pickle=False)
-    except MemoryError:
+    except (MemoryError, FileError):
         raise
     except zipfile.BadZipFile as error:
         raise damaged(path, "damage_archive", error=str(error).rstrip(".")) from error
@@ -60,9 +73,17 @@ def read_npz(path: Path) -> Scan:
     return Scan(real_samples(array), np.eye(4), findings=findings)
 
 
+def _check_array_header(start: bytes) -> None:
+    """NumPy reads a header of gigabytes before it refuses it. Raises ValueError."""
+    length = start[8 : 10 if start[6:7] == b"\1" else 12]
+    if int.from_bytes(length, "little") > MAX_ARRAY_HEADER:
+        raise ValueError("length of header")
+
+
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
     """The shape of an array in an archive, which must fill its entry: beyond the array no checksum would be reached."""
     with archive.open(entry) as file:
+        _check_array_header(file.peek(12))
         version = np.lib.format.read_magic(file)
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
         shape, _, dtype = read(file)
@@ -71,17 +92,21 @@ def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, 
     return shape
 
 
-def read_raw(path: str | Path, shape: Sequence[int], dtype: str, big_endian: bool = False) -> Scan:
+def read_raw(
+    path: str | Path, shape: Sequence[int], dtype: str, big_endian: bool = False, limits: Limits = DEFAULT_LIMITS
+) -> Scan:
     """Samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of TYPES."""
     if dtype not in TYPES:
         raise FileError("raw_type_unknown", type=dtype, types=", ".join(TYPES))
     kind = np.dtype(dtype).newbyteorder(">" if big_endian else "<")
-    return Scan(map_samples(Path(path), kind, shape_of(shape), 0), np.eye(4))
+    shape = shape_of(shape)
+    limits.check(Path(path), "samples", math.prod(shape))
+    return Scan(map_samples(Path(path), kind, shape, 0), np.eye(4))
 
 
-def read_named_raw(path: Path) -> Scan:
+def read_named_raw(path: Path, limits: Limits) -> Scan:
     """A raw file that is called NAME_XxYxZ_TYPE.raw, as those of the Open SciVis collection are."""
     layout = re.search(r"_(\d+)x(\d+)x(\d+)_({:s})\.raw$".format("|".join(TYPES)), path.name, re.IGNORECASE)
     if not layout:
         raise FileError("raw_without_layout")
-    return read_raw(path, [int(size[:20]) for size in layout.groups()[:3]], layout[4].lower())
+    return read_raw(path, [int(size[:20]) for size in layout.groups()[:3]], layout[4].lower(), limits=limits)

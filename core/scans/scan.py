@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, Finding, finding
+from .limits import Limits
 
 MAX_GZIP_RATIO = 1032  # bytes that a byte of a gzip file can hold, at most
 PACKED = 1 << 16  # bytes that are unpacked at a time: what a small member leaves of them is copied
@@ -66,10 +67,10 @@ class Scan:
 def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
     """Three positive sizes; more only where they are 1."""
     sizes = tuple(int(size) for size in sizes)
-    while len(sizes) > 3 and sizes[-1] == 1:
-        sizes = sizes[:-1]
-    if len(sizes) != 3:
-        raise FileError("scan_dimensions", dimensions=len(sizes))
+    dimensions = max((number for number, size in enumerate(sizes, 1) if number <= 3 or size != 1), default=0)
+    if dimensions != 3:
+        raise FileError("scan_dimensions", dimensions=dimensions)
+    sizes = sizes[:3]
     if min(sizes) < 1 or max(sizes) > 1 << 40 or math.prod(sizes) > 1 << 48:
         raise FileError("scan_size", samples=list(sizes))
     return sizes
@@ -112,7 +113,9 @@ def map_samples(
     return np.memmap(path, dtype, "r", offset, shape, "F")
 
 
-def unpack_samples(path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int) -> NDArray:
+def unpack_samples(
+    path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int, limits: Limits
+) -> NDArray:
     """Samples that are compressed by gzip from byte `start` of the file on, x fastest; skip: unpacked bytes before.
 
     They are read to the end of the file, for the checksum stands behind them; see `gzip_blocks`."""
@@ -121,6 +124,7 @@ def unpack_samples(path: Path, start: int, dtype: np.dtype, shape: tuple[int, in
         raise FileError("nrrd_skip_from_end")
     if skip + byte_count > MAX_GZIP_RATIO * path.stat().st_size:
         raise damaged(path, "damage_too_small", samples=list(shape))
+    limits.check(path, "unpacked_bytes", skip + byte_count)
     samples = np.empty(byte_count, np.uint8)
     begin = -skip  # where a block stands among the samples
     for block in gzip_blocks(path, start):

@@ -6,7 +6,7 @@ them."""
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -17,6 +17,7 @@ from .signature import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
 # signatures nearer than this are one shape's: some float32 steps, and no more than a careless export
 SAME_SHAPE_DISTANCE = 1e-4
 SAME_SIZE_RTOL = 1e-4
+MAX_LINE_BYTES = 1 << 28
 
 
 class Similarity(StrEnum):
@@ -86,13 +87,13 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
     ([], 'record_without_signature')
     """
     entries, missing = [], []
-    for number, line in enumerate(path.read_bytes().split(b"\n"), 1):
+    for number, line in enumerate(_lines(path), 1):
         if not line.strip():
             continue
         try:
             document = json.loads(line)
             records = [dict(record) for record in document["objects"]]
-        except (ValueError, KeyError, TypeError) as error:
+        except (ValueError, KeyError, TypeError, RecursionError) as error:
             raise FileError("library_line", file=path.name, line=number) from error
         for record in records:
             name, file = str(record.get("name")), str(document.get("file") or "")
@@ -103,6 +104,16 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
                 label = _label(file, name)
                 missing.append(finding("record_without_shape" if shapeless else "record_without_signature", name=label))
     return entries, missing
+
+
+def _lines(path: Path) -> Iterator[bytes]:
+    with open(path, "rb") as file:
+        number = 0
+        while line := file.readline(MAX_LINE_BYTES + 1):
+            number += 1
+            if len(line) > MAX_LINE_BYTES:
+                raise FileError("library_line_too_long", file=path.name, line=number, limit=MAX_LINE_BYTES)
+            yield line
 
 
 def rank(

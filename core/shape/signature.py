@@ -43,6 +43,8 @@ COUPLED_ORDER = 4  # of the moments that are coupled in threes
 CHIRAL_ORDER = 6
 FREQUENCIES = np.arange(1.0, 13.0)  # what orders to 20 resolve to a millionth
 MAX_SIMILAR_DIFFERENCE = 0.1  # beyond this nobody would call two shapes similar
+MAX_SIZE = 1e150  # meters; the ratio of two sizes is still a number
+MAX_DESCRIPTOR = 1e100  # whose square is still a number
 MIN_CHIRALITY = 1e-11  # a chirality below this is rounding
 CHIRALITY_NOISE_FACTOR = 10.0  # by the difference of two shapes: what noise that makes it may make of chiralities
 # chiralities whose difference is less than this share of their sum, or the reverse, decide the hand
@@ -101,9 +103,10 @@ class Signature:
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError("signature_unrecognized") from error
         if not (
-            np.isfinite(np.concatenate(arrays)).all()
-            and result.size > 0.0
+            (np.abs(np.concatenate(arrays)) < MAX_DESCRIPTOR).all()  # not where one is NaN
+            and 1.0 / MAX_SIZE < result.size < MAX_SIZE
             and len(result.zernike)
+            and len(result.invariants) == 2 + len(_pairs()) + len(_even_triples())
             and len(result.chirality) == len(_chiral_triples())
         ):
             raise FileError("signature_incomplete")

@@ -11,17 +11,20 @@ import traceback
 
 from .finding import Finding, MeasureError, finding
 
+CODE = "internal_error"
 PACKAGE = __name__.removesuffix("core.verdict.internal_error")
 
 
 def finding_of(error: Exception) -> Finding:
-    """What to report of an exception: the finding of a refusal; else that this program failed, how and where, after its
-    traceback has gone to the console."""
+    """What to report of an exception: the finding of a refusal; that there is too little memory; else that this program
+    failed, how and where, after its traceback has gone to the console."""
     if isinstance(error, MeasureError):
         return error.finding
+    if isinstance(error, MemoryError):
+        return finding("out_of_memory")
     traceback.print_exception(error)
     message = " ".join(str(error).split()).removesuffix(".") or "-"
-    return finding("internal_error", type=type(error).__name__, error=message, where=_where(error))
+    return finding(CODE, type=type(error).__name__, error=message, where=_where(error))
 
 
 def _where(error: Exception) -> str:

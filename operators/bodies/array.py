@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...core.measurement import Measurement
 from ...core.scans.formats import read_scan, sample_matrix
+from ...core.scans.limits import DEFAULT_LIMITS, Limits
 from ...core.verdict.finding import MeasureError, ReadError, finding
 from ..read import Reading
 from ..settings.grid import GridOptions
@@ -23,21 +24,29 @@ from .request import Request
 @dataclass(frozen=True)
 class ArrayOptions:
     """spacing, origin: (x, y, z) in place of the file's own; unit_scale: metres per unit where the file has none;
-    density_scale: kg/m³ where a sample is 1."""
+    density_scale: kg/m³ where a sample is 1; limits: of what the file may ask for."""
 
     spacing: Sequence[float] | None = None
     origin: Sequence[float] | None = None
     spline_order: int = 1
     density_scale: float = 1.0
     unit_scale: float | None = None
+    limits: Limits = DEFAULT_LIMITS
 
 
-def measure_array(path: str, name: str, array: ArrayOptions, options: MeasureOptions) -> Measurement:
-    """The mass properties of the samples in a file. Raises MeasureError."""
+def measure_array(
+    path: str,
+    name: str,
+    array: ArrayOptions,
+    options: MeasureOptions,
+    progress: Callable[[int], None] = lambda samples: None,
+) -> Measurement:
+    """The mass properties of the samples in a file. progress: called with how many samples have been read since the
+    last time. Raises MeasureError."""
     if options.kind == "shell":
         raise ReadError("grid_as_shell", subject=name)
     try:
-        scan = read_scan(path)
+        scan = read_scan(path, array.limits)
         matrix, findings = sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
         grid = GridOptions(
             value_density=array.density_scale, spline_order=array.spline_order, negative="array_negative"
@@ -47,7 +56,8 @@ def measure_array(path: str, name: str, array: ArrayOptions, options: MeasureOpt
         findings = (*scan.findings, *findings, density)
         if options.density is not None:
             findings += (finding("given_density_ignored"),)
-        samples = density_body(scan.samples, shape, matrix, grid, None, findings, scan.slope, scan.intercept)
+        scale = scan.slope, scan.intercept
+        samples = density_body(scan.samples, shape, matrix, grid, None, findings, *scale, progress)
         reading = Reading(name, "ARRAY", np.eye(4), np.eye(3), np.zeros(3))
         used = replace(options, kind="solid", density=None, thickness=0.0, overlap="signed", wall="thin")
         body = replace(samples, density_from=finding("density_from_samples"), density_key=repr(grid.key))

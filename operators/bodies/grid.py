@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import ClassVar
@@ -134,15 +134,21 @@ def density_body(
     findings: tuple[Finding, ...] = (),
     slope: float = 1.0,
     intercept: float = 0.0,
+    progress: Callable[[int], None] = lambda samples: None,
 ) -> GridBody:
     """The body of samples at matrix @ (i, j, k, 1), in metres, that stand for slope · sample + intercept.
 
-    background: a value that counts as empty.
+    background: a value that counts as empty. progress: called with how many samples are about to be read.
     """
     if min(shape) < 1:
         raise ReadError("grid_empty")
     weigh = _Weights(options, background, slope, intercept)
-    mass = grid_moments(samples, shape, matrix, options.spline_order, value=weigh.densities)
+
+    def densities(block: NDArray) -> NDArray[np.float64]:
+        progress(block.size)
+        return weigh.densities(block)
+
+    mass = grid_moments(samples, shape, matrix, options.spline_order, value=densities)
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError("mass_overflow")
     if not mass.total > 0.0:

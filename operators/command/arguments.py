@@ -9,15 +9,19 @@ from __future__ import annotations
 import argparse
 import math
 import os
+from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
 
 from ...core.density.spline_tables import MAX_ORDER as MAX_SPLINE_ORDER
 from ...core.polyhedron import MAX_ORDER
-from ...core.verdict.finding import finding
+from ...core.verdict.finding import MeasureError, finding
+from ..settings.limits import scan_limits
 from ..write.record import FORMATS, FRAMES
 from . import fourier, inputs, output, results
+from .parser import Parser
 
 DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
 
@@ -28,8 +32,10 @@ FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz or .fbx
 scan of densities: .npy, .npz, .nrrd, .nhdr, .nii, .nii.gz, or .raw if called NAME_XxYxZ_TYPE.raw.
 Without one, the file that Blender has open is measured. All numbers are SI: kilograms and meters.
 `similar LIBRARY --to NAME` in the place of `measure` compares bodies measured with --signature.
-exit code: 0 all measured, 1 something is listed under errors, 2 wrong usage, 70 a fault of the
-program"""
+BODY_MOMENTS_LIMITS in the environment changes what an array or scan may ask for, such as
+samples=2e10,unpacked_bytes=1e10,entries=5000,header_bytes=1e7.
+exit code: 0 all measured, 1 something is listed under errors or the result cannot be written,
+2 wrong usage, 3 interrupted, 70 a fault of the program"""
 
 
 def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
@@ -43,13 +49,32 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         parser.error(str(finding("usage_file_needed")))
     if options.surface_moments and options.order is None:
         options.order = DEFAULT_ORDER
-    if options.output is not None and not options.output.parent.is_dir():
-        parser.error(str(finding("usage_folder_missing", option="output", folder=str(options.output.parent))))
-    if options.output is not None and options.output.is_dir():
-        parser.error(str(finding("usage_is_folder", option="output", path=str(options.output))))
-    fourier.check(options, parser)
-    _keep_files(options, parser)
+    try:
+        options.limits = replace(scan_limits(), allow_outside=options.allow_outside)
+        for name in ("output", "fourier"):
+            _check_target(name, getattr(options, name), parser)
+        fourier.check(options, parser)
+        _keep_files(options, parser)
+    except MeasureError as error:
+        parser.error(str(error))
+    except OSError as error:  # a name that is too long, a folder that may not be entered
+        parser.error(str(finding("usage_path", path=str(error.filename), error=error.strerror)))
     return options
+
+
+def _check_target(option: str, target: Path | None, parser: argparse.ArgumentParser) -> None:
+    """Ends with a message where no file can be written, while nothing is measured yet."""
+    if target is None or output.is_stdout(target):
+        return
+    if not target.parent.is_dir():
+        parser.error(str(finding("usage_folder_missing", option=option, folder=str(target.parent))))
+    if target.is_dir():
+        parser.error(str(finding("usage_is_folder", option=option, path=str(target))))
+    with suppress(FileNotFoundError):
+        os.stat(target)
+    folder = Path(os.path.realpath(target)).parent
+    if not (target.exists() and not target.is_file() or os.access(folder, os.W_OK)):
+        parser.error(str(finding("usage_folder_read_only", option=option, folder=str(folder))))
 
 
 def _join_negative_values(argv: list[str]) -> list[str]:
@@ -96,7 +121,7 @@ def _keep_files(options: argparse.Namespace, parser: argparse.ArgumentParser) ->
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="body_moments",
         usage="body_moments measure [options] [FILE ...]",
         description="Exact mass properties of the objects in files.",
@@ -173,6 +198,11 @@ def _add_of_files(parser: argparse.ArgumentParser) -> None:
         type=_positive,
         metavar="S",
         help="arrays: kg/m³ where a sample is 1 (1)",
+    )
+    add(
+        "--allow-outside",
+        action="store_true",
+        help="arrays: the header may name a file of samples outside of its own folder (refused)",
     )
 
 

@@ -22,6 +22,7 @@ from ...core.scans import formats as scans
 from ...core.verdict.finding import FileError
 
 BLEND = ".blend"
+_TRACEBACK = "Traceback (most recent call last)"
 UNITLESS = (".stl", ".obj", ".ply")
 
 # Invisible prims are imported hidden, and a hidden object is reported; left out, it would be
@@ -106,9 +107,14 @@ def _check_stl(head: bytes, tail: bytes, size: int) -> None:
 
 
 def reason(error: Exception) -> str:
-    """What Blender said, as one line: the first line of a report, the last of a traceback."""
+    """What Blender said, as one line: the first line of a report; of a traceback the exception, behind which Blender
+    may say where."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     if not lines:
         return type(error).__name__
-    line = lines[-1] if any(line.startswith("Traceback") for line in lines) else lines[0]
-    return line.removeprefix("Error: ").removeprefix("Python: ").rstrip(".")
+    if any(_TRACEBACK in line for line in lines):  # the exception's line follows the indented ones of its frames
+        lines = [line.rstrip() for line in str(error).splitlines()]
+        last = max(number for number, line in enumerate(lines) if _TRACEBACK in line or line.startswith("  "))
+        lines = lines[last + 1 :] or [type(error).__name__]
+        return "its importer failed, {}".format(lines[0].rstrip("."))
+    return lines[0].removeprefix("Error: ").removeprefix("Python: ").rstrip(".")

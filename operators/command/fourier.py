@@ -7,12 +7,14 @@ from __future__ import annotations
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable
 from pathlib import Path
+from zipfile import is_zipfile
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
+from ...core.scans.numpy_files import map_array
 from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
 from ..bodies.fourier import object_transform
 from ..settings.options import MeasureOptions
@@ -20,6 +22,7 @@ from ..write import spectrum
 from .results import guard
 
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
+MAX_WAVE_VECTORS = MAX_GRID**3
 
 
 def add_options(parser: ArgumentParser, positive: Callable[[str], float]) -> None:
@@ -56,10 +59,6 @@ def check(options: Namespace, parser: ArgumentParser) -> None:
         parser.error(str(finding("usage_grid_and_qmax")))
     if len(options.files) > 1 or len(options.object or ()) > 1:
         parser.error(str(finding("usage_fourier_one_object")))
-    if not target.parent.is_dir():
-        parser.error(str(finding("usage_folder_missing", option="fourier", folder=str(target.parent))))
-    if target.is_dir():
-        parser.error(str(finding("usage_is_folder", option="fourier", path=str(target))))
     for first, second in ((target, options.q), (target, options.output), (options.output, options.q)):
         if first is not None and second is not None and first.resolve() == second.resolve():
             parser.error(str(finding("usage_path_twice", path=str(first))))
@@ -85,13 +84,19 @@ def write(obj: bpy.types.Object, options: Namespace, measure_options: MeasureOpt
 
 
 def _read_wave_vectors(path: Path) -> NDArray[np.float64]:
+    """Those of a .npy file. Raises MeasureError."""
     try:
-        array = np.load(path, allow_pickle=False)
-    except (OSError, ValueError, EOFError) as error:
-        raise QueryError("wave_vectors_unreadable", file=str(path), error=str(error)) from error
-    if not isinstance(array, np.ndarray):
-        array.close()
-        raise QueryError("wave_vectors_archive", file=str(path))
+        if path.exists() and not path.is_file():
+            raise QueryError("wave_vectors_unreadable", file=str(path), cause=finding("file_not_regular").as_record())
+        with open(path, "rb") as file:
+            if is_zipfile(file):
+                raise QueryError("wave_vectors_archive", file=str(path))
+        array = map_array(path)
+    except OSError as error:
+        cause = finding("file_unreadable", error=error.strerror or str(error))
+        raise QueryError("wave_vectors_unreadable", file=str(path), cause=cause.as_record()) from error
+    if array.size > 3 * MAX_WAVE_VECTORS:
+        raise QueryError("wave_vectors_too_many", count=array.size // 3, limit=MAX_WAVE_VECTORS)
     return wave_vectors(array, 3)
 
 

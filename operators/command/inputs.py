@@ -9,13 +9,15 @@ from __future__ import annotations
 import json
 import re
 import struct
+import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
 import bpy
 
-from ...core.scans.nrrd import MAX_HEADER_BYTES
+from ...core.scans.limits import Limits
+from ...core.scans.nrrd import data_file, read_header
 from ...core.verdict.finding import MeasureError
 from .files import open_file
 
@@ -34,12 +36,15 @@ def files_read(paths: Iterable[str]) -> Iterator[Path]:
             open_file(path)
             waiting += _open_files()
     while waiting:
-        path = waiting.pop().resolve()
-        if path in known or not path.is_file():
+        try:
+            path = waiting.pop().resolve()
+            if path in known or not path.is_file():
+                continue
+        except (OSError, ValueError, RuntimeError):  # too long, with a zero byte, links in a circle
             continue
         known.add(path)
         yield path
-        with suppress(OSError, ValueError, struct.error, RecursionError):
+        with suppress(OSError, ValueError, struct.error, RecursionError, MeasureError):
             waiting += _named_in(path)
 
 
@@ -63,9 +68,8 @@ def _tiles(path: Path) -> Iterable[Path]:
 
 
 def _of_nrrd(path: Path) -> Iterator[str]:
-    with open(path, "rb") as file:
-        head = file.read(MAX_HEADER_BYTES).decode("latin-1")
-    yield from re.findall(r"(?im)^data ?file:[ \t]*(.+?)\s*$", head)
+    fields, _ = read_header(path, Limits(header_bytes=sys.maxsize))
+    yield data_file(fields) or path.name
 
 
 def _of_gltf(path: Path) -> Iterator[str]:
@@ -75,9 +79,11 @@ def _of_gltf(path: Path) -> Iterator[str]:
         data = data[20 : 20 + length]
     document = json.loads(data)
     for group in ("buffers", "images"):
-        for one in document.get(group, ()):
-            if isinstance(one, dict) and not str(one.get("uri", "data:")).startswith("data:"):
-                yield _unquoted(one["uri"])
+        listed = document.get(group) if isinstance(document, dict) else None
+        for one in listed if isinstance(listed, list) else ():
+            uri = one.get("uri") if isinstance(one, dict) else None
+            if isinstance(uri, str) and not uri.startswith("data:"):
+                yield _unquoted(uri)
 
 
 def _unquoted(uri: str) -> str:
@@ -161,7 +167,7 @@ def _lz4(block: bytes) -> bytes:
             start = len(text) - back
             if not 0 < back <= len(text):
                 raise ValueError("The layer is damaged.")
-            text += (text[start:] * (count // back + 1))[:count]
+            text += (text[start : start + count] * (count // back + 1))[:count]
     except IndexError:
         raise ValueError("The layer is cut short.") from None
     return bytes(text)

@@ -37,9 +37,12 @@ from ..settings import properties as settings
 from ..settings.options import MeasureOptions
 from ..write import record
 from ..write.properties import store
+from ..write.terminal import tell
 from . import fourier
 from .files import BLEND, UNITLESS, file_suffix, open_file
+from .interruption import Progress, check_interruption
 from .saving import Place, reserved
+from .scripts import scripts_of_open_file
 
 _OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale")
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
@@ -80,7 +83,9 @@ class Run:
     def _document(self, path: str | None) -> dict[str, Any]:
         file = path or bpy.data.filepath or _requested_file()
         with self._place(path) as place:
-            return self._measured(path, file, place)
+            found = self._measured(path, file, place)
+        check_interruption()
+        return found
 
     def _place(self, path: str | None) -> AbstractContextManager[Place | None]:
         """Where --write is going to store the results."""
@@ -116,6 +121,7 @@ class Run:
                     else:
                         objects.append(entry)
                         measured.append((label, obj, one))
+                caveats += scripts_of_open_file() if path is None else ()
                 caveats += open_body_caveats((label, one.method) for label, _, one in measured)
                 if self.options.object is None:  # else whoever named them knows what they count
                     caveats += total_caveats([obj for _, obj, _ in measured], bpy.context.view_layer)
@@ -130,8 +136,8 @@ class Run:
         except Exception as error:
             errors.append(self._internal_error(None, error))
         for one in errors:
-            where = [text for text in ("body_moments", file, one["name"]) if text]
-            sys.stderr.write("{}: {}\n".format(": ".join(where), one["reason"]))
+            where = [text for text in (file, one["name"]) if text]
+            tell(*where, one["reason"])
         return record.document(
             objects,
             record.total([one for _, _, one in measured], caveats),
@@ -181,10 +187,12 @@ class Run:
             errors.append(_error(None, finding("fourier_of_array")))
         if name not in names:
             return [], [], errors
-        taken = {measurement: getattr(self.options, measurement) for measurement in (*_OF_ARRAYS, "unit_scale")}
+        taken = {
+            measurement: getattr(self.options, measurement) for measurement in (*_OF_ARRAYS, "unit_scale", "limits")
+        }
         array = ArrayOptions(**{measurement: value for measurement, value in taken.items() if value is not None})
         try:
-            measurement = measure_array(path, name, array, self._measure_options)
+            measurement = measure_array(path, name, array, self._measure_options, Progress(path))
         except MeasureError as refusal:
             return [], [], [*errors, _error(None, refusal.finding)]
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
@@ -252,8 +260,9 @@ class Run:
         return shape.measurement, more, findings
 
     def _internal_error(self, name: str | None, error: Exception) -> dict[str, Any]:
-        self.internal_errors += 1
-        return _error(name, internal_error.finding_of(error))
+        reason = internal_error.finding_of(error)
+        self.internal_errors += reason.code == internal_error.CODE
+        return _error(name, reason)
 
     def _store(
         self,
@@ -372,5 +381,5 @@ def _save(place: Place | None, file: str | None) -> tuple[Finding, ...]:
         raise FileError("file_vanished")
     findings = place.save()
     for one in findings:
-        sys.stderr.write("body_moments: {}: {}\n".format(file, one))
+        tell(file, one)
     return findings

@@ -5,24 +5,25 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from ...core.shape.library import Entry, classify, rank, read_library
 from ...core.verdict.finding import QueryError, finding
 from ..write.messages import SIMILARITY
+from ..write.terminal import tell, visible
+from .parser import Parser
 
 _COLUMNS = "{:>12} {:>10}  {:<27} {}\n"
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
     """The options of `similar`. Raises SystemExit(2), or SystemExit(0) after --help."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="body_moments",
         usage="body_moments similar LIBRARY [LIBRARY ...] --to NAME [options]",
         description="The bodies of a library that are most like one of them. A library is what `measure --signature "
         "--format jsonl` writes.",
-        epilog="exit code: 0 compared, 1 some records have no signature, 2 wrong usage",
+        epilog="exit code: 0 compared, 1 some records have no signature, 2 wrong usage, 3 interrupted",
         allow_abbrev=False,
     )
     parser.add_argument("command", choices=("similar",), metavar="similar")
@@ -56,7 +57,7 @@ def answer(options: argparse.Namespace) -> tuple[str, int]:
         entries += readable
         failures += missing
     for failure in failures:
-        sys.stderr.write("body_moments: {}\n".format(failure))
+        tell(failure)
     query = _entry_by_name(entries, options.to)
     lines = [_COLUMNS.format("distance", "size", "", "name")]
     others = [entry for entry in entries if entry is not query]
@@ -64,7 +65,7 @@ def answer(options: argparse.Namespace) -> tuple[str, int]:
     for entry, likeness in ranked[: options.count]:
         distance = "{:.3e}".format(likeness.distance(options.any_size, options.any_hand))
         similarity = SIMILARITY[classify(likeness)]
-        lines.append(_COLUMNS.format(distance, "{:.4g}".format(likeness.scale), similarity, entry.label))
+        lines.append(_COLUMNS.format(distance, "{:.4g}".format(likeness.scale), similarity, visible(entry.label)))
     return "".join(lines), len(failures)
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +22,7 @@ from ...core.moments.moments import Moments, monomial_count, monomials
 from ...core.moments.normalized import normalize
 from ...core.verdict.finding import Finding, MeasureError, ReadError
 from ..read.fingerprint import matrix_hash, settings_hash
+from ..write.terminal import visible
 from ..write.units import number
 from . import staleness
 from .cache import SessionCache
@@ -159,7 +161,7 @@ def as_csv(computed: ComputedMoments, of: str, about: str, frame: str) -> str:
     text = io.StringIO()
     text.write(
         "# {:s}: {:s} moments, {:s} frame, {:s}\n".format(
-            computed.name,
+            re.sub("[,;]", " ", visible(computed.name)),  # or what follows would be a cell of its own
             of.lower(),
             frame.lower(),
             {

@@ -799,6 +799,18 @@ MESSAGES: dict[str, Message] = {
     "nrrd_endian_missing": _error("The NRRD header lacks the byte order (field “endian”)."),
     "nrrd_several_files": _error("The samples are spread over several files. Join them into one."),
     "nrrd_data_file_missing": _error("The data file “{file:.80s}” is missing."),
+    "nrrd_data_file_outside": _error(
+        "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you trust the header, "
+        "use the command line's --allow-outside."
+    ),
+    "file_exceeds_limit": _error(
+        "“{file}” exceeds a limit: {count} {name} of at most {limit}. If you trust the file, set the environment "
+        "variable BODY_MOMENTS_LIMITS to {name}={next}."
+    ),
+    "limits_unrecognized": _error(
+        "The environment variable BODY_MOMENTS_LIMITS has “{text}”, which is no limit. Use NAME=NUMBER, with a NAME "
+        "of {names}."
+    ),
     "nrrd_header_unended": _error("The NRRD header has no end: the empty line before the samples is missing."),
     "nrrd_encoding": _error("The NRRD encoding “{encoding:.40s}” is not supported. Save it as raw or gzip."),
     "nrrd_space_directions": _error("The NRRD field “space directions” must have three vectors."),
@@ -896,7 +908,8 @@ MESSAGES: dict[str, Message] = {
     ),
     "wave_vectors_non_finite": _error("Some wave vectors are not finite."),
     "wave_vectors_too_large": _error("Some wave vectors exceed 1e100 rad/m."),
-    "wave_vectors_unreadable": _error("{file} is not a .npy file: {error}"),
+    "wave_vectors_unreadable": _error("{file} is not a .npy file: {cause}"),
+    "wave_vectors_too_many": _error("There are {count} wave vectors, of at most {limit}. Use several files."),
     "wave_vectors_archive": _error("{file} holds several arrays. Use a .npy file."),
     "frequency_range": _error("The largest frequency must be positive and at most 1e100 rad/m."),
     "frequency_count": _error("A grid needs at least two frequencies along each axis."),
@@ -1143,8 +1156,18 @@ MESSAGES: dict[str, Message] = {
     "array_options_unused": _warning("Options for arrays and scans were not used: {options}."),
     "results_need_blend": _error("Results can only be stored in a .blend file; --write did nothing."),
     "scene_never_saved": _error("The scene was never saved; --write has no file. Save it first."),
+    "out_of_memory": _error("Too little memory. Measure it alone, reduce it, or use a larger machine."),
+    "interrupted": _error("interrupted; the result was not written"),
+    "scripts_allowed": _warning(
+        "Blender was allowed to run the scripts of the file, which may have changed it: {names}. Start Blender with "
+        "-Y, or name the file after “measure”."
+    ),
+    "progress_samples": _note("{count:.3g} samples read. Ctrl+C ends it"),
     "internal_error": _error("Internal error: {type}: {error} ({where}). Please report it."),
     # similar
+    "library_line_too_long": _error(
+        "{file}: line {line} has more than {limit} bytes. Write the library with --format jsonl."
+    ),
     "library_line": _error(
         "{file}: line {line} is not a body_moments document. Write the library with --format jsonl."
     ),
@@ -1156,6 +1179,8 @@ MESSAGES: dict[str, Message] = {
     "name_not_in_library": _error("No body named {name} has a signature."),
     "name_ambiguous": _error("Several bodies are named {name}. Use one of {names}."),
     # wrong usage (exit code 2, after “error: ”)
+    "usage_path": _error("{path}: {error}. Use another name"),
+    "usage_folder_read_only": _error("argument --{option}: no file can be written in {folder}. Use another folder"),
     "usage_file_needed": _error("a FILE is needed"),
     "usage_folder_missing": _error("argument --{option}: no folder {folder}"),
     "usage_is_folder": _error("argument --{option}: {path} is a folder"),

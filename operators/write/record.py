@@ -41,6 +41,10 @@ TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), 
 _NUMBER_ROWS = re.compile(r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|null))*)\n\s*\]")
 
 
+# What begins a formula, as OWASP lists it, or an apostrophe that does not stand for one.
+_FORMULA = re.compile(r"['\t\r\n]|\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
+
+
 def record(
     measurement: Measurement,
     frame: str = "world",
@@ -184,6 +188,9 @@ def to_json_lines(documents: Iterable[dict[str, Any]]) -> str:
 def to_csv(documents: Iterable[dict[str, Any]]) -> str:
     """One row an object under one header. What could not be measured is a row too, with its reason
     under `error`.
+
+    Spreadsheets take text that begins with =, +, -, @ and the like for a formula. It gets an apostrophe before it, and
+    so does text that has one there already: whoever reads a text removes one apostrophe from its start.
     """
     records = []
     for file_document in documents:
@@ -299,5 +306,7 @@ def _cell(value: Any) -> Any:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, list):
-        return " | ".join(map(str, value))
+        value = " | ".join(map(str, value))
+    if isinstance(value, str) and _FORMULA.match(value):
+        return "'" + value
     return value

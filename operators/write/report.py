@@ -23,6 +23,7 @@ from ...core.verdict.method import Method, Verdict
 from . import properties
 from .messages import HEALTH, METHODS, method_key
 from .record import TENSOR, described, document, plain
+from .terminal import visible
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
 DIGITS = 7  # as many as float32 coordinates carry
@@ -70,7 +71,7 @@ def text(document: dict[str, Any]) -> str:
         lines += [
             "{}{}: {}".format(INDENT, failure["name"] or "File", failure["reason"]) for failure in document["errors"]
         ]
-    return "\n".join(lines) + "\n"
+    return "".join(visible(line) + "\n" for line in lines)
 
 
 def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:

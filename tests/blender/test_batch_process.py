@@ -60,7 +60,7 @@ def test_a_closed_standard_output_is_told_and_does_not_matter_where_there_is_an_
         return process(*shell, sys.executable, SCRIPT, "measure", folder / "part.glb", *words)
 
     ended = closed()
-    assert ended.returncode == 70 and b"cannot be written" in ended.stderr and b"Traceback" not in ended.stderr
+    assert ended.returncode == 1 and b"cannot be written" in ended.stderr and b"Traceback" not in ended.stderr
     assert closed("--output", tmp_path / "out.json").returncode == 0
     assert json.loads((tmp_path / "out.json").read_text())["objects"]
 
@@ -132,11 +132,11 @@ def test_wrong_usage_gives_2_and_a_clean_output(folder, words):
     assert ended.returncode == 2 and ended.stdout == b"" and b"error: " in ended.stderr
 
 
-def test_a_result_that_cannot_be_written_gives_70(folder):
+def test_a_result_that_cannot_be_written_gives_1(folder):
     with open(os.devnull, "rb") as read_only:
         for words in (("measure", folder / "part.stl"), ("measure", "--help")):
             ended = script(*words, stdout=read_only)
-            assert ended.returncode == 70 and b"cannot be written" in ended.stderr
+            assert ended.returncode == 1 and b"cannot be written" in ended.stderr
             assert b"Traceback" not in ended.stderr
 
 

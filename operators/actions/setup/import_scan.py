@@ -25,6 +25,7 @@ from ....core.scans.numpy_files import TYPES, read_raw
 from ....core.scans.scan import Scan
 from ....core.verdict.finding import FileError, Finding, MeasureError, finding
 from ...read.vdb import openvdb
+from ...settings.limits import scan_limits
 from ...write import reports
 
 GRID_NAME = "density"
@@ -117,10 +118,11 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         return findings
 
     def _scan(self, path: Path) -> Scan:
+        limits = scan_limits()
         try:
             if scan_suffix(path) == ".raw" and all(self.raw_shape):
-                return read_raw(path, self.raw_shape, self.raw_type, self.raw_big_endian)
-            return read_scan(path)
+                return read_raw(path, self.raw_shape, self.raw_type, self.raw_big_endian, limits)
+            return read_scan(path, limits)
         except OSError as error:
             raise FileError("file_unreadable", error=error.strerror or str(error)) from error
 

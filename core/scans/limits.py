@@ -1,0 +1,50 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a scan's file may make its reader do. A small file can ask for terabytes: by a sparse file, by compression, by
+what its header says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+
+from ..verdict.finding import FileError, QueryError
+
+
+@dataclass(frozen=True)
+class Limits:
+    """samples: of one scan. unpacked_bytes: of compressed samples, all of which are in memory. entries: of an archive.
+    header_bytes: of a header. allow_outside: whether a header may name a file of samples outside of its own folder.
+    """
+
+    samples: int = 1 << 33
+    unpacked_bytes: int = 1 << 32
+    entries: int = 1000
+    header_bytes: int = 1 << 20
+    allow_outside: bool = False
+
+    @classmethod
+    def parse(cls, text: str) -> Limits:
+        """The limits with those replaced that a text such as “samples=2e10, entries=5000” gives. QueryError where it
+        is none."""
+        names = [field.name for field in fields(cls) if field.type == "int"]
+        given = {}
+        for part in filter(None, text.replace(",", " ").split()):
+            name, _, number = part.partition("=")
+            try:
+                given[name] = int(float(number))
+            except (ValueError, OverflowError):
+                given[name] = 0
+            if name not in names or given[name] < 1:
+                raise QueryError("limits_unrecognized", text=part[:60], names=names)
+        return replace(cls(), **given)
+
+    def check(self, path: Path, name: str, count: int) -> None:
+        """FileError where a file needs more of something than its limit."""
+        limit = getattr(self, name)
+        if count > limit:
+            wanted = max(int(count), 2 * limit)
+            raise FileError("file_exceeds_limit", file=path.name, name=name, count=int(count), limit=limit, next=wanted)
+
+
+DEFAULT_LIMITS = Limits()

@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ctrl+C ends a run wherever it is, and long reads say how far they are."""
+
+from __future__ import annotations
+
+import signal
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from ...core.verdict.finding import finding
+from ..write.terminal import tell
+
+PERIOD = 5.0  # seconds between reports of progress
+
+_requested = False
+
+
+@contextmanager
+def interruptible() -> Iterator[None]:
+    """Within the block Ctrl+C raises KeyboardInterrupt, also in `blender -b`, which would only note it. Where it is
+    ignored, as in the background of a shell, it stays so.
+    """
+    global _requested
+    _requested = False
+    try:
+        before = signal.getsignal(signal.SIGINT)
+        if before != signal.SIG_IGN:
+            signal.signal(signal.SIGINT, _interrupt)
+    except ValueError:  # only the main thread can handle signals
+        before = None
+    try:
+        yield
+    finally:
+        if before not in (None, signal.SIG_IGN):
+            signal.signal(signal.SIGINT, before)
+
+
+def check_interruption() -> None:
+    """Raises KeyboardInterrupt where that was asked for: an importer that is written in Python makes an error of its
+    own of the exception.
+    """
+    if _requested:
+        raise KeyboardInterrupt
+
+
+def _interrupt(_number: int, _frame: object) -> None:
+    global _requested
+    _requested = True
+    raise KeyboardInterrupt
+
+
+class Progress:
+    """Counts the samples that are read from a file and reports their number every `PERIOD` seconds."""
+
+    def __init__(self, file: str) -> None:
+        self._file, self._samples, self._due = file, 0, time.monotonic() + PERIOD
+
+    def __call__(self, samples: int) -> None:
+        self._samples += samples
+        if time.monotonic() >= self._due:
+            self._due = time.monotonic() + PERIOD
+            tell(self._file, finding("progress_samples", count=self._samples))

@@ -1,0 +1,29 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Text for terminals. Names come from files: an escape sequence in one would be obeyed, a line break would make a line
+that nobody has written, and characters that set the direction of writing would show another name.
+"""
+
+from __future__ import annotations
+
+import sys
+import unicodedata
+
+PROGRAM = "body_moments"
+_ESCAPED = {"Cc", "Cs", "Zl", "Zp"}  # categories: control, surrogates, separators of lines and paragraphs
+_DIRECTIONS = {*"\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"}
+
+
+def visible(text: str) -> str:
+    r"""The text on one line, with \x1b, \n, \u202e and the like in the place of such characters."""
+    return "".join(
+        character.encode("unicode_escape").decode()
+        if character in _DIRECTIONS or unicodedata.category(character) in _ESCAPED
+        else character
+        for character in text
+    )
+
+
+def tell(*parts: object) -> None:
+    """Write one line to the standard error: the program's name and the parts, with colons between."""
+    sys.stderr.write("{}\n".format(visible(": ".join(map(str, (PROGRAM, *parts))))))
