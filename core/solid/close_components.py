@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import consistent_orientation, find_edges, group_components
+from ..mesh.edges import Edges, consistent_orientation, find_edges, group_components
 from ..mesh.surface import normals
 from ..numerics.graph import connected_components
 from ..verdict.finding import finding
@@ -57,12 +57,20 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     component, number = group_components(edges, *connected_components(count, a, b), _edges_along(mesh))
     is_open = np.zeros(number, bool)
     is_open[component[twisted]] = True
-    sides = np.concatenate([first[misoriented], second[misoriented]])
-    mesh = replace(
-        mesh, flipped=flipped, component=component, number=number, open=is_open, caps=np.zeros((number, 3))
-    ).with_state(one_sided=is_open)
-    return mesh.with_report(inconsistent_edges=int(np.count_nonzero(misoriented)), components=number).with_defects(
-        inconsistent_edges=as_vertex_pairs(mesh.state.given, sides)
+    report = replace(mesh.report, components=number)
+    if misoriented.any():
+        sides = as_vertex_pairs(mesh.state.given, np.concatenate([first[misoriented], second[misoriented]]))
+        elements = replace(report.defective_elements, inconsistent_edges=sides)
+        report = replace(report, inconsistent_edges=int(np.count_nonzero(misoriented)), defective_elements=elements)
+    return replace(
+        mesh,
+        flipped=flipped,
+        component=component,
+        number=number,
+        open=is_open,
+        caps=np.zeros((number, 3)),
+        report=report,
+        state=replace(mesh.state, one_sided=is_open),
     )
 
 
@@ -73,12 +81,15 @@ def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> Repaired
         # Components that meet in an edge are judged one by one, each with vertices of its own.
         key = mesh.component.repeat(3) * len(mesh.points) + mesh.triangles.ravel()
         edges = find_edges(np.unique(key, return_inverse=True)[1].reshape(-1, 3))
-    mesh = mesh.with_state(component_edges=edges)
     signed_count = edges.signed_use_count(mesh.flipped)
     unclosable = np.zeros(mesh.number, bool)
     unclosable[mesh.component[edges.first[(signed_count != 0) & (edges.count > 1)] // 3]] = True
-    folded = _find_folded_loops(mesh, signed_count, unclosable & ~mesh.open, tolerance)
-    return replace(mesh, open=mesh.open | (unclosable & ~folded.components)).with_state(folded=folded)
+    folded = _find_folded_loops(mesh, edges, signed_count, unclosable & ~mesh.open, tolerance)
+    return replace(
+        mesh,
+        open=mesh.open | (unclosable & ~folded.components),
+        state=replace(mesh.state, component_edges=edges, folded=folded),
+    )
 
 
 def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -92,7 +103,10 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         mesh = mesh.with_findings(finding("t_junctions", as_vertex_pairs(given, sides), count=number))
     boundary = edges.first[(edges.count == 1) & ~_edges_along(mesh)]
     boundary = boundary[~closed_already[boundary]]
-    mesh = mesh.with_report(boundary_edges=len(boundary)).with_defects(boundary_edges=as_vertex_pairs(given, boundary))
+    if len(boundary):
+        mesh = mesh.with_report(
+            boundary_edges=len(boundary), elements={"boundary_edges": as_vertex_pairs(given, boundary)}
+        )
 
     boundary = mesh.state.component_edges.boundary_sides()
     boundary = boundary[~mesh.open[mesh.component[boundary // 3]] & ~closed_already[boundary]]
@@ -105,7 +119,9 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     apex[loop[filled][::-1]] = start[::-1]
     caps = np.concatenate([np.stack([stop, start, apex[loop[filled]]], axis=1), folded.caps])
     owner = np.concatenate([boundary[filled] // 3, folded.sides // 3])
-    return mesh.with_caps(caps, owner).with_state(uncapped_sides=boundary[~filled])
+    if len(caps):
+        mesh = mesh.with_caps(caps, owner)
+    return mesh if filled.all() else mesh.with_state(uncapped_sides=boundary[~filled])
 
 
 def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -140,6 +156,8 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Turn the faces that were found to disagree. Sides have other numbers from here on."""
+    if not mesh.flipped.any():
+        return mesh
     return replace(mesh, triangles=np.where(mesh.flipped[:, None], mesh.triangles[:, ::-1], mesh.triangles))
 
 
@@ -153,7 +171,8 @@ def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     if count:
         edges = np.concatenate([elements.non_manifold_edges, elements.boundary_edges])
         findings.append(finding("non_manifold_components", edges, count=count, total=mesh.number))
-    return mesh.with_report(closed=not (mesh.open.any() or mesh.caps.any())).with_findings(*findings)
+    closed = not (mesh.open.any() or mesh.caps.any())
+    return replace(mesh, findings=(*mesh.findings, *findings), report=replace(mesh.report, closed=closed))
 
 
 def _edges_along(mesh: RepairedMesh) -> NDArray[np.bool_]:
@@ -172,14 +191,17 @@ def _oriented_ends(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[NDAr
 
 
 def _find_folded_loops(
-    mesh: RepairedMesh, signed_count: NDArray[np.float64], unclosable: NDArray[np.bool_], tolerance: float
+    mesh: RepairedMesh,
+    edges: Edges,
+    signed_count: NDArray[np.float64],
+    unclosable: NDArray[np.bool_],
+    tolerance: float,
 ) -> FoldedLoops:
     """Components with edges of three faces or more that close nevertheless, as all that they leave over are loops
     without area: letters whose outline turns back on itself.
 
-    unclosable: (c,) the components to look at. signed_count: of the component edges.
+    edges: of the components; signed_count: of these edges. unclosable: (c,) the components to look at.
     """
-    edges = mesh.state.component_edges
     edge = np.flatnonzero((signed_count != 0) & unclosable[mesh.component[edges.first // 3]])
     edge = np.repeat(edge, np.abs(signed_count[edge]).astype(np.intp))
     side = edges.first[edge]

@@ -31,15 +31,16 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     if edges.count.max() <= 2:  # copies of faces would have no others beside them
         return mesh
     sides = _non_manifold_sides(edges, face)
-    mesh = mesh.with_report(non_manifold_edges=len(np.unique(edges.of_side[sides]))).with_defects(
-        non_manifold_edges=as_vertex_pairs(mesh.state.given, sides)
+    mesh = mesh.with_report(
+        non_manifold_edges=len(np.unique(edges.of_side[sides])),
+        elements={"non_manifold_edges": as_vertex_pairs(mesh.state.given, sides)},
     )
     group = same_vertices_groups(mesh.triangles, face)
     later = group != face
     if not later.any():
         return mesh
     copies = np.unique(face[later])
-    mesh = mesh.with_report(duplicate_faces=len(copies)).with_defects(duplicate_faces=copies)
+    mesh = mesh.with_report(duplicate_faces=len(copies), elements={"duplicate_faces": copies})
 
     vector = normals(mesh.points, mesh.triangles)
     vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)  # of each face

@@ -167,13 +167,11 @@ class RepairedMesh:
         """The same mesh, with more known for later steps."""
         return replace(self, state=replace(self.state, **changes))
 
-    def with_report(self, **counts: Any) -> RepairedMesh:
-        """The same mesh, with entries of its report replaced."""
+    def with_report(self, *, elements: dict[str, NDArray[np.integer]] | None = None, **counts: Any) -> RepairedMesh:
+        """The same mesh, with entries of its report replaced. elements: of its `DefectiveElements`."""
+        if elements:
+            counts["defective_elements"] = replace(self.report.defective_elements, **elements)
         return replace(self, report=replace(self.report, **counts))
-
-    def with_defects(self, **elements: NDArray[np.integer]) -> RepairedMesh:
-        """The same mesh, with defective elements in its report."""
-        return self.with_report(defective_elements=replace(self.report.defective_elements, **elements))
 
     def with_findings(self, *findings: Finding) -> RepairedMesh:
         """The same mesh, with more findings."""

@@ -90,10 +90,12 @@ def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Leave out triangles that use a vertex twice, and find the edges of the others."""
-    edges = mesh.state.edges
+    edges, open_parts = mesh.state.edges, mesh.state.open_parts
     proper = has_distinct_vertices(mesh.triangles)
     if not proper.all():
         mesh = mesh.with_rows(np.flatnonzero(proper))
+    elif edges is not None and open_parts is None:
+        return mesh
     if edges is None and len(mesh.triangles):
         edges = find_edges(mesh.triangles)
     return mesh.with_state(edges=edges, open_parts=None)
