@@ -1,11 +1,16 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vectors by their coordinates: three numbers of any type, or three arrays of one shape, a vector in each place."""
+"""Vectors by their coordinates: three numbers of any type, or three arrays of one shape, a vector in each place.
+And rotations between matrix and quaternion, in double precision where Blender's own have single.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 Number = TypeVar("Number")
 Vector = Sequence[Number]  # x, y, z
@@ -21,3 +26,51 @@ def cross(u: Vector, v: Vector) -> Vector:
 
 def dot(u: Vector, v: Vector) -> Number:
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+
+def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
+    """(3, 3) of a quaternion w, x, y, z of any length but zero, orthonormal to float64."""
+    q = np.array(quaternion, np.float64)  # before the norm: mathutils hands out float32
+    w, x, y, z = q / np.linalg.norm(q)
+    return np.array(
+        [
+            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+        ]
+    )
+
+
+def quaternion(rotation: NDArray) -> NDArray[np.float64]:
+    """(4,) w, x, y, z with w ≥ 0 of a (3, 3) rotation."""
+    m = rotation
+    # Shepperd's method: 4 q qᵀ has no cancellation in the column of its largest diagonal entry.
+    outer = np.array(
+        [
+            [1 + m[0, 0] + m[1, 1] + m[2, 2], m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
+            [m[2, 1] - m[1, 2], 1 + m[0, 0] - m[1, 1] - m[2, 2], m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
+            [m[0, 2] - m[2, 0], m[0, 1] + m[1, 0], 1 - m[0, 0] + m[1, 1] - m[2, 2], m[1, 2] + m[2, 1]],
+            [m[1, 0] - m[0, 1], m[0, 2] + m[2, 0], m[1, 2] + m[2, 1], 1 - m[0, 0] - m[1, 1] + m[2, 2]],
+        ]
+    )
+    column = outer[:, np.argmax(np.diag(outer))]
+    column = column / np.linalg.norm(column)
+    return (column if column[0] >= 0.0 else -column) + 0.0  # no negative zeros
+
+
+MAX_AXIS_COSINE = 1e-5  # the cosine of axes that float32 rotations never show
+
+
+def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """(k, 3, 3) the right-angled unit axes, as columns, of what each of the (k, 4, 4) maps moves, turns, scales and
+    mirrors; and whether a map shears, so that they are only the nearest ones.
+
+    They are the polar factor of the map with its columns at unit length (N. J. Higham, SIAM J. Sci. Stat. Comput. 7,
+    1986): where nothing shears, the columns themselves, mirrored ones too.
+    """
+    linear = np.asarray(matrices, np.float64)[:, :3, :3]
+    length = np.sqrt((linear * linear).sum(axis=1, keepdims=True))
+    columns = np.divide(linear, length, out=np.zeros_like(linear), where=length > 0.0)
+    u, _, v = np.linalg.svd(columns)
+    skew = np.abs(columns.transpose(0, 2, 1) @ columns) * (1.0 - np.eye(3))
+    return u @ v, skew.max(axis=(1, 2)) > MAX_AXIS_COSINE

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.rotations import rotation_matrix
+from ..numerics.vectors import rotation_matrix
 from ..verdict.finding import FileError
 from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samples
 

@@ -19,7 +19,7 @@ from ...core.density.polynomial_mass import local_coordinates, polynomial_mass_o
 from ...core.density.positivity import find_negative_point
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Moments
-from ...core.numerics.rotations import polar_rotation
+from ...core.numerics.vectors import polar_rotation
 from ...core.polyhedron import polyhedron_moments
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.method import Verdict

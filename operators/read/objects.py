@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.mesh.surface import Surface
-from ...core.numerics.rotations import rotation_matrix
+from ...core.numerics.vectors import rotation_matrix
 from ...core.verdict.finding import ReadError, finding
 from .curves import read_curves
 from .decisions import reading_findings, why_empty

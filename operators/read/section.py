@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
-from ...core.numerics.rotations import polar_rotation
+from ...core.numerics.vectors import polar_rotation
 from ...core.verdict.finding import Finding, ReadError, finding
 from .mesh import from_edit_mesh, mesh_surface
 from .objects import locate, read_object

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
 from ...core.numerics.float32 import shortest_decimal
-from ...core.numerics.rotations import rotation_matrix
+from ...core.numerics.vectors import rotation_matrix
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from .decisions import modifier_findings
 from .reading import float64_matrix

@@ -20,7 +20,7 @@ import numpy as np
 from bpy.types import Object
 from numpy.typing import NDArray
 
-from ...core.numerics.rotations import quaternion, rotation_matrix
+from ...core.numerics.vectors import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError
 
 FLOAT32 = float(np.finfo(np.float32).eps)

@@ -8,7 +8,7 @@ pytest.importorskip("bpy")
 import bmesh
 import body_moments
 import bpy
-from body_moments.operators.read import digest, instances
+from body_moments.operators.read import fingerprint, instances
 from body_moments.operators.session import staleness
 
 from tests.blender.bodies import add, mesh_body, only
@@ -181,7 +181,7 @@ def edited_vertices(obj):
 @pytest.mark.parametrize("change", [grown_by_nodes, made_large, edited_in_edit_mode])
 def test_an_edit_that_redo_brings_back_is_noticed_where_it_cannot_be_compared(change, monkeypatch):
     obj = add(mesh_body())
-    monkeypatch.setattr(digest, "MAX_DIGESTED_FACES", len(obj.data.polygons))
+    monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", len(obj.data.polygons))
     measure(obj)
     bpy.ops.ed.undo_push(message="Measured")
     change(obj)

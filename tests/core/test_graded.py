@@ -12,7 +12,7 @@ from body_moments.core.density.polynomial_mass import local_coordinates, polynom
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.winding import winding_number
 from body_moments.core.moments.moments import Moments, sum_of_images
-from body_moments.core.numerics.rotations import polar_rotation
+from body_moments.core.numerics.vectors import polar_rotation
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

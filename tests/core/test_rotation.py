@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.numerics.rotations import quaternion, rotation_matrix
+from body_moments.core.numerics.vectors import quaternion, rotation_matrix
 
 HALF_TURNS = [np.diag(signs) for signs in ((1.0, 1.0, 1.0), (1.0, -1.0, -1.0), (-1.0, 1.0, -1.0), (-1.0, -1.0, 1.0))]
 
