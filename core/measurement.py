@@ -64,11 +64,6 @@ class Measurement:
     length: float | None = None
     display_volume: float | None = None
 
-    @property
-    def has_uniform_density(self) -> bool:
-        """Whether the density is the same everywhere."""
-        return self.density_from in UNIFORM_DENSITIES
-
     def in_object_frame(self) -> MassProperties:
         """The mass properties in the object's own frame."""
         return self.mass_properties.in_frame(self.rotation, self.location)

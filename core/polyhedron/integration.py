@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The moments of what triangles and quads bound: one entry to the kernels.
 
-To third order a kernel of its own is several times as fast (`third_order`, and `third_order_small` for bodies of few
-triangles); higher orders are for the recursion (`any_order`).
+To third order a kernel of its own is several times as fast (`third_order`); higher orders are for the recursion
+(`any_order`).
 """
 
 from __future__ import annotations

@@ -19,6 +19,13 @@ product of its edges, not to the body's size cubed; that keeps the bound small f
 With u = 2^-53, edges e and e' and vertices within `reach` of the reference point, a determinant is off by at most
 9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y| bounds |normal_x|: as the product of a vertex with the normal, and as
 that of an edge with the product of the other edge and the vertex.
+
+Of bodies of few triangles, where numpy's calls cost more than its arithmetic, all triangles are taken at once, by the
+complete homogeneous polynomials of their corners (Sheynin and Tuzikov's formula to third order): with s = a + b + c,
+P = aa' + bb' + cc' and a triangle's weight w,
+
+    24 ∫ x = Σ w s,   120 ∫ x x' = Σ w (s s' + P),
+    720 ∫ x x' x'' = Σ w (s s' s'' + s P' + the same for the other two orders of the indices + 2 Σ_corners c c' c'').
 """
 
 from __future__ import annotations
@@ -39,6 +46,7 @@ from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U
 from ..moments.monomials import monomial_count, monomials
 from .third_order_kernel import (
     NO_VERTEX,
+    PAIR_INDEX,
     TRIPLES,
     BlockAccumulator,
     BlockResult,
@@ -46,13 +54,12 @@ from .third_order_kernel import (
     combine_blocks,
     scratch_size,
 )
-from .third_order_small import integrate_small
 
 MAX_TRIANGLES_PER_BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
 SCRATCH_BYTES = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
 # triangles up to which the exact third order, half as much again, costs no time to speak of
 MAX_TRIANGLES_EXACT_THIRD = 100_000
-MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small` is faster
+MAX_SMALL_TRIANGLES = 1024  # triangles up to which `_integrate_small` is faster
 MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs more than it saves
 # triangles that are worth a thread: of fewer the calls are short, and wait for the interpreter
 MIN_TRIANGLES_PER_THREAD = 250_000
@@ -71,6 +78,16 @@ AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2,
 # What is measured at a time: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles whose rows may be halves
 # of one quad, with the surface's row that each array begins at; or, without rows, the (4, k) corners of turned quads.
 _Block = tuple[list[int], list[NDArray]]
+
+
+ROWS, COLUMNS = np.triu_indices(3)
+NEXT_AXIS, PREVIOUS_AXIS = [1, 2, 0], [2, 0, 1]
+# Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, the three terms of each symmetric product stand.
+CUBE = np.array(
+    [[6 * i + PAIR_INDEX[j, k], 6 * j + PAIR_INDEX[i, k], 6 * k + PAIR_INDEX[i, j]] for i, j, k in TRIPLES]
+).T
+# of the sums of `blocks`, to whose divisors these bring
+DIVISOR_FACTORS = np.repeat([1.0, 2.0, 1.0, 8.0 / 3.0], [1, 3, 6, 10])
 
 
 def integrate(
@@ -107,7 +124,7 @@ def integrate(
             if len(faces) and not indices_in_range(faces, len(points)):
                 raise ValueError(NO_VERTEX)
         triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
-        return job.moments(integrate_small(points, center, triangles, area=area, shell=shell))
+        return job.moments(_integrate_small(points, center, triangles, area=area, shell=shell))
     # Two threads have a block each: the sums are the same with one, and with more where there is room for more.
     room, each = SCRATCH_BYTES[0] * count + SCRATCH_BYTES[1], 8 * scratch_size(3, area, exact)
     size = max(2, min(MAX_TRIANGLES_PER_BLOCK, room // (2 * each), count) // 2 * 2)
@@ -323,3 +340,37 @@ def _quad_corners_of(first: NDArray, second: NDArray) -> list[NDArray] | None:
             if all(first[0, a] == second[0, b] and np.array_equal(first[:, a], second[:, b]) for a, b in ends):
                 return [first[:, i], first[:, (i + 1) % 3], first[:, i - 1], second[:, (j + 2) % 3]]
     return None
+
+
+def _integrate_small(points: NDArray, center: NDArray, triangles: NDArray, *, area: bool, shell: bool) -> BlockSums:
+    """The sums of `blocks` over all triangles, (m, 3), as one block; the third order is exact.
+
+    area: whether doubled areas are wanted, shell: also their moments.
+    """
+    corners = points.T.astype(np.float64).take(triangles.T, axis=1)  # (3, 3, m): x, y, z of a, b, c
+    edges = corners[:, 1:] - corners[:, :1]
+    above, below = edges.take(NEXT_AXIS, 0), edges.take(PREVIOUS_AXIS, 0)
+    normals = above[:, 0] * below[:, 1] - below[:, 0] * above[:, 1]
+    nodes = np.empty((3, 4, len(triangles)))  # a, b, c and s
+    np.subtract(corners, center[:, None, None], nodes[:, :3])
+    np.add.reduce(nodes[:, :3], axis=1, out=nodes[:, 3])
+    det = np.add.reduce(normals * nodes[:, 0])
+    double = np.sqrt(np.add.reduce(normals * normals)) if area else np.zeros(1)
+    products = nodes.take(ROWS, 0) * nodes.take(COLUMNS, 0)  # (6, 4, m)
+    single = np.add.reduce(products[:, :3], axis=1)
+    second = products[:, 3] + single
+    np.add(0.5 * second, single, products[:, 3])
+
+    def sums(weights: NDArray) -> NDArray[np.float64]:
+        weighted = nodes * weights
+        first = np.add.reduce(weighted[:, 3], axis=1)
+        third = weighted.reshape(3, -1) @ products.reshape(6, -1).T
+        return DIVISOR_FACTORS * np.concatenate(
+            [[np.add.reduce(weights)], first, second @ weights, np.add.reduce(third.take(CUBE))]
+        )
+
+    edges = np.maximum.reduce(np.abs(edges), axis=2)
+    sizes = np.array([np.add.reduce(np.abs(det)), np.add.reduce(double)])
+    return BlockSums(
+        sums(det), sums(double) if shell else None, edges[:, :1], edges[:, 1:], sizes[:, None], np.array([len(det)])
+    )

@@ -11,4 +11,4 @@ from __future__ import annotations
 
 from . import grid, mesh, nurbs, region, wire
 
-KINDS = (grid, wire, region, nurbs, mesh)
+KINDS = (grid, wire, region, mesh, nurbs)

@@ -41,10 +41,13 @@ MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared
 DRAWN_CODES = ("surface_drawn_as_polygons", "curves_drawn_as_polygons")
 
 
-def read(request: Request) -> Reading:
-    """Return the polygons that an object shows. Raises MeasureError where it shows none."""
+def read(request: Request) -> Reading | None:
+    """Return the polygons that an object shows; None where patches are better, which have one density. Raises
+    MeasureError where it shows none."""
     reading, density, obj = request.surfaces, request.density, request.obj
-    if density is not None and reading.has_patches:
+    if reading.has_patches:
+        if density is None:
+            return None
         reading.findings.append(finding("display_mesh_for_density"))
     elif density is not None and request.options.kind == "shell" and obj.type == "CURVE" and shows_flat_region(obj):
         reading.findings.append(finding("curve_fill_for_density"))

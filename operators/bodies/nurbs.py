@@ -108,10 +108,9 @@ class PatchSheetBody(Body):
         return Moments(np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME), sum_moments(areas)
 
 
-def read(request: Request) -> Reading | None:
-    """Return the surfaces of an object of one density some of whose surfaces are patches."""
-    reading = request.surfaces
-    return reading if reading.has_patches and request.density is None else None
+def read(request: Request) -> Reading:
+    """Return the surfaces of an object of one density some of whose surfaces are patches. Raises MeasureError."""
+    return request.surfaces
 
 
 def body(reading: Reading, request: Request) -> Body:

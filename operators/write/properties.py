@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.principal_frame import PrincipalFrame
-from ...core.measurement import Measurement
+from ...core.measurement import UNIFORM_DENSITIES, Measurement
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
 from ...core.verdict.method import Method, Source, Verdict
@@ -88,7 +88,8 @@ class StoredProperties:
 def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     """Write all results on the object, or none. EditRefusedError where the object cannot hold them."""
     require_storable(obj)
-    body, bound = measurement.in_object_frame(), measurement.error_bound
+    body = measurement.mass_properties.in_frame(measurement.rotation, measurement.location)
+    bound = measurement.error_bound
     entries = tensor_entries(body.inertia).tolist()
     values = {
         "body_mass": body.mass,
@@ -111,7 +112,7 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     values |= {key: value for key, value in optional.items() if value is not None}
     varying = (
         {}
-        if measurement.has_uniform_density
+        if measurement.density_from in UNIFORM_DENSITIES
         else {"body_density_from": str(measurement.density_from), "body_materials": "\n".join(measurement.materials)}
     )
     values |= {key: value for key, value in varying.items() if value}

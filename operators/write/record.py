@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 from ...core.inertia.mass_properties import MassProperties, combine
-from ...core.measurement import Measurement
+from ...core.measurement import UNIFORM_DENSITIES, Measurement
 from ...core.moments.moments import Moments, monomials
 from ...core.verdict.finding import Finding, MeasureError, Severity
 from .messages import sentence, severity
@@ -65,7 +65,7 @@ def record(
         "kind": measurement.kind,
         "method": str(measurement.method),
         "density": measurement.density,
-        **({} if measurement.has_uniform_density else {"density_from": str(measurement.density_from)}),
+        **({} if measurement.density_from in UNIFORM_DENSITIES else {"density_from": str(measurement.density_from)}),
         "mass": properties.mass,
         "volume": measurement.volume,
         "area": measurement.area,
