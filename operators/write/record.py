@@ -202,11 +202,8 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> str:
             [*_COLUMNS, *(name for row in records for name in row if name not in _LAST_COLUMNS), *_LAST_COLUMNS]
         )
     )
-    text = io.StringIO()
-    table = csv.DictWriter(text, header, lineterminator="\n")
-    table.writeheader()
-    table.writerows({name: _cell(value) for name, value in row.items()} for row in records)
-    return text.getvalue()
+    rows = ([_cell(row.get(name, "")) for name in header] for row in records)
+    return "".join(map(_line, (header, *rows)))
 
 
 FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv}
@@ -300,6 +297,13 @@ def _nested(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
     for name, value in values.items():
         row |= _nested(f"{prefix}_{name}", value) if isinstance(value, dict) else {f"{prefix}_{name}": value}
     return row
+
+
+def _line(cells: Iterable[Any]) -> str:
+    """A row of a table. Before Python 3.13 the csv module quotes only those line breaks that it ends a row with."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\r\n").writerow(cells)
+    return text.getvalue().removesuffix("\r\n") + "\n"
 
 
 def _cell(value: Any) -> Any:
