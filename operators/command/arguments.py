@@ -145,8 +145,14 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
         "--object",
         action="append",
         metavar="NAME",
-        help="only this object; repeatable (every measurable object; lights, cameras, empties that instance "
-        "nothing and curves that show no surface are left out unless they are named)",
+        help="only this object; repeatable (every measurable object that the file renders; lights, cameras, empties "
+        "that instance nothing and curves that show no surface are left out unless they are named)",
+    )
+    add(
+        "--all",
+        action="store_true",
+        help="also what is not rendered, and what is only an operand of Boolean modifiers, displayed as wire or "
+        "bounds (left out, and listed in left_out)",
     )
     add("--kind", choices=("solid", "shell"), help="(each object's setting, or solid)")
     add(

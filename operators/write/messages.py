@@ -325,6 +325,10 @@ MESSAGES: dict[str, Message] = {
     ),
     "not_rendered": _note("Not rendered. Use --all to measure it."),
     "boolean_operand": _note("Only an operand of Boolean modifiers. Use --all to measure it."),
+    "solid_operand_measured": _warning(
+        "Measured as a part, but cuts or joins “{object}” by a Boolean modifier. Display it as wire or bounds, or turn "
+        "off its rendering, if it is no part."
+    ),
     # ------------------------------------------------------------------ Modes, modifiers, render differences
     "edit_mode_modifiers": _note("Read in Edit Mode with its modifiers: {modifiers}."),
     "edit_mode_shape_keys": _note("Read in Edit Mode with shape keys."),
@@ -551,6 +555,9 @@ MESSAGES: dict[str, Message] = {
     ),
     # ------------------------------------------------------------------ Density and mass
     "density_defaulted": _warning("No density is set: 1000 kg/m³ was used. Set Density or a material."),
+    "density_default_kept": _note("No density is set: 1000 kg/m³ was used. Set Density or a material."),
+    "linear_density_defaulted": _warning("No linear density is set: 1 kg/m was used. Set Linear Density."),
+    "linear_density_default_kept": _note("No linear density is set: 1 kg/m was used. Set Linear Density."),
     "zero_density": _error("The density is zero. Set Density."),
     "zero_mass": _error("The mass is zero. Set Mass."),
     "mass_overflow": _error("The densities are too large. Lower them."),
@@ -1118,6 +1125,17 @@ MESSAGES: dict[str, Message] = {
     "importer_missing": _error("This Blender has no importer for {suffix} files."),
     "import_failed": _error("Blender cannot read the file: {error}."),
     "file_without_objects": _error("No object in the file. Check that it is a {suffix} file."),
+    "no_measurable_object": _error("Nothing was measured: there is no object with a surface or volume."),
+    "nothing_rendered": _error(
+        "Nothing was measured: {count} object was left out. Use --all, or turn on its rendering.",
+        "Nothing was measured: {count} objects were left out. Use --all, or turn on their rendering.",
+    ),
+    "missing_references": _error("The file refers to what cannot be found: {names}. Restore these files."),
+    "driver_blocked": _warning(
+        "Drivers did not run, as the scripts of files are disabled: {drivers}. Bake what they drive, or save the file "
+        "with simple expressions."
+    ),
+    "script_blocked": _note("A script in the file did not run, as the scripts of files are disabled: {script}."),
     "file_not_opened": _error("Blender cannot open the file. Check that it exists and is complete."),
     "file_read_only": _error("The file is read-only and cannot be saved."),
     "file_not_saved": _error("The file cannot be saved: {error}."),
@@ -1140,6 +1158,20 @@ MESSAGES: dict[str, Message] = {
     "file_not_regular": _error("Not a regular file."),
     "file_unreadable": _error("The file cannot be read: {error}."),
     "file_empty": _error("The file is empty."),
+    "non_finite_coordinates": _error(
+        "{count} number in the file is not finite (NaN or infinity), at {place}. Repair the file, or export it again.",
+        "{count} numbers in the file are not finite (NaN or infinity), the first at {place}. Repair the file, or "
+        "export it again.",
+    ),
+    "at_vertex": _note("vertex {vertex}"),
+    "at_triangle": _note("triangle {triangle}"),
+    "at_mesh_vertex": _note("vertex {vertex} of “{mesh}”"),
+    "at_accessor": _note("element {element} of accessor {accessor}"),
+    "at_node": _note("node “{node}”"),
+    "gltf_buffer_missing": _error("The buffer “{buffer}” is missing. Restore the file beside the glTF file."),
+    "gltf_buffer_short": _error(
+        "The buffer “{buffer}” is cut short: {size} of {expected} bytes. Export the file again."
+    ),
     "stl_size": _error("The STL file is cut short or damaged: its size does not match its number of triangles."),
     "stl_cut_short": _error("The STL file is cut short: “endsolid” is missing."),
     "file_exists": _error("The file “{file}” exists. Turn on Overwrite."),

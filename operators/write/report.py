@@ -66,6 +66,9 @@ def text(document: dict[str, Any]) -> str:
     if len(document["objects"]) > 1:
         heading = "Total of {} objects, world frame".format(len(document["objects"]))
         lines += ["", heading, *_body(document["total"], "world")]
+    if document["left_out"]:
+        lines += ["", "Left out"]
+        lines += ["{}{}: {}".format(INDENT, entry["name"], entry["reason"]) for entry in document["left_out"]]
     if document["errors"]:
         lines += ["", "Not measured"]
         lines += [

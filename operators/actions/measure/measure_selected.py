@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator
+from dataclasses import replace
 
 import bpy
 
@@ -13,6 +14,7 @@ from ....core.verdict.finding import Finding, Severity, finding
 from ...bodies.measure_object import Measured, measure_body
 from ...session import results
 from ...session.staleness import mark_up_to_date
+from ...settings.density import unset_density
 from ...write import reports
 from ...write.messages import of_severity
 from ..modal import ModalSteps, redraw
@@ -55,7 +57,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Generator[int, None, None]:
         for done, obj in enumerate(objects, 1):
             try:
-                self._results.append((obj, measure_body(obj, depsgraph)))
+                self._results.append((obj, _with_default_density(obj, measure_body(obj, depsgraph))))
             except Exception as error:
                 self._refusals.append((obj, internal_error.finding_of(error)))
             yield done
@@ -90,6 +92,16 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         elif warned:
             done.append(finding("with_warnings", count=warned))
         reports.report(self, *done, *(reports.first(self._failures) if self._failures else ()))
+
+
+def _with_default_density(obj: bpy.types.Object, measured: Measured) -> Measured:
+    """With a note where nobody has set the density."""
+    unset = unset_density(obj, measured.measurement)
+    if unset is None:
+        return measured
+    kept = finding("density_default_kept") if unset == "density" else finding("linear_density_default_kept")
+    findings = (*measured.measurement.findings, kept)
+    return replace(measured, measurement=replace(measured.measurement, findings=findings))
 
 
 CLASSES = (OBJECT_OT_body_moments_measure,)
