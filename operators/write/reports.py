@@ -24,14 +24,14 @@ def text(*findings: Finding) -> str:
     """The sentences of findings, one after the other."""
     lengths = partial(Units.of(bpy.context.scene.unit_settings).text, "length")
     joined = ""
-    for shown in (sentence(one, bpy.app.translations.pgettext_rpt, lengths) for one in findings):
-        between = " " if joined.endswith(".") else ". " if shown.endswith(".") else "; "
-        joined += between + shown if joined else shown
+    for added in (sentence(shown, bpy.app.translations.pgettext_rpt, lengths) for shown in findings):
+        between = " " if joined.endswith(".") else ". " if added.endswith(".") else "; "
+        joined += between + added if joined else added
     return joined
 
 
-def _rank(found: Finding) -> int:
-    return tuple(Severity).index(severity(found))
+def _rank(shown: Finding) -> int:
+    return tuple(Severity).index(severity(shown))
 
 
 def report(operator: Operator, *findings: Finding) -> None:
