@@ -33,7 +33,7 @@ from .cache import SessionCache
 
 _edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
 _settings: SessionCache[str] = SessionCache()  # digest of the settings at the last update
-_changes: SessionCache[int] = SessionCache()  # how often the geometry changed
+_changes: SessionCache[int] = SessionCache()  # how often the geometry changed, of objects for which this is asked
 _shapes: dict[str, bytes] = {}  # mark → digest of what was shown when it was stored: copies of an object share both
 _undo_pending = False  # whether the next update is that of undo or redo
 
@@ -115,7 +115,20 @@ def mark_axes_changed(objects: Iterable[Object]) -> None:
 
 
 def geometry_changes(obj: Object) -> int:
-    """Return how often Blender has reported a change of the object's geometry; some settings count as such."""
+    """Count how often Blender reports a change of the object's geometry; some settings count as such.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    int
+        How often that was since the first call for this object, or since the file was loaded.
+    """
+    if obj not in _changes:
+        _changes[obj] = 0
     return _changes.get(obj, 0)
 
 
@@ -215,8 +228,9 @@ def _note_updates(updates: handlers.Updates) -> None:
         return
     instancing = instancing_objects((*updates.reshaped, *updates.moved), updates.collections)
     reshaped = dict.fromkeys((*updates.reshaped, *instancing))
-    for obj in reshaped:
-        _changes[obj] = _changes.get(obj, 0) + 1
+    for obj in reshaped if len(_changes) else ():
+        if obj in _changes:
+            _changes[obj] = geometry_changes(obj) + 1
     for obj in reshaped | dict.fromkeys(volume_filled_objects(reshaped)):
         if carried := marks.of_object(obj):
             _note_update(obj, carried, updates, undone)

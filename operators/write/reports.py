@@ -22,9 +22,9 @@ LEVELS = {Severity.NOTE: "INFO", Severity.WARNING: "WARNING", Severity.ERROR: "E
 def text(*findings: Finding) -> str:
     """The sentences of findings, one after the other."""
     joined = ""
-    for shown in [sentence(found, bpy.app.translations.pgettext_rpt, _length) for found in findings]:
-        between = " " if joined.endswith(".") else ". " if shown.endswith(".") else "; "
-        joined += between + shown if joined else shown
+    for added in [sentence(shown, bpy.app.translations.pgettext_rpt, _length) for shown in findings]:
+        between = " " if joined.endswith(".") else ". " if added.endswith(".") else "; "
+        joined += between + added if joined else added
     return joined
 
 
@@ -32,8 +32,8 @@ def _length(meters: float) -> str:
     return Units.of(bpy.context.scene.unit_settings).text("length", meters)
 
 
-def _rank(found: Finding) -> int:
-    return tuple(Severity).index(severity(found))
+def _rank(shown: Finding) -> int:
+    return tuple(Severity).index(severity(shown))
 
 
 def report(operator: Operator, *findings: Finding) -> None:

@@ -3,6 +3,7 @@
 """What the session remembers is of loaded objects only, and Blender's reports reach all who asked for them."""
 
 from functools import partial
+from types import SimpleNamespace
 
 import pytest
 
@@ -153,11 +154,14 @@ def test_what_was_updated_is_passed_on_once_and_as_original_data(monkeypatch):
     seen.clear()
     shaped.data.vertices[0].co.x -= 1.0
     shaped.data.update()
-    moved.location.x = 5.0
+    shaped.location.x = moved.location.x = 5.0
     bpy.context.view_layer.update()
     (updates,) = seen
     assert (updates.reshaped, updates.moved, updates.collections) == ([shaped], [moved], set())
     assert updates.scene == bpy.context.scene and not any(obj.is_evaluated for obj in (shaped, moved))
+    handlers._on_update(updates.scene, SimpleNamespace(mode="RENDER", updates=updates.depsgraph.updates))
+    handlers._on_update(updates.scene)
+    assert len(seen) == 1  # neither a renderer's evaluation nor none
     collection.objects.link(shaped)
     bpy.context.view_layer.update()
     assert collection in seen[-1].collections
@@ -167,3 +171,19 @@ def test_what_was_updated_is_passed_on_once_and_as_original_data(monkeypatch):
         shaped.data.update()
         bpy.context.view_layer.update()
     assert staleness.geometry_changes(shaped) == changes and quiet[-1].reshaped == [shaped]
+
+
+def test_what_a_panel_shows_is_kept_until_anything_that_it_is_made_of_changes():
+    obj, scene = add(mesh_body()), bpy.context.scene
+    bpy.ops.object.body_moments_compute_moments()
+    shown = moments_table.current_numbers(obj, scene)
+    assert moments_table.current_numbers(obj, scene) is shown
+    scene.body_moments.moments_of = "SURFACE"
+    area = moments_table.current_numbers(obj, scene)
+    assert area[0][0].unit == "m²" and shown[0][0].unit == "m³"
+    bpy.ops.object.body_moments_compute_moments()
+    assert moments_table.current_numbers(obj, scene) is not area
+    before = results.total(bpy.context)
+    assert results.total(bpy.context) is before
+    staleness.mark_object(obj)
+    assert results.total(bpy.context) is not before
