@@ -96,7 +96,6 @@ class _Progress:
         self.config, self.path = config, path
         self.counts = dict.fromkeys(("passed", "failed", "skipped"), 0)
         self.left, self.total, self.done = Counter(), 0, 0
-        config.option.console_output_style = "classic"
 
     def print(self, text: str) -> None:
         self.config.pluginmanager.getplugin("terminalreporter").write_line(text)
@@ -108,11 +107,14 @@ class _Progress:
 
     @pytest.hookimpl(tryfirst=True)
     def pytest_report_teststatus(self, report):
-        """No dots: lines for files, and for failures as they happen."""
-        if report.outcome == "passed" or not hasattr(report, "wasxfail"):
-            counted = report.when == "call" or report.outcome != "passed"
-            return report.outcome if counted else "", "", ""
-        return None
+        """No letters: lines for files, and for failures as they happen."""
+        if hasattr(report, "wasxfail"):
+            return "xfailed" if report.skipped else "xpassed", "", "XFAIL"
+        if report.outcome == "failed" and report.when != "call":
+            return "error", "", "ERROR"
+        if report.outcome != "passed":
+            return report.outcome, "", report.outcome.upper()
+        return report.outcome if report.when == "call" else "", "", ""
 
     def pytest_runtest_logreport(self, report):
         if report.when == "call" or report.outcome != "passed":

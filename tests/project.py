@@ -297,8 +297,8 @@ def run_tests(
     result = ENVS / "results" / f"{group}-{version}.json"
     result.parent.mkdir(exist_ok=True)
     result.unlink(missing_ok=True)
-    command = [python, "-P", "-m", "pytest", "-q", "-rfEs", f"--result-file={result}"]
-    command += [*(files or [TESTS / group]), *extra]
+    command = [python, "-P", "-m", "pytest", "-q", "-rfEs", "-o", "console_output_style=classic"]
+    command += [f"--result-file={result}", *(files or [TESTS / group]), *extra]
     started = time.monotonic()
     code = runner.run(label, command, result)
     if result.is_file():
