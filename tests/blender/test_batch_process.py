@@ -24,7 +24,9 @@ from tests.blender import batch_files as files
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCRIPT = str(ROOT / "operators" / "batch.py")
 BLENDER = os.environ.get("BLENDER") or shutil.which("blender")
-in_blender = pytest.mark.skipif(not BLENDER, reason="no real Blender: put one on the PATH or name it with the variable BLENDER")
+in_blender = pytest.mark.skipif(
+    not BLENDER, reason="no real Blender: put one on the PATH or name it with the variable BLENDER"
+)
 
 
 def process(*words, env=None, **options):
