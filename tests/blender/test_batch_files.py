@@ -12,6 +12,7 @@ import bpy
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import codes, document, measured, reason, run, sentence
+from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("registered")
 needs_usd = pytest.mark.skipif(not bpy.app.usd.supported, reason="this Blender is built without USD")
@@ -51,7 +52,7 @@ def test_every_format_gives_the_box_that_was_saved(tmp_path, suffix):
 def test_a_file_written_by_hand_is_measured_as_blender_shows_it(tmp_path, name, text, center):
     entry = measured(files.write_text(tmp_path / name, text))
     assert entry["volume"] == pytest.approx(1.0, rel=1e-12)
-    assert entry["center_of_mass"] == pytest.approx(center, rel=2e-7 if "OBJ" in name else 1e-12)
+    assert close(entry["center_of_mass"], center, rel=2e-7 if "OBJ" in name else 1e-12)
 
 
 @pytest.mark.parametrize("suffix", [".stl", ".obj", ".ply"])
@@ -60,11 +61,11 @@ def test_the_unit_scale_is_for_files_without_a_unit(tmp_path, suffix):
     meters, millimeters = measured(path), measured(path, "--unit-scale", "0.001")
     assert meters["volume"] == pytest.approx(6.0, rel=1e-6)
     assert "unit_assumed" in codes(meters)
-    assert millimeters["volume"] == pytest.approx(6e-9, rel=1e-6)
-    assert millimeters["area"] == pytest.approx(22e-6, rel=1e-6)
-    assert millimeters["mass"] == pytest.approx(6e-6, rel=1e-6)
+    assert close(millimeters["volume"], 6e-9, rel=1e-6)
+    assert close(millimeters["area"], 22e-6, rel=1e-6)
+    assert close(millimeters["mass"], 6e-6, rel=1e-6)
     assert millimeters["center_of_mass"] == pytest.approx([0.01, 0.02, 0.03], rel=1e-6)
-    assert millimeters["principal_moments"] == pytest.approx([2.5e-12, 5e-12, 6.5e-12], rel=1e-5)
+    assert close(millimeters["principal_moments"], [2.5e-12, 5e-12, 6.5e-12], rel=1e-5)
     assert codes(millimeters) == ["density_defaulted"]  # an STL file has none
 
 
@@ -80,14 +81,14 @@ def test_a_blend_files_own_unit_scale_counts(tmp_path):
     files.add_box()
     bpy.context.scene.unit_settings.scale_length = 0.001
     entry = measured(files.save(tmp_path / "part.blend"))
-    assert entry["volume"] == pytest.approx(6e-9, rel=1e-6)
+    assert close(entry["volume"], 6e-9, rel=1e-6)
     assert entry["center_of_mass"] == pytest.approx([0.01, 0.02, 0.03], rel=1e-6)
 
 
 @needs_usd
 def test_a_usd_stages_unit_counts(tmp_path):
     entry = measured(files.write_text(tmp_path / "t.usda", files.usda_text(0.01)))
-    assert entry["volume"] == pytest.approx(1e-6, rel=1e-6)
+    assert close(entry["volume"], 1e-6, rel=1e-6)
     assert entry["center_of_mass"] == pytest.approx([0.0025, 0.005, 0.0075], rel=1e-6)
 
 

@@ -58,7 +58,7 @@ def instancer(name, member):
 def test_numbers_that_undo_brings_back_are_not_those_of_a_later_edit(comparable, monkeypatch):
     obj = add(mesh_body())
     if not comparable:
-        monkeypatch.setattr(digest, "MAX_DIGESTED_FACES", 0)
+        monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
     bpy.ops.ed.undo_push(message="Start")
     measure(obj)
     bpy.ops.ed.undo_push(message="Measured")
@@ -80,7 +80,7 @@ def test_numbers_that_undo_brings_back_are_not_those_of_a_later_edit(comparable,
 
 
 def test_an_edit_in_a_file_that_was_opened_after_undo_is_one(tmp_path, monkeypatch):
-    monkeypatch.setattr(digest, "MAX_DIGESTED_FACES", 0)
+    monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
     measure(add(mesh_body()))
     path = str(tmp_path / "body.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
