@@ -247,18 +247,18 @@ def _check_ascii_ply(data: Data, start: int, elements: list, _order: str) -> tup
 
     def coordinates(line: bytes, begin: int) -> list[bytes]:
         nonlocal here, line_number
-        line_number += _line_count(data, here, begin)
+        line_number += _byte_count(data, b"\n", here, begin)
         here = begin
         words = line.split() if 0 <= line_number - line_before < rows else []
         return [words[column] for column in columns if column < len(words)]
 
     count, first = _bad_in_text(data, coordinates, start)
-    return count, 0 if first is None else _line_count(data, start, first) - line_before
+    return count, 0 if first is None else _byte_count(data, b"\n", start, first) - line_before
 
 
-def _line_count(data: Data, begin: int, end: int) -> int:
+def _byte_count(data: Data, byte: bytes, begin: int, end: int) -> int:
     view = np.frombuffer(data, np.uint8, end - begin, begin)
-    return sum(int(np.count_nonzero(view[i : i + _BLOCK] == ord("\n"))) for i in range(0, len(view), _BLOCK))
+    return sum(int(np.count_nonzero(view[i : i + _BLOCK] == byte[0])) for i in range(0, len(view), _BLOCK))
 
 
 def _check_binary_ply(data: Data, start: int, elements: list, order: str) -> tuple[int, int]:
@@ -409,8 +409,9 @@ class FbxNode:
 
 
 def _check_fbx(data: Data, _path: str) -> None:
-    """Of binary files: the vertices of meshes and of their shapes."""
+    """The vertices of meshes and of their shapes."""
     if data[:23] != _FBX_MAGIC:
+        _check_ascii_fbx(data)
         return
     with suppress(*_MALFORMED):
         wide = struct.unpack_from("<I", data, 23)[0] >= 7500
@@ -424,6 +425,30 @@ def _check_fbx(data: Data, _path: str) -> None:
                         first = first if count else (begin + row) // 3
                         count += more
                     _refuse(count, finding("at_vertex", vertex=first))
+
+
+_FBX_ARRAY = re.compile(rb"\bVertices\s*:(?:\s*\*\d+\s*\{\s*a:)?$")
+_FBX_NUMBER = re.compile(rb"[^\s,:{}]+")
+
+
+def _check_ascii_fbx(data: Data) -> None:
+    count, first, before, done = 0, 0, 0, 0
+    begin, of_vertices = 0, False  # of the last array that was met
+    for place in _suspicious(data):
+        if place < done:
+            continue
+        colon = data.rfind(b":", before, place)
+        if colon >= 0:
+            begin, before = colon + 1, colon
+            of_vertices = _FBX_ARRAY.search(data[max(0, colon - 100) : begin]) is not None
+        window = max(begin, place - _OVERLAP)
+        words = _FBX_NUMBER.finditer(data[window : place + _OVERLAP])
+        word = next((word for word in words if window + word.end() > place), None)
+        done = place + 1 if word is None else window + word.end()
+        if of_vertices and word is not None and not _is_finite(word[0]):
+            first = first if count else _byte_count(data, b",", begin, place) // 3
+            count += 1
+    _refuse(count, finding("at_vertex", vertex=first))
 
 
 def _fbx_children(data: Data, parent: FbxNode, wide: bool, name: bytes) -> Iterator[FbxNode]:
