@@ -75,7 +75,7 @@ class PlanarityAccumulator:
     def degenerate_limit(self) -> float:
         """The largest sum of the lengths of a quad's normals that may be those of a face without area."""
         longest = 3.0 * self.extent * self.extent  # no face is longer than √3 times the extent
-        return 2.0 * np.sqrt(_degenerate_limit(longest, self.error))
+        return float(2.0 * np.sqrt(_degenerate_limit(longest, self.error)))
 
     def add_quads(self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray) -> None:
         """Those from row `start` on.

@@ -9,6 +9,7 @@ import re
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,7 +83,7 @@ def _check_array_header(start: bytes) -> None:
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
     """The shape of an array in an archive, which must fill its entry: beyond the array no checksum would be reached."""
-    with archive.open(entry) as file:
+    with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # which can be looked into
         _check_array_header(file.peek(12))
         version = np.lib.format.read_magic(file)
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0

@@ -70,10 +70,10 @@ def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
     dimensions = max((number for number, size in enumerate(sizes, 1) if number <= 3 or size != 1), default=0)
     if dimensions != 3:
         raise FileError("scan_dimensions", dimensions=dimensions)
-    sizes = sizes[:3]
-    if min(sizes) < 1 or max(sizes) > 1 << 40 or math.prod(sizes) > 1 << 48:
-        raise FileError("scan_size", samples=list(sizes))
-    return sizes
+    x, y, z = sizes[:3]
+    if min(x, y, z) < 1 or max(x, y, z) > 1 << 40 or x * y * z > 1 << 48:
+        raise FileError("scan_size", samples=[x, y, z])
+    return x, y, z
 
 
 def real_samples(array: NDArray) -> NDArray:

@@ -13,9 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any, Protocol, TypeVar
-
-Item = TypeVar("Item")
+from typing import Any, Protocol
 
 MAX_STORED_ELEMENTS = 8  # of a finding that is stored or is a value of another one: as many as a sentence names
 
@@ -109,7 +107,7 @@ def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:
     return tuple(dict.fromkeys(findings))
 
 
-def truncate(items: Sequence[Item], limit: int, count: int | None = None) -> tuple[Sequence[Item], int]:
+def truncate(items: Elements, limit: int, count: int | None = None) -> tuple[Elements, int]:
     """Keep the first items of a list that is shown.
 
     Parameters

@@ -183,7 +183,7 @@ def _check_stl(data: Data, _path: str) -> None:
         return
     vertices = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
     count, first = _bad_in_text(data, lambda line, _: (word for words in vertices.findall(line) for word in words))
-    if count:
+    if first is not None:
         before = _count(data, vertices, first)
         _refuse(count, finding("at_triangle", triangle=before // 3))
 
@@ -194,7 +194,7 @@ def _check_obj(data: Data, _path: str) -> None:
         return words[1:4] if words[:1] == [b"v"] else []
 
     count, first = _bad_in_text(data, coordinates)
-    if count:
+    if first is not None:
         before = _count(data, re.compile(rb"^[ \t]*v[ \t]", re.MULTILINE), first)
         _refuse(count, finding("at_vertex", vertex=before))
 
@@ -247,18 +247,18 @@ def _check_ascii_ply(data: Data, start: int, elements: list, _order: str) -> tup
 
     def coordinates(line: bytes, begin: int) -> list[bytes]:
         nonlocal here, line_number
-        line_number += _line_count(data, here, begin)
+        line_number += _byte_count(data, b"\n", here, begin)
         here = begin
         words = line.split() if 0 <= line_number - line_before < rows else []
         return [words[column] for column in columns if column < len(words)]
 
     count, first = _bad_in_text(data, coordinates, start)
-    return count, 0 if first is None else _line_count(data, start, first) - line_before
+    return count, 0 if first is None else _byte_count(data, b"\n", start, first) - line_before
 
 
-def _line_count(data: Data, begin: int, end: int) -> int:
+def _byte_count(data: Data, byte: bytes, begin: int, end: int) -> int:
     view = np.frombuffer(data, np.uint8, end - begin, begin)
-    return sum(int(np.count_nonzero(view[i : i + _BLOCK] == ord("\n"))) for i in range(0, len(view), _BLOCK))
+    return sum(int(np.count_nonzero(view[i : i + _BLOCK] == byte[0])) for i in range(0, len(view), _BLOCK))
 
 
 def _check_binary_ply(data: Data, start: int, elements: list, order: str) -> tuple[int, int]:
@@ -352,8 +352,9 @@ class Buffers:
     """The document of a glTF file, and its buffers, those in other files too."""
 
     def __init__(self, data: Data, path: str) -> None:
-        self.folder, self.binary = os.path.dirname(path), None
-        self.opened: dict[int, Data | tuple[Data, int]] = {}
+        self.folder = os.path.dirname(path)
+        self.binary: tuple[Data, int] | None = None
+        self.opened: dict[int, tuple[Data, int]] = {}
         text = data
         if data[:4] == b"glTF":  # chunks of the text and of the first buffer, each behind its length and type
             end = 20 + struct.unpack_from("<I", data, 12)[0]
@@ -380,7 +381,10 @@ class Buffers:
     def _open(self, buffer: dict[str, Any], size: int) -> tuple[Data, int]:
         uri = buffer.get("uri")
         if uri is None:
-            name, (data, start) = "BIN", self.binary
+            name = "BIN"
+            if self.binary is None:
+                raise FileError("gltf_buffer_missing", buffer=name)
+            data, start = self.binary
         elif uri.startswith("data:"):
             name, data, start = "data:", base64.b64decode(uri.partition(",")[2]), 0
         else:
@@ -409,8 +413,9 @@ class FbxNode:
 
 
 def _check_fbx(data: Data, _path: str) -> None:
-    """Of binary files: the vertices of meshes and of their shapes."""
+    """The vertices of meshes and of their shapes."""
     if data[:23] != _FBX_MAGIC:
+        _check_ascii_fbx(data)
         return
     with suppress(*_MALFORMED):
         wide = struct.unpack_from("<I", data, 23)[0] >= 7500
@@ -424,6 +429,30 @@ def _check_fbx(data: Data, _path: str) -> None:
                         first = first if count else (begin + row) // 3
                         count += more
                     _refuse(count, finding("at_vertex", vertex=first))
+
+
+_FBX_ARRAY = re.compile(rb"\bVertices\s*:(?:\s*\*\d+\s*\{\s*a:)?$")
+_FBX_NUMBER = re.compile(rb"[^\s,:{}]+")
+
+
+def _check_ascii_fbx(data: Data) -> None:
+    count, first, before, done = 0, 0, 0, 0
+    begin, of_vertices = 0, False  # of the last array that was met
+    for place in _suspicious(data):
+        if place < done:
+            continue
+        colon = data.rfind(b":", before, place)
+        if colon >= 0:
+            begin, before = colon + 1, colon
+            of_vertices = _FBX_ARRAY.search(data[max(0, colon - 100) : begin]) is not None
+        window = max(begin, place - _OVERLAP)
+        words = _FBX_NUMBER.finditer(data[window : place + _OVERLAP])
+        word = next((word for word in words if window + word.end() > place), None)
+        done = place + 1 if word is None else window + word.end()
+        if of_vertices and word is not None and not _is_finite(word[0]):
+            first = first if count else _byte_count(data, b",", begin, place) // 3
+            count += 1
+    _refuse(count, finding("at_vertex", vertex=first))
 
 
 def _fbx_children(data: Data, parent: FbxNode, wide: bool, name: bytes) -> Iterator[FbxNode]:

@@ -110,7 +110,7 @@ def shape_digest(obj, depsgraph) -> bytes | None:
     surface = mesh_surface(geometry.mesh, edges=False)
     digest = hashlib.blake2b(digest_size=16)
     for array in (surface.points, surface.triangles, surface.quads):
-        digest.update(np.ascontiguousarray(array))
+        digest.update(np.ascontiguousarray(array).tobytes())
         digest.update(repr(array.shape).encode())
     return digest.digest()
 

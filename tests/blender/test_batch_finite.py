@@ -21,7 +21,7 @@ from tests.blender.batch_files import document, measured, reason, sentence
 pytestmark = pytest.mark.usefixtures("registered")
 
 WORDS = ["nan", "-NaN", "NAN(0x1)", "inf", "+INF", "-Infinity", "1e999", "-1E+39", "1e0039", "4" + "0" * 38]
-WORDS += ["1.#INF", "-1.#IND", "1.#QNAN", "7" * 31 + "e8", "0.5e39", "3.5e38"]
+WORDS += ["1.#INF", "-1.#IND", "1.#QNAN", "7" * 31 + "e8", "0.5e39", "3.5e38", "7" * 30 + "e09", "4.e38"]
 FINITE = ["1e-999", "1E+02", "-1.5e+037", "0." + "1" * 60, "3.4e38", "1e+00", "2.0e-39", ".5", "0" * 40 + "1", "1e05"]
 PLACES = {"vertex": "at_vertex", "triangle": "at_triangle"}
 
@@ -205,8 +205,9 @@ def test_numbers_in_the_text_of_a_gltf_are_looked_at_and_so_is_what_overrides_po
     path = tmp_path / "box.gltf"
     accessor, start = position(text)
     kept = dict(accessor)
-    for word in ("NaN", "Infinity", "1e999"):
-        accessor["max"] = ["word", 1, 1]
+    for word, key in (("NaN", "max"), ("Infinity", "min"), ("1e999", "max"), ("-1e39", "min")):
+        accessor.update(kept)
+        accessor[key] = ["word", 1, 1]
         files.write_text(path, json.dumps(text).replace('"word"', word))
         assert checked(path).values["count"] == 1
     accessor.clear()
@@ -227,6 +228,34 @@ def test_numbers_in_the_text_of_a_gltf_are_looked_at_and_so_is_what_overrides_po
     (tmp_path / "box.bin").write_bytes(binary)
     files.write_text(path, json.dumps(text))
     assert checked(path).values["count"] == 1
+
+
+def test_whatever_places_points_in_a_gltf_is_looked_at_and_nothing_else(tmp_path):
+    numbers = np.zeros((6, 4), "<f4")
+    numbers[:, 3] = math.nan  # between the rows
+    numbers[4, 1] = math.inf
+    (tmp_path / "t.bin").write_bytes(numbers.tobytes())
+    view = {"buffer": 0, "byteLength": numbers.nbytes, "byteStride": 16}
+    accessors = [{"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3"} for count in (4, 6)]
+    text = {"buffers": [{"uri": "t.bin", "byteLength": numbers.nbytes}], "bufferViews": [view], "accessors": accessors}
+    instancing = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}}
+    other = finding("at_accessor", accessor=1, element=4)
+    of_mesh = finding("at_mesh_vertex", mesh="0", vertex=4)
+    for more, place in (
+        ({"meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 1}}]}]}, None),
+        ({"meshes": [{"primitives": [{"attributes": {"POSITION": 1}}]}]}, of_mesh),
+        ({"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]}]}]}, of_mesh),
+        ({"skins": [{"inverseBindMatrices": 1}]}, other),
+        ({"animations": [{"samplers": [{"input": 0, "output": 1}]}]}, other),
+        ({"animations": [{"samplers": [{"input": 1, "output": 0}]}]}, other),
+        ({"nodes": [{"extensions": instancing}]}, other),
+    ):
+        files.write_text(tmp_path / "t.gltf", json.dumps(text | more))
+        found = checked(tmp_path / "t.gltf")
+        assert found == (place and finding("non_finite_coordinates", count=1, place=place.as_record()))
+    view["extensions"] = {"EXT_meshopt_compression": {}}
+    files.write_text(tmp_path / "t.gltf", json.dumps(text | more))
+    assert checked(tmp_path / "t.gltf") is None
 
 
 def test_a_gltf_whose_buffer_is_missing_or_cut_short_names_it(tmp_path, gltf):
@@ -269,6 +298,22 @@ def test_the_vertices_of_an_fbx_are_looked_at(tmp_path, packed):
     values[[299_999, 200_000]] = math.nan, 1e39
     fbx_file(path, values, packed)
     said(path, 2, "at_vertex", vertex=66_666)
+
+
+@pytest.mark.parametrize("head", ["Vertices: *12 {\n\t\t\ta: ", "Vertices: "])
+def test_the_vertices_of_an_fbx_of_text_are_looked_at(tmp_path, head):
+    path = tmp_path / "t.fbx"
+    text = '; FBX 7.4.0 project file\nObjects:  {\n\tGeometry: 1, "Geometry::inf", "Mesh" {\n'
+    text += "\t\tNormals: *3 {\n\t\t\ta: nan,1e999,0\n\t\t}\n\t\t"
+    after = "\n\t\t}\n\t\tWeights: *1 {\n\t\t\ta: nan\n\t\t}\n\t}\n}\n"
+    for word in (*FINITE, *WORDS):
+        files.write_text(path, text + head + "0,0,0,1,0,0,0," + word + ",0,\n0,0,3" + after)
+        if word in FINITE:
+            assert checked(path) is None, word
+        else:
+            said(path, 1, "at_vertex", vertex=2)
+    files.write_text(path, text + head + "0,nan,inf,1,0,0,0,1e999,0," + "7" * 45 + ",0,3" + after)
+    said(path, 4, "at_vertex", vertex=0)
 
 
 def test_an_fbx_of_blender_is_looked_at(tmp_path):

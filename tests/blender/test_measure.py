@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From an object to its numbers: closed forms through every transform, kind, unit and overlap, and nothing touched."""
 
+import json
 from fractions import Fraction
 
 import bpy
@@ -503,3 +504,18 @@ def test_a_small_cap_before_uniting_is_a_note():
     faces = [(3, 2, 1, 0), *((a + k, b + k, b + k + 4, a + k + 4) for a, b in turns for k in (0, 4))]
     found = said(measure(add({"points": points, "faces": faces}), overlap="union"))
     assert found["holes_capped_before_union_slightly"] == {"share": pytest.approx(2.5e-7, rel=1e-3)}
+
+
+def test_a_density_that_nobody_set_is_a_note_in_the_window():
+    part = add(box())
+    for density, codes in ((None, ["density_default_kept"]), (1000.0, [])):
+        if density is not None:
+            part.body_moments.density = density
+        assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+        assert [one["code"] for one in json.loads(part["body_findings"])] == codes
+        assert part["body_warnings"] == ""
+    bpy.ops.curve.primitive_bezier_circle_add()
+    wire = bpy.context.object
+    wire.body_moments.kind = "WIRE"
+    bpy.ops.object.body_moments_measure()
+    assert [one["code"] for one in json.loads(wire["body_findings"])] == ["linear_density_default_kept"]

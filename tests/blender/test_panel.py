@@ -336,6 +336,7 @@ FOUND = (finding("t_junctions", count=3), finding("overlap_unchecked", count=2),
 
 def test_warnings_are_shown_wrapped_before_the_numbers_and_notes_behind_them_errors_first():
     obj = add(mesh_body())
+    obj.body_moments.density = 1000.0
     bpy.ops.object.body_moments_measure()
     assert not any(label.startswith(("Warnings", "Notes")) for label in labels(drawn()))
     store_findings(obj, *FOUND)

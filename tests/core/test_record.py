@@ -90,7 +90,7 @@ def test_a_record_has_the_keys_of_the_contract_in_its_order():
         *("health", "error_bound", "findings", "warnings", "notes"),
     ]
     assert list(one_document(box())["total"])[-3:] == ["findings", "warnings", "notes"]
-    keys = ["schema", "blender", "file", "frame", "objects", "total", "errors"]
+    keys = ["schema", "blender", "file", "frame", "objects", "total", "left_out", "errors"]
     assert list(one_document(box())) == keys
 
 
