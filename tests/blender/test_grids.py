@@ -8,7 +8,7 @@ import tempfile
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.core.verdict.finding import MeasureError, ReadError, finding
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read import sample_grid, vdb
 from body_moments.operators.read import volume as volume_module
