@@ -89,7 +89,7 @@ def with_object_settings(options: MeasureOptions, obj: bpy.types.Object, unit: f
     """The options with every gap filled from the object's settings."""
     settings = obj.body_moments
     density, mass = options.density, options.mass
-    kind = options.kind or settings.kind.lower()
+    kind = options.kind or ("solid" if obj.type == "VOLUME" else settings.kind.lower())  # which has no setting for it
     if density is None and mass is None:
         given = settings.linear_density if kind == "wire" else settings.density
         density, mass = (

@@ -8,7 +8,7 @@ import tempfile
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.core.verdict.finding import MeasureError, ReadError, finding
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read import sample_grid, vdb
 from body_moments.operators.read import volume as volume_module
@@ -109,6 +109,19 @@ def test_sampling_by_nodes_gives_the_same_bits(tmp_path, monkeypatch, dtype, mat
         assert second.dtype == first.dtype
         assert np.array_equal(second[inner], first)
         assert np.count_nonzero(second) == np.count_nonzero(first)
+
+
+@pytest.mark.parametrize("kind", ["SHELL", "WIRE"])
+def test_a_volume_object_is_solid_whatever_kind_its_settings_hold(kind):
+    bpy.ops.mesh.primitive_cube_add(location=(3, 0, 0))
+    fog = mesh_to_volume(bpy.context.object)
+    solid = measure(fog)
+    fog.body_moments.kind = kind
+    found = measure(fog)
+    assert found.kind == "solid" and found.mass_properties.mass == solid.mass_properties.mass > 0.0
+    assert found.fingerprint == solid.fingerprint
+    with pytest.raises(ReadError):
+        measure(fog, kind=kind.lower())
 
 
 @pytest.mark.parametrize("nodes", [False, True])
