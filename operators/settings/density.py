@@ -69,7 +69,7 @@ def unset_density(obj: bpy.types.Object, measurement: Measurement) -> str | None
     none was. measurement: of the object, with no density or mass from elsewhere."""
     settings = obj.body_moments
     used = {measurement.density_from.code, *(one.code for one in measurement.findings)}
-    if settings.mass_from != "DENSITY" or not used & _BY_OBJECT:
+    if not used & _BY_OBJECT:
         return None
     name = "linear_density" if measurement.kind == "wire" else "density"
     return None if settings.is_property_set(name) else name

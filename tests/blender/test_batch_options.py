@@ -210,8 +210,9 @@ def test_a_density_that_nobody_set_is_a_finding():
     box.body_moments.density_from = "MATERIALS"
     assert codes(measured()) == ["object_density_used", "density_defaulted"]
     material = bpy.data.materials.new("Steel")
-    material.body_moments.density = 7850.0
     box.data.materials.append(material)
+    assert codes(measured()) == ["object_density_used_for_materials", "density_defaulted"]
+    material.body_moments.density = 7850.0
     assert measured()["findings"] == []
     box.body_moments.density_from, box.body_moments.density = "VALUE", 1000.0
     assert measured()["findings"] == []

@@ -508,6 +508,7 @@ def test_a_small_cap_before_uniting_is_a_note():
 
 def test_a_density_that_nobody_set_is_a_note_in_the_window():
     part = add(box())
+    part.select_set(True)
     for density, codes in ((None, ["density_default_kept"]), (1000.0, [])):
         if density is not None:
             part.body_moments.density = density
