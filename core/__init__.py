@@ -1,69 +1,98 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers in, numbers out: the moments of bodies, with numpy and the standard library only.
+"""Moments of bodies: numbers in, numbers out, with numpy and the standard library only.
 
-Every body becomes `moments`, and everything else is derived from them. Below are the modules by subject. A paper's
-formula is in the module that names it here; where the paper is wrong, that module's docstring says so.
+Every body becomes raw moments about a stated point (`Moments`), and everything else is derived from them.
+`from body_moments.core import ...` has the dozen names that most uses need:
 
-What everything is made of
-    moments, affine             raw moments about a point; their sums, shifts and affine images, with error bounds
-    mass, measurement           mass, center, inertia, radii of gyration; all results of one measured object
-    vectors, precise, rotation  products, exact sums, quaternions
-    quadrature, decimal         Gauss's rules; float32 as the decimals that were typed
+    Surface                                  triangles and quads over shared points
+    measure_solid, polyhedron_moments        the body in a surface, repaired on a copy; its moments to any order
+    grid_moments, read_scan                  densities sampled on a grid; files of samples
+    Moments, MassProperties                  raw moments; mass, center, inertia and principal moments
+    principal_frame, pose_matrix             principal axes, unique where the body allows it; the pose
+    signature, solid_transform               numbers that identify a shape; the Fourier transform
+    Finding, MeasureError                    what was noticed or decided; what was refused, and why
 
-Solids and shells of triangles and quads
-    surface                     the arrays that every reader makes
-    polyhedron                  to third order; its loops are `blocks` and, for bodies of few faces, `small`
-    recursion                   to any order, also of a stream; its loop is `levels`
-    simplex                     in n dimensions
-    images, components          areas of uneven images (Nanson); the closed parts of a body
-    wall, offset                shells of real thickness; where their vertices go
-    gradient, balance           derivatives by every vertex; the least change of shape that moves the center
-    sheynin_tuzikov             reference, as printed: Sheynin and Tuzikov 2001 (factorized: `recursion`, `simplex`)
-    durso                       reference, as printed: D'Urso 2005
-    zhang_chen                  reference, as printed: Zhang and Chen 2001
+The packages, each with its own public names in its `__init__` (imports run from the first row to the last):
 
-Whether a surface bounds a solid
-    solid                       the verdict, what had to be mended, and the moments
-    topology, weld, flatness    edges and parts; vertices and faces that are one; faces that are bent or without area
-    mending, caps, nesting      repair on a copy; rims and their caps; shells in shells
-    shell_tree                  shells asked for points inside and for crossings
-    distance                    of a point from triangles
+    numerics     vectors, compensated sums, rotations, quadrature, B-splines, graphs, segments of arrays
+    verdict      findings and refusals, method, health of a mesh, tolerances
+    moments      `Moments`, sums, shifts and affine images with error bounds; monomials, normalized moments, harmonics
+    mesh         `Surface`; edges, welding, planarity, boxes, bounding-volume hierarchy, winding numbers
+    inertia      mass properties; the principal frame (Zhang and Chen 2001, eq. 11), made unique by higher moments
+    papers       the papers' formulas as printed, one module a paper, and what is wrong in print
+    polyhedron   integrals over triangles and quads: to third order, to any order, in n dimensions (Sheynin and Tuzikov)
+    shape        symmetry, signature, Zernike descriptors (Novotni and Klein 2003), registration, libraries
+    scans        NRRD, NIfTI, numpy's and raw files
+    solid        whether a surface bounds a solid; holes capped, faces flipped, shells nested; its moments
+    plane        polygons with holes, section properties
+    fourier      Fourier transforms in closed form, and on large grids to a tolerance (Barnett et al. 2019)
+    density      materials, polynomials, piecewise densities, grids and trivariate splines (Soldea et al., 4 and 5)
+    nurbs        B-spline curves and patches (Soldea, Elber and Rivlin, sections 2, 3), Blender's knots
+    offset       walls of real thickness
+    statics      derivatives by every vertex; the least change of shape that moves the center
+    measurement  `Measurement`, all results of one measured object
 
-In the plane, and along curves
-    polygon, section            area moments of polygons with holes; section properties, as engineers know them
-    curve, curve_moments        B-spline curves; wires and the regions that curves bound
-    plane_region                which plane, and which way each curve runs
-
-Free-form surfaces (Soldea, Elber and Rivlin)
-    bspline, patch              function spaces and their derivatives; patches
-    bezier                      the Bézier patches that they consist of
-    patch_moments               sections 2 and 3, by a radial flux: solids, areas, sheets
-    patch_solid, closure        what patches bound; whether they close, and their caps
-    reevaluation, following     moments while control points move: of a patch, of a body
-    blender_knots               Blender's NURBS
-    phi                         reference, as printed: the Φ tensors
-
-Densities
-    density, density_tables     trivariate B-splines and grids (Soldea, Elber and Rivlin, sections 4 and 5)
-    density_inside              a solid filled with a grid's density
-    polynomial, graded          polynomials in x, y, z; bodies of such a density
-    density_sign                whether such a density is negative somewhere in a body
-    weighted                    one density for each part, face or vertex
-    scans, samples              files of samples: `nrrd`, `nifti`, `array_files`; the samples in them
-    transfer, materials         what a sample stands for; a table of materials
-    soldea                      reference, as printed: theorem 4.2
-
-Pose, symmetry and signature
-    pose, canonical             the principal frame (Zhang and Chen 2001, eq. 11), made unique by higher moments
-    symmetry, matching          a body's own rotations and reflections; laying one body onto another
-    harmonics, zernike          solid harmonics; descriptors (Novotni and Klein 2003)
-    signature, library          numbers by which a shape is found again; files of them
-
-Fourier transforms
-    fourier                     of a solid or a surface, in closed form (for Zhang and Chen's sum over tetrahedra)
-    triangle_waves, waves       its means over triangles; wave vectors. What comes of it is a `spectrum`
-    fourier_body                of many surfaces at many places
-    fourier_grid, nufft         large grids to a tolerance (Barnett, Magland and af Klinteberg 2019)
-    fourier_polygon             in the plane
+Importing this package loads neither numpy nor any of these: each name is imported when it is first used.
 """
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .density.spline_grid import grid_moments
+    from .fourier.transform import solid_transform
+    from .inertia.mass_properties import MassProperties
+    from .inertia.principal_frame import pose_matrix, principal_frame
+    from .mesh.surface import Surface
+    from .moments.moments import Moments
+    from .polyhedron.integration import polyhedron_moments
+    from .scans.formats import read_scan
+    from .shape.signature import signature
+    from .solid.measure_solid import measure_solid
+    from .verdict.finding import Finding, MeasureError
+
+__all__ = [
+    "Finding",
+    "MassProperties",
+    "MeasureError",
+    "Moments",
+    "Surface",
+    "grid_moments",
+    "measure_solid",
+    "polyhedron_moments",
+    "pose_matrix",
+    "principal_frame",
+    "read_scan",
+    "signature",
+    "solid_transform",
+]
+
+_PACKAGES = {
+    "Finding": "verdict",
+    "MassProperties": "inertia",
+    "MeasureError": "verdict",
+    "Moments": "moments",
+    "Surface": "mesh",
+    "grid_moments": "density",
+    "measure_solid": "solid",
+    "polyhedron_moments": "polyhedron",
+    "pose_matrix": "inertia",
+    "principal_frame": "inertia",
+    "read_scan": "scans",
+    "signature": "shape",
+    "solid_transform": "fourier",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Import a public name when it is first used (PEP 562), so that numpy need not be there before."""
+    if name not in _PACKAGES:
+        raise AttributeError("module {!r} has no attribute {!r}".format(__name__, name))
+    value = getattr(import_module("." + _PACKAGES[name], __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -13,16 +13,18 @@ from .inertia.mass_properties import MassProperties
 from .moments.moments import Moments
 from .verdict.finding import Finding, finding
 from .verdict.health import MeshReport
+from .verdict.method import Method
 
-UNIFORM_DENSITY_SOURCES = ("density_from_value", "density_from_mass")
+# where a density came from that is the same everywhere
+UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = finding("density_from_value"), finding("density_from_mass")
 
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
     """One object in SI units and world axes.
 
-    kind: "solid", "shell" or "wire"; method: "exact", "capped", "reoriented", "open", "shell", "union" or "wire", with
-        "NURBS" before it where B-spline patches were measured instead of their display mesh.
+    kind: "solid", "shell" or "wire". method: the verdict, and what it is about: polygons, B-spline patches measured
+        instead of their display mesh, or a grid.
     density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area
     in m².
     volume_moments: to order 3, None for a thin shell; area_moments: to order 3 for a shell, else order 0; both to a
@@ -42,7 +44,7 @@ class Measurement:
     name: str
     type: str
     kind: str
-    method: str
+    method: Method
     density: float
     thickness: float
     volume: float
@@ -57,15 +59,10 @@ class Measurement:
     location: NDArray[np.float64]
     error_bound: dict
     fingerprint: str
-    density_from: Finding = finding("density_from_value")
+    density_from: Finding = DENSITY_FROM_VALUE
     materials: tuple[str, ...] = ()
     length: float | None = None
     display_volume: float | None = None
-
-    @property
-    def has_uniform_density(self) -> bool:
-        """Whether the density is the same everywhere."""
-        return self.density_from.code in UNIFORM_DENSITY_SOURCES
 
     def in_object_frame(self) -> MassProperties:
         """The mass properties in the object's own frame."""

@@ -14,7 +14,7 @@ from types import ModuleType
 PARTS = (
     "write.translations",
     "settings.properties",
-    *("session.walls", "session.moments", "session.live"),
+    *("session.handlers", "session.walls", "session.live"),
     *("actions.setup.presets", "actions.setup.import_scan"),
     *(
         "actions.measure." + name

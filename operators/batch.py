@@ -65,7 +65,7 @@ def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
             options = arguments.parse(argv, file_needed)
     except SystemExit as ended:
         # the help, where it was asked for
-        return ended.code if _write_result(printed.getvalue(), None, channel) else SOME_FAILED
+        return int(ended.code or ALL_MEASURED) if _write_result(printed.getvalue(), None, channel) else SOME_FAILED
 
     from .command import results
     from .command.run import Run
@@ -176,6 +176,8 @@ def _load_package() -> None:
     """Make the add-on's folder the package PACKAGE, whatever it is called."""
     root = Path(__file__).resolve().parent.parent
     spec = importlib.util.spec_from_file_location(PACKAGE, root / "__init__.py", submodule_search_locations=[str(root)])
+    if spec is None or spec.loader is None:
+        raise ImportError(str(root))
     package = importlib.util.module_from_spec(spec)
     sys.modules[PACKAGE] = package
     spec.loader.exec_module(package)

@@ -14,7 +14,7 @@ from . import grid, rows
 from . import material_menus as materials
 
 
-def settings_rows(layout: UILayout, context: Context, obj: Object) -> None:
+def settings_rows(layout: UILayout, context: Context, obj: Object) -> None:  # noqa: C901 a branch for each source of density
     settings = obj.body_moments
     if obj.override_library is not None:
         rows.message(layout, context, finding("panel_override"))

@@ -127,14 +127,14 @@ def stale_row(layout: UILayout, context: Context, code: str | None) -> None:
 
 
 def warnings(layout: UILayout, context: Context, idname: str, findings: Iterable[Finding]) -> None:
-    """A sub-panel, open at first, of what is a reason to doubt the numbers, where there is any; errors first."""
+    """A sub-panel, open at first, of warnings and errors, where there are any; errors first."""
     findings = list(findings)
     alarming = [*of_severity(findings, Severity.ERROR), *of_severity(findings, Severity.WARNING)]
     _listed(layout, context, idname, "Warnings ({:d})", alarming, closed=False)
 
 
 def notes(layout: UILayout, context: Context, idname: str, findings: Iterable[Finding]) -> None:
-    """A sub-panel, closed at first, of what is no such reason."""
+    """A sub-panel, closed at first, of notes."""
     _listed(layout, context, idname, "Notes ({:d})", of_severity(findings, Severity.NOTE), closed=True)
 
 

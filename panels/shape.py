@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, Panel, UILayout
 
-from ..core.verdict.finding import finding
+from ..core.verdict.finding import finding, truncate
 from ..operators.session import staleness
 from ..operators.write.messages import SIMILARITY
 from ..operators.write.translations import localized
@@ -64,11 +64,12 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
         return
     column = body.column(align=True)
     column.label(text="Directions and normals along the object's axes")
-    for element in stored.elements[:MAX_SHOWN]:
+    shown, more = truncate(stored.elements, MAX_SHOWN)
+    for element in shown:
         rows.filled(column, KINDS[element.kind], element.order)
         rows.direction(column, "", element.direction)
-    if len(stored.elements) > MAX_SHOWN:
-        rows.message(column, context, finding("and_more", count=len(stored.elements) - MAX_SHOWN), icon="BLANK1")
+    if more:
+        rows.message(column, context, finding("and_more", count=more), icon="BLANK1")
 
 
 def _similar(layout: UILayout, context: Context) -> None:

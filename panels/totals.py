@@ -30,7 +30,7 @@ def totals(layout: UILayout, context: Context, units: Units) -> None:
         if names:
             row = column.row()
             row.alert = True
-            rows.sentence(row, context, localized(text).format(truncate_list(names)), icon="ERROR")
+            rows.sentence(row, context, localized(text).format(truncate_list(names, translate=localized)), icon="ERROR")
     for caveat in total.findings:
         rows.message(column, context, caveat)
     column = body.column(align=True)

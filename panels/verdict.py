@@ -9,9 +9,10 @@ from collections.abc import Sequence
 from bpy.types import Context, Object, UILayout
 
 from ..core.verdict.finding import Finding, finding
+from ..core.verdict.method import Method, Source
 from ..operators.session import live, results, staleness
 from ..operators.write import properties
-from ..operators.write.messages import METHODS
+from ..operators.write.messages import METHODS, method_key
 from ..operators.write.translations import localized
 from . import rows
 
@@ -24,14 +25,14 @@ ICONS = {
     "capped": "ERROR",
     "open": "CANCEL",
 }
-SOURCES = {"NURBS": "NURBS: {:s}", "grid": "Grid: {:s}"}  # of what was measured, before a method
+SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # of what was measured, before a verdict
 
 
-def method_and_findings(obj: Object) -> tuple[str, Sequence[Finding]]:
+def method_and_findings(obj: Object) -> tuple[Method | None, Sequence[Finding]]:
     """Of the numbers that are shown: live or stored."""
     now = live.current_numbers(obj)
     if now is not None and now.measurement is not None:
-        return str(now.measurement.method), now.measurement.findings
+        return now.measurement.method, now.measurement.findings
     return properties.method(obj), properties.findings(obj)
 
 
@@ -45,7 +46,7 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
         rows.message(column, context, refusal, icon="BLANK1")
     if not measured:
         return
-    _headline(column, context, *method_and_findings(obj))
+    _headline(column, context, obj)
     now = live.current_numbers(obj)
     if now is not None and now.measurement is not None:
         if live.is_stale(obj, context.scene):
@@ -58,12 +59,12 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
     rows.stale_row(column, context, staleness.stale_reason(obj, context.scene))
 
 
-def _headline(column: UILayout, context: Context, method: str, findings: Sequence[Finding]) -> None:
+def _headline(column: UILayout, context: Context, obj: Object) -> None:
     """What the method was, in two lines. A method of another version of the add-on speaks for itself."""
-    source, last = ("", method) if method in METHODS else method.rpartition(" ")[::2]
-    if last == "shell" and any(one.code == "wall_measured" for one in findings):
-        last = "wall"
-    headline, explanation = METHODS.get(last, (last.title(), ""))
-    rows.filled(column, SOURCES.get(source, "{:s}"), localized(headline), icon=ICONS.get(last, "INFO"))
+    method, findings = method_and_findings(obj)
+    key = method_key(method, any(found.code == "wall_measured" for found in findings))
+    source = Source.POLYGONS if method is None or key == str(method) else method.source
+    headline, explanation = METHODS.get(key, (properties.method_text(obj).title(), ""))
+    rows.filled(column, SOURCES.get(source, "{:s}"), localized(headline), icon=ICONS.get(key, "INFO"))
     if explanation:
         rows.sentence(column, context, localized(explanation), icon="BLANK1")

@@ -15,15 +15,19 @@ import atexit
 import importlib.util
 import json
 import os
+import random
 import shutil
 import sys
 import tempfile
+import time
+from collections import Counter
 from pathlib import Path
 from types import ModuleType
 
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
+CI = os.environ.get("CI", "").lower() in ("1", "true", "yes")
 PACKAGE = "body_moments"
 
 
@@ -58,26 +62,79 @@ if PACKAGE not in sys.modules:
     _name_tests()
     _load_root()
 
+from tests import may_skip
+
 
 def pytest_addoption(parser):
     parser.addoption("--result-file", help="write the outcome of the run there as JSON")
+    parser.addoption("--seed", type=int, help="run files, and tests within a file, in the random order of this seed")
 
 
-class _Counter:
-    """Counts outcomes and writes them when the session is over.
+def pytest_collection_modifyitems(config, items):
+    seed = config.getoption("--seed")
+    if seed is not None:
+        draw = random.Random(seed)
+        files = {}
+        for item in items:
+            files.setdefault(item.path, []).append(item)
+        order = list(files.values())
+        draw.shuffle(order)
+        for tests in order:
+            draw.shuffle(tests)
+        items[:] = [item for tests in order for item in tests]
+
+
+class _Progress:
+    """Prints a line for each file that is over, and writes the outcome when the session is.
 
     bpy 4.5 can crash while the interpreter shuts down, after pytest has finished, and the exit
     code is lost with it. The runner (tests/project.py) then reads this file, which is complete or
     absent.
     """
 
-    def __init__(self, path: Path):
-        self.path = path
+    def __init__(self, config: pytest.Config, path: Path):
+        self.config, self.path = config, path
         self.counts = dict.fromkeys(("passed", "failed", "skipped"), 0)
+        self.left, self.total, self.done = Counter(), 0, 0
+
+    def print(self, text: str) -> None:
+        self.config.pluginmanager.getplugin("terminalreporter").write_line(text)
+
+    def pytest_collection_finish(self, session):
+        self.left = Counter(item.path for item in session.items)
+        self.sizes, self.total, self.started = dict(self.left), len(session.items), time.monotonic()
+        self.print("{} tests in {} files".format(self.total, len(self.left)))
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_report_teststatus(self, report):
+        """No letters: lines for files, and for failures as they happen."""
+        if hasattr(report, "wasxfail"):
+            return "xfailed" if report.skipped else "xpassed", "", "XFAIL"
+        if report.outcome == "failed" and report.when != "call":
+            return "error", "", "ERROR"
+        if report.outcome != "passed":
+            return report.outcome, "", report.outcome.upper()
+        return report.outcome if report.when == "call" else "", "", ""
 
     def pytest_runtest_logreport(self, report):
         if report.when == "call" or report.outcome != "passed":
             self.counts[report.outcome] += 1
+        if report.outcome == "failed":
+            self.print("FAILED {}".format(report.nodeid))
+
+    def pytest_runtest_protocol(self, item):
+        self.path_now = item.path
+
+    def pytest_runtest_logfinish(self):
+        self.done += 1
+        self.left[self.path_now] -= 1
+        if not self.left[self.path_now]:
+            share = 100 * self.done // self.total
+            now = time.monotonic()
+            text = "{:3d} %  {}: {} tests in {:.0f} s"
+            name = self.path_now.relative_to(ROOT / "tests").as_posix()
+            self.print(text.format(share, name, self.sizes[self.path_now], now - self.started))
+            self.started = now
 
     def pytest_collectreport(self, report):
         if report.outcome != "passed":
@@ -94,7 +151,27 @@ class _Counter:
 def pytest_configure(config):
     path = config.getoption("--result-file")
     if path:
-        config.pluginmanager.register(_Counter(Path(path)))
+        config.pluginmanager.register(_Progress(config, Path(path)))
+
+
+def _fail_undeclared_skip(report):
+    """Where CI is set, a skip that tests/may_skip.py does not declare is a failure."""
+    if CI and report.skipped and not hasattr(report, "wasxfail"):
+        reason = report.longrepr[-1].removeprefix("Skipped: ")
+        if not may_skip.allowed(reason):
+            report.outcome = "failed"
+            report.longrepr = "skipped, which tests/may_skip.py does not declare: {}".format(reason)
+    return report
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport():
+    return _fail_undeclared_skip((yield))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report():
+    return _fail_undeclared_skip((yield))
 
 
 @pytest.fixture(scope="session")
@@ -111,6 +188,17 @@ def registered():
     body_moments.register()
     yield body_moments
     body_moments.unregister()
+
+
+@pytest.fixture
+def unregistered(registered):
+    """The add-on, which is not registered while the test runs; whatever ran before, and for whatever comes after."""
+    import bpy
+
+    registered.unregister()
+    yield registered
+    if not hasattr(bpy.types.Object, PACKAGE):
+        registered.register()
 
 
 @pytest.fixture

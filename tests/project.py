@@ -4,10 +4,11 @@
 
     python tests/project.py demo         measure a real body: a report, a record and a picture
     python tests/project.py test         pass the tests, on every Blender there is
+    python tests/project.py test solid   pass those of one subject on one Blender, in seconds
     python tests/project.py build        build the extension's zip into dist/
     python tests/project.py benchmark    times and ratios against trimesh and libigl
     python tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
-    python tests/project.py lint         check the style
+    python tests/project.py lint         check the rules, the format and the types
 
 Each sets up what it needs in .envs/: one environment for each Blender that exists as a Python
 module, with the Python which that module is made for. Environments are used again until their
@@ -16,6 +17,7 @@ variable BLENDER, else (window tests only) `blender` on the PATH.
 """
 
 import argparse
+import contextlib
 import functools
 import hashlib
 import json
@@ -26,7 +28,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -39,9 +41,12 @@ RUNNING = "{}.{}".format(*sys.version_info)  # the version of the Python that ru
 
 # Blender as a module -> the Python which its wheel is made for
 BLENDERS = {"4.5": "3.11", "5.2": "3.13"}
-GROUPS = ("core", "blender", "corpus", "package", "window")
-RUN_LIMIT = 1800  # seconds for one run of pytest
-EXIT_LIMIT = 60  # seconds that an interpreter may take to end once its tests are over
+# group of tests -> minutes on one of two idle cores; the window's takes both, after all the others
+GROUPS = {"core": 2, "blender": 7, "corpus": 2, "package": 1, "window": 4}
+SUBJECT_GROUPS = ("core", "blender")  # where `test SUBJECT` looks
+SILENCE_LIMIT = 1800  # seconds without a line of output after which a run of pytest has hung: no file takes 2 minutes
+EXIT_LIMIT = 240  # seconds that an interpreter may take to end once its tests are over
+INTERRUPT_LIMIT = 10  # seconds that what was interrupted may take to clean up
 
 NO_PYTHON = "Neither Python 3.11 nor 3.13 is here. Install one of them, or uv, and try again."
 PROBE = """\
@@ -65,27 +70,72 @@ def clean_environment(**more: str) -> dict[str, str]:
     return {**kept, "PYTHONNOUSERSITE": "1", "PYTHONPYCACHEPREFIX": str(ENVS / "pycache"), **more}
 
 
+class Children:
+    """The processes that run for this one, each with a process group of its own, so that none outlives it."""
+
+    def __init__(self) -> None:
+        self.running: set[subprocess.Popen] = set()
+        self.stopped = False
+
+    @contextlib.contextmanager
+    def start(self, command: list, **options) -> Iterator[subprocess.Popen]:
+        if self.stopped:
+            raise Failed("Interrupted.")
+        words = [str(part) for part in command]
+        text = {"encoding": "utf-8", "errors": "replace"}
+        options = {"cwd": ROOT, "env": clean_environment(), "start_new_session": not WINDOWS, **text, **options}
+        process = subprocess.Popen(words, **options)
+        self.running.add(process)
+        try:
+            if self.stopped:  # while it was being started
+                self.kill(process)
+            yield process
+            process.wait()
+        finally:
+            self.kill(process)
+            self.running.discard(process)
+
+    def kill(self, process: subprocess.Popen, sign: str = "SIGKILL") -> None:
+        """End a process with whatever it has started."""
+        if WINDOWS:
+            if process.poll() is None:
+                subprocess.run(["taskkill", "/T", "/F", "/PID", str(process.pid)], capture_output=True)
+        else:  # the group may outlive its leader
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(process.pid, getattr(signal, sign))
+
+    def stop(self) -> None:
+        """Interrupt everything, and kill what has not cleaned up soon."""
+        self.stopped = True
+        left = list(self.running)
+        try:
+            for process in left:
+                self.kill(process, "SIGINT")
+            end = time.monotonic() + INTERRUPT_LIMIT
+            while time.monotonic() < end and any(process.poll() is None for process in left):
+                time.sleep(0.1)
+        finally:
+            for process in left:
+                self.kill(process)
+
+
+children = Children()
+
+
 def call(command: list, what: str) -> str:
     """Run a command that must succeed and return its output, which is shown only when it fails."""
-    done = subprocess.run(
-        [str(part) for part in command],
-        cwd=ROOT,
-        env=clean_environment(),
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        encoding="utf-8",
-        errors="replace",
-    )
-    if done.returncode:
-        raise Failed(f"{done.stdout.rstrip()}\n{what} failed with exit code {done.returncode}.")
-    return done.stdout
+    pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    with children.start(command, **pipes) as process:
+        output = process.stdout.read()
+    if process.returncode:
+        raise Failed(f"{output.rstrip()}\n{what} failed with exit code {process.returncode}.")
+    return output
 
 
 def show(command: list) -> int:
     """Run a command with its output on ours and return its exit code."""
-    words = [str(part) for part in command]
-    return subprocess.run(words, cwd=ROOT, env=clean_environment()).returncode
+    with children.start(command) as process:
+        return process.wait()
 
 
 # Pythons and environments
@@ -103,7 +153,7 @@ def probe(command: list, version: str) -> str | None:
             stdin=subprocess.DEVNULL,
             capture_output=True,
             encoding="utf-8",
-            timeout=60,
+            timeout=240,
         )
     except (OSError, subprocess.SubprocessError):
         return None
@@ -197,60 +247,47 @@ class Runner:
     """Runs commands side by side, shows their lines as they come, and ends what does not end."""
 
     def __init__(self) -> None:
-        self.processes: set[subprocess.Popen] = set()
+        self.started = time.monotonic()
         self.lock = threading.Lock()
 
-    def kill(self, process: subprocess.Popen) -> None:
-        if process.poll() is None:
-            if WINDOWS:
-                process.kill()
-            else:  # with whatever it has started
-                os.killpg(process.pid, signal.SIGKILL)
+    def print(self, label: str, text: str) -> None:
+        minutes, seconds = divmod(int(time.monotonic() - self.started), 60)
+        with self.lock:
+            print(f"{minutes:3d}:{seconds:02d} [{label}] {text}", flush=True)
 
-    def kill_all(self) -> None:
-        for process in list(self.processes):
-            self.kill(process)
-
-    def watch(self, process: subprocess.Popen, result: Path) -> None:
-        """End a process that runs for too long, or that goes on after its result is written."""
-        started, written = time.monotonic(), None
+    def watch(self, process: subprocess.Popen, result: Path, heard: list[float]) -> None:
+        """End a process that has fallen silent, or that goes on after its result is written."""
+        written = None
         while process.poll() is None:
             now = time.monotonic()
             if written is None and result.is_file():
                 written = now
-            if now - started > RUN_LIMIT or (written and now - written > EXIT_LIMIT):
-                self.kill(process)
+            if now - heard[-1] > SILENCE_LIMIT or (written and now - written > EXIT_LIMIT):
+                children.kill(process)
             time.sleep(0.5)
+        children.kill(process)  # what it has left behind would keep its output open
 
     def run(self, label: str, command: list, result: Path) -> int:
         """Run a command to its end; its exit code, which is no small number if it was killed."""
-        process = subprocess.Popen(
-            [str(part) for part in command],
-            cwd=ROOT,
-            env=clean_environment(PYTHONUNBUFFERED="1"),
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            encoding="utf-8",
-            errors="replace",
-            start_new_session=not WINDOWS,
-        )
-        self.processes.add(process)
-        threading.Thread(target=self.watch, args=(process, result), daemon=True).start()
-        for line in process.stdout:
-            with self.lock:
-                print(f"[{label}] {line.rstrip()}", flush=True)
-        code = process.wait()
-        self.processes.discard(process)
-        return code
+        pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+        heard = [time.monotonic()]
+        with children.start(command, env=clean_environment(PYTHONUNBUFFERED="1"), **pipes) as process:
+            threading.Thread(target=self.watch, args=(process, result, heard), daemon=True).start()
+            for line in process.stdout:
+                heard[-1] = time.monotonic()
+                if line.strip():
+                    self.print(label, line.rstrip())
+            return process.wait()
 
 
 def summary(counts: dict) -> str:
     return "{passed} passed, {failed} failed, {skipped} skipped".format(**counts)
 
 
-def run_tests(runner: Runner, python: Path, version: str, group: str, extra: list[str]) -> dict:
-    """Run one group of tests on one Blender; `failed` is at least 1 when anything went wrong.
+def run_tests(
+    runner: Runner, python: Path, version: str, group: str, extra: list[str], files: list[Path] | None = None
+) -> dict:
+    """Run a group of tests, or some files of it, on one Blender; `failed` is at least 1 when anything went wrong.
 
     The exit code is pytest's own where the process ended by itself. bpy 4.5 can crash or hang while
     the interpreter shuts down; then the file that pytest's session wrote at its end counts, and
@@ -260,8 +297,8 @@ def run_tests(runner: Runner, python: Path, version: str, group: str, extra: lis
     result = ENVS / "results" / f"{group}-{version}.json"
     result.parent.mkdir(exist_ok=True)
     result.unlink(missing_ok=True)
-    command = [python, "-P", "-m", "pytest", "-q", "-rfEs", f"--result-file={result}"]
-    command += [TESTS / group, *extra]
+    command = [python, "-P", "-m", "pytest", "-q", "-rfEs", "-o", "console_output_style=classic"]
+    command += [f"--result-file={result}", *(files or [TESTS / group]), *extra]
     started = time.monotonic()
     code = runner.run(label, command, result)
     if result.is_file():
@@ -269,62 +306,115 @@ def run_tests(runner: Runner, python: Path, version: str, group: str, extra: lis
         if code in range(6):
             outcome["exit"] = code or outcome["exit"]
         else:
-            print(f"[{label}] exit code {code} came after the tests were over", flush=True)
+            runner.print(label, f"exit code {code} came after the tests were over")
     else:
-        print(f"[{label}] exit code {code} came before the tests were over", flush=True)
+        runner.print(label, f"exit code {code} came before the tests were over")
         outcome = {"passed": 0, "failed": 0, "skipped": 0, "exit": code or 1}
     nothing_selected = outcome["exit"] == 5 and extra
     if outcome["exit"] and not nothing_selected:
         outcome["failed"] = max(outcome["failed"], 1)
     seconds = time.monotonic() - started
-    print(f"[{label}] {summary(outcome)} in {seconds:.0f} s", flush=True)
+    runner.print(label, f"{summary(outcome)} in {seconds:.0f} s")
     return outcome
+
+
+def in_lanes(function: Callable, lanes: Iterable) -> list[dict]:
+    """Call a function that gives outcomes for each lane, side by side."""
+    with ThreadPoolExecutor() as pool:
+        try:
+            return [outcome for outcomes in pool.map(function, lanes) for outcome in outcomes]
+        except BaseException:
+            children.stop()
+            raise
+
+
+def finish(outcomes: list[dict], remarks: Iterable[str] = (), failed: int = 0) -> int:
+    """Print what all of it came to; the command's exit code."""
+    total = {word: sum(outcome[word] for outcome in outcomes) for word in ("passed", "failed", "skipped")}
+    total["failed"] += failed
+    for sentence in remarks:
+        print(sentence)
+    if not any(total.values()):
+        print("No test was selected.")
+        total["failed"] = 1
+    print(summary(total), flush=True)
+    return 1 if total["failed"] else 0
+
+
+# Subjects
+
+
+def subjects() -> dict[str, dict[str, list[Path]]]:
+    """The files of each subject by group: those in folders of its name, and those whose own name has the word."""
+    result = {}
+    for group in SUBJECT_GROUPS:
+        for path in sorted((TESTS / group).rglob("test_*.py")):
+            folders = path.relative_to(TESTS / group).parts[:-1]
+            for word in {*folders, *path.stem.split("_")[1:]}:
+                result.setdefault(word, {}).setdefault(group, []).append(path)
+    return result
+
+
+def test_subject(options: argparse.Namespace) -> int:
+    """Pass the tests of one subject on one Blender: those that need no Blender beside those that do."""
+    known = subjects()
+    if options.subject not in known:
+        folders = {path.name for group in SUBJECT_GROUPS for path in (TESTS / group).rglob("*/") if path.is_dir()}
+        names = ", ".join(sorted(folders - {"__pycache__"}))
+        raise Failed(f"No tests are about {options.subject!r}. Folders: {names}; or a word of a test file's name.")
+    version = any_blender()
+    python = prepare_blender(version)
+    print(f"The tests of {options.subject}, on Blender {version} alone; at most half a minute on two idle cores.")
+    runner, extra = Runner(), pytest_options(options)
+
+    def lane(item: tuple[str, list[Path]]) -> list[dict]:
+        group, files = item
+        return [run_tests(runner, python, version, group, extra, files)]
+
+    return finish(in_lanes(lane, known[options.subject].items()))
 
 
 # The project's commands
 
 
+def pytest_options(options: argparse.Namespace) -> list[str]:
+    return [*options.pytest, *(["-k", options.k] if options.k else [])]
+
+
 def test(options: argparse.Namespace) -> int:
-    """Pass the tests: both Blenders side by side, then the window's alone, then the style."""
-    groups = options.only or GROUPS
-    extra = [*options.pytest, *(["-k", options.k] if options.k else [])]
-    runner, outcomes, left_out = Runner(), [], []
+    """Pass the tests: both Blenders side by side, then the window's alone, then what `lint` checks."""
+    if options.subject:
+        return test_subject(options)
+    groups = options.only or list(GROUPS)
+    extra = pytest_options(options)
+    left_out = []
     for version, wanted in BLENDERS.items():  # one after the other: this may install uv
         if not find_python(wanted):
-            left_out.append(f"No test ran on Blender {version}: it needs Python {wanted}.")
+            left_out.append(f"This was one half of the tests: Blender {version} needs Python {wanted}.")
     if len(left_out) == len(BLENDERS):
         raise Failed(NO_PYTHON)
     versions = [version for version, wanted in BLENDERS.items() if find_python(wanted)]
+    minutes = sum(GROUPS[group] for group in groups)
+    print(
+        f"Tests of {', '.join(groups)} on Blender {' and '.join(versions)}: about {minutes} minutes on two idle cores,"
+        " four times that on a slow machine. Environments that are not there yet come first.",
+        flush=True,
+    )
+    runner = Runner()
 
     def lane(version: str) -> list[dict]:
         python = prepare_blender(version)
         mine = [group for group in groups if group != "window"]
         return [run_tests(runner, python, version, group, extra) for group in mine]
 
-    with ThreadPoolExecutor() as pool:
-        try:
-            for lane_outcomes in pool.map(lane, versions):
-                outcomes += lane_outcomes
-        except BaseException:
-            runner.kill_all()
-            raise
+    outcomes = in_lanes(lane, versions)
     if "window" in groups:  # alone: drawing without a graphics card takes both cores
         version = max(versions)
         outcomes.append(run_tests(runner, prepare_blender(version), version, "window", extra))
-
-    words = ("passed", "failed", "skipped")
-    total = {word: sum(outcome[word] for outcome in outcomes) for word in words}
-    if groups is GROUPS and not extra and lint(options):
-        total["failed"] += 1
-    for sentence in left_out:
-        print(sentence)
+    failed = 1 if not options.only and not extra and lint(options) else 0
     if CI:  # there, nothing may be left out
-        total["failed"] += len(left_out)
-    if not any(total.values()):
-        print("No test was selected.")
-        total["failed"] = 1
-    print(summary(total), flush=True)
-    return 1 if total["failed"] else 0
+        failed += len(left_out)
+    return finish(outcomes, left_out, failed)
 
 
 def demo(options: argparse.Namespace) -> int:
@@ -380,8 +470,14 @@ def tables(options: argparse.Namespace) -> int:
 
 
 def lint(options: argparse.Namespace) -> int:
+    """Check the rules, the format and the types: all three, whatever the first ones say."""
     python = prepare("lint", sys.executable, RUNNING, ["requirements-lint.txt"])
-    return show([python, "-m", "ruff", "check", "--no-cache", ROOT])
+    checks = (
+        ["ruff", "check", "--no-cache", ROOT],
+        ["ruff", "format", "--check", "--no-cache", ROOT],
+        ["basedpyright", "--project", ROOT / "pyproject.toml", "--pythonpath", python],
+    )
+    return int(any([show([python, "-m", *check]) for check in checks]))  # a list: none is skipped
 
 
 def main() -> int:
@@ -395,23 +491,34 @@ def main() -> int:
         (build, "build the extension's zip"),
         (benchmark, "times and ratios against trimesh and libigl"),
         (tables, "the paper's tables of trivariate densities beside ours"),
-        (lint, "check the style"),
+        (lint, "check the rules, the format and the types"),
     ):
         command = commands.add_parser(function.__name__, help=text)
         command.set_defaults(function=function)
         if function is test:
+            command.add_argument(
+                "subject", nargs="?", help="solid, nurbs, density, ...: its tests on one Blender alone"
+            )
             command.add_argument("--only", action="append", choices=GROUPS, help="repeatable")
             command.add_argument("-k", metavar="WORDS", help="tests with such names, as in pytest")
-            command.add_argument("pytest", nargs="*", help="for pytest, after --")
+            command.epilog = "What follows -- is for pytest."
         if function is benchmark:
             command.add_argument("arguments", nargs=argparse.REMAINDER, help="for benchmark.py")
-    options = parser.parse_args()
+    words = sys.argv[1:]
+    split = words.index("--") if words[:1] == ["test"] and "--" in words else len(words)
+    options = parser.parse_args(words[:split])
+    options.pytest = words[split + 1 :]
+    for name in ("SIGTERM", "SIGHUP"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), signal.default_int_handler)
     try:
         return options.function(options)
     except Failed as error:
         print(error, file=sys.stderr)
         return 1
     except KeyboardInterrupt:
+        children.stop()
+        print("Interrupted.", file=sys.stderr)
         return 130
 
 

@@ -19,8 +19,18 @@ CRC = 'CRC Handbook of Chemistry and Physics, 97th ed. (2016), section 15, Densi
 
 @dataclass(frozen=True)
 class Material:
-    """name: unique; category: one of CATEGORIES; density in kg/m³; source: where the number
-    stands.
+    """One material.
+
+    Attributes
+    ----------
+    name : str
+        Unique.
+    category : str
+        One of `CATEGORIES`.
+    density : float
+        kg/m³.
+    source : str
+        Where the number stands.
     """
 
     name: str

@@ -11,7 +11,7 @@ Pattern Recognition 34, 2001). With h_α its coefficients and n = |α|,
 A density that is linear on the triangle is one more coordinate: with a' = (a, ρ_a) and so on, ∫ ρ x^α over the triangle
 is 2 area α! h_(α,1) / (n+3)!. So it costs one order and no more, and is exact.
 
-Rounding is bounded as in `polyhedron`: determinants are off by at most 9 u reach·τ, doubled areas by 9 u Σ τ, and the
+Rounding is bounded as in `third_order`: determinants are off by at most 9 u reach·τ, doubled areas by 9 u Σ τ, and the
 table adds no more than 9 roundings for each order and each corner to sums whose terms are bounded by those of |x|.
 """
 
@@ -33,10 +33,36 @@ FACTORIALS = np.array([factorial(p) * factorial(q) * factorial(r) for p, q, r in
 
 
 def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, like: Moments) -> Moments:
-    """∫ ρ x^p y^q z^r dV to third order of the parts that triangles bound, each part of one density.
+    """Return ∫ ρ x^p y^q z^r dV to third order of the parts that triangles bound, each part of one density.
 
-    points: (n, 3); triangles: (t, 3); density: (t,) that of the part which the triangle bounds, not negative.
-    like: the same parts' volume moments, whose point and coordinate error are taken. The result maps as a volume does.
+    Parameters
+    ----------
+    points : (n, 3) array
+    triangles : (t, 3) integer array
+    density : (t,) array
+        That of the part which the triangle bounds, not negative.
+    like : Moments
+        The same parts' volume moments, whose point and coordinate error are taken.
+
+    Returns
+    -------
+    Moments
+        They map as a volume does.
+
+    Notes
+    -----
+    Sheynin and Tuzikov, Pattern Recognition 34, 2001; see the module.
+
+    Examples
+    --------
+    >>> from body_moments.core.density import solid_mass_moments
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.polyhedron import polyhedron_moments
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> volume, _ = polyhedron_moments(surface, about=(0, 0, 0))
+    >>> mass = solid_mass_moments(surface.points, surface.triangles, np.full(4, 600.0), volume)
+    >>> round(mass.total, 9)
+    100.0
     """
     sums, sizes, tau = _accumulate(points, triangles, density, like.about, solid=True)
     reach = _reach(points, triangles, like.about)

@@ -4,7 +4,7 @@
 
 Coefficients are rational numbers, so that a polynomial can be developed about any point without rounding: what is
 rounded is one coefficient at a time, at the point where it is used. An expression is parsed by `ast`, and only what is
-named in `parse` is taken; nothing is evaluated.
+named in `parse_polynomial` is taken; nothing is evaluated.
 
 On a box a polynomial lies between the least and the largest of its Bernstein coefficients (G. T. Cargo and O. Shisha,
 "The Bernstein form of a polynomial", J. Res. Nat. Bur. Standards 70B, 1966); halving the box brings the two closer.
@@ -38,14 +38,43 @@ CORNERS = tuple(product((0, -1), repeat=3))
 
 @dataclass(frozen=True, eq=False)
 class Polynomial:
-    """Σ c x^p y^q z^r. terms: c by (p, q, r), none of them zero."""
+    """A polynomial density, Σ c x^p y^q z^r, with exact coefficients. Call it with (n, 3) points for its values.
+
+    Parameters
+    ----------
+    terms : dict of (p, q, r) to Fraction
+        The coefficients, none of them zero.
+
+    Examples
+    --------
+    >>> from body_moments.core.density import Polynomial
+    >>> density = Polynomial.from_coefficients([1000, 0, 0, 20])
+    >>> density(np.array([[0.0, 0.0, 2.0]])).tolist(), density.degree
+    ([1040.0], 1)
+    """
 
     terms: dict[Exponents, Fraction]
 
     @classmethod
     def from_coefficients(cls, coefficients: ArrayLike) -> Polynomial:
-        """From the coefficients of 1, x, y, z, x², xy, xz, y², yz, z², … in this order, as many as there are; taken
-        exactly. ValueError where one is not finite, MeasureError where there are too many."""
+        """Make a polynomial from the coefficients of 1, x, y, z, x², xy, xz, y², yz, z², …, as many as there are.
+
+        Parameters
+        ----------
+        coefficients : (k,) array_like
+            Taken exactly.
+
+        Returns
+        -------
+        Polynomial
+
+        Raises
+        ------
+        ValueError
+            If one is not finite.
+        MeasureError
+            If there are too many.
+        """
         values = np.asarray(coefficients, float).tolist()
         if not all(map(math.isfinite, values)):
             raise ValueError("coefficients must be finite")
@@ -57,21 +86,21 @@ class Polynomial:
         return max((sum(powers) for powers in self.terms), default=0)
 
     def coefficients(self) -> NDArray[np.float64]:
-        """(K,) in the order of `moments.monomials`, each rounded once."""
+        """(K,) in the order of `monomials`, each rounded once."""
         values = np.zeros(monomial_count(self.degree))
         for powers, value in self.float_terms().items():
             values[monomial_index(*powers)] = value
         return values
 
     def float_terms(self) -> dict[Exponents, float]:
-        """The terms, each rounded once. MeasureError where one is beyond the range of numbers."""
+        """Return the terms, each rounded once; MeasureError if one is beyond the range of numbers."""
         try:
             return {powers: float(value) for powers, value in self.terms.items()}
         except OverflowError as error:
             raise MeasureError("polynomial_beyond_numbers") from error
 
     def translate(self, point: ArrayLike) -> Polynomial:
-        """The polynomial q with q(u) = p(point + u), exactly."""
+        """Return the polynomial q with q(u) = p(point + u), exactly."""
         terms = self.terms
         for axis, value in enumerate(np.asarray(point, float).tolist()):
             if value:
@@ -94,10 +123,19 @@ class Polynomial:
         return result
 
     def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
-        """A number that the polynomial is nowhere below on the box.
+        """Return a number that the polynomial is nowhere below on a box.
 
-        The box is halved as long as that may still prove it not negative, HALVINGS times at most; rounding, some 1e-13
-        of the sum of the terms' sizes, is taken off.
+        The box is halved as long as that may still prove it not negative, at most `MAX_BOXES` times; rounding, some
+        1e-13 of the sum of the terms' sizes, is subtracted.
+
+        Parameters
+        ----------
+        low, high : (3,) array_like
+            Opposite corners of the box.
+
+        Returns
+        -------
+        float
         """
         low, high = np.asarray(low, float), np.asarray(high, float)
         local = self.translate(low).coefficients()
@@ -107,7 +145,7 @@ class Polynomial:
         tolerance = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
         for axis in range(3):
             net = np.moveaxis(np.tensordot(_to_bernstein(self.degree), net, (1, axis)), 0, axis)
-        boxes = [(float(net.min()), 0, net)]  # a heap: the least bound first; the number settles ties
+        boxes = [(float(net.min()), 0, net)]  # a heap: the least bound first; the number breaks ties
         for number in range(1, 2 * MAX_BOXES, 2):
             least, _, net = boxes[0]
             if least >= -tolerance or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values
@@ -118,11 +156,29 @@ class Polynomial:
         return boxes[0][0] - tolerance
 
 
-def parse(text: str) -> Polynomial:
-    """The polynomial that an expression such as `1000 + 20*z` means, or a list of coefficients (`1000, 0, 0, 20`) in
-    the order of `Polynomial.from_coefficients`.
+def parse_polynomial(text: str) -> Polynomial:
+    """Parse a polynomial that a person typed.
 
-    MeasureError, which names the offending part, where it means none.
+    Parameters
+    ----------
+    text : str
+        An expression such as ``1000 + 20*z``, or a list of coefficients (``1000, 0, 0, 20``) in the order of
+        `Polynomial.from_coefficients`.
+
+    Returns
+    -------
+    Polynomial
+
+    Raises
+    ------
+    MeasureError
+        If the text is no polynomial; the finding names the offending part.
+
+    Examples
+    --------
+    >>> from body_moments.core.density import parse_polynomial
+    >>> parse_polynomial("1000 + 20*z**2").coefficients()[[0, 9]].tolist()
+    [1000.0, 20.0]
     """
     text = text.strip()
     if not text:
@@ -253,9 +309,9 @@ def _translate(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dic
     result: dict[Exponents, Fraction] = {}
     for powers, value in terms.items():
         for k in range(powers[axis] + 1):
-            lower = (*powers[:axis], k, *powers[axis + 1 :])
+            p, q, r = (*powers[:axis], k, *powers[axis + 1 :])
             factor = math.comb(powers[axis], k) * by ** (powers[axis] - k)
-            result[lower] = result.get(lower, 0) + value * factor
+            result[p, q, r] = result.get((p, q, r), Fraction(0)) + value * factor
     return _nonzero(result)
 
 

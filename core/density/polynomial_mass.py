@@ -31,12 +31,13 @@ def polynomial_mass_of_images(
 ) -> Moments:
     """The mass moments of k images of one body with a polynomial density, as one body, of the order that is left.
 
-    moments: of the volume or area, to order n + the degree. matrices: (k, 4, 4) the images, as for `map_sum`.
+    moments: of the volume or area, to order n + the degree. matrices: (k, 4, 4) the images, as for `sum_of_images`.
     fields: (k, 4, 4) from the body's own coordinates to those that the density is a polynomial of, taken exactly; by
     default they are the images'. about: (3,), by default the mean of the images of `moments.about`.
 
-    error: rounding, on top of what `moments.error` comes to; input: what `moments.input` comes to. Of a body with a
-    negative density somewhere both hold all the same. ValueError where the moments' order is below the degree.
+    error: rounding, on top of what `moments.rounding_error` comes to; input: what `moments.input_error` comes to. Of a
+    body with a negative density somewhere both hold all the same. ValueError where the moments' order is below the
+    degree.
     """
     order = moments.order - density.degree
     if order < 0:
@@ -46,7 +47,7 @@ def polynomial_mass_of_images(
     turn, shift = to_trailing_axis(fields)
     point, extent = moments.about[:, None], np.abs(moments.about)[:, None]
     origins = (linear * point).sum(axis=1) + offsets
-    about = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
+    center: NDArray[np.float64] = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     origins_local = (turn * point).sum(axis=1) + shift
     origin = origins_local.mean(axis=1)
     terms = density.translate(origin).float_terms()
@@ -60,11 +61,11 @@ def polynomial_mass_of_images(
             * ((np.abs(turn[:, :, part]) * extent).sum(axis=1) + np.abs(shift[:, part]) + np.abs(origin)[:, None])
         )
         weighed, weighed_error, weighed_input = _mass_functional(moments, order, terms, forms, misplacement)
-        maps, offset = linear[:, :, part], origins[:, part] - about[:, None]
+        maps, offset = linear[:, :, part], origins[:, part] - center[:, None]
         weight, weight_error, anisotropy = measure_scale_factors(moments.measure, maps)
         weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
         raw += (transform_by_horner(weighed, order, maps, offset) * weight).sum(axis=1)
-        tolerance = 6.0 * U * ((np.abs(maps) * extent).sum(axis=1) + np.abs(offsets[:, part]) + np.abs(about)[:, None])
+        tolerance = 6.0 * U * ((np.abs(maps) * extent).sum(axis=1) + np.abs(offsets[:, part]) + np.abs(center)[:, None])
         reach = np.abs(maps), np.abs(offset)
         size = transform_by_horner(np.abs(weighed) + weighed_error, order, reach[0], reach[1] + tolerance)
         rounding = weight * transform_by_horner(weighed_error, order, *reach) + weight_error * size
@@ -73,13 +74,13 @@ def polynomial_mass_of_images(
         moved = transform_by_horner(weighed_input, order, *reach)
         error += rounding.sum(axis=1)
         inputs += (weight * (moved + anisotropy * (size + moved))).sum(axis=1)
-    return Moments(raw, about, Measure.MASS, error, inputs)
+    return Moments(raw, center, Measure.MASS, error, inputs)
 
 
 def _mass_functional(
     moments: Moments, order: int, terms: Terms, forms: tuple[NDArray, NDArray], misplacement: NDArray
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """(K, k) each: G, the bound of its rounding, and what becomes of `moments.input`.
+    """(K, k) each: G, the bound of its rounding, and what becomes of `moments.input_error`.
 
     forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) what their constants may be off by.
     """

@@ -48,11 +48,11 @@ def find_negative_point(
         most = next(filter(inside, np.argsort(-inner)[:MAX_LOCATED_POINTS].tolist()), None)
         largest = largest if most is None else max(largest, inner[most])
     if values[least] < -NEGLIGIBLE_RTOL * largest:
-        return (values[least], tried[least]), False
+        return (float(values[least]), tried[least]), False
     if density.degree <= 1:
         return None, False
     if density.lower_bound(low, high) >= -NEGLIGIBLE_RTOL * largest:
         return None, False
     worst = np.argsort(inner)[:MAX_LOCATED_POINTS]
     negative_index = next(filter(inside, worst[inner[worst] < -NEGLIGIBLE_RTOL * largest].tolist()), None)
-    return (None, True) if negative_index is None else ((inner[negative_index], grid[negative_index]), False)
+    return (None, True) if negative_index is None else ((float(inner[negative_index]), grid[negative_index]), False)

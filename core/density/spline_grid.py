@@ -6,7 +6,7 @@ The volumetric scheme of Soldea, Elber and Rivlin. The integrals separate,
 
     ∫ u^p v^q w^r f = Σ_ijk p_ijk U[p,i] V[q,j] W[r,k],
 
-so three small tables (density_tables.py) are all there is to precompute, and the sum is three contractions: the first
+so three small tables (`spline_tables`) are all there is to precompute, and the sum is three contractions: the first
 along the axis that is contiguous in memory, in blocks that stay in the cache, the others on what little is left. A grid
 may therefore be larger than memory. One coefficient adds its change times a product of three table columns: O(1).
 
@@ -44,13 +44,41 @@ def density_moments(
     order: int = 3,
     value: Callable[[NDArray], NDArray] | None = None,
 ) -> Moments:
-    """Mass moments to `order` in the coordinates of the knots.
+    """Return the mass moments of a density that is a trivariate B-spline, in the coordinates of the knots.
 
-    coefficients: (nx, ny, nz) of any real type, a memory map for one larger than memory; or a function that yields
-        blocks of them, (offset, array) each, none twice, all else zero: the grid need not be dense.
-    axes: the spline spaces of u, v, w. value: what makes coefficients of a block's numbers.
+    Parameters
+    ----------
+    coefficients : (nx, ny, nz) array, or callable
+        Of any real type, a memory map if larger than memory. Or a function that yields blocks, (offset, array) each,
+        none twice, all else zero: the grid need not be dense.
+    axes : sequence of three SplineAxis
+        The spline spaces of u, v, w.
+    order : int
+    value : callable, optional
+        Converts a block's numbers to coefficients.
 
-    ValueError where the shapes differ; MeasureError where a coefficient is not finite.
+    Returns
+    -------
+    Moments
+        Of mass.
+
+    Raises
+    ------
+    ValueError
+        If the shapes differ.
+    MeasureError
+        If a coefficient is not finite.
+
+    Notes
+    -----
+    Soldea, Elber and Rivlin, sections 4 and 5.
+
+    Examples
+    --------
+    >>> from body_moments.core.density import SplineAxis, density_moments
+    >>> mass = density_moments(np.full((2, 3, 4), 5.0), [SplineAxis.uniform(count) for count in (2, 3, 4)])
+    >>> round(mass.total, 9), np.round(mass.center, 9).tolist()
+    (120.0, [0.5, 1.0, 1.5])
     """
     axes = tuple(axes)
     if not callable(coefficients) and coefficients.shape != tuple(axis.count for axis in axes):
@@ -75,12 +103,41 @@ def grid_moments(
     order: int = 3,
     value: Callable[[NDArray], NDArray] | None = None,
 ) -> Moments:
-    """Mass moments to `order` of a uniform grid whose samples are densities, the coefficients of a uniform spline with
-    full supports.
+    """Return the mass moments of a uniform grid whose samples are densities.
 
-    shape: of the grid, also where `samples` yields blocks. matrix: (4, 4) affine; the sample (i, j, k) stands at
-    matrix @ (i, j, k, 1). For each voxel's own moments: spline order 1.
-    MeasureError where the matrix flattens the grid, or is not finite.
+    The samples are the coefficients of a uniform spline with full supports.
+
+    Parameters
+    ----------
+    samples : (nx, ny, nz) array, or callable
+        As for `density_moments`.
+    shape : sequence of three int
+        Of the grid, also where `samples` yields blocks.
+    matrix : (4, 4) array_like
+        Affine: the sample (i, j, k) stands at matrix @ (i, j, k, 1).
+    spline_order : int
+        1 for voxels, 2 for trilinear, 4 for cubic.
+    order : int
+        Of the moments.
+    value : callable, optional
+        Converts a block's numbers to densities.
+
+    Returns
+    -------
+    Moments
+        Of mass, in the coordinates that the matrix leads to.
+
+    Raises
+    ------
+    MeasureError
+        If the matrix flattens the grid or is not finite, or a density is not finite.
+
+    Examples
+    --------
+    >>> from body_moments.core import grid_moments
+    >>> spacing = np.diag([0.1, 0.1, 0.2, 1.0])
+    >>> round(grid_moments(np.full((10, 10, 5), 1000.0), (10, 10, 5), spacing).total, 9)
+    1000.0
     """
     matrix = np.asarray(matrix, np.float64)
     if not np.isfinite(matrix).all() or not np.linalg.det(matrix[:3, :3]):
@@ -91,9 +148,30 @@ def grid_moments(
 
 
 class TrivariateSpline:
-    """A trivariate spline whose coefficients change: its moments follow at the cost of what changed.
+    """A trivariate spline whose coefficients change; its moments follow at the cost of what changed.
 
-    moments: at any time those of the coefficients as they are; every change adds its rounding to their bounds.
+    Parameters
+    ----------
+    coefficients : (nx, ny, nz) array_like
+    axes : sequence of three SplineAxis
+    order : int
+        Of the moments.
+
+    Attributes
+    ----------
+    moments : Moments
+        Those of the coefficients as they are; every change adds its rounding to their bounds.
+
+    Notes
+    -----
+    Soldea, Elber and Rivlin, section 5.
+
+    Examples
+    --------
+    >>> from body_moments.core.density import SplineAxis, TrivariateSpline
+    >>> spline = TrivariateSpline(np.ones((4, 4, 4)), [SplineAxis.uniform(4)] * 3)
+    >>> round(spline.set_coefficient(0, 0, 0, 3.0).total, 9)
+    66.0
     """
 
     def __init__(self, coefficients: ArrayLike, axes: Sequence[SplineAxis], order: int = 2) -> None:
@@ -112,7 +190,22 @@ class TrivariateSpline:
         self._units = (sum(axis.rounding_counts(order) for axis in self.axes) + 6) * U
 
     def set_coefficient(self, i: int, j: int, k: int, value: float) -> Moments:
-        """Change one coefficient; the moments after it."""
+        """Change one coefficient and return the moments after it, in O(1).
+
+        Parameters
+        ----------
+        i, j, k : int
+        value : float
+
+        Returns
+        -------
+        Moments
+
+        Raises
+        ------
+        ValueError
+            If the value is not finite.
+        """
         if not math.isfinite(value):
             raise ValueError("coefficients must be finite")
         change = value - self.coefficients[i, j, k]
@@ -123,7 +216,23 @@ class TrivariateSpline:
         return self._add_change(added, self._units * abs(change) * x[:, i] * y[:, j] * z[:, k])
 
     def set_block(self, start: Sequence[int], values: ArrayLike) -> Moments:
-        """Change the block of coefficients that starts at `start`; the moments after it."""
+        """Change a block of coefficients and return the moments after it.
+
+        Parameters
+        ----------
+        start : sequence of three int
+            The first coefficient of the block.
+        values : (a, b, c) array_like
+
+        Returns
+        -------
+        Moments
+
+        Raises
+        ------
+        ValueError
+            If the block exceeds the coefficients, or a value is not finite.
+        """
         values = np.asarray(values, np.float64)
         place = tuple(slice(first, first + count) for first, count in zip(start, values.shape))
         old = self.coefficients[place]

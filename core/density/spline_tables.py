@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One-dimensional tables ∫ t^l B_i(t) dt, all that the moments of a trivariate B-spline need.
 
-Soldea, Elber and Rivlin integrate t^l B_{i,k} by l nested sums (Theorem 4.2, kept in `soldea.py` as the reference).
+Soldea, Elber and Rivlin integrate t^l B_{i,k} by l nested sums (Theorem 4.2, kept in `core.papers` as the reference).
 Over a full support the same integral has a closed form, positive wherever the knots are:
 
     ∫ t^l B_{i,k} = (t_{i+k} - t_i) / k · h_l(t_i, ..., t_{i+k}) / binomial(k + l, l),
@@ -28,10 +28,27 @@ MAX_ORDER = 16  # of the splines: far above any use
 
 @dataclass(frozen=True, eq=False)
 class SplineAxis:
-    """The spline space of one direction.
+    """The spline space of one direction of a trivariate spline.
 
-    knots: (n + k,) ascending. order: k, the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic.
-    domain: (low, high) where the functions are cut off ("clipped"), None for full supports ("floating ends").
+    Parameters
+    ----------
+    knots : (n + k,) array
+        Ascending.
+    order : int
+        k, the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic.
+    domain : (low, high), optional
+        Where the functions are cut off ("clipped"); None for full supports ("floating ends").
+
+    Raises
+    ------
+    ValueError
+        If the knots, the order or the domain make no such space.
+
+    Examples
+    --------
+    >>> from body_moments.core.density import SplineAxis
+    >>> SplineAxis.uniform(3).knots.tolist()
+    [-0.5, 0.5, 1.5, 2.5]
     """
 
     knots: NDArray[np.float64]
@@ -53,7 +70,7 @@ class SplineAxis:
     @classmethod
     def uniform(cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0) -> SplineAxis:
         """`count` functions, the i-th centered at origin + i spacing: samples as coefficients, full supports."""
-        return cls(origin + spacing * (np.arange(count + order) - order / 2.0), order)
+        return cls(origin + spacing * (np.arange(count + order, dtype=np.float64) - order / 2.0), order)
 
     def clip(self) -> SplineAxis:
         """The same functions cut off where they stop to sum to one: the domain [t_{k-1}, t_n]."""

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import Moments, U, monomials
+from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arrays import batches
 from ..numerics.quadrature import triangle_rule
 from ..verdict.finding import MeasureError
@@ -28,12 +28,36 @@ MAX_VOXELS = 1 << 27  # voxels of the box around the surface
 
 
 def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> tuple[Moments, float]:
-    """Mass moments to `order` of what a surface encloses, and the volume that lies in the grid.
+    """Return the mass moments of what a surface encloses, filled with the density of a grid of voxels.
 
-    triangles: (n, 3, 3) corners, seen counterclockwise from outside, closed together, in the grid's coordinates: the
-        voxel (i, j, k) is the cube from (i, j, k) to (i+1, j+1, k+1).
-    densities: (nx, ny, nz). Outside of the grid there is nothing.
-    `error` estimates the rounding, from the sizes of all terms; cutting and integrating add nothing else.
+    Parameters
+    ----------
+    triangles : (n, 3, 3) array_like
+        Corners, counter-clockwise from outside, closed together, in the grid's coordinates: the voxel (i, j, k) is the
+        cube from (i, j, k) to (i+1, j+1, k+1).
+    densities : (nx, ny, nz) array
+        There is nothing outside the grid.
+    order : int
+
+    Returns
+    -------
+    mass : Moments
+        `rounding_error` estimates the rounding, from the sizes of all terms; nothing else is approximate.
+    volume : float
+        What of the body lies in the grid.
+
+    Raises
+    ------
+    MeasureError
+        If a density is not finite.
+
+    Examples
+    --------
+    >>> from body_moments.core.density import inside_moments
+    >>> corners = 2 * np.eye(4, 3, -1)[[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]]
+    >>> mass, volume = inside_moments(corners, np.full((2, 2, 2), 3.0))
+    >>> round(mass.total, 9), round(volume, 9)
+    (4.0, 1.333333333)
     """
     triangles = np.asarray(triangles, np.float64).reshape(-1, 3, 3)
     with np.errstate(invalid="ignore"):  # of NaN that signal
@@ -75,7 +99,7 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
                 size[n] += np.abs(term).sum()
         terms = max(terms, len(pieces))
     units = 40 + 4 * order + int(shape[2]) + int(math.log2(terms + 1))
-    return Moments(total, about, "mass", units * U * size), volume
+    return Moments(total, about, Measure.MASS, units * U * size), volume
 
 
 def _powers(x: NDArray, order: int) -> list[NDArray]:
@@ -99,7 +123,7 @@ def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[n
 
 
 def _batches(triangles: NDArray, shape: NDArray) -> Iterator[slice]:
-    """Slices of the triangles that are expected to give about PIECES pieces each."""
+    """Slices of the triangles that are expected to give about PIECES_PER_BATCH pieces each."""
     spans = np.minimum(np.ptp(triangles, axis=1), shape) + 1.0
     expected = spans[:, 0] * spans[:, 1] + spans[:, 1] * spans[:, 2] + spans[:, 2] * spans[:, 0]
     return batches(expected, PIECES_PER_BATCH)

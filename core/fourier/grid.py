@@ -48,15 +48,48 @@ ERROR_CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)
 
 
 class GridTransform(Transform):
-    """As `Transform`, on a grid and to a tolerance, in the unit of the values.
+    """A transform on a regular grid, to a tolerance: `steps` does the work, `result` returns the spectrum.
 
-    The outcome is "approximate", or exact where that costs less. ValueError also where double precision does not
-    reach the tolerance.
+    The result is "approximate", or exact where that costs less.
+
+    Parameters
+    ----------
+    surface : Surface
+    grid : FrequencyGrid
+    of : Measure
+        Volume or area.
+    tolerance : float
+        Absolute, in the unit of the values.
+    threads : int
+
+    Raises
+    ------
+    ValueError
+        If double precision does not reach the tolerance, and as `solid_transform`.
+    MeasureError
+        As `solid_transform`.
+
+    Notes
+    -----
+    The non-uniform fast transform of Barnett, Magland and af Klinteberg (2019); see the module.
+
+    Examples
+    --------
+    >>> from body_moments.core.fourier import FrequencyGrid, GridTransform
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.moments import Measure
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> transform = GridTransform(surface, FrequencyGrid(4, 10.0), Measure.VOLUME, 1e-8)
+    >>> done = list(transform.steps())
+    >>> round(float(abs(transform.result().values.reshape(4, 4, 4)[2, 2, 2])) * 6, 6)
+    1.0
     """
+
+    spreading: Spreading  # where any triangle takes points
 
     def __init__(self, surface: Surface, grid: FrequencyGrid, of: Measure, tolerance: float, threads: int = 1):
         super().__init__(surface, grid, of, threads)
-        self.surface, faces = surface, self.faces
+        self.surface, self.grid, faces = surface, grid, self.faces
         # what a mean over the area may be off by: half of the tolerance each for the points and for the kernel
         if of == Measure.VOLUME:
             allowed = tolerance / faces.scale**3 / (2.0 * faces.area)
@@ -74,22 +107,21 @@ class GridTransform(Transform):
         most = min(MAX_POINTS_PER_SIDE, int(np.sqrt(DIRECT_COST * len(self.sums) / self.width**3)))
         self.direct = self.faces.select(np.flatnonzero(counts > most))
         self.fine = [(n, np.flatnonzero(counts == n)) for n in np.unique(counts[counts <= most]).tolist()]
-        self.spreading = (
-            Spreading(self.q.half, self.width, 3 if self.measure == Measure.VOLUME else 1) if self.fine else None
-        )
+        if self.fine:
+            self.spreading = Spreading(self.grid.half, self.width, 3 if self.measure == Measure.VOLUME else 1)
 
     def _counts(self) -> Generator[float, None, NDArray[np.int64]]:
         """(m,) Gauss points along a side of each triangle."""
-        largest = np.sqrt(3.0) * self.q.largest * self.faces.scale
+        largest = np.sqrt(3.0) * self.grid.largest * self.faces.scale
         spans, regular = largest * self.faces.diameters, largest * self.faces.heights >= 2.0 * np.pi
         bound = _points_per_side(spans, self.each)
-        q = _trial_vectors(self.q) * self.faces.scale
+        q = _trial_vectors(self.grid) * self.faces.scale
         size = np.sqrt((q**2).sum(axis=1)) if self.measure == Measure.VOLUME else 1.0
         exact, before = None, None
         for credit in ERROR_CREDITS:
             fewer = np.where(regular, bound, _points_per_side(spans, self.each * credit))
             tried = np.flatnonzero((fewer < bound) & (fewer <= MAX_POINTS_PER_SIDE))
-            if not len(tried) or np.array_equal(fewer, before):
+            if not len(tried) or (before is not None and np.array_equal(fewer, before)):
                 continue
             before = fewer
             if exact is None or len(exact[0]) != len(tried):
@@ -104,10 +136,10 @@ class GridTransform(Transform):
     def _sum_over(self, triangle_rows: NDArray[np.intp], q: NDArray) -> Generator[float, None, NDArray[np.complex128]]:
         """(k,) Σ (q·N) D / |q|, or Σ |N| D, over some triangles at wave vectors (k, 3), in closed form."""
         faces, waves, total = self.faces.select(triangle_rows), ListWaves(q), np.zeros(len(q), np.complex128)
-        triangle_rows = slice(0, len(q))
+        every = slice(0, len(q))
         for run in faces.blocks(PAIRS_PER_BLOCK // len(q)):
             block = faces.block(run)
-            real, imaginary = PhaseMeans(block, waves, triangle_rows)(triangle_rows)
+            real, imaginary = PhaseMeans(block, waves, every)(every)
             weights = self._weights(block.normals, waves.q)
             total += (weights * (real + 0.5)).sum(axis=1) + 1j * (weights * imaginary).sum(axis=1)
             yield 0.0
@@ -139,14 +171,14 @@ class GridTransform(Transform):
         corners = [self.faces.points[corner].T for corner in triangles.T]
         shares, weights = triangle_rule(n)
         return (
-            sum(corner[..., None] * share for corner, share in zip(corners, shares)),
+            sum((corner[..., None] * share for corner, share in zip(corners, shares)), np.zeros(())),
             compensated_normals(*corners),
             weights,
         )
 
     def steps(self) -> Iterator[float]:
         """Do the work. Yields after each part of it the fraction done, from 0 to 1, roughly."""
-        expected = len(self.faces.triangles) * len(_trial_vectors(self.q)) / PAIRS_PER_BLOCK
+        expected = len(self.faces.triangles) * len(_trial_vectors(self.grid)) / PAIRS_PER_BLOCK
         for tried, _ in enumerate(self._assign_triangles()):
             yield SHARING_TIME * tried / (tried + expected)
         checked = CHECKING_TIME if self.fine else 0.0
@@ -168,7 +200,9 @@ class GridTransform(Transform):
                 yield SHARING_TIME + (1.0 - SHARING_TIME - checked) * done / total
         if self.fine:
             yield from (1.0 - checked for _ in self._collect_spread())
-            self.exact = Transform(self.surface, self.q.vectors()[_sample_indices(self.q)], self.measure, self.threads)
+            self.exact = Transform(
+                self.surface, self.grid.vectors()[_sample_indices(self.grid)], self.measure, self.threads
+            )
             yield from (1.0 - checked * (1.0 - share) for share in self.exact.steps())
 
     def _spread(self, triangles: NDArray, n: int) -> None:
@@ -177,16 +211,16 @@ class GridTransform(Transform):
         if self.measure == Measure.AREA:
             strengths = np.sqrt((strengths**2).sum(axis=0))[None]
         strengths = (strengths[..., None] * weights).reshape(len(strengths), -1)
-        self.spreading.add(points.reshape(3, -1) * (self.q.step * self.faces.scale), strengths)
+        self.spreading.add(points.reshape(3, -1) * (self.grid.step * self.faces.scale), strengths)
 
     def _collect_spread(self) -> Iterator[None]:
         """Add to the sums what was spread, less the halves that `Transform` takes off."""
         vectors = self.waves.vectors(slice(0, self.waves.rows))
         for axis, waves in enumerate(self.spreading.sums()):
             if self.measure == Measure.VOLUME:
-                self.sums += vectors[axis] * (waves.reshape(-1) - waves[self.q.half, self.q.half, 0].real)
+                self.sums += vectors[axis] * (waves.reshape(-1) - waves[self.grid.half, self.grid.half, 0].real)
             else:
-                self.sums += waves.reshape(-1) - waves[self.q.half, self.q.half, 0].real
+                self.sums += waves.reshape(-1) - waves[self.grid.half, self.grid.half, 0].real
             yield
 
     def result(self) -> Spectrum:
@@ -195,7 +229,7 @@ class GridTransform(Transform):
         if not self.fine:
             return spectrum
         error = (
-            ERROR_SAFETY_FACTOR * np.abs(spectrum.values[_sample_indices(self.q)] - self.exact.result().values).max()
+            ERROR_SAFETY_FACTOR * np.abs(spectrum.values[_sample_indices(self.grid)] - self.exact.result().values).max()
         )
         return replace(spectrum, error=spectrum.error + error, method=APPROXIMATE)
 
@@ -210,8 +244,8 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
 
 
 def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
-    """(m,) how many points along a side keep each D within tolerance, for |q| times the diameters; MOST + 1 where MOST
-    do not."""
+    """(m,) how many points along a side keep each D within tolerance, for |q| times the diameters; MAX_POINTS_PER_SIDE
+    + 1 where that many do not."""
     span, limits = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000)), []
     for n in range(1, MAX_POINTS_PER_SIDE + 1):
         ratio = span / 4.0 / (2 * n + 1)

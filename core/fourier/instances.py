@@ -10,6 +10,7 @@ regular grid stays one.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,10 +31,36 @@ FOURIER_RTOL = 1e-7  # of the volume or the area, then
 
 
 class BodyTransform:
-    """The transform of surfaces at their places: `steps` does the work, `result` gives the outcome.
+    """The transform of several surfaces, each at one or many places.
 
-    parts: surfaces with their (k, 4, 4) maps. q: (M, 3) wave vectors or a Grid. measure: volume or area.
-    total: the body's volume or area, to which `FOURIER_RTOL` refers.
+    `steps` does the work, `result` returns the spectrum.
+
+    Parameters
+    ----------
+    parts : sequence of (Surface, (k, 4, 4) array)
+        Each surface with its maps.
+    q : (M, 3) array_like, or FrequencyGrid
+        Wave vectors, rad per unit of length.
+    of : Measure
+        Volume or area.
+    total : float
+        The body's volume or area, to which `FOURIER_RTOL` refers.
+    threads : int
+
+    Raises
+    ------
+    MeasureError
+        If there are no faces, or as `solid_transform`.
+
+    Examples
+    --------
+    >>> from body_moments.core.fourier import BodyTransform
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.moments import Measure
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> transform = BodyTransform([(surface, np.stack([np.eye(4)] * 3))], [[0.0, 0.0, 0.0]], Measure.VOLUME, 0.5)
+    >>> round(list(transform.steps())[-1], 9), round(float(transform.result().values[0].real), 9)
+    (1.0, 0.5)
     """
 
     def __init__(
@@ -57,10 +84,10 @@ class BodyTransform:
         self.spectrum: Spectrum | None = None
 
     def steps(self) -> Iterator[float]:
-        """Do the work. Yields after each part of it the fraction done, from 0 to 1. MeasureError as `Transform`."""
+        """Do the work; yield after each part of it the fraction done, from 0 to 1."""
         done, everything = 0, sum(self.weights)
         for weight, (surface, offsets) in zip(self.weights, self.jobs):
-            if self.tolerance is None:
+            if self.tolerance is None or not isinstance(self.q, FrequencyGrid):
                 transform = Transform(surface, self.q, self.measure, self.threads)
             else:
                 transform = GridTransform(surface, self.q, self.measure, self.tolerance, self.threads)
@@ -76,8 +103,8 @@ class BodyTransform:
             self.spectrum = part_spectrum if self.spectrum is None else self.spectrum + part_spectrum
 
     def result(self) -> Spectrum:
-        """The spectrum of everything together, when all steps are done."""
-        return self.spectrum
+        """Return the spectrum of everything together, when all steps are done."""
+        return cast("Spectrum", self.spectrum)  # there are parts, and each has added to it
 
 
 def _distinct_images(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray[np.float64]]]:

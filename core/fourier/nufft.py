@@ -44,7 +44,7 @@ class Spreading:
     def __init__(self, half: int, width: int, count: int):
         self.half, self.width = half, width
         self.side = _grid_side(half, width)
-        # along x some more cells, so that a block of neighbours covers one run of them
+        # along x some more cells, so that a block of neighbors covers one run of them
         self.cells = [np.zeros((self.side + width) * self.side**2) for _ in range(count)]
 
     def add(self, angles: NDArray[np.float64], strengths: NDArray[np.float64]) -> None:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Fourier transform of plane polygons with holes, in closed form at any frequency.
 
-What `fourier` says of a body holds one dimension lower: with the edges e, their outward normals n of the same length,
+What `transform` says of a body holds one dimension lower: with the edges e, their outward normals n of the same length,
 the phases m in their middles and half the phase t along them
 
     ∫ exp(-i q·x) dA = i/q² Σ (q·n) (exp(-i m) sinc(t) - 1).
@@ -27,10 +27,33 @@ SERIES_TERMS = 10  # of sinc(t) - 1 for t up to 1
 
 
 def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
-    """F(q) = ∫ exp(-i q·x) dA over polygons at wave vectors (M, 2).
+    """Return the Fourier transform of polygons in the plane, F(q) = ∫ exp(-i q·x) dA, in closed form.
 
-    loops: outlines (n, 2), counter-clockwise; holes clockwise. Where they overlap, each one counts, with its sign.
-    ValueError for loops that are not three or more rows of two finite numbers, MeasureError for such wave vectors.
+    Parameters
+    ----------
+    loops : sequence of (n, 2) array_like
+        Outlines counter-clockwise, holes clockwise. Where they overlap, each counts, with its sign.
+    q : (M, 2) array_like
+        Wave vectors, rad per unit of length.
+
+    Returns
+    -------
+    Spectrum
+        Values in unit².
+
+    Raises
+    ------
+    ValueError
+        If a loop is not three or more rows of two finite numbers.
+    MeasureError
+        If the wave vectors are not finite (M, 2).
+
+    Examples
+    --------
+    >>> from body_moments.core.fourier import polygon_transform
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> np.round(polygon_transform([square], [[0.0, 0.0], [np.pi, 0.0]]).values, 6).tolist()
+    [(1+0j), -0.63662j]
     """
     q = wave_vectors(q, 2)
     corners = [np.asarray(loop, np.float64) for loop in loops]
@@ -63,7 +86,8 @@ def _edge_sum(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> ND
     for begin in range(0, len(q), size):
         block = q[begin : begin + size].T
         m, t, across = (
-            sum(np.multiply.outer(a, b) for a, b in zip(block, vectors)) for vectors in (middle / 2.0, half, normal)
+            sum((np.multiply.outer(a, b) for a, b in zip(block, vectors)), np.zeros(()))
+            for vectors in (middle / 2.0, half, normal)
         )
         v = -2.0 * np.sin(m) * (np.sin(m) + 1j * np.cos(m))  # exp(-i q·x) - 1
         less = _sinc_minus_one(t)

@@ -16,12 +16,28 @@ EXACT, APPROXIMATE = "exact", "approximate"
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """∫ exp(-i q·x) at wave vectors q.
+    """∫ exp(-i q·x) at wave vectors q. Spectra of bodies add (`+`).
 
-    q: (M, 3) rad per unit length; (M, 2) of a polygon. values: (M,) complex, unit³ of a body, unit² of a surface or a
-    polygon. error: (M,) what the values may be off by: of an "exact" spectrum a bound of the rounding, of an
-    "approximate" one an estimate. input_error: a bound of what storing coordinates as float32 may have changed,
-    whatever q.
+    Parameters
+    ----------
+    q : (M, 3) array
+        Rad per unit of length; (M, 2) of a polygon.
+    values : (M,) complex array
+        unit³ of a body, unit² of a surface or a polygon.
+    error : (M,) array
+        What the values may be off by: of an "exact" spectrum a bound of the rounding, of an "approximate" one an
+        estimate.
+    input_error : float
+        A bound of the change that storing coordinates as float32 may have made, whatever q.
+    method : str
+        "exact" or "approximate".
+
+    Examples
+    --------
+    >>> from body_moments.core.fourier import Spectrum
+    >>> spectrum = Spectrum(np.zeros((1, 3)), np.array([2.0 + 0.0j]), np.zeros(1))
+    >>> (spectrum + spectrum).scale(0.5).values.tolist()
+    [(2+0j)]
     """
 
     q: NDArray[np.float64]
@@ -31,20 +47,20 @@ class Spectrum:
     method: str = EXACT
 
     def __add__(self, other: Spectrum) -> Spectrum:
-        """Of two bodies together, at the same wave vectors."""
+        """Add the spectrum of another body, at the same wave vectors."""
         method = EXACT if self.method == other.method == EXACT else APPROXIMATE
         return Spectrum(
             self.q, self.values + other.values, self.error + other.error, self.input_error + other.input_error, method
         )
 
     def scale(self, factor: float) -> Spectrum:
-        """Times a positive factor, as the thickness of a sheet."""
+        """Multiply by a positive factor, such as the thickness of a sheet."""
         return replace(
             self, values=self.values * factor, error=self.error * factor, input_error=self.input_error * factor
         )
 
     def multiply_by_phases(self, waves: NDArray[np.complex128], count: int) -> Spectrum:
-        """Of `count` copies together, from the sums (M,) of exp(-i q·t) over where they stand."""
+        """Return the spectrum of `count` copies together, from the (M,) sums of exp(-i q·t) over their places."""
         rounding = (8.0 + count) * count * U * np.abs(self.values)
         return replace(
             self, values=self.values * waves, error=count * self.error + rounding, input_error=count * self.input_error

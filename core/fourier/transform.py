@@ -3,7 +3,7 @@
 """The Fourier transform of a body and of a surface, in closed form at any frequency.
 
 Zhang and Chen (2001) add up tetrahedra, whose formula divides by q·a, by q·(a-b) and so on: it fails near every plane
-across an edge. The divergence theorem leaves one division, by q². With N = (b-a) x (c-a) and `triangle_waves`'s D
+across an edge. The divergence theorem leaves one division, by q². With N = (b-a) x (c-a) and `triangle_kernel`'s D
 
     ∫ exp(-i q·x) dV = i/q² Σ (q·N) (D - 1/2),    ∫ exp(-i q·x) dA = Σ |N| D.
 
@@ -11,8 +11,8 @@ The N of a closed surface add up to zero; therefore 1/2 may be taken off each D,
 q·x, and nothing cancels as q goes to 0.
 
 Error. u = 2^-53, A the area, R the reach from the center. A phase is off by a few u |q| R, a D by that or by a few u,
-and |D - 1/2| is below 1 and below |q| R; q·N/q² is at most |N|/|q|. In all that is ERROR u A R whatever q is. N is
-found in twice the precision, or slivers would be worse. So is the phase of the center, which may be far off.
+and |D - 1/2| is below 1 and below |q| R; q·N/q² is at most |N|/|q|. In all that is ROUNDING_FACTOR u A R whatever q is.
+N is found in twice the precision, or slivers would be worse. So is the phase of the center, which may be far off.
 """
 
 from __future__ import annotations
@@ -34,23 +34,77 @@ from .wave_vectors import FrequencyGrid, GridWaves, ListWaves, wave_vectors
 
 PAIRS_PER_TASK = 1 << 20  # pairs of triangles and frequencies that are handed out at a time: about a tenth of a second
 ZERO_WAVE_NUMBER = 1e-20  # |q| R below which F is V - i q·∫x dV, to all digits
-OPEN_AREA_RTOL = 1e-6  # of the area: from here on the rims of a surface gape
+OPEN_AREA_RTOL = 1e-6  # of the area: above it a surface counts as open
 GENERIC_WAVE_VECTOR = np.array([[0.72, 0.9, 0.96]])  # a wave vector that is special to no body, of length 1.5
 ROUNDING_FACTOR = 64.0
 
 
 def solid_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int = 1) -> Spectrum:
-    """F(q) = ∫ exp(-i q·x) dV of the body in a closed surface, at wave vectors (M, 3) or on a grid.
+    """Return the Fourier transform of the body in a closed surface, F(q) = ∫ exp(-i q·x) dV, in closed form.
 
-    Signed as a volume is: positive for outward faces. MeasureError for an open surface, for none, for wave vectors
-    that are not finite and for sizes beyond the range of numbers; ValueError for coordinates that are not finite and
-    for indices that name no point.
+    Parameters
+    ----------
+    surface : Surface
+        Closed. The transform is signed as a volume is: positive for outward faces.
+    q : (M, 3) array_like, or FrequencyGrid
+        Wave vectors, rad per unit of length.
+    threads : int
+
+    Returns
+    -------
+    Spectrum
+        Values in unit³.
+
+    Raises
+    ------
+    MeasureError
+        If the surface is open or has no faces, wave vectors are not finite, or sizes are beyond the range of numbers.
+    ValueError
+        If coordinates are not finite, or an index has no point.
+
+    Notes
+    -----
+    The body that Zhang and Chen (2001) sum over tetrahedra, here by the divergence theorem; see the module.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, solid_transform
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> spectrum = solid_transform(surface, [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]])
+    >>> np.round(spectrum.values * 6, 6).tolist()
+    [(1+0j), (0.062359-0.879355j)]
     """
     return run_to_completion(Transform(surface, q, Measure.VOLUME, threads))
 
 
 def surface_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int = 1) -> Spectrum:
-    """∫ exp(-i q·x) dA over a surface, closed or not, at wave vectors (M, 3) or on a grid."""
+    """Return ∫ exp(-i q·x) dA over a surface, closed or not.
+
+    Parameters
+    ----------
+    surface : Surface
+    q : (M, 3) array_like, or FrequencyGrid
+        Wave vectors, rad per unit of length.
+    threads : int
+
+    Returns
+    -------
+    Spectrum
+        Values in unit².
+
+    Raises
+    ------
+    MeasureError, ValueError
+        As `solid_transform`, but for open surfaces.
+
+    Examples
+    --------
+    >>> from body_moments.core.fourier import surface_transform
+    >>> from body_moments.core.mesh import Surface
+    >>> triangle = Surface.from_triangles(np.eye(4, 3, -1), [[0, 1, 2]])
+    >>> np.round(surface_transform(triangle, [[0.0, 0.0, 5.0]]).values, 9).tolist()
+    [(0.5+0j)]
+    """
     return run_to_completion(Transform(surface, q, Measure.AREA, threads))
 
 
@@ -62,10 +116,24 @@ def run_to_completion(transform: Transform) -> Spectrum:
 
 
 class Transform:
-    """A transform under way: `steps` does the work, `result` tells the outcome. measure: volume or area."""
+    """A transform under way: `steps` does the work, `result` returns the spectrum.
+
+    Parameters
+    ----------
+    surface : Surface
+    q : (M, 3) array_like, or FrequencyGrid
+    of : Measure
+        Volume or area.
+    threads : int
+
+    Raises
+    ------
+    MeasureError, ValueError
+        As `solid_transform`.
+    """
 
     def __init__(self, surface: Surface, q: ArrayLike | FrequencyGrid, of: Measure, threads: int = 1):
-        self.q = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
+        self.q = waves = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
         self.measure, self.threads = of, threads
         self.faces = self.direct = SortedTriangles(surface)
         self.volume, self.area = polyhedron_moments(surface, area_order=0, threads=threads)
@@ -75,11 +143,11 @@ class Transform:
             if self.gap > OPEN_AREA_RTOL * self.faces.area:
                 raise MeasureError("fourier_of_open_surface")
         scale = self.faces.scale
-        self.waves = GridWaves(q, scale) if isinstance(q, FrequencyGrid) else ListWaves(self.q * scale)
+        self.waves = GridWaves(waves, scale) if isinstance(waves, FrequencyGrid) else ListWaves(waves * scale)
         self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)
 
     def _vector_sum(self) -> NDArray[np.complex128]:
-        """(3,) ∫ n exp(-i q·x) dA at ASKEW, parallel to it for a closed surface."""
+        """(3,) ∫ n exp(-i q·x) dA at GENERIC_WAVE_VECTOR, parallel to it for a closed surface."""
         waves, total = ListWaves(GENERIC_WAVE_VECTOR), np.zeros(3, np.complex128)
         for run in self.faces.blocks(PAIRS_PER_BLOCK):
             block = self.faces.block(run)
@@ -88,7 +156,7 @@ class Transform:
         return total
 
     def steps(self) -> Iterator[float]:
-        """Do the work, and tell after each share of it how much is done, from 0 to 1."""
+        """Do the work; yield after each part of it the fraction done, from 0 to 1."""
         shares = self._tasks()
         if self.threads == 1:
             results = map(self._run_task, shares)
@@ -146,18 +214,18 @@ class Transform:
         return slice(part.start * columns, part.stop * columns), sums
 
     def result(self) -> Spectrum:
-        """The spectrum, when all steps are done."""
+        """Return the spectrum, when all steps are done."""
         faces, values = self.faces, self.sums + self.rest
         if self.measure == Measure.AREA:
             values, unit, moments = values + faces.area, 2, self.area
         else:
             values, unit, moments = self._to_transform(values), 3, self.volume
-        if isinstance(self.q, FrequencyGrid):
-            q, values = self.q.vectors(), self.q.expand(values)
-        else:
-            q, ordered = self.q, values
-            values = np.empty_like(ordered)
+        q = self.q
+        if isinstance(self.waves, ListWaves):
+            ordered, values = values, np.empty_like(values)
             values[self.waves.order] = ordered
+        if isinstance(q, FrequencyGrid):
+            q, values = q.vectors(), q.expand(values)
         values *= faces.scale**unit
         turn = phase_factors(q, faces.center)
         error = faces.scale**unit * (U * ROUNDING_FACTOR * faces.area + self.gap)

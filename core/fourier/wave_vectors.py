@@ -27,9 +27,25 @@ PhaseFiller = Callable[[slice, NDArray, NDArray, NDArray], None]  # with cos(q·
 class FrequencyGrid:
     """A regular grid of wave vectors around 0, in the order of `numpy.fft.fftshift`.
 
-    count: frequencies along each axis. largest: rad/m, the largest |q| along each axis. With h = count // 2 the j-th
-    frequency of an axis is (j - h) / h · largest: 0 is always one of them, and an even count leaves out +largest.
-    MeasureError where there is no such grid.
+    Parameters
+    ----------
+    count : int
+        Frequencies along each axis, at least 2.
+    largest : float
+        The largest |q| along each axis, rad per unit of length. With h = count // 2 the j-th frequency of an axis is
+        (j - h) / h · largest: 0 is always one of them, and an even count leaves out +largest.
+
+    Raises
+    ------
+    MeasureError
+        If there is no such grid.
+
+    Examples
+    --------
+    >>> from body_moments.core.fourier import FrequencyGrid
+    >>> grid = FrequencyGrid(4, 10.0)
+    >>> grid.axis().tolist(), grid.vectors().shape
+    ([-10.0, -5.0, 0.0, 5.0], (64, 3))
     """
 
     count: int
@@ -43,24 +59,25 @@ class FrequencyGrid:
 
     @property
     def half(self) -> int:
+        """Steps from 0 to the largest frequency."""
         return self.count // 2
 
     @property
     def step(self) -> float:
-        """Between neighbours, rad/m."""
+        """The distance between neighbors along an axis, rad per unit of length."""
         return self.largest / self.half
 
     def axis(self) -> NDArray[np.float64]:
-        """(count,) the frequencies along each axis."""
-        return (np.arange(self.count) - self.half) * self.step
+        """Return the (count,) frequencies along each axis."""
+        return (np.arange(self.count, dtype=np.float64) - self.half) * self.step
 
     def vectors(self) -> NDArray[np.float64]:
-        """(count³, 3) every wave vector, the last axis fastest."""
+        """Return every wave vector, (count³, 3), the last axis fastest."""
         axis = self.axis()
         return np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
 
     def expand(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """(count³,) the values everywhere from those of `GridWaves`, which are at half of the places."""
+        """Return the (count³,) values everywhere from those of `GridWaves`, which are at half of the places."""
         side, n, h = 2 * self.half + 1, self.count, self.half
         values = values.reshape(side, side, h + 1)
         full = np.empty((n, n, n), np.complex128)

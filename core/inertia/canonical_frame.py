@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frames that a body's moments beyond second order choose: one where it has no symmetry, else one for each rotation
-that takes the body to itself, as far as these moments can tell.
+that takes the body to itself, as far as these moments show.
 
 First a finite set of frames is found that turns with the body. Axes of different second moments are fixed up to their
 signs. Around one such axis the other two are turned to make the first clear harmonic ∫ (x+iy)^m ... real and positive:
@@ -28,9 +28,9 @@ MAX_ORDER = 6  # by which the axes of every prism to a hexagon's, of a cube and 
 NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times what float32 coordinates make
 # of it with the degree: as the moments of a normal distribution grow
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
-CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones only where there is no other
+CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones are used only without a better one
 FLAT_EXTENT_RTOL = 1e-6  # of the largest extent: along an axis of less, a body is a lamina and has no skewness
-MAX_EQUAL_SHARE = 0.25  # of what tells directions apart: at most that much is taken for equal
+MAX_EQUAL_SHARE = 0.25  # of what distinguishes directions: at most that much counts as equal
 START_DIRECTIONS = 240  # directions from which extreme ones are looked for
 MAX_START_GAP = 0.18  # from any direction to the nearest of them
 ASCENT_STEPS = 16  # from there to a maximum, most of them for those that are hardly curved
@@ -67,7 +67,7 @@ class EquivalentFrames:
 
 
 def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray) -> EquivalentFrames:
-    """moments: to some order from 3 to ORDER, about any point. starts: (k, 3, 3) the frames along the spread's axes
+    """moments: to some order from 3 to MAX_ORDER, about any point. starts: (k, 3, 3) the frames along the spread's axes
     that third moments allow. MeasureError where their size is beyond the range of numbers."""
     central = moments.about_center()
     total = central.raw[0]
@@ -130,8 +130,8 @@ def _fix_rotation_about_axis(
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, NDArray[np.complex128], float] | None:
-    """The first harmonic about that axis of the bases that is above noise, CLEAR ones before weaker ones: its m, (n,)
-    its value in each basis, and what of it is noise."""
+    """The first harmonic about that axis of the bases that is above noise, those above CLEAR_HARMONIC before weaker
+    ones: its m, (n,) its value in each basis, and what of it is noise."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order, size = [first, second, axis], _extents(spread)
     harmonics = {}
@@ -196,12 +196,13 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
     several times. span: between the largest and the least value.
 
     From the highest points of all over it: along the sphere the function is a trigonometric polynomial, so that by
-    Bernstein's inequality it loses at most (degree GAP)² span / 4 on the way from a maximum to the nearest of them.
-    Steps are Newton's in the directions that are curved, and always uphill.
+    Bernstein's inequality it loses at most (degree MAX_START_GAP)² span / 4 on the way from a maximum to the nearest of
+    them. Steps are Newton's in the directions that are curved, and always uphill.
     """
     points, scale = _sphere_directions(), degree**2 * span
     height = _contract(tensor, degree, points)
     points = points[height >= height.max() - within - (degree * MAX_START_GAP) ** 2 / 4.0 * span]
+    uphill = np.zeros_like(points)
     for _ in range(ASCENT_STEPS):
         contracted_twice = _contract(tensor, degree - 2, points)
         contracted_once = degree * np.einsum("nij,nj->ni", contracted_twice, points)
@@ -222,7 +223,7 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
 
 @lru_cache
 def _sphere_directions() -> NDArray[np.float64]:
-    """(SPREAD, 3) directions spread evenly: Fibonacci's lattice."""
+    """(START_DIRECTIONS, 3) directions spread evenly: Fibonacci's lattice."""
     i = np.arange(START_DIRECTIONS) + 0.5
     z, turn = 1.0 - 2.0 * i / START_DIRECTIONS, np.pi * (1.0 + 5.0**0.5) * i
     r = np.sqrt(1.0 - z * z)

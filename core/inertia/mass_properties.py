@@ -24,11 +24,27 @@ IDENTITY_3 = np.eye(3)
 
 @dataclass(frozen=True, eq=False)
 class MassProperties:
-    """One body, or several as one.
+    """Mass, center and inertia of one body, or of several as one, all in one frame and unit.
 
-    mass; center (3,); inertia (3, 3) about the center; principal: the principal frame. All in one frame and unit.
-    rounding_error, input_error: {"mass", "center", "inertia"} absolute bounds, Euclidean for the center and Frobenius
-        for the tensor (so they hold for each entry and each principal moment): of rounding, and of float32 coordinates.
+    Attributes
+    ----------
+    mass : float
+    center : (3,) array
+    inertia : (3, 3) array
+        The tensor about the center: I_xx = ∫(y²+z²)dm, I_xy = -∫xy dm.
+    principal : PrincipalFrame
+        Principal moments and axes.
+    rounding_error, input_error : dict of str to float
+        Absolute bounds of "mass", "center" and "inertia", Euclidean for the center and Frobenius for the tensor (so
+        they hold for each entry and each principal moment): of rounding, and of float32 coordinates.
+
+    Examples
+    --------
+    >>> from body_moments.core import MassProperties, Surface, polyhedron_moments
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> properties = MassProperties.from_moments(polyhedron_moments(surface)[0], density=6000.0)
+    >>> round(properties.mass, 9), np.round(properties.principal.moments, 6).tolist()
+    (1000.0, [62.5, 62.5, 100.0])
     """
 
     mass: float
@@ -47,10 +63,27 @@ class MassProperties:
         refine: Callable[[], Moments] | None = None,
         higher: Callable[[], Moments] | None = None,
     ) -> MassProperties:
-        """From moments to order 3 of a body with constant density.
+        """Derive mass properties from moments of a body with constant density.
 
-        preferred_axes, refine, higher: as for `principal_frame`. MeasureError where the body has no certain volume;
-        ValueError for lower orders and for a density that is none.
+        Parameters
+        ----------
+        moments : Moments
+            To order 3 at least.
+        density : float
+            Mass per unit of the moments, not negative.
+        preferred_axes, refine, higher
+            As for `principal_frame`.
+
+        Returns
+        -------
+        MassProperties
+
+        Raises
+        ------
+        MeasureError
+            If the body has no certain volume.
+        ValueError
+            If the order is below 3 or the density is negative or not finite.
         """
         if moments.order < 3:
             raise ValueError("moments below third order")
@@ -75,12 +108,21 @@ class MassProperties:
         )
 
     def inertia_about(self, point: ArrayLike) -> NDArray[np.float64]:
-        """(3, 3) the tensor about another point, by the parallel-axis theorem."""
+        """Return the tensor about another point, by the parallel-axis theorem.
+
+        Parameters
+        ----------
+        point : (3,) array_like
+
+        Returns
+        -------
+        (3, 3) array
+        """
         arm = np.asarray(point, np.float64) - self.center
         return self.inertia + self.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
 
     def as_moments(self) -> Moments:
-        """Its mass moments about the center; the third ones are not known any more and left zero."""
+        """Return its mass moments about the center; the third ones are not known any more and left zero."""
         raw = np.zeros(monomial_count(3))
         raw[0] = self.mass
         raw[SECOND_MOMENT_INDEX] = np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia
@@ -92,7 +134,7 @@ class MassProperties:
         return np.sqrt(self.principal.moments / self.mass)
 
     def in_frame(self, rotation: NDArray, origin: NDArray) -> MassProperties:
-        """The same body in the frame whose axes are the columns of `rotation` and whose origin is `origin`."""
+        """Return the same body in the frame whose axes are the columns of `rotation` and whose origin is `origin`."""
         inertia = rotation.T @ self.inertia @ rotation
         return replace(
             self,
@@ -103,7 +145,33 @@ class MassProperties:
 
 
 def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: NDArray | None = None) -> MassProperties:
-    """Several bodies, (moments, density) each, as one."""
+    """Combine several bodies into one.
+
+    Parameters
+    ----------
+    bodies : sequence of (Moments, float)
+        Each body's moments and density.
+    preferred_axes : (3, 3) array, optional
+        As for `principal_frame`.
+
+    Returns
+    -------
+    MassProperties
+
+    Raises
+    ------
+    MeasureError
+        If there is no certain mass.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments
+    >>> from body_moments.core.inertia import combine
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> volume, _ = polyhedron_moments(surface)
+    >>> round(combine([(volume, 6.0), (volume.transform(np.diag([2.0, 1.0, 1.0, 1.0])), 6.0)]).mass, 9)
+    3.0
+    """
     weighed = [replace(moments, measure=Measure.MASS) * density for moments, density in bodies]
     return MassProperties.from_moments(sum_moments(weighed), preferred_axes=preferred_axes)
 

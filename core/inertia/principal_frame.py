@@ -7,8 +7,8 @@ inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third m
 every body with a mirror plane, where M_300 is noise, so it is made robust: an axis is scored by its skewness, or where
 that is noise by the other third moments odd in that axis only; the two axes with the clearest scores turn positive and
 the third completes a right-handed frame. What equal moments or a want of skewness leave, moments to sixth order decide
-(see `canonical`). What is still free is the body's own freedom: there the frame nearest to the axes that the caller
-prefers is taken, and `finding` says so.
+(see `canonical_frame`). What is still free is the body's own freedom: there the frame nearest to the axes that the
+caller prefers is taken, and `finding` says so.
 
 The pose of a body is its center at the origin and that frame along the axes: two copies of a part, however they lie and
 whatever their faces, have one pose.
@@ -56,11 +56,30 @@ FREE_BY_SHAPE = {
 
 @dataclass(frozen=True, eq=False)
 class PrincipalFrame:
-    """moments: (3,) principal moments of inertia, ascending. axes: (3, 3), the axes as columns, det +1.
-    symmetry: "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1 and 2 equal) or "isotropic".
-    is_unique: whether the body alone fixes the frame; otherwise `finding` says what was chosen. undetermined_axes: the
-    axes of which nothing that was looked at fixes the directions; the symmetry tells them where only second moments
-    were."""
+    """Principal moments and axes of one body.
+
+    Attributes
+    ----------
+    moments : (3,) array
+        Principal moments of inertia, ascending.
+    axes : (3, 3) array
+        The axes as columns, determinant 1. Axis 1 is the long one.
+    symmetry : str
+        "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1 and 2 equal) or "isotropic".
+    is_unique : bool
+        Whether the body alone fixes the frame.
+    finding : Finding or None
+        What was chosen where it does not.
+    undetermined_axes : tuple of int
+        The axes whose directions nothing that was looked at fixes.
+
+    Examples
+    --------
+    >>> from body_moments.core.inertia import PrincipalFrame
+    >>> frame = PrincipalFrame(np.array([1.0, 2.0, 2.5]), np.eye(3), "asymmetric", True, None)
+    >>> frame.rotate(np.diag([-1.0, -1.0, 1.0])).axes.diagonal().tolist()
+    [-1.0, -1.0, 1.0]
+    """
 
     moments: NDArray[np.float64]
     axes: NDArray[np.float64]
@@ -70,7 +89,7 @@ class PrincipalFrame:
     undetermined_axes: tuple[int, ...] = ()
 
     def rotate(self, rotation: NDArray) -> PrincipalFrame:
-        """The same frame in coordinates new = rotation @ old."""
+        """Return the same frame in coordinates new = rotation @ old."""
         return replace(self, axes=rotation @ self.axes)
 
 
@@ -80,11 +99,42 @@ def principal_frame(
     refine: Callable[[], Moments] | None = None,
     higher: Callable[[], Moments] | None = None,
 ) -> PrincipalFrame:
-    """The principal frame of a body with positive total. MeasureError where its second moments are those of no body.
+    """Return the principal frame of a body with positive total.
 
-    moments: to order 3. preferred_axes: (3, 3) rotation whose columns are the axes to stay near to, by default the
-    coordinate axes. refine: gives the moments with exact third order; called where their bounds do not decide.
-    higher: gives them to `canonical.ORDER`; called where third order leaves a choice.
+    Parameters
+    ----------
+    moments : Moments
+        To order 3 at least.
+    preferred_axes : (3, 3) array, optional
+        A rotation whose columns are the axes to stay near to, where the body leaves a choice; by default the coordinate
+        axes.
+    refine : callable, optional
+        Returns the moments with exact third order; called where their bounds do not decide.
+    higher : callable, optional
+        Returns the moments to order `canonical_frame.MAX_ORDER`; called where third order leaves a choice.
+
+    Returns
+    -------
+    PrincipalFrame
+
+    Raises
+    ------
+    MeasureError
+        If the second moments are those of no body.
+
+    Notes
+    -----
+    Zhang and Chen 2001, eq. 11, made robust; see the module.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments, principal_frame
+    >>> surface = Surface.from_triangles(
+    ...     np.eye(4, 3, -1) * (3, 2, 1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    ... )
+    >>> frame = principal_frame(polyhedron_moments(surface)[0])
+    >>> frame.symmetry, frame.is_unique, np.round(frame.moments, 4).tolist()
+    ('asymmetric', True, [0.1589, 0.3886, 0.5025])
     """
     preferred_axes = np.eye(3) if preferred_axes is None else np.asarray(preferred_axes, np.float64)
     fixed = _second_order_frame(moments, refine)
@@ -103,14 +153,56 @@ def principal_frame(
 
 
 def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> EquivalentFrames:
-    """The principal frames, to some order of at least 3, in which the body is the same. noise: the normalized third
-    moment that is taken for none; what else counts as equal grows with it."""
+    """Return the principal frames in which the body is the same.
+
+    Parameters
+    ----------
+    moments : Moments
+        To order 3 at least; the frames are alike to their order.
+    noise : float
+        Normalized third moments below this count as zero; the tolerance of the others grows with it.
+
+    Returns
+    -------
+    EquivalentFrames
+        `frames` (k, 3, 3) and what no moment fixes.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments
+    >>> from body_moments.core.inertia import equivalent_frames
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> len(equivalent_frames(polyhedron_moments(surface, 6)[0]).frames)
+    3
+    """
     fixed = _second_order_frame(moments, None, noise / NOISE_LEVEL)
     return canonical_frames(moments, fixed.spread, fixed.frames)
 
 
 def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDArray[np.float64]:
-    """Of the frames in which a body is the same, the one nearest to the axes that are preferred."""
+    """Return, of the frames in which a body is the same, the one nearest to the preferred axes.
+
+    Parameters
+    ----------
+    equivalent : EquivalentFrames
+        As `equivalent_frames` returns them.
+    preferred_axes : (3, 3) array
+        A rotation, its axes as columns.
+
+    Returns
+    -------
+    (3, 3) array
+        The axes as columns.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments
+    >>> from body_moments.core.inertia import equivalent_frames, nearest_frame
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> frame = nearest_frame(equivalent_frames(polyhedron_moments(surface, 6)[0]), np.eye(3))
+    >>> round(float(np.linalg.det(frame)), 9)
+    1.0
+    """
     return _nearest(
         [complete_free_axes(frame, undetermined_axes(equivalent), preferred_axes) for frame in equivalent.frames],
         preferred_axes,
@@ -128,10 +220,37 @@ def undetermined_axes(equivalent: EquivalentFrames) -> tuple[int, ...]:
 
 
 def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = None) -> PrincipalFrame:
-    """Zhang and Chen's own rule (eq. 11): axes 1 and 2 in the direction of positive M_300 and M_030, axis 3 completing
-    a right-handed frame. MeasureError where one of these is noise, or second moments are equal: there it has no answer.
+    """Return the frame by Zhang and Chen's own rule: axes 1 and 2 in the direction of positive M_300 and M_030.
 
-    refine: as for `principal_frame`.
+    Parameters
+    ----------
+    moments : Moments
+        To order 3 at least.
+    refine : callable, optional
+        As for `principal_frame`.
+
+    Returns
+    -------
+    PrincipalFrame
+
+    Raises
+    ------
+    MeasureError
+        If one of the two moments is noise, or second moments are equal: the rule has no answer there.
+
+    Notes
+    -----
+    Zhang and Chen, ICIP 2001, eq. 11. Axis 3 completes a right-handed frame.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments
+    >>> from body_moments.core.inertia import zhang_chen_frame
+    >>> surface = Surface.from_triangles(
+    ...     np.eye(4, 3, -1) * (3, 2, 1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    ... )
+    >>> zhang_chen_frame(polyhedron_moments(surface)[0]).is_unique
+    True
     """
     fixed = _second_order_frame(moments, None)
     if refine is not None and not (np.abs(fixed.skewness[:2]) > 2.0 * fixed.skewness_error[:2]).all():
@@ -147,7 +266,25 @@ def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = No
 
 
 def pose_matrix(center: NDArray, axes: NDArray) -> NDArray[np.float64]:
-    """(4, 4), column vectors: what lays the center on the origin and the axes, columns, along x, y and z."""
+    """Return the matrix that brings the center to the origin and the axes along x, y and z.
+
+    Parameters
+    ----------
+    center : (3,) array
+    axes : (3, 3) array
+        A rotation, its axes as columns.
+
+    Returns
+    -------
+    (4, 4) array
+        For column vectors: pose = matrix @ (x, y, z, 1).
+
+    Examples
+    --------
+    >>> from body_moments.core import pose_matrix
+    >>> pose_matrix(np.array([1.0, 2.0, 3.0]), np.eye(3))[:3, 3].tolist()
+    [-1.0, -2.0, -3.0]
+    """
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = axes.T, -axes.T @ center
     return matrix + 0.0  # no negative zeros
@@ -203,9 +340,10 @@ def _second_order_frame(
         third = skewness, skewness_error
         if refine is not None and not _is_decided(np.abs(skewness[fixed]), skewness_error[fixed], noise[fixed]):
             third = _third_scores(refine(), shift, real, axes)
-        scores[fixed] = [
-            _signed_skewness(*arrays) for arrays in zip(*(arrays[fixed].tolist() for arrays in (*third, noise)))
-        ]
+        values, errors = third[0][fixed], third[1][fixed]
+        is_clear = np.abs(values) > noise[fixed] + errors
+        first = np.arange(len(fixed)), is_clear.argmax(axis=1)  # zero where none of them is more than noise
+        scores[fixed] = np.where(is_clear[first], values[first], 0.0)
     inertia = (spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total)
     extents = SecondMomentAxes(axes, real, free, step * np.sqrt(scale), float(tilts.max()), noise_factor * NOISE_LEVEL)
     return _SecondOrderFrame(
@@ -216,12 +354,6 @@ def _second_order_frame(
         skewness[:, 0],
         noise[:, 0] + skewness_error[:, 0],
     )
-
-
-def _signed_skewness(scores: list[float], errors: list[float], noises: list[float]) -> float:
-    """How clearly third moments point along an axis, signed; zero where they do not. noises: below which a score is
-    none."""
-    return next((value for value, error, noise in zip(scores, errors, noises) if abs(value) > noise + error), 0.0)
 
 
 def _is_decided(size: NDArray, error: NDArray, noise: NDArray) -> bool:
@@ -260,8 +392,8 @@ def _sign_consistent_frames(axes: NDArray, scores: NDArray) -> NDArray[np.float6
     """(k, 3, 3) the right-handed frames along the axes that agree with the scores."""
     size = np.abs(scores)
     fixed = [i for i in range(3) if scores[i]]
-    if len(fixed) == 3:  # the weakest gives way; of equal ones the last
-        fixed.remove(max(i for i in fixed if size[i] <= size.min() * (1.0 + EQUAL_SCORES_RTOL)))
+    if len(fixed) == 3:  # the weakest is dropped; of equal ones the last
+        fixed.remove(max([i for i in fixed if size[i] <= size.min() * (1.0 + EQUAL_SCORES_RTOL)]))
     return axes * HALF_TURN_SIGNS[(HALF_TURN_SIGNS[:, fixed] * scores[fixed] > 0.0).all(axis=1), None]
 
 
@@ -273,7 +405,7 @@ def complete_free_axes(frame: NDArray, free: tuple[int, ...], preferred_axes: ND
         return preferred_axes.copy()
     first, second = free
     fixed = frame[:, 3 - first - second]
-    # (first, second, fixed) is right-handed for both pairs: maximise first·p1 + (fixed x first)·p2 over the plane.
+    # (first, second, fixed) is right-handed for both pairs: maximize first·p1 + (fixed x first)·p2 over the plane.
     wish = preferred_axes[:, first] + np.cross(preferred_axes[:, second], fixed)
     wish = wish - fixed * (fixed @ wish)
     if np.linalg.norm(wish) < 1e-6:  # half a turn away: any direction is as near; take the one along a preferred axis
@@ -300,7 +432,7 @@ def _nearest(candidates: Sequence[NDArray], preferred_axes: NDArray, tilt: float
         columns = np.abs(local[i]) > np.abs(local[i]).max(axis=0) - equal
         return [bool(local[i][np.argmax(columns[:, axis]), axis] > 0.0) for axis in range(3)]
 
-    ways = [along(i) for i in near]
+    ways = [along(i) for i in near.tolist()]
     near = near[[way == max(ways) for way in ways]]
     for entry in local.reshape(-1, 9).T:  # what is left may still be several frames, in an order of no meaning
         near = near[entry[near] > entry[near].max() - equal]

@@ -1,3 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Triangle and quad surfaces: arrays, edges, welding, planarity, boxes, bounding-volume hierarchy."""
+
+from .surface import Surface, join_surfaces, normals
+from .winding import winding_number
+
+__all__ = [
+    "Surface",
+    "join_surfaces",
+    "normals",
+    "winding_number",
+]

@@ -16,14 +16,12 @@ ROUNDING = 1e-6  # of a box's sides
 def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """(k,) the boxes in the order in which they begin along an axis, and how many of those that follow each one begin
     before its end: along the axis with the fewest such pairs."""
-    best = None
+    sweeps: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
     for axis in range(3):
         order = np.argsort(low[:, axis], kind="stable")
         last = np.searchsorted(low[order, axis], high[order, axis] - margin)
-        count = np.maximum(last - np.arange(1, len(order) + 1), 0)
-        if best is None or count.sum() < best[1].sum():
-            best = order, count
-    return best
+        sweeps.append((order, np.maximum(last - np.arange(1, len(order) + 1), 0)))
+    return min(sweeps, key=lambda sweep: sweep[1].sum())
 
 
 def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
@@ -43,7 +41,7 @@ def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int)
 
 
 def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
-    """Whether any two of k boxes share more than a rim of rounding. centers, extents: (k, 3), half the sides.
+    """Whether any two of k boxes overlap by more than rounding. centers, extents: (k, 3), half the sides.
 
     A flat box inside another one meets it, though it overlaps it by nothing.
     """

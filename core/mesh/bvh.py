@@ -3,7 +3,7 @@
 """Shells with a tree of boxes each, and what is asked of them: is a place inside one, does one go through another.
 
 A place is located by the winding number, counted along a ray that is parallel to no axis; the crossings are counted in
-the plane across the ray with signs that neighbouring triangles share, so that no ray slips through between two of them
+the plane across the ray with signs that neighboring triangles share, so that no ray slips through between two of them
 (half-open edges, the watertight rule of rasterizers). Both questions walk down the trees with all pairs and points at
 once, in bounded pieces of work.
 """
@@ -185,8 +185,8 @@ class Bvh:
             child = self.child[node]
             leaf = child < 0
             if leaf.any():
-                for leaves in _batches(place[leaf], node[leaf], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF):
-                    self._count_crossings(query_points, *leaves, tolerance, winding, sure)
+                for at, leaves in _batches(place[leaf], node[leaf], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF):
+                    self._count_crossings(query_points, at, leaves, tolerance, winding, sure)
             place, child = place[~leaf], child[~leaf]
             pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
         return winding, sure
@@ -246,8 +246,10 @@ def intersecting_pairs(
         child_a, child_b = tree.child[a], tree.child[b]
         both = (child_a < 0) & (child_b < 0)
         if both.any():
-            for leaves in _batches(pair[both], a[both], b[both], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF**2):
-                _intersect_leaves(tree, *leaves, tolerance, intersects, vertex)
+            for of, left, right in _batches(
+                pair[both], a[both], b[both], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF**2
+            ):
+                _intersect_leaves(tree, of, left, right, tolerance, intersects, vertex)
             pair, a, b, child_a, child_b = (x[~both] for x in (pair, a, b, child_a, child_b))
         # The larger box is opened; a leaf never is.
         extent = (tree.high[a] - tree.low[a]).max(axis=1) >= (tree.high[b] - tree.low[b]).max(axis=1)

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import first_occurrence
+from ..numerics.arrays import first_occurrence, sums_by_index
 from ..numerics.graph import EDGES_PER_BLOCK, connected_components
 from .surface import Surface
 
@@ -62,6 +62,8 @@ def _sides_at(surface: Surface) -> Callable[[int], tuple[NDArray[np.int32], NDAr
     """A function of where a block of corners starts: the face of each, and whether the side that starts there runs to a
     higher vertex. None where faces and corners do not fit."""
     corners, quads, triangles = surface.corner_vertices, len(surface.quads), len(surface.triangles)
+    if corners is None:
+        return None
     if not triangles and surface.quad_faces is None:
         size = 4
     elif not quads and surface.triangle_faces is None:
@@ -118,7 +120,7 @@ class Edges:
 
     def signed_use_count(self, flipped: NDArray[np.bool_]) -> NDArray[np.float64]:
         """(e,) sides that run upward minus sides that run downward, once the `flipped` triangles are reversed."""
-        return np.bincount(self.of_side, np.where(self.upward ^ np.repeat(flipped, 3), 1.0, -1.0))
+        return sums_by_index(self.of_side, np.where(self.upward ^ np.repeat(flipped, 3), 1.0, -1.0))
 
     def manifold_side_pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """The two sides of every edge that has exactly two."""
@@ -203,10 +205,10 @@ def edges_from_mesh(surface: Surface, triangles: NDArray[np.integer]) -> Edges |
     ends = np.minimum(start, stop).astype(np.int64) * width + np.maximum(start, stop)
     if not np.array_equal(ends[first][of_side], ends):
         return None
-    # A mesh may name an edge twice, and each would pass for a rim.
-    at_rim = np.zeros(width, bool)
-    at_rim[start[mesh_edges.boundary_sides()]] = at_rim[stop[mesh_edges.boundary_sides()]] = True
-    doubtful = ends[first[at_rim[start[first]] & at_rim[stop[first]]]]
+    # A mesh may name an edge twice, and each would pass for a boundary.
+    at_boundary = np.zeros(width, bool)
+    at_boundary[start[mesh_edges.boundary_sides()]] = at_boundary[stop[mesh_edges.boundary_sides()]] = True
+    doubtful = ends[first[at_boundary[start[first]] & at_boundary[stop[first]]]]
     return mesh_edges if len(np.unique(doubtful)) == len(doubtful) else None
 
 
@@ -243,10 +245,10 @@ def consistent_orientation(
 def group_components(
     edges: Edges, part: NDArray[np.intp], parts: int, even: NDArray[np.bool_]
 ) -> tuple[NDArray[np.intp], int]:
-    """The shells that parts make: (m,) the shell of each triangle, and how many.
+    """The components that parts make: (m,) the component of each triangle, and how many.
 
     part: (m,) the part of each triangle, connected across edges with exactly two sides. even: (e,) edges with one side
-    that close otherwise. A part that closes by itself is a shell of its own, though it may share edges with others
+    that close otherwise. A part that closes by itself is a component of its own, though it may share edges with others
     (two boxes that meet in an edge); the rest belong together where they share an edge (a box with an inner wall).
     """
     non_manifold = edges.count > 2
@@ -260,5 +262,5 @@ def group_components(
     side = np.flatnonzero(non_manifold[edges.of_side] & unfinished[part].repeat(3))
     meet = np.empty(len(non_manifold), np.intp)
     meet[edges.of_side[side]] = part[side // 3]  # any of them
-    shell, number = connected_components(parts, part[side // 3], meet[edges.of_side[side]])
-    return shell[part], number
+    component, number = connected_components(parts, part[side // 3], meet[edges.of_side[side]])
+    return component[part], number

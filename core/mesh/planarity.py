@@ -8,15 +8,15 @@ the fan from its second by the tetrahedra on their common edge and each further 
 its diagonals pass each other by more than its coordinates' own errors and a millionth of its size, and it has an area.
 
 The sums over the faces have most of that at hand, and show it to a `PlanarityAccumulator`, a block at a time. The
-normal of a quad
-is the sum of those of its two triangles: with their lengths p and q at most p + q, and at least 0.7 of that unless they
-face away from each other. Mostly that is enough to decide; the other faces are looked at one by one.
+normal of a quad is the sum of those of its two triangles: with their lengths p and q at most p + q, and at least 0.7 of
+that unless they face away from each other. Mostly that is enough to decide; the other faces are looked at one by one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,13 +64,18 @@ class PlanarityAccumulator:
     def __init__(self, surface: Surface, error: float):
         self.surface, self.error = surface, error
         low, high = surface.box
-        size = float((high - low).max())
-        # no face is longer than √3 times that
-        self.degenerate_limit = 2.0 * np.sqrt(_degenerate_limit(3.0 * size * size, error))
+        self.extent = size = float((high - low).max())
         self.quads: dict[int, _PlanarityPartial] = {}
         self.triangles: dict[int, _PlanarityPartial] = {}
-        # What is looked at one by one is brought to about size 1, lest sixth powers of small lengths underflow.
+        # What is looked at one by one is brought to about size 1, so that sixth powers of small lengths do not
+        # underflow.
         self.exponent = int(np.frexp(max(size, float(np.finfo(np.float32).tiny)))[1])
+
+    @cached_property
+    def degenerate_limit(self) -> float:
+        """The largest sum of the lengths of a quad's normals that may be those of a face without area."""
+        longest = 3.0 * self.extent * self.extent  # no face is longer than √3 times the extent
+        return float(2.0 * np.sqrt(_degenerate_limit(longest, self.error)))
 
     def add_quads(self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray) -> None:
         """Those from row `start` on.
@@ -94,7 +99,7 @@ class PlanarityAccumulator:
             maybe[narrow] = True
             unsure = start + np.flatnonzero(maybe > bent)
             volume[np.flatnonzero(~bent)] = 0.0
-        self.quads[start] = _PlanarityPartial(len(bent), count, float(np.add.reduce(volume)), unsure)
+        self.quads[start] = _PlanarityPartial(len(bent), int(count), float(np.add.reduce(volume)), unsure)
 
     def add_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
         """Every `step`-th from each of these rows on. lengths: (len(starts), k) of their normals."""
@@ -104,16 +109,17 @@ class PlanarityAccumulator:
             )
 
     def planarity(self) -> Planarity:
-        """What was seen, and where that does not tell or nothing was seen, what is found by looking."""
+        """What the kernel reported; where that is missing or does not decide, what a pass over the faces finds."""
         surface, triangle_faces = self.surface, self.surface.triangle_faces
-        merged = _merge_blocks(self.quads, len(surface.quads))
-        volumes, degenerate = self._classify_rows(surface.quads[merged.undecided], QUAD)
-        degenerate = (
-            merged.undecided[degenerate]
-            if surface.quad_faces is None
-            else surface.quad_faces[merged.undecided[degenerate]]
-        )
-        non_planar_count, total_volume = merged.non_planar_count + np.count_nonzero(volumes), np.add.reduce(volumes)
+        non_planar_count, seen_volume, total_volume, degenerate = 0, 0.0, 0.0, NO_FACES
+        if len(surface.quads):
+            merged = _merge_blocks(self.quads, len(surface.quads))
+            volumes, narrow = self._classify_rows(surface.quads[merged.undecided], QUAD)
+            degenerate = merged.undecided[narrow]
+            if surface.quad_faces is not None:
+                degenerate = surface.quad_faces[degenerate]
+            non_planar_count, seen_volume = merged.non_planar_count + np.count_nonzero(volumes), merged.volume_ambiguity
+            total_volume = np.add.reduce(volumes)
         if len(surface.triangles):
             undecided_rows = _merge_blocks(self.triangles, len(surface.triangles)).undecided
             undecided_rows = undecided_rows[self._classify_rows(surface.triangles[undecided_rows], TRIANGLE)[1]]
@@ -127,7 +133,7 @@ class PlanarityAccumulator:
                 non_planar_count += len(np.unique(polygon[volumes > 0.0]))
                 total_volume += np.add.reduce(volumes)
             degenerate = np.concatenate([degenerate, undecided_rows])
-        volume_ambiguity = (merged.volume_ambiguity + float(np.ldexp(total_volume, 3 * self.exponent))) / 6.0
+        volume_ambiguity = (seen_volume + float(np.ldexp(total_volume, 3 * self.exponent))) / 6.0
         return Planarity(int(non_planar_count), volume_ambiguity, np.sort(degenerate))
 
     def _classify_rows(self, corners: NDArray, pairs: tuple) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
@@ -137,12 +143,13 @@ class PlanarityAccumulator:
         for start in range(0, len(corners), FACES_PER_BLOCK):
             points = self.surface.points[corners[start : start + FACES_PER_BLOCK].astype(np.intp)].T
             points = np.ldexp(points.astype(np.float64, order="C"), -self.exponent)
-            first, second, *third = ((points[:, i] - points[:, j]) for i, j in pairs)
+            first, second, *third = [points[:, i] - points[:, j] for i, j in pairs]
             across = cross(first, second)
-            square = dot(across, across)
-            bare.append(square <= _degenerate_limit(np.maximum(dot(first, first), dot(second, second)), error))
+            vectors = np.stack([first, second, across])
+            squares = np.add.reduce(vectors * vectors, axis=1)
+            bare.append(squares[2] <= _degenerate_limit(np.maximum(squares[0], squares[1]), error))
             if third:
-                volume, normal = np.abs(dot(third[0], across)), np.sqrt(square)
+                volume, normal = np.abs(dot(third[0], across)), np.sqrt(squares[2])
                 volume[(volume <= normal * (8.0 * error + PLANAR_RTOL * np.sqrt(normal))) | bare[-1]] = 0.0
                 volumes.append(volume)
         return np.concatenate(volumes), np.concatenate(bare)
@@ -169,13 +176,13 @@ class PlanarityAccumulator:
 def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _PlanarityPartial:
     """What was seen of so many rows, in their order, whoever was first; if not of all, then of none."""
     partials = [blocks[start] for start in sorted(blocks)]
-    if sum(block.count for block in partials) != count:
+    if sum([block.count for block in partials]) != count:
         return _PlanarityPartial(count, 0, 0.0, np.arange(count))
     return _PlanarityPartial(
         count,
-        sum(block.non_planar_count for block in partials),
-        sum(block.volume_ambiguity for block in partials),
-        np.concatenate([NO_FACES, *(block.undecided for block in partials)]),
+        sum([block.non_planar_count for block in partials]),
+        sum([block.volume_ambiguity for block in partials]),
+        np.concatenate([NO_FACES, *[block.undecided for block in partials]]),
     )
 
 

@@ -24,20 +24,37 @@ NO_QUADS = np.empty((0, 4), np.int32)
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Triangles and quads over shared points, outward faces counter-clockwise.
+    """Triangles and quads over shared points, outward faces counter-clockwise: the input of every measurement.
 
-    points: (n, 3) float32 or float64, in the surface's own coordinates and unit.
-    triangles: (m, 3) vertex indices, the triangular faces and Blender's tessellation of n-gons.
-    quads: (q, 4) vertex indices in corner order; cut as `flipped_quads` says.
-    triangle_faces, quad_faces: the mesh face each one belongs to; None where face i is simply row i.
-    corner_vertices, corner_edges: (c,), the mesh's own corners, and the edge from each one to the next. They prove
-        closedness without sorting; None where the source has none.
-    displacement: (3,) see `coordinate_error`.
+    Parameters
+    ----------
+    points : (n, 3) float32 or float64 array
+        In the surface's own coordinates and unit.
+    triangles : (m, 3) integer array
+        Vertex indices: the triangular faces and Blender's tessellation of n-gons.
+    quads : (q, 4) integer array
+        Vertex indices in corner order; cut into triangles as `flipped_quads` decides.
+    triangle_faces, quad_faces : integer arrays, optional
+        The mesh face that each row belongs to; None where face i is row i.
+    corner_vertices, corner_edges : (c,) integer arrays, optional
+        The mesh's own corners, and the edge from each one to the next. They prove closedness without sorting.
+    displacement : (3,) array, optional
+        See `coordinate_error`.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface
+    >>> cube = Surface(
+    ...     np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]),
+    ...     quads=np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]),
+    ... )
+    >>> cube.box[1].tolist(), len(cube.all_triangles()[0])
+    ([1.0, 1.0, 1.0], 12)
     """
 
     points: NDArray[np.floating]
-    triangles: NDArray[np.integer] = field(default_factory=lambda: NO_TRIANGLES)
-    quads: NDArray[np.integer] = field(default_factory=lambda: NO_QUADS)
+    triangles: NDArray[np.integer] = field(default_factory=NO_TRIANGLES.view)
+    quads: NDArray[np.integer] = field(default_factory=NO_QUADS.view)
     triangle_faces: NDArray[np.integer] | None = None
     quad_faces: NDArray[np.integer] | None = None
     corner_vertices: NDArray[np.integer] | None = None
@@ -55,37 +72,51 @@ class Surface:
 
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(3,) and (3,) the least and the largest coordinates of the points, used or not; NaN where one of them is."""
+        """(3,) and (3,) the smallest and the largest coordinates of the points, used or not; NaN if a coordinate is
+        NaN.
+        """
         low = high = self.points
         if len(low) > POINTS_PER_ROW:  # along rows of three numpy is twenty times as slow
             whole = len(low) // POINTS_PER_ROW * POINTS_PER_ROW
             wide, rest = self.points[:whole].reshape(-1, 3 * POINTS_PER_ROW), self.points[whole:]
             low = np.concatenate([rest, np.minimum.reduce(wide).reshape(-1, 3)])
             high = np.concatenate([rest, np.maximum.reduce(wide).reshape(-1, 3)])
-        low, high = (np.ascontiguousarray(points.T) for points in (low, high))
+        low, high = np.ascontiguousarray(low.T), np.ascontiguousarray(high.T)
         return np.minimum.reduce(low, axis=1).astype(np.float64), np.maximum.reduce(high, axis=1).astype(np.float64)
 
-    @property
+    @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:
-        """(3,) half an ulp of the largest float32 coordinate on each axis: what storing the points may have moved
-        them by. `displacement` says it for points that were float32 once; else it is zero for float64 points."""
+        """(3,) half an ulp of the largest float32 coordinate on each axis: how far storing the points may have moved
+        them. `displacement` holds it for points that were float32 before; otherwise it is zero for float64 points.
+        """
         if self.displacement is not None:
             return self.displacement
         if self.points.dtype != np.float32 or not len(self.points):
             return np.zeros(3)
         low, high = self.box
-        # The largest float32 has the ulp of 2^127, though no number above it to tell.
+        # The largest float32 has the ulp of 2^127, although no larger number exists to measure it by.
         largest = np.minimum(np.maximum(high, -low), 2.0**127)
         return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
 
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
-        """The surface with points `linear @ x + offset` in float64. A mirroring map turns the faces' winding, so
-        that outward stays outward; the diagonals stay where Blender drew them."""
-        linear = np.asarray(linear, np.float64)
+        """Map the points by `linear @ x + offset` in float64. A mirroring map reverses the faces, so that outward stays
+        outward; the diagonals stay where Blender drew them.
+
+        Parameters
+        ----------
+        linear : (3, 3) array_like
+        offset : (3,) array_like
+
+        Returns
+        -------
+        Surface
+            Of triangles alone.
+        """
+        rows = np.asarray(linear, np.float64)
         x, y, z = self.points.T.astype(np.float64)
-        points = np.stack([a[0] * x + a[1] * y + a[2] * z + t for a, t in zip(linear, offset)], axis=1)
+        points = np.stack([a[0] * x + a[1] * y + a[2] * z + t for a, t in zip(rows, np.asarray(offset))], axis=1)
         triangles, faces = self.all_triangles()
-        if np.linalg.det(linear) < 0.0:
+        if np.linalg.det(rows) < 0.0:
             triangles = triangles[:, ::-1]
         return replace(
             self,
@@ -94,13 +125,29 @@ class Surface:
             triangle_faces=faces,
             quads=NO_QUADS,
             quad_faces=None,
-            displacement=np.abs(linear) @ self.coordinate_error,
+            displacement=np.abs(rows) @ self.coordinate_error,
         )
 
     @classmethod
     def from_triangles(cls, points: NDArray, triangles: NDArray) -> Surface:
-        """A surface of (m, 3) triangles over (n, 3) points. ValueError where these are something else, or an index has
-        no point."""
+        """Make a surface of triangles.
+
+        Parameters
+        ----------
+        points : (n, 3) array_like
+            Real; kept as float32 if they are, otherwise float64.
+        triangles : (m, 3) array_like of int
+            Outward faces counter-clockwise.
+
+        Returns
+        -------
+        Surface
+
+        Raises
+        ------
+        ValueError
+            If the shapes or types differ, or an index has no point.
+        """
         points, triangles = np.asarray(points), np.asarray(triangles)
         if points.ndim != 2 or points.shape[1] != 3 or triangles.ndim != 2 or triangles.shape[1] != 3:
             raise ValueError("points (n, 3), triangles (m, 3)")
@@ -115,7 +162,7 @@ class Surface:
         return cls(points, triangles if triangles.dtype in (np.int32, np.int64) else triangles.astype(np.int64))
 
     def all_triangles(self) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-        """(m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of each."""
+        """Return (m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of each."""
         faces = np.arange(len(self.triangles)) if self.triangle_faces is None else self.triangle_faces
         if not len(self.quads):
             return self.triangles, faces
@@ -132,14 +179,48 @@ def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
 
 
 def normals(points: NDArray, triangles: NDArray[np.integer]) -> NDArray[np.float64]:
-    """(m, 3) the normals of (m, 3) triangles over (n, 3) points, each twice as long as its triangle's area."""
+    """Return the normals of triangles, each twice as long as its triangle's area.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    triangles : (m, 3) integer array
+
+    Returns
+    -------
+    (m, 3) array
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import normals
+    >>> normals(np.eye(4, 3, -1), np.array([[0, 1, 2]])).tolist()
+    [[0.0, 0.0, 1.0]]
+    """
     a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
     return np.cross(b - a, c - a)
 
 
 def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
-    """Several surfaces, in the same coordinates, as one of triangles in float64. Faces are numbered one surface after
-    the other."""
+    """Join several surfaces, in the same coordinates, into one of triangles in float64.
+
+    Parameters
+    ----------
+    surfaces : sequence of Surface
+        At least one.
+
+    Returns
+    -------
+    Surface
+        Its faces are numbered one surface after the other.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface, join_surfaces
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> joined = join_surfaces([surface, surface.transform(np.eye(3), (2.0, 0.0, 0.0))])
+    >>> len(joined.triangles), joined.box[1].tolist()
+    (8, [3.0, 1.0, 1.0])
+    """
     points, triangles, faces, start, face = [], [], [], 0, 0
     for surface in surfaces:
         cut, source_face = surface.all_triangles()

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Generalized winding numbers of triangle surfaces about points.
 
-By solid angles, which an open surface has too: it is not the count of `bvh.Tree.winding_numbers`, whose rays need
+By solid angles, which an open surface has too: it is not the count of `bvh.Bvh.winding_numbers`, whose rays need
 closed shells and answer for thousands of points at once.
 """
 
@@ -17,8 +17,31 @@ TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 
 def winding_number(points: NDArray, triangles: NDArray, point: ArrayLike) -> float:
-    """How often triangles surround a place: the sum of their solid angles by 4 π (A. van Oosterom and
-    J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983)."""
+    """Return how often triangles surround a point: the sum of their solid angles divided by 4 π.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    triangles : (m, 3) integer array
+        Outward faces counter-clockwise; they need not close.
+    point : (3,) array_like
+
+    Returns
+    -------
+    float
+        1 inside a closed outward surface, 0 outside.
+
+    Notes
+    -----
+    A. van Oosterom and J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import winding_number
+    >>> triangles = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> round(winding_number(np.eye(4, 3, -1), triangles, (0.1, 0.1, 0.1)), 9)
+    1.0
+    """
     total = 0.0
     for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
         a, b, c = (

@@ -4,19 +4,17 @@
 
 Multiplying the integrand by the linear form l(x) = t + a·x sends F to (lF)[α] = t F[α] + Σ_i a_i F[α+e_i], one order
 shorter; the moments of the image are (l0^p l1^q l2^r F)[0,0,0]. Horner's scheme does that for any order and for many
-maps at once. For one map it is faster to turn first, degree by degree, and to shift then, axis by axis.
+maps at once; `moments` has what is faster for one map.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .monomials import count_of_degree, monomial_count, monomial_index, monomials, product_indices, quotient_indices
+from .monomials import monomial_count, monomial_index, product_indices
 
 
 def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -69,55 +67,3 @@ def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: i
         term *= factor
         image += term
     return image
-
-
-def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
-    """(m, K): m functionals F, (m, K), under a linear map (3, 3), the first as it is, the others under |map|.
-
-    Degree by degree: the image's monomials as polynomials of the old ones are those of one degree less times a form.
-    """
-    forms, out = np.array([linear, np.abs(linear)]), np.array(values)
-    table = np.ones((2, 1, 1))
-    for degree in range(1, order + 1):
-        count, below = count_of_degree(degree), count_of_degree(degree - 1)
-        padded = np.concatenate([table, np.zeros((2, below, 1))], axis=2)
-        raised = padded[:, :, quotient_indices(degree, below)]  # times x, y, z: (2, below, 3, rows)
-        table = np.empty((2, count, count))
-        for axis, old, new in (
-            (0, slice(0, below), slice(0, below)),
-            (1, slice(below - degree, below), slice(below, count - 1)),
-            (2, slice(below - 1, below), slice(count - 1, count)),
-        ):
-            np.einsum("mrjc,mj->mrc", raised[:, old], forms[:, axis], out=table[:, new])
-        part = slice(monomial_count(degree - 1), monomial_count(degree))
-        out[0, part] = np.add.reduce(table[0] * values[0, part], axis=1)
-        out[1:, part] = np.einsum("rc,mc->mr", table[1], values[1:, part])
-    return out
-
-
-@lru_cache
-def _cube_layout(order: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """(K,) where each monomial stands in a flat table of all exponents up to `order`, and (n, n) the binomials."""
-    p, q, r = monomials(order).T
-    n = order + 1
-    return (p * n + q) * n + r, np.array([[float(math.comb(i, j)) for j in range(n)] for i in range(n)])
-
-
-def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
-    """(m, K): each of m functionals F, (m, K), with its own offset, (m, 3): F[(x+t)^α], one axis after the other."""
-    positions, binomials = _cube_layout(order)
-    n = order + 1
-    lag = np.subtract.outer(np.arange(n), np.arange(n))
-    for axis in range(3):
-        powers = np.multiply.accumulate(
-            np.concatenate([np.ones((len(values), 1)), np.repeat(offsets[:, axis, None], order, axis=1)], axis=1),
-            axis=1,
-        )
-        table = binomials * powers[:, np.maximum(lag, 0)]
-        cube = np.zeros((len(values), n**3))
-        cube[:, positions] = values  # what stands above `order` is no moment, and must not come back
-        cube = np.moveaxis(cube.reshape(-1, n, n, n), axis + 1, 1)
-        with np.errstate(over="ignore", invalid="ignore"):
-            cube = np.einsum("mpi,miqr->mpqr", table, cube)
-        values = np.moveaxis(cube, 1, axis + 1).reshape(len(values), -1)[:, positions]
-    return values

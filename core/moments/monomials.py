@@ -5,16 +5,36 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+Index = TypeVar("Index", int, NDArray[np.int64])  # one, or an array of them
 
+
+@lru_cache
 def monomial_count(order: int) -> int:
-    """The number of monomials in x, y, z of degree at most `order`."""
-    return (order + 1) * (order + 2) * (order + 3) // 6
+    """Return the number of monomials in x, y, z of degree at most `order`.
+
+    Parameters
+    ----------
+    order : int
+
+    Returns
+    -------
+    int
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import monomial_count
+    >>> monomial_count(3), monomial_count(20)
+    (20, 1771)
+    """
+    return int((order + 1) * (order + 2) * (order + 3) // 6)
 
 
+@lru_cache
 def order_from_count(count: int) -> int:
     """The lowest order that has at least `count` monomials."""
     order = 0
@@ -23,24 +43,58 @@ def order_from_count(count: int) -> int:
     return order
 
 
-def monomial_index(p: int, q: int, r: int) -> int:
-    """Where raw[p,q,r] stands: graded by degree, within a degree by (q+r, r)."""
+def monomial_index(p: Index, q: Index, r: Index) -> Index:
+    """Return where raw[p, q, r] stands: graded by degree, within a degree by (q + r, r).
+
+    Parameters
+    ----------
+    p, q, r : int
+        The exponents of x, y and z.
+
+    Returns
+    -------
+    int
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import monomial_index
+    >>> monomial_index(1, 0, 0), monomial_index(2, 0, 0), monomial_index(0, 0, 2)
+    (1, 4, 9)
+    """
     s = q + r
-    return monomial_count(p + s - 1) + s * (s + 1) // 2 + r
+    n = p + s
+    return n * (n + 1) * (n + 2) // 6 + s * (s + 1) // 2 + r
 
 
 @lru_cache
 def monomials(order: int) -> NDArray[np.int64]:
-    """(K, 3) the exponents (p, q, r) in storage order; read-only."""
+    """Return the exponents (p, q, r) of all monomials to an order, in storage order.
+
+    Parameters
+    ----------
+    order : int
+
+    Returns
+    -------
+    (K, 3) integer array
+        Read-only.
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import monomials
+    >>> monomials(1).tolist()
+    [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    """
     exponents = [(n - s, s - r, r) for n in range(order + 1) for s in range(n + 1) for r in range(s + 1)]
     table = np.array(exponents, np.int64)
     table.flags.writeable = False
     return table
 
 
+@lru_cache
 def count_of_degree(degree: int) -> int:
     """How many monomials have exactly this degree."""
-    return (degree + 1) * (degree + 2) // 2
+    return int((degree + 1) * (degree + 2) // 2)
 
 
 @lru_cache

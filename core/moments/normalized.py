@@ -7,19 +7,42 @@ from __future__ import annotations
 import numpy as np
 
 from ..verdict.finding import MeasureError
-from .affine_maps import apply_translation
-from .moments import Measure, Moments, U
+from .moments import Measure, Moments, U, apply_translation
 from .monomials import monomials
 
 
 def normalize(moments: Moments, by: str = "size") -> Moments:
-    """The central moments without unit, of degree n, about (0, 0, 0): the same wherever the body is and however
-    large.
+    """Return the central moments without unit: the same wherever the body is and however large.
 
-    by: "size", μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas: those of the body scaled to a volume, or area,
-    of 1. "gyration", μ / (m R^n) with R² = ∫ r² dm / m: those of the body scaled to a radius of gyration and a mass
-    of 1. `error` and `input_error` hold for the body's true center. MeasureError where there is too little to divide
-    by.
+    Parameters
+    ----------
+    moments : Moments
+        To first order at least, to second for "gyration".
+    by : str
+        "size": μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas, for degree n: those of the body scaled to a volume,
+        or area, of 1. "gyration": μ / (m R^n) with R² = ∫ r² dm / m: those of the body scaled to a radius of gyration
+        and a mass of 1.
+
+    Returns
+    -------
+    Moments
+        About (0, 0, 0). The bounds hold for the body's true center.
+
+    Raises
+    ------
+    ValueError
+        If `by` is "size" and the moments are neither of a volume nor of an area.
+    MeasureError
+        If there is too little to divide by.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments
+    >>> from body_moments.core.moments import normalize
+    >>> surface = Surface.from_triangles(5 * np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> volume, _ = polyhedron_moments(surface)
+    >>> round(normalize(volume)[2, 0, 0], 9)
+    0.123822272
     """
     dimension = {Measure.VOLUME: 3, Measure.AREA: 2}.get(moments.measure)
     if by == "size" and dimension is None:

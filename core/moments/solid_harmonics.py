@@ -38,7 +38,7 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
     return result
 
 
-def with_negative_orders(half: NDArray) -> NDArray[np.complex128]:
+def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]:
     """(2l+1, …) for m = -l..l from (l+1, …) for m = 0..l: c[-m] = (-1)^m conj(c[m])."""
     l = len(half) - 1
     sign = ((-1.0) ** np.arange(l, 0, -1)).reshape(-1, *[1] * (half.ndim - 1))

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,12 @@ def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
     """0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, …"""
     ends = np.cumsum(counts)
     return np.arange(ends[-1]) - np.repeat(ends - counts, counts)
+
+
+def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:
+    """(count or more,) the sum of the weights that have each index: what numpy's types say of `bincount` only without
+    weights."""
+    return cast("NDArray[np.float64]", np.bincount(indices, weights, count))
 
 
 def batches(weights: NDArray, size: float) -> Iterator[slice]:
@@ -53,9 +60,9 @@ def first_occurrence(*columns: NDArray) -> NDArray[np.intp]:
     By hashing into a table in which the lowest row of a slot wins; rows equal to the winner are done, the others, whose
     slot another row has won, go into the next round.
     """
-    columns = [column.view(np.uint64) for column in columns]
-    key = columns[0]
-    for column in columns[1:]:
+    bits_of = [column.view(np.uint64) for column in columns]
+    key = bits_of[0]
+    for column in bits_of[1:]:
         key = hash_uint64(key) + column
     key = hash_uint64(key)
     first = np.arange(len(key), dtype=np.int32 if len(key) < 1 << 31 else np.int64)
@@ -67,11 +74,11 @@ def first_occurrence(*columns: NDArray) -> NDArray[np.intp]:
         winner[slot[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=first.dtype)  # of equal slots the last is kept
         winner = winner[slot].astype(np.intp)
         lost = np.zeros(len(rest), bool)
-        for column in columns:
+        for column in bits_of:
             lost |= column != column[winner]
         first[rest] = rest[winner]
         lost = np.flatnonzero(lost)
-        rest, key, columns = rest[lost], hash_uint64(key[lost]), [column[lost] for column in columns]
+        rest, key, bits_of = rest[lost], hash_uint64(key[lost]), [column[lost] for column in bits_of]
     return first.astype(np.intp)
 
 

@@ -19,11 +19,33 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class SplineSpace:
-    """The B-splines of one order over one knot vector.
+    """The B-splines of one order over one knot vector: a direction's function space, without control points.
 
-    knots: non-decreasing, as many as basis functions plus `order`. order: degree + 1, at least 1.
-    count: control points. Basis function i takes control point i mod count, so that a closed direction has
-    order - 1 basis functions more than control points. ValueError for knots that make no such space.
+    Parameters
+    ----------
+    knots : tuple of float
+        Non-decreasing, as many as basis functions plus `order`.
+    order : int
+        The degree plus one, at least 1.
+    count : int
+        Control points. Basis function i takes control point i mod count, so a closed direction has order - 1 more basis
+        functions than control points.
+
+    Raises
+    ------
+    ValueError
+        If the knots make no such space.
+
+    Notes
+    -----
+    The function space of Soldea, Elber and Rivlin, section 2.
+
+    Examples
+    --------
+    >>> from body_moments.core.numerics import SplineSpace
+    >>> space = SplineSpace((0.0, 0.0, 0.0, 1.0, 1.0, 1.0), order=3, count=3)
+    >>> space.collocation_matrix(np.array([0.5])).tolist()
+    [[0.25, 0.5, 0.25]]
     """
 
     knots: tuple[float, ...]
@@ -169,6 +191,27 @@ class SplineSpace:
 
 @lru_cache(maxsize=64)
 def clamped_space(order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0) -> SplineSpace:
-    """The space whose curves begin and end at their first and last control points. inner: knots in between."""
+    """Make the space whose curves begin and end at their first and last control points.
+
+    Parameters
+    ----------
+    order : int
+        The degree plus one.
+    inner : tuple of float
+        The knots between the two ends, ascending.
+    low, high : float
+        The ends of the domain.
+
+    Returns
+    -------
+    SplineSpace
+        Cached: equal arguments give the same object.
+
+    Examples
+    --------
+    >>> from body_moments.core.numerics import clamped_space
+    >>> clamped_space(3, (0.5,)).knots
+    (0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0)
+    """
     knots = (low,) * order + tuple(inner) + (high,) * order
     return SplineSpace(knots, order, len(knots) - order)

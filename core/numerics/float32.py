@@ -4,9 +4,29 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 
+@lru_cache(maxsize=1024)  # settings, read at every redraw
 def shortest_decimal(value: float) -> float:
-    """The shortest decimal that is stored as the float32 `value`: 0.001 where float32 has 0.0010000000474974513."""
+    """Return the shortest decimal that is stored as this float32.
+
+    Parameters
+    ----------
+    value : float
+        A number that was stored as float32, such as a Blender property.
+
+    Returns
+    -------
+    float
+        0.001 where float32 has 0.0010000000474974513.
+
+    Examples
+    --------
+    >>> from body_moments.core.numerics import shortest_decimal
+    >>> shortest_decimal(0.0010000000474974513)
+    0.001
+    """
     return float(str(np.float32(value)))

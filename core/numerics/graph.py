@@ -7,14 +7,33 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-# corners at a time: enough for calls that threads gain by. A multiple of 3 and 4, lest faces are split
+# corners at a time: large enough for threads to help. A multiple of 3 and 4, so that no face is split
 EDGES_PER_BLOCK = 3 << 16
 
 
-def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
-    """(count,) the connected component of each node, in the order of their first nodes, and how many there are.
+def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
+    """Number the connected components of a graph.
 
-    a, b: the ends of the links between the nodes.
+    Parameters
+    ----------
+    count : int
+        Nodes.
+    a, b : (k,) integer arrays
+        The two ends of each link.
+
+    Returns
+    -------
+    component : (count,) integer array
+        The component of each node, numbered in the order of their first nodes.
+    number : int
+        Components.
+
+    Examples
+    --------
+    >>> from body_moments.core.numerics import connected_components
+    >>> component, number = connected_components(4, np.array([0, 2]), np.array([1, 3]))
+    >>> component.tolist(), number
+    ([0, 0, 1, 1], 2)
     """
     label, number = None, count
     while True:

@@ -9,8 +9,24 @@ from numpy.typing import ArrayLike, NDArray
 
 
 def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
-    """(3, 3) of a quaternion w, x, y, z of any length but zero, orthonormal to float64."""
-    q = np.array(quaternion, np.float64)  # before the norm: mathutils hands out float32
+    """Convert a quaternion to a rotation matrix, orthonormal to float64.
+
+    Parameters
+    ----------
+    quaternion : (4,) array_like
+        w, x, y, z, of any length but zero.
+
+    Returns
+    -------
+    (3, 3) array
+
+    Examples
+    --------
+    >>> from body_moments.core.numerics import rotation_matrix
+    >>> np.round(rotation_matrix([1, 0, 0, 1]), 6).tolist()
+    [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+    """
+    q = np.array(quaternion, np.float64)  # before the norm: mathutils returns float32
     w, x, y, z = q / np.linalg.norm(q)
     return np.array(
         [
@@ -22,7 +38,28 @@ def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
 
 
 def quaternion(rotation: NDArray) -> NDArray[np.float64]:
-    """(4,) w, x, y, z with w ≥ 0 of a (3, 3) rotation."""
+    """Convert a rotation matrix to a unit quaternion.
+
+    Parameters
+    ----------
+    rotation : (3, 3) array
+        Orthonormal, determinant 1.
+
+    Returns
+    -------
+    (4,) array
+        w, x, y, z with w ≥ 0.
+
+    Notes
+    -----
+    Shepperd's method.
+
+    Examples
+    --------
+    >>> from body_moments.core.numerics import quaternion
+    >>> quaternion(np.eye(3)).tolist()
+    [1.0, 0.0, 0.0, 0.0]
+    """
     m = rotation
     # Shepperd's method: 4 q qᵀ has no cancellation in the column of its largest diagonal entry.
     outer = np.array(

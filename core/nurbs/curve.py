@@ -44,7 +44,32 @@ def _frozen_copy(values: ArrayLike) -> NDArray[np.float64]:
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """space: of its parameter. points: (count, 3). weights: (count,) positive, or None for a polynomial curve."""
+    """A polynomial or rational B-spline curve in space.
+
+    Parameters
+    ----------
+    space : SplineSpace
+        Of its parameter.
+    points : (count, 3) array
+        Control points.
+    weights : (count,) array, optional
+        Positive; None for a polynomial curve.
+
+    Raises
+    ------
+    ValueError
+        If the shapes differ.
+    MeasureError
+        If a number is not finite or a weight not positive.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Curve
+    >>> from body_moments.core.numerics import clamped_space
+    >>> curve = Curve(clamped_space(3), np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 0.0], [2.0, 0.0, 0.0]]))
+    >>> curve.evaluate([0.5]).tolist()
+    [[1.0, 1.0, 0.0]]
+    """
 
     space: SplineSpace
     points: NDArray[np.float64]
@@ -56,11 +81,11 @@ class Curve:
         object.__setattr__(self, "weights", weights)
 
     def evaluate(self, parameters: ArrayLike) -> NDArray[np.float64]:
-        """(n, 3) its points."""
+        """Return its (n, 3) points at n parameters."""
         return self.apply_weights(self.space.collocation_matrix(np.asarray(parameters, np.float64)))
 
     def apply_weights(self, table: NDArray) -> NDArray[np.float64]:
-        """(n, 3) its points where its control points weigh what a table (n, count) says."""
+        """Return the (n, 3) points where a table (n, count) weights its control points."""
         if self.weights is not None:
             table = table * self.weights
             table /= table.sum(axis=1, keepdims=True)
@@ -68,7 +93,7 @@ class Curve:
         return np.einsum("ni,id->nd", table, self.points - origin) + origin
 
     def velocity(self, parameters: ArrayLike) -> NDArray[np.float64]:
-        """(n, 3) the derivative by the parameter."""
+        """Return the (n, 3) derivatives at n parameters."""
         values, slopes = (self.space.collocation_matrix(np.asarray(parameters, np.float64), k) for k in (0, 1))
         points = self.points - self.points[0]
         if self.weights is None:
@@ -79,11 +104,11 @@ class Curve:
         return (np.einsum("ni,id->nd", slopes, points) - place * slopes.sum(axis=1, keepdims=True)) / bottom
 
     def transform(self, matrix: NDArray) -> Curve:
-        """Its image under an affine map (4, 4)."""
+        """Return its image under an affine map (4, 4)."""
         return Curve(self.space, self.points @ matrix[:3, :3].T + matrix[:3, 3], self.weights)
 
     def reverse(self) -> Curve:
-        """The same curve run backwards."""
+        """Return the same curve, run backward."""
         # then the first point of the reversed one is that of function 0
         if self.space.function_count > self.space.count:
             order = (self.space.function_count - 1 - np.arange(self.space.count)) % self.space.count
@@ -97,5 +122,5 @@ class Curve:
         )
 
     def samples(self, each: int) -> NDArray[np.float64]:
-        """(spans * each + 1, 3) points at equal steps in every span, both ends included."""
+        """Return (spans * each + 1, 3) points at equal steps in every span, both ends included."""
         return self.evaluate(self.space.uniform_parameters(each))

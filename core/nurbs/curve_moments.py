@@ -40,7 +40,26 @@ def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
 
 
 def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
-    """∫ x^p y^q z^r ds along the curves, about the middle of their box; `error` is an estimate."""
+    """Return ∫ x^p y^q z^r ds along curves, about the middle of their box.
+
+    Parameters
+    ----------
+    curves : sequence of Curve
+    order : int
+
+    Returns
+    -------
+    Moments
+        Of length; `rounding_error` is an estimate, by comparing Gauss rules.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Curve, length_moments
+    >>> from body_moments.core.numerics import clamped_space
+    >>> line = Curve(clamped_space(2), np.array([[0.0, 0.0, 0.0], [3.0, 4.0, 0.0]]))
+    >>> round(length_moments([line]).total, 9)
+    5.0
+    """
     about = curves_center(curves)
     reach, degree = _reach(curves, about), monomials(order).sum(axis=1)
 
@@ -57,10 +76,12 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
     """The area moments of the region in a plane that closed curves bound, counter-clockwise seen from the normal's tip.
 
     normal: (3,) unit. about: (3,) a point of the plane, by default the mean of the control points. A curve that runs
-    clockwise bounds a hole. Of polynomial curves the moments are exact and `error` is rounding.
+    clockwise bounds a hole. Of polynomial curves the moments are exact and `rounding_error` is rounding.
     """
-    about = np.mean([curve.points.mean(axis=0) for curve in curves], axis=0) if about is None else np.asarray(about)
-    reach, degree = _reach(curves, about), monomials(order).sum(axis=1)
+    center: NDArray[np.float64] = (
+        np.mean([curve.points.mean(axis=0) for curve in curves], axis=0) if about is None else np.asarray(about)
+    )
+    reach, degree = _reach(curves, center), monomials(order).sum(axis=1)
 
     def flux(place: NDArray, velocity: NDArray) -> NDArray:
         x, y, z = place
@@ -71,15 +92,15 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
     exact = [curve for curve in curves if curve.weights is None]
     for curve in exact:
         points = ceil((order + 2) * (curve.space.order - 1) / 2)
-        contributions, length = _piece_integrals(*_bezier_pieces(curve, about), max(points, 1), flux, order)
+        contributions, length = _piece_integrals(*_bezier_pieces(curve, center), max(points, 1), flux, order)
         values, size = values + contributions.sum(axis=0), size + length.sum()
     rational = [curve for curve in curves if curve.weights is not None]
     if rational:
-        more, estimate, length = _integrate(rational, flux, reach, order, about, reach, VOLUME_RTOL)
+        more, estimate, length = _integrate(rational, flux, reach, order, center, reach, VOLUME_RTOL)
         values, size = values + more, size + length
     powers = reach ** (degree + 1.0)
     error = (estimate / max(reach, 1e-300) * powers + ROUNDING * U * 8 * size * powers) / (degree + 2.0)
-    return Moments(values / (degree + 2.0), about, Measure.AREA, error)
+    return Moments(values / (degree + 2.0), center, Measure.AREA, error)
 
 
 def _reach(curves: Sequence[Curve], about: NDArray) -> float:
@@ -100,7 +121,7 @@ def _integrate(
     curves' length. largest: what the density is at most, for each unit of length. kinks: whether it has some where a
     curve turns back.
 
-    A piece is settled when two rules agree to the tolerance of its own length, or of its share of the curve's.
+    A piece is done when two rules agree to the tolerance of its own length, or of its share of the curve's.
     """
     degree = monomials(order).sum(axis=1)
     unit = reach ** degree.astype(np.float64)
@@ -117,7 +138,7 @@ def _integrate(
             if kinks:
                 differ += _turn_back_lengths(net)
             differ += largest * _undersampled_lengths(net)
-            # What is no number, of moments beyond its range, is not halved.
+            # A piece whose moments overflow is not halved.
             good = ~(differ > tolerance * np.maximum(size, share) * largest) | (depth >= MAX_DEPTH)
             values += fine[good].sum(axis=0)
             estimate += float(differ[good].sum())

@@ -37,9 +37,10 @@ class IncrementalPatchMoments:
     def __init__(self, patch: Patch, order: int = 2, about: NDArray | None = None):
         self.spaces, self.order, self.rational = patch.spaces, order, patch.weights is not None
         self.about = np.asarray(patch.points.mean(axis=(0, 1)) if about is None else about, np.float64)
-        self._rule = tuple(
+        along_s, along_t = (
             (RATIONAL_GAUSS_POINTS if self.rational else exact_points(space.order, order),) for space in self.spaces
         )
+        self._rule = along_s, along_t
         self._flux = partial(flux_sums, order=order, area=True)
         self._divisor = monomials(order).sum(axis=1) + 3.0
         self._anchor = self.about
@@ -75,8 +76,8 @@ class IncrementalPatchMoments:
         self._require_rational(weight)
         place = np.asarray(point, np.float64) - self._anchor
         if self.rational:
-            weight = self._net[i, j, 3] if weight is None else weight
-            place = np.append(place * weight, weight)
+            factor = float(self._net[i, j, 3]) if weight is None else weight
+            place = np.append(place * factor, factor)
         self._net[i, j] = place
         for s_spans in _affected_spans(self.spaces[0], i):
             for t_spans in _affected_spans(self.spaces[1], j):

@@ -20,7 +20,32 @@ from .curve import Curve, checked_points
 
 @dataclass(frozen=True, eq=False)
 class Patch:
-    """spaces: of s and t. points: (count_s, count_t, 3). weights: (count_s, count_t) positive, or None: polynomial."""
+    """A tensor-product B-spline patch, polynomial or rational. Its normal is ∂S/∂s x ∂S/∂t.
+
+    Parameters
+    ----------
+    spaces : (SplineSpace, SplineSpace)
+        Of s, the first axis of the control points, and of t.
+    points : (count_s, count_t, 3) array
+        Control points.
+    weights : (count_s, count_t) array, optional
+        Positive; None for a polynomial patch.
+
+    Raises
+    ------
+    ValueError
+        If the shapes differ.
+    MeasureError
+        If a number is not finite or a weight not positive.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Patch
+    >>> from body_moments.core.numerics import clamped_space
+    >>> square = np.array([[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]])
+    >>> Patch((clamped_space(2), clamped_space(2)), square).evaluate_grid([0.5], [0.5]).tolist()
+    [[[0.5, 0.5, 0.0]]]
+    """
 
     spaces: tuple[SplineSpace, SplineSpace]
     points: NDArray[np.float64]
@@ -39,31 +64,35 @@ class Patch:
         return bool((self.weights == self.weights[:1]).all()), bool((self.weights == self.weights[:, :1]).all())
 
     def transform(self, matrix: NDArray) -> Patch:
-        """Its image under an affine map (4, 4): that of its control points."""
+        """Return its image under an affine map (4, 4)."""
         return replace(self, points=self.points @ np.asarray(matrix)[:3, :3].T + np.asarray(matrix)[:3, 3])
 
     def reverse_orientation(self) -> Patch:
-        """The same surface facing the other way."""
-        return Patch(self.spaces[::-1], self.points.swapaxes(0, 1), None if self.weights is None else self.weights.T)
+        """Return the same surface facing the other way."""
+        return Patch(
+            (self.spaces[1], self.spaces[0]),
+            self.points.swapaxes(0, 1),
+            None if self.weights is None else self.weights.T,
+        )
 
     def evaluate_grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
-        """(len(s), len(t), 3) its points."""
+        """Return its (len(s), len(t), 3) points."""
         return self.apply_weights(
             *(space.collocation_matrix(np.asarray(values)) for space, values in zip(self.spaces, (s, t)))
         )
 
     def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
-        """(m, n, 3) its points where its control points weigh what two tables, (m, count_s) and (n, count_t), say."""
-        points = self.points
+        """Return the (m, n, 3) points where two tables, (m, count_s) and (n, count_t), weight its control points."""
+        points, bottom = self.points, None
         if self.weights is not None:
             points = points * self.weights[..., None]
             bottom = np.einsum("ai,bi->ab", np.einsum("ai,ij->aj", tables[0], self.weights), tables[1])
         top = np.einsum("ajd,bj->abd", np.einsum("ai,ijd->ajd", tables[0], points), tables[1])
-        return top if self.weights is None else top / bottom[..., None]
+        return top if bottom is None else top / bottom[..., None]
 
     def side(self, axis: int, end: int) -> Curve:
-        """The curve that bounds the patch where s (axis 0) or t (axis 1) is first (end 0) or last (end 1)."""
-        weigh = self.spaces[axis].end_weights[end]
+        """Return the curve that bounds the patch where s (axis 0) or t (axis 1) is first (end 0) or last (end 1)."""
+        weigh: NDArray[np.float64] = self.spaces[axis].end_weights[end]
         points, weights = self.points, self.weights
         if weights is None:
             return Curve(self.spaces[1 - axis], np.tensordot(weigh, points, (0, axis)))
@@ -72,7 +101,7 @@ class Patch:
         return Curve(self.spaces[1 - axis], top / bottom[:, None], bottom)
 
     def samples(self, each: int) -> NDArray[np.float64]:
-        """A grid of points, each + 1 to every span and direction, ends included."""
+        """Return a grid of points, `each` + 1 for every span and direction, ends included."""
         return self.apply_weights(*(_sample_table(space, each) for space in self.spaces))
 
 

@@ -9,7 +9,7 @@ Soldea, Elber and Rivlin, sections 2 and 3, with the radial flux in place of the
 Of a polynomial patch of degree d the integrand has degree (n + 3) d - 2 in each parameter for moments of order n (the
 top coefficient of S · (S_s x S_t) cancels), so a Gauss rule of ceil(((n + 3) d - 1) / 2) points in every span is exact.
 A rational integrand, an area's square root and the jacobian of a sheet have no finite degree: there the rules grow by
-halves until two of them agree, and where the finest does not settle it, cells are cut in four. The sum of what they
+halves until two of them agree, and where the finest rule does not suffice, cells are cut in four. The sum of what they
 still differ by is reported, as an estimate: it is that of the coarser rule, while the result is the finer one's.
 """
 
@@ -41,7 +41,7 @@ MAX_WEIGHT_RATIOS = 1e2, 1e6
 # miss the same
 # times what two rules differ by: where a patch folds back, its area has kinks, and both may be off alike
 FOLD_FACTOR = 8.0
-MIN_REVERSED_NORMAL = 1e-9  # a normal that points against its neighbour by less than this is rounding
+MIN_REVERSED_NORMAL = 1e-9  # a normal that points against its neighbor by less than this is rounding
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
 COARSE_RULES = (8, 12, 18)  # where less is asked for
 MIN_DIVISOR = 1e-300  # what is divided by at least
@@ -85,8 +85,8 @@ def volume_moments(
     """The volume moments of the body that closed, outward patches bound.
 
     about: (3,), by default the middle of their box. Patches that do not close are closed by the cone from there.
-    Returns the moments, whose `error` is an estimate of truncation (zero for polynomial patches) and rounding, and
-    whether the truncation is below `tolerance`.
+    Returns the moments, whose `rounding_error` is an estimate of truncation (zero for polynomial patches) and rounding,
+    and whether the truncation is below `tolerance`.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
     degree, flux = _degrees(order), partial(flux_sums, order=order)
@@ -121,9 +121,9 @@ def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) ->
 
 
 def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
-    """The area moments of patches by quadrature; `error` is an estimate. Otherwise as `volume_moments`.
+    """The area moments of patches by quadrature; `rounding_error` is an estimate. Otherwise as `volume_moments`.
 
-    Where a patch turns over between two neighbouring points, or a cell's side and its first point, what lies between
+    Where a patch turns over between two neighboring points, or a cell's side and its first point, what lies between
     them counts as error, so that such a cell is cut.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
@@ -146,7 +146,7 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
 
 
 def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
-    """(c,) the areas between neighbouring points of cells where the patch turns over between them: its area has a kink
+    """(c,) the areas between neighboring points of cells where the patch turns over between them: its area has a kink
     there, which two rules may miss alike. normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both
     directions."""
     total = np.zeros(normal.shape[2])
@@ -212,8 +212,8 @@ def _slope_of_tile(
         np.matmul(np.matmul(s_table, net), np.ascontiguousarray(t_table.T))
         for s_table, t_table in ((s, t), (s_slope, t), (s, t_slope))
     )
-    rational = len(net) == 4
-    if rational:
+    s_bottom = t_bottom = None
+    if len(net) == 4:  # rational
         bottom = place[3]
         place, s_bottom, t_bottom = place[:3] / bottom, by_s[3] / bottom, by_t[3] / bottom
         by_s, by_t = by_s[:3] / bottom - place * s_bottom, by_t[:3] / bottom - place * t_bottom
@@ -223,11 +223,12 @@ def _slope_of_tile(
     unit = normal / np.where(length > 0.0, length, 1.0) * weights
     s_force, t_force = np.stack(cross(by_t, unit)), np.stack(cross(unit, by_s))
     parts = [(s_slope, s_force, t), (s, t_force, t_slope)]
-    if rational:
+    if s_bottom is not None and t_bottom is not None:
         parts.append((s, -(s_force * s_bottom + t_force * t_bottom), t))
-    return sum(
+    products = (
         np.matmul(np.matmul(np.ascontiguousarray(s_table.T), force), t_table) for s_table, force, t_table in parts
     )
+    return sum(products, np.zeros(()))
 
 
 def sheet_moments(
@@ -261,7 +262,7 @@ def sheet_moments(
             product = _offset_jacobian(along, across, turning, unit, height)
             if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
                 raise MeasureError("wall_thicker_than_curvature")
-        terms = 0.0
+        terms = np.zeros(())
         for height, step in zip(heights, steps):
             element = step * _offset_jacobian(along, across, turning, unit, height)
             terms = terms + weighted_monomials(s + height * unit, element, order, 1)
@@ -298,13 +299,13 @@ def integrate_adaptively(
     degree: int | None = None,
     thickness: float = 1.0,
 ) -> Integral:
-    """An integral over patches, cell by cell to the rule that settles it.
+    """An integral over patches, cell by cell, by the first rule that suffices.
 
     integrand: gives for each rule (K + 1, c) contributions and sizes of cells, and perhaps a row more of shares that
     count as error. unit: (K,) what a cell's size times it bounds.
     degree: of moments whose integrand is a polynomial along a direction in which the weights are the same, so that
     there fewer points are exact; None where there is none. thickness: what an area is multiplied by.
-    A cell is settled when two rules agree to the tolerance of its own scale, or of its share of the whole one.
+    A cell is done when two rules agree to the tolerance of its own scale, or of its share of the whole one.
     """
     k = len(unit)
     values, estimate, lost, most = np.zeros(k), 0.0, 0.0, np.maximum(unit, MIN_DIVISOR)[:, None]
@@ -360,7 +361,7 @@ def integrate_adaptively(
 
 def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
     """(c,) the area that may lie between the points of all rules: of cells whose weights differ by more than that
-    factor, so that all but a rim of them is drawn to a point, the squared diagonal of their control points' box."""
+    factor, so that all but their margin is drawn to a point, the squared diagonal of their control points' box."""
     lost = np.zeros(len(cells))
     if len(cells.net) == 4:
         weights = cells.net[3]

@@ -35,7 +35,7 @@ SAMPLES_PER_SIDE = 33  # points at least by which sides are compared
 PAIRS_PER_BLOCK = 4096  # pairs of sides compared at a time
 PAIRS_PER_BATCH = 1 << 20  # pairs of sides looked at together
 FOLDED_ANGLE = 1e-3  # radians: patches that lie on each other
-MAX_CHORDS = 4096  # of a rim that is asked whether it crosses itself
+MAX_CHORDS = 4096  # of a boundary loop that is tested for crossing itself
 MAX_SIDE_PAIRS = 100_000  # of closed sides, compared point by point
 SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held, end, run forward), counter-clockwise
 
@@ -90,7 +90,7 @@ class PatchTopology:
 def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
     """Find out how patches close. tolerance: the distance within which points are the same.
 
-    MeasureError where knots may tear one: what gapes within a patch is no side of it.
+    MeasureError where knots may tear one: a gap within a patch is not one of its sides.
     """
     if any(space.is_discontinuous for patch in patches for space in patch.spaces):
         raise MeasureError("discontinuous_patch")
@@ -153,8 +153,8 @@ def _coincident_sides(
     middle = points.shape[1] // 2
     side_points = points[wide]
     first, last = side_points[:, 0], side_points[:, -1]
-    pairs = _close_pairs(np.concatenate([first + last, 2.0 * side_points[:, middle]], axis=1), 2.0 * tolerance)
-    coincident = list(_distance_between(points, *(wide[k] for k in pairs), tolerance))
+    left, right = _close_pairs(np.concatenate([first + last, 2.0 * side_points[:, middle]], axis=1), 2.0 * tolerance)
+    coincident = list(_distance_between(points, wide[left], wide[right], tolerance))
     loose = np.ones(len(points), bool)
     loose[[side for _, i, j, _ in coincident for side in (i, j)]] = False
     # The same curve by other parameters: between the same ends, or without ends.
@@ -244,7 +244,7 @@ def _pair_sides(
 
 def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Pairs of rows i < j of (n, d) that differ by no more than a limit in any column: their projections on a line that
-    is parallel to nothing are neighbours."""
+    is parallel to nothing are neighbors."""
     if not len(keys):
         return np.empty(0, np.intp), np.empty(0, np.intp)
     keys = keys - keys[0]
@@ -376,7 +376,7 @@ def _cap_loop(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_]
         weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
         caps.append(Patch((curve.space, clamped_space(2)), np.stack(ends, axis=1), weights))
     flat = off <= tolerance
-    # A way there and back has no net area; of a loop in space only its cone's area tells.
+    # A way there and back has no net area; of a loop in space only its cone's area shows that.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width
     slim = area <= tolerance * weigh.sum()
     crossing = flat and not slim and len(arms) <= MAX_CHORDS and self_intersects(arms @ axes[:2].T, tolerance)

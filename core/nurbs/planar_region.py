@@ -20,12 +20,35 @@ MAX_CHORD_PAIRS = 4_000_000  # of chords compared at a time
 
 
 def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], NDArray[np.float64]]:
-    """The curves, outer ones counter-clockwise about the normal and holes clockwise, and the unit normal (3,).
+    """Return the curves that bound a plane region, oriented, and the region's normal.
 
-    stored: by how much storing their points may have moved them.
-    Every second curve inside of others is a hole, as Blender fills them. The normal is the coordinate axis, or other
-    direction, that points most along +z, then +y, then +x. MeasureError where the curves are not
-    closed, not in one plane, or cross.
+    Parameters
+    ----------
+    curves : sequence of Curve
+        Closed, in one plane. Every second curve inside others is a hole, as Blender fills them.
+    stored : float
+        How far storing their points may have moved them.
+
+    Returns
+    -------
+    oriented : list of Curve
+        Outer ones counter-clockwise about the normal, holes clockwise.
+    normal : (3,) array
+        Of unit length, pointing most along +z, then +y, then +x.
+
+    Raises
+    ------
+    MeasureError
+        If the curves are not closed, not in one plane, or cross.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Curve, planar_region
+    >>> from body_moments.core.numerics import clamped_space
+    >>> corners = np.array([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
+    >>> (curve,), normal = planar_region([Curve(clamped_space(2, (0.3, 0.6)), corners)])
+    >>> np.round(normal, 9).tolist(), np.round(curve.points[1], 9).tolist()
+    ([0.0, 0.0, 1.0], [1.0, 1.0, 0.0])
     """
     center = curves_center(curves)
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)

@@ -18,9 +18,11 @@ from numpy.typing import NDArray
 
 from ..mesh.bvh import SortedComponents, sort_components
 from ..moments.moments import Moments, monomials, sum_moments
-from ..solid.nesting import ShellRelations, classify_pairs, orient_nested_shells
+from ..solid.nesting import ComponentRelations, classify_pairs
+from ..solid.orientation import ComponentComparison
 from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.health import MeshReport
+from ..verdict.method import Verdict
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL, NEGLIGIBLE, WELDING_RTOL
 from .patch import Patch
 from .patch_moments import area_moments, area_slope, control_box, patches_center, sheet_moments, volume_moments
@@ -32,29 +34,88 @@ MAX_TRIANGLES = 1_000_000  # compared where samples cross
 
 @dataclass(frozen=True, eq=False)
 class PatchIntegrals:
-    """volume: Moments of the body; its error is an estimate. area: Moments of the patches, without caps; an estimate.
-    method: "exact", "capped", "reoriented" or "open". findings: the decisions taken.
-    patches: those whose signed sum `volume` is, caps among them. signs: (n,) how each of those that were given counts:
-    1, -1, or 0 for a flat part. topology: how they close.
+    """The moments of the body that patches bound, and how they came about.
+
+    Attributes
+    ----------
+    volume : Moments
+        Of the body; its error is an estimate.
+    area : Moments
+        Of the patches, without caps; an estimate.
+    health : MeshReport
+        What the input is like.
+    method : Verdict
+        EXACT, CAPPED, REORIENTED or OPEN.
+    findings : tuple of Finding
+        The decisions taken.
+    patches : tuple of Patch
+        Those whose signed sum ``volume`` is, caps among them.
+    signs : (n,) float
+        How each patch that was given counts: 1, -1, or 0 for one of a flat part.
+    topology : PatchTopology
+        How they close.
     """
 
     volume: Moments
     area: Moments
     health: MeshReport
-    method: str
+    method: Verdict
     findings: tuple[Finding, ...]
     patches: tuple[Patch, ...]
     signs: NDArray[np.float64]
     topology: PatchTopology
 
 
+@dataclass(frozen=True, eq=False)
+class _PatchVerdict:
+    """What was decided about parts. solid, flipped, counted: (c,) those with a volume, those to turn, and those that
+    the sum is of. caps: (c, 3) how many flat and curved holes of each were capped, and the caps' area. comparison:
+    where there are several."""
+
+    solid: NDArray[np.bool_]
+    flipped: NDArray[np.bool_]
+    counted: NDArray[np.bool_]
+    caps: NDArray[np.float64]
+    comparison: ComponentComparison | None
+
+
 def measure_patches(
     patches: Sequence[Patch], *, order: int = 3, area_order: int = 0, stored: float = 0.0
 ) -> PatchIntegrals:
-    """The moments of the body that patches bound, in their own coordinates and unit.
+    """Measure the body that B-spline patches bound.
 
-    order: of the volume's moments; area_order: of the area's. stored: by how much storing the control points may have
-    moved each, for the moments' `input_error`. MeasureError where there is nothing to measure.
+    Parameters
+    ----------
+    patches : sequence of Patch
+        In any order and orientation.
+    order, area_order : int
+        Of the volume's moments, and of the area's.
+    stored : float
+        By how much storing the control points may have moved each (unit), for the moments' `input_error`.
+
+    Returns
+    -------
+    PatchIntegrals
+        In the patches' own coordinates and unit.
+
+    Raises
+    ------
+    MeasureError
+        Where there is nothing to measure.
+
+    Notes
+    -----
+    Soldea, Elber and Rivlin, sections 2 and 3, by a radial flux; see `patch_moments`.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Patch, measure_patches
+    >>> from body_moments.core.numerics import clamped_space
+    >>> line, corners = clamped_space(2), np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
+    >>> around = np.stack([np.insert(corners, 2, z, axis=1) for z in (0.0, 1.0)], axis=1)
+    >>> body = measure_patches([Patch((clamped_space(2, (0.25, 0.5, 0.75)), line), around)])
+    >>> str(body.method), round(body.volume.total, 9)
+    ('capped', 1.0)
     """
     if not patches:
         raise MeasureError("no_patches")
@@ -90,74 +151,155 @@ def assess(
     stored: float,
     findings: Sequence[Finding] = (),
 ) -> PatchIntegrals:
-    """What the moments of parts, as they face, come to, with findings.
+    """Judge what the moments of parts, as they face, come to.
 
-    measured: of each of `oriented_parts`, as `volume_moments` gives them. area: of all patches; slope: as `area_slope`
-    gives it. findings: further ones.
+    Parameters
+    ----------
+    patches : sequence of Patch
+    topology : PatchTopology
+    parts : sequence of lists of Patch
+        As `oriented_parts` gives them.
+    measured : sequence of (Moments, bool)
+        Of each part, as `volume_moments` gives them.
+    area : Moments
+        Of all patches.
+    slope : float
+        As `area_slope` gives it.
+    stored : float
+        As for `measure_patches`.
+    findings : sequence of Finding
+        Further ones.
     """
-    size, findings = patches_size(patches), list(findings)
+    size = patches_size(patches)
+    verdict = _judge_parts(parts, topology, measured, area.total, size, stored)
+    turned_parts = [
+        (part, moments, settled, -1.0 if flip else 1.0)
+        for part, (moments, settled), flip, keep in zip(parts, measured, verdict.flipped, verdict.counted)
+        if keep
+    ]
+    volumes = [moments * sign for _, moments, _, sign in turned_parts]
+    volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
+    is_open = bool(topology.unclosable.any() or not verdict.solid.any())
+    if is_open and volume.total < 0.0:
+        volume = replace(volume, raw=-volume.raw)
+    volume, area = _with_input_errors(volume, area, slope, topology, stored, size)
+    misoriented = _misoriented_count(topology)
+    further = list(findings)
+    if not all(settled for *_, settled, _ in turned_parts):
+        further.append(finding("volume_error_estimate_large"))
+    outward = tuple(
+        patch.reverse_orientation() if sign < 0.0 else patch for part, *_, sign in turned_parts for patch in part
+    )
+    counted = np.where(verdict.flipped, -1.0, 1.0) * verdict.counted
+    return PatchIntegrals(
+        volume,
+        area,
+        _health(topology, verdict, area.total),
+        _method(is_open, verdict, misoriented),
+        (
+            *_orientation_findings(topology, misoriented, verdict.flipped),
+            *_closing_findings(topology, verdict.solid, area.total, volume.total, size),
+            *_component_findings(verdict.comparison),
+            *further,
+        ),
+        outward,
+        counted[topology.component] * np.where(topology.flipped, -1.0, 1.0),
+        topology,
+    )
+
+
+def _judge_parts(
+    parts: Sequence[list[Patch]],
+    topology: PatchTopology,
+    measured: Sequence[tuple[Moments, bool]],
+    area: float,
+    size: float,
+    stored: float,
+) -> _PatchVerdict:
+    """Which parts have a volume, and which of them are inside out."""
     caps = np.zeros((topology.number, 3))
     for loop in topology.loops:
         if not loop.zero_area:
             caps[topology.component[loop.patch]] += (loop.is_planar, not loop.is_planar, loop.area)
-    capped = caps.any(axis=1)
-    noise = np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * stored, CLOSED_SHEET_VOLUME_RTOL * size) * area.total
+    threshold = np.where(caps.any(axis=1), FLAT_CAP_VOLUME_RTOL * size + 4.0 * stored, CLOSED_SHEET_VOLUME_RTOL * size)
     total = np.array([moments.total for moments, _ in measured])
-    solid = ~topology.unclosable & (np.abs(total) > noise)
-    turn, compared = _compare_parts(parts, total, solid, max(WELDING_RTOL * size, 4.0 * stored))
-    counted_parts = solid if solid.any() else topology.unclosable
-    volumes = [
-        moments * (-1.0 if flip else 1.0) for (moments, _), flip, keep in zip(measured, turn, counted_parts) if keep
-    ]
-    if not all(fine for (_, fine), keep in zip(measured, counted_parts) if keep):
-        findings.append(finding("volume_error_estimate_large"))
-    volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
-    is_open = bool(topology.unclosable.any() or not solid.any())
-    if is_open and volume.total < 0.0:
-        volume = replace(volume, raw=-volume.raw)
+    solid = ~topology.unclosable & (np.abs(total) > threshold * area)
+    comparison = _compare_parts(parts, total, solid, max(WELDING_RTOL * size, 4.0 * stored))
+    flipped = solid & (total < 0.0) if comparison is None else comparison.flipped
+    return _PatchVerdict(solid, flipped, solid if solid.any() else topology.unclosable, caps, comparison)
+
+
+def _with_input_errors(
+    volume: Moments, area: Moments, slope: float, topology: PatchTopology, stored: float, size: float
+) -> tuple[Moments, Moments]:
+    """Volume and area with the bounds of what storing the control points may have changed."""
     reach = size + 4.0 * stored
-    # caps move with their rims
+    # caps move with their boundaries
     skin = area.total + sum(loop.area for loop in topology.loops)
-    volume = replace(volume, input_error=_input_error(volume, stored, topology.seam_gap, skin, reach))
-    area = replace(area, input_error=_input_error(area, stored, 0.0, slope + area.total / reach, reach))
-    mixed = _misoriented_count(topology)
-    findings = [
-        *_orientation_findings(topology, mixed, turn),
-        *_closing_findings(topology, solid, area.total, volume.total, size),
-        *compared["findings"],
-        *findings,
-    ]
-    share = float(caps[solid, 2].sum() / area.total) if area.total > 0.0 else 0.0
-    method = (
-        "open" if is_open else "capped" if capped[solid].any() else "reoriented" if mixed or turn.any() else "exact"
+    return (
+        replace(volume, input_error=_input_error(volume, stored, topology.seam_gap, skin, reach)),
+        replace(area, input_error=_input_error(area, stored, 0.0, slope + area.total / reach, reach)),
     )
-    health = MeshReport(
-        closed=not (topology.unclosable.any() or capped.any()),
+
+
+def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
+    """misoriented: patches that face against the rest of their part."""
+    if is_open:
+        return Verdict.OPEN
+    if verdict.caps[verdict.solid].any():
+        return Verdict.CAPPED
+    return Verdict.REORIENTED if misoriented or verdict.flipped.any() else Verdict.EXACT
+
+
+def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> MeshReport:
+    return MeshReport(
+        closed=not (topology.unclosable.any() or verdict.caps.any()),
         boundary_edges=topology.open_sides,
         non_manifold_edges=topology.non_manifold_sides,
         inconsistent_edges=topology.misoriented_sides,
         components=topology.number,
-        inverted_components=int(turn.sum()),
-        cap_area_share=share,
-        **compared["counts"],
+        inverted_components=int(verdict.flipped.sum()),
+        cap_area_share=float(verdict.caps[verdict.solid, 2].sum() / area) if area > 0.0 else 0.0,
+        **({} if verdict.comparison is None else verdict.comparison.counts()),
     )
-    outward = [
-        patch.reverse_orientation() if flip else patch
-        for part, flip, keep in zip(parts, turn, counted_parts)
-        if keep
-        for patch in part
-    ]
-    counted = np.where(turn, -1.0, 1.0) * counted_parts
-    signs = counted[topology.component] * np.where(topology.flipped, -1.0, 1.0)
-    return PatchIntegrals(volume, area, health, method, tuple(findings), tuple(outward), signs, topology)
 
 
 def measure_sheet(
     patches: Sequence[Patch], inner: float, outer: float, *, stored: float = 0.0
 ) -> tuple[Moments, Moments, bool]:
-    """The volume moments to order 3 of a sheet of real thickness, from the height `inner` to `outer` along the patches'
-    normals, their area's moments, and whether both estimates are below the tolerance. MeasureError where the sheet
-    would run through itself."""
+    """Measure a sheet of real thickness along patches.
+
+    Parameters
+    ----------
+    patches : sequence of Patch
+    inner, outer : float
+        The heights along the patches' normals between which the sheet lies.
+    stored : float
+        As for `measure_patches`.
+
+    Returns
+    -------
+    sheet : Moments
+        Of the sheet's volume, to order 3.
+    area : Moments
+        Of the patches, to order 3.
+    precise : bool
+        Whether both error estimates are below the tolerance.
+
+    Raises
+    ------
+    MeasureError
+        If the sheet would run through itself.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Patch, measure_sheet
+    >>> from body_moments.core.numerics import clamped_space
+    >>> square = np.array([[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]])
+    >>> sheet, area, precise = measure_sheet([Patch((clamped_space(2), clamped_space(2)), square)], 0.0, 0.1)
+    >>> round(sheet.total, 9), round(area.total, 9), precise
+    (0.1, 1.0, True)
+    """
     about = patches_center(patches)
     area, fine = area_moments(patches, 3, about)
     sheet, settled = sheet_moments(patches, inner, outer, 3, about)
@@ -181,14 +323,12 @@ def _input_error(moments: Moments, stored: float, gap: float, area: float, reach
 
 
 def _compare_parts(
-    parts: list[list[Patch]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
-) -> tuple[NDArray[np.bool_], dict]:
-    """Which parts to turn, with the counts and findings about parts in others' material."""
-    flipped = solid & (total < 0.0)
+    parts: Sequence[list[Patch]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
+) -> ComponentComparison | None:
+    """How parts lie to each other, and which of them to turn; None where there are not several, or none is solid."""
     if len(parts) == 1 or not solid.any():
-        return flipped, {"counts": {}, "findings": []}
-    shells, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
-    shells = replace(shells, volume=total)
+        return None
+    components, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
     shared = np.unique(relations.intersecting)
     spans = sum(len(patch.spaces[0].spans) * len(patch.spaces[1].spans) for k in shared for patch in parts[k])
     each = min(FINE_SAMPLES_PER_SPAN, int(np.sqrt(MAX_TRIANGLES / (2.0 * max(spans, 1)))))
@@ -198,36 +338,34 @@ def _compare_parts(
             np.sort(pairs, axis=1) @ (len(parts), 1)
             for pairs in (relations.intersecting, shared[nearer.contained_in], shared[nearer.intersecting])
         )
-        relations = ShellRelations(
+        relations = ComponentRelations(
             np.concatenate([relations.contained_in, shared[nearer.contained_in][np.isin(inside, crossed)]]),
             relations.intersecting[np.isin(crossed, crossing)],
             relations.undecided_pairs,
         )
-    flipped, nested, cavities = orient_nested_shells(shells, relations, solid)
-    crossing = len(np.unique(relations.intersecting))
-    findings = []
-    if nested.any():
-        findings.append(finding("components_nested", count=int(nested.sum())))
-    if crossing:
-        findings.append(finding("components_overlap", count=crossing))
-    if relations.undecided_pairs:
-        findings.append(finding("overlap_unchecked", count=int(relations.undecided_pairs)))
-    return flipped, {
-        "counts": {
-            "nested_components": int(nested.sum()),
-            "cavities": int(cavities.sum()),
-            "overlapping_components": crossing,
-        },
-        "findings": findings,
-    }
+    return ComponentComparison.from_relations(replace(components, volume=total), relations, solid)
+
+
+def _component_findings(comparison: ComponentComparison | None) -> list[Finding]:
+    """About parts in others' material, and parts that go through others."""
+    findings: list[Finding] = []
+    if comparison is None:
+        return findings
+    if comparison.nested.any():
+        findings.append(finding("components_nested", count=int(comparison.nested.sum())))
+    if comparison.intersecting.any():
+        findings.append(finding("components_overlap", count=int(comparison.intersecting.sum())))
+    if comparison.undecided_pairs:
+        findings.append(finding("overlap_unchecked", count=int(comparison.undecided_pairs)))
+    return findings
 
 
 def _classify_parts(
     parts: Sequence[Sequence[Patch]], solid: NDArray[np.bool_], each: int, tolerance: float
-) -> tuple[SortedComponents, ShellRelations]:
+) -> tuple[SortedComponents, ComponentRelations]:
     """How parts lie to each other, by samples of their patches: `each` to a span. Those that are nearer than what lies
     between the samples and the patches do not cross where `each` is not the coarsest."""
-    points, triangles, shell = [], [], []
+    points, triangles, component = [], [], []
     count, off = 0, 0.0
     for number, part in enumerate(parts):
         for patch in part:
@@ -237,13 +375,13 @@ def _classify_parts(
             faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
             points.append(grid.reshape(-1, 3))
             triangles.append(faces)
-            shell.append(np.full(len(faces), number))
+            component.append(np.full(len(faces), number))
             count += len(points[-1])
             off = max(off, _sagitta(grid, each) + _sagitta(grid.swapaxes(0, 1), each))
-    points, triangles, shell = np.concatenate(points), np.concatenate(triangles), np.concatenate(shell)
-    shells = sort_components(points, triangles, shell, len(parts))
-    return shells, classify_pairs(
-        points, shells, solid, tolerance if each == SAMPLES_PER_SPAN else max(tolerance, 2.0 * off)
+    points, triangles, component = [np.concatenate(arrays) for arrays in (points, triangles, component)]
+    components = sort_components(points, triangles, component, len(parts))
+    return components, classify_pairs(
+        points, components, solid, tolerance if each == SAMPLES_PER_SPAN else max(tolerance, 2.0 * off)
     )
 
 

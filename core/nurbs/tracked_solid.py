@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A body of patches that is measured again and again while its control points move.
 
-All is decided anew each time as measuring does: which patches face which way, which rims are capped. Only the moments
-follow, from tables (`reevaluation`), and where few control points have moved only the spans that they act on. The
+All is decided anew each time as measuring does: which patches face which way, which holes are capped. Only the moments
+follow, from tables (`incremental`), and where few control points have moved only the spans that they act on. The
 tables' rule for rational patches is fixed and has no estimate of its own: how far it is off depends on the weights, so
 it is compared with what measuring found, of the body and of patches with its weights and points at random, as a body
-that is flat tells little of what becomes of it. Other weights are measured anew. So is a body that has gone far from
+that is flat says little about what becomes of it. Other weights are measured anew. So is a body that has gone far from
 the point about which its moments are taken.
 """
 
@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials, sum_moments
+from ..verdict.method import Verdict
 from ..verdict.tolerances import WELDING_RTOL
 from .incremental import IncrementalPatchMoments
 from .patch import Patch
@@ -32,8 +33,31 @@ RULE_ERROR_GROWTH = 8.0  # by how much moved control points may let the rule's e
 
 
 class TrackedSolid:
-    """The body that patches bound. measure: what it is now; its volume has moments to order 3. Of a body that has
-    followed the bounds are estimates, and the area is an approximation."""
+    """The body that patches bound, measured again and again while their control points move.
+
+    Parameters
+    ----------
+    patches : sequence of Patch
+    stored : float
+        As for `measure_patches`.
+
+    Attributes
+    ----------
+    measure : PatchIntegrals
+        What the body is now, its volume with moments to order 3. After `update` its bounds are estimates, and the area
+        is an approximation.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Patch, TrackedSolid
+    >>> from body_moments.core.numerics import clamped_space
+    >>> line, corners = clamped_space(2), np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
+    >>> around = np.stack([np.insert(corners, 2, z, axis=1) for z in (0.0, 1.0)], axis=1)
+    >>> patch = Patch((clamped_space(2, (0.25, 0.5, 0.75)), line), around)
+    >>> body = TrackedSolid([patch])
+    >>> body.update([patch.transform(np.diag([1.0, 1.0, 1.5, 1.0]))]), round(body.measure.volume.total, 9)
+    (True, 1.5)
+    """
 
     def __init__(self, patches: Sequence[Patch], stored: float = 0.0):
         self._measure_anew(patches, stored)
@@ -49,7 +73,7 @@ class TrackedSolid:
         ]
         largest = self._largest(patches, area.total)
         self._error, self._area_error = volume.rounding_error / largest, area.rounding_error[:1] / area.total
-        self._is_tracking = self.measure.method != "open"
+        self._is_tracking = self.measure.method is not Verdict.OPEN
         if self._is_tracking and any(patch.weights is not None for patch in patches):
             tables = self._assess(patches, self.measure.topology, stored).volume
             # The worst of all moments stands for each: of a symmetric body one may be right by chance.
@@ -65,7 +89,19 @@ class TrackedSolid:
         return area * reach ** (monomials(3).sum(axis=1) + 1.0)
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
-        """Measure the patches as they are now; whether tables were enough for that."""
+        """Measure the patches as they are now.
+
+        Parameters
+        ----------
+        patches : sequence of Patch
+        stored : float
+            As for `measure_patches`.
+
+        Returns
+        -------
+        bool
+            Whether tables were enough; otherwise everything was measured anew.
+        """
         size, about = patches_size(patches), self.measure.volume.about
         if not (
             self._is_tracking and self._same_spaces(patches) and np.linalg.norm(patches_center(patches) - about) <= size
@@ -75,7 +111,7 @@ class TrackedSolid:
         self._fluxes = [self._flux(k, patch) for k, patch in enumerate(patches)]
         self._patches = list(patches)
         measure = self._assess(patches, find_topology(patches, max(WELDING_RTOL * size, 4.0 * stored)), stored)
-        if measure.method == "open":
+        if measure.method is Verdict.OPEN:
             self._measure_anew(patches, stored)
             return False
         self.measure = measure
@@ -108,15 +144,18 @@ class TrackedSolid:
         """Whether their function spaces are the same, those of rational patches being made by their weights too."""
         return len(patches) == len(self._patches) and all(
             new.spaces == old.spaces
-            and (new.weights is None if old.weights is None else np.array_equal(new.weights, old.weights))
+            and (
+                new.weights is None
+                if old.weights is None
+                else new.weights is not None and np.array_equal(new.weights, old.weights)
+            )
             for new, old in zip(patches, self._patches)
         )
 
     def _flux(self, k: int, patch: Patch) -> Moments:
         old = self._patches[k]
         moved_controls = np.argwhere((patch.points != old.points).any(axis=2))
-        if not len(moved_controls):
-            return self._fluxes[k]
+        flux = self._fluxes[k]
         if len(moved_controls) > MAX_SINGLE_UPDATES:
             return self._evaluators[k].moments(patch.points)
         for i, j in moved_controls:

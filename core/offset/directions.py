@@ -12,8 +12,9 @@ normal, and none of it slides along the surface. Where that would run behind one
 is most in front of all of them (found by multiplicative weights, Arora, Hazan and Kale, Theory of Computing 8, 2012).
 
 Inside a flat side and along a straight edge a vertex may slide: that changes nothing of the planes. There d is made as
-even as it can be, Σ cot |d_i - d_j|² least, lest the finely cut sides of a thick-walled box fold over where its edges
-move inward: with the cotangent weights of Pinkall and Polthier (Experiment. Math. 2, 1993) the side shrinks as a whole.
+even as it can be, Σ cot |d_i - d_j|² least, so that the finely cut sides of a thick-walled box do not fold over where
+its edges move inward: with the cotangent weights of Pinkall and Polthier (Experiment. Math. 2, 1993) the side shrinks
+as a whole.
 """
 
 from __future__ import annotations
@@ -46,8 +47,8 @@ class OffsetDirections:
     vectors: (n, 3), unit of the points per unit of thickness.
     tangential_error, normal_error: (2, n) what rounding, and storing the points as float32, may have moved them by in
     all, and along the
-        normals of their faces: to first order, as long as the same planes are told apart, and not where the direction
-        is the one most in front.
+        normals of their faces: to first order, as long as the same planes are distinguished, and not where the
+        direction is the one most in front.
     has_normal: (m,) whether a triangle has a normal that is known; the others were not asked.
     """
 
@@ -129,7 +130,8 @@ def offset_directions(
 
 def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
     """The vectors, made even by conjugate gradients in the directions that the projections `free`, (n, 3, 3), leave.
-    Vertices of a rim stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller thickness."""
+    Vertices of a boundary stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller
+    thickness."""
     edges = find_edges(triangles)
     boundary = edges.boundary_sides()
     free[triangles.ravel()[boundary]] = free[np.roll(triangles, -1, axis=1).ravel()[boundary]] = 0.0

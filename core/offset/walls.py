@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Walls: the material between a surface and its offset, with moments that are polynomials in the thickness.
 
-With the directions d of its vertices (see `offset`), a triangle sweeps the prism x = p + s d, both linear on the
+With the directions d of its vertices (see `directions`), a triangle sweeps the prism x = p + s d, both linear on the
 triangle, with Jacobian J = Σ λ_k N(s)·d_k, where N(s) = (e + s f) × (e' + s f') is the normal of the triangle moved by
 s, e, e' its edges and f, f' the differences of its directions. J x^α is a polynomial of degree |α| + 2 in s and |α| + 1
 in the barycentric coordinates λ: six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate it exactly over
-the triangle, coefficient by coefficient. Neighbouring prisms share the ruled surface over their edge, so that their sum
+the triangle, coefficient by coefficient. Neighboring prisms share the ruled surface over their edge, so that their sum
 is the wall, with no gap.
 
 J is linear in λ, hence positive on a prism exactly where its three quadratics N(s)·d_k in s are: their first roots are
@@ -35,7 +35,7 @@ from .directions import UNEVEN_RTOL, blocks, offset_directions
 ORDER = 3
 COEFFICIENT_COUNT = ORDER + 3  # coefficients in s: degrees 0 to 5
 TOUCHING_RTOL = 1e-6  # of the size: nearer sides touch
-MAX_UNORIENTED_SHARE = 0.01  # of the area: where more of it faces nobody knows which way, there is no wall
+MAX_UNORIENTED_SHARE = 0.01  # of the area: above it, too many faces have lost their direction for a wall
 JACOBIAN_ROUNDINGS = 20.0  # u: what rounds a Jacobian, relative to the product of the lengths in it
 INNER_NODES, OUTER_NODES = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
 NODES = np.concatenate(
@@ -48,17 +48,39 @@ WEIGHTS = np.repeat([0.11169079483900573, 0.054975871827660933], 3)
 class OffsetSolid:
     """What a surface sweeps when it moves along its directions by s, per unit of s, as polynomials in s.
 
-    points, vectors, triangles: (n, 3), (n, 3) and (m, 3), what moves where.
-    coefficients, rounding_error, input_error: (20, 6) of s^0 to s^5 for each moment to third order about `about`: what
-        they are, and bounds for positive and negative s of what rounding and storing the points as float32 may have
-        changed.
-    swept_bound: (4,) of s^0 to s^3: what both sides sweep at most when storing the points as float32 moves them, which
-        bounds its changes as `input_error` does. reach: (2, 3) of the points from `about` and of the vectors, by axis.
-    outward, inward: how far the surface can move before a prism folds over, infinite where none does.
-    outward_at, inward_at: the triangles that fold first, -1 for none.
-    inexact_vertices: (k,) the vertices at which no direction moves all faces alike. min_ratio, max_ratio: the thickness
-        there, by the thickness asked for. degenerate_triangles: triangles without a known normal, which are swept but
-        ask for nothing.
+    Attributes
+    ----------
+    points, vectors, triangles : (n, 3), (n, 3) and (m, 3) arrays
+        What moves where.
+    about : (3,) array
+        The point that the moments are about.
+    coefficients, rounding_error, input_error : (20, 6) arrays
+        Of s^0 to s^5 for each moment to third order: the coefficients, and bounds for positive and negative s of what
+        rounding and storing the points as float32 may have changed.
+    swept_bound : (4,) array
+        Of s^0 to s^3: what both sides sweep at most when storing the points as float32 moves them, which bounds its
+        changes as `input_error` does.
+    reach : (2, 3) array
+        Of the points from `about` and of the vectors, by axis.
+    outward, inward : float
+        How far the surface can move before a prism folds over, infinite where none does.
+    outward_at, inward_at : int
+        The triangles that fold first, -1 for none.
+    inexact_vertices : int
+        How many vertices have no direction that moves all their faces alike.
+    min_ratio, max_ratio : float
+        The thickness at those, divided by the thickness asked for.
+    degenerate_triangles : int
+        Triangles without a known normal, which are swept but ask for nothing.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.offset import OffsetSolid, offset_solid
+    >>> square = Surface.from_triangles(np.eye(4, 3, -1), [[0, 1, 2]])
+    >>> wall = offset_solid(square)
+    >>> isinstance(wall, OffsetSolid), round(wall.moments(0.0, 0.2).total, 9)
+    (True, 0.1)
     """
 
     points: NDArray[np.float64]
@@ -80,9 +102,21 @@ class OffsetSolid:
     degenerate_triangles: int
 
     def moments(self, inward: float, outward: float) -> Moments:
-        """The volume moments to third order of the wall from `inward` below the surface to `outward` above it.
+        """Return the volume moments to third order of a wall.
 
-        ValueError where the wall folds over.
+        Parameters
+        ----------
+        inward, outward : float
+            How far the wall reaches below the surface and above it.
+
+        Returns
+        -------
+        Moments
+
+        Raises
+        ------
+        ValueError
+            If the wall folds over.
         """
         if not (inward < self.inward or inward == 0.0) or not (outward < self.outward or outward == 0.0):
             raise ValueError("offset folds over")
@@ -97,13 +131,14 @@ class OffsetSolid:
         return Moments(raw, self.about, Measure.VOLUME, error, np.minimum(self.input_error @ both, moved))
 
     def box(self, inward: float, outward: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(3,) and (3,) the least and the largest coordinates of the wall."""
+        """Return the smallest and the largest coordinates of the wall, (3,) and (3,)."""
         sides = [self.points - inward * self.vectors, self.points + outward * self.vectors]
         return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
 
     def self_intersects(self, inward: float, outward: float) -> bool:
-        """Whether the two sides of the wall go through each other, a moved side through itself, or the walls of parts
-        into one another, as far as is found within bounds of time."""
+        """Return whether the two sides of the wall go through each other, a moved side through itself, or the walls of
+        parts into one another, as far as is found within bounds of time.
+        """
         count = len(self.points)
         points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
         triangles = np.concatenate([self.triangles, self.triangles + count])
@@ -116,7 +151,8 @@ class OffsetSolid:
 
     def _overlaps(self, points: NDArray, tolerance: float) -> bool:
         """Whether the walls of parts reach into one another or into themselves, where no edge need pierce a face: skins
-        that have moved past each other, or that are flush. Each wall is a closed body: both its sides and its rim."""
+        that have moved past each other, or that are flush. Each wall is a closed body: both its sides and the strip
+        along its boundary."""
         part, number = connected_components(
             len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
         )
@@ -138,11 +174,11 @@ class OffsetSolid:
         return len(relations.contained_in) + len(relations.intersecting) > 0
 
     def drop_arrays(self) -> OffsetSolid:
-        """The same without the arrays that are as large as the mesh."""
+        """Return the same without the arrays that are as large as the mesh."""
         return replace(self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0])
 
     def first_fold_location(self, side: str) -> NDArray[np.float64]:
-        """(3,) the middle of the triangle that folds first on that side."""
+        """Return the (3,) middle of the triangle that folds first on that side."""
         at = {
             "inward": self.inward_at,
             "outward": self.outward_at,
@@ -151,22 +187,63 @@ class OffsetSolid:
         return self.points[self.triangles[at]].mean(axis=0)
 
     def max_thickness(self, side: str) -> float:
-        """The thickness from which the wall on that side folds over: "inward", "outward" or "centered"."""
+        """Return the thickness from which the wall on that side folds over: "inward", "outward" or "centered"."""
         return {"inward": self.inward, "outward": self.outward, "centered": 2.0 * min(self.inward, self.outward)}[side]
 
 
 def split_thickness(side: str, thickness: float) -> tuple[float, float]:
-    """How much of a thickness is inside the surface and outside."""
+    """Return how much of a thickness is inside the surface and outside.
+
+    Parameters
+    ----------
+    side : str
+        "inward", "outward" or "centered".
+    thickness : float
+
+    Returns
+    -------
+    inward, outward : float
+
+    Examples
+    --------
+    >>> from body_moments.core.offset import split_thickness
+    >>> split_thickness("centered", 0.5)
+    (0.25, 0.25)
+    """
     return {"inward": (thickness, 0.0), "outward": (0.0, thickness), "centered": (thickness / 2.0, thickness / 2.0)}[
         side
     ]
 
 
 def offset_solid(surface: Surface) -> OffsetSolid:
-    """The walls of a surface, closed or open, whose faces agree which side is outward.
+    """Return the walls of a surface, as polynomials in their thickness.
 
-    Points at exactly the same place are one. MeasureError where faces disagree, more than two meet in an edge, or
-    float32 has lost which way they face; its edges are pairs of the surface's vertices.
+    Parameters
+    ----------
+    surface : Surface
+        Closed or open; its faces must agree which side is outward. Points at exactly the same place are one.
+
+    Returns
+    -------
+    OffsetSolid
+
+    Raises
+    ------
+    MeasureError
+        If faces disagree, more than two meet in an edge, or float32 has lost which way they face; the finding's edges
+        are pairs of the surface's vertices.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.offset import offset_solid
+    >>> cube = Surface(
+    ...     np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]),
+    ...     quads=np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]),
+    ... )
+    >>> wall = offset_solid(cube)
+    >>> round(wall.moments(0.1, 0.0).total, 9), round(float(wall.max_thickness("inward")), 5)
+    (0.488, 0.5)
     """
     points, triangles = _weld_equal(surface)
     stored = float(np.linalg.norm(surface.coordinate_error))
@@ -333,8 +410,8 @@ class _Prisms:
 def _propagate_error(
     bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(20, 6) and (20, 6) `error` and `input_error` from the sums of `_Prisms.bounds`, with every point within reach[0]
-    of the middle and every direction within reach[1], by axis."""
+    """(20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`, with every point within
+    reach[0] of the middle and every direction within reach[1], by axis."""
     place, step = reach[0] + stored, reach[1]
 
     def times(row: NDArray, exponents: list[int]) -> NDArray[np.float64]:

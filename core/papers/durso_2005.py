@@ -73,9 +73,30 @@ FORMULAS = (ZEROTH, FIRST, SECOND, THIRD)
 
 
 def tensor(points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tuple[int, dict[str, int]]) -> NDArray:
-    """M_t = ∫ x ⊗ … ⊗ x dV as a (3,) * t array of the points' own numbers, by one of the formulae above.
+    """Return M_t = ∫ x ⊗ … ⊗ x dV by one of the formulas above.
 
-    points: rows of x, y, z as fractions or floats. faces: corner indices, planar, counter-clockwise from outside.
+    Parameters
+    ----------
+    points : sequence of (x, y, z)
+        Fractions or floats.
+    faces : sequence of sequence of int
+        Corner indices, planar, counter-clockwise from outside.
+    formula : tuple
+        One of `ZEROTH`, `FIRST`, `SECOND`, `THIRD`, `THIRD_AS_PRINTED`.
+
+    Returns
+    -------
+    (3,) * t array
+        Of the points' own numbers.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> from body_moments.core.papers import durso_2005
+    >>> points = [[Fraction(number) for number in row] for row in np.eye(4, 3, -1).tolist()]
+    >>> faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> durso_2005.tensor(points, faces, durso_2005.FIRST).tolist()
+    [Fraction(1, 24), Fraction(1, 24), Fraction(1, 24)]
     """
     divisor, products = formula
     rank = len(next(iter(products)))
@@ -99,17 +120,55 @@ def tensor(points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tu
 
 
 def moments(points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int) -> list[Number]:
-    """∫ x^p y^q z^r dV to any order, in the order of `moments.monomials`: a fan over each face from an apex in its
-    plane, here its first corner's. Arguments as for `tensor`."""
+    """Return ∫ x^p y^q z^r dV to any order: a fan over each face from an apex in its plane, here its first corner.
+
+    Parameters
+    ----------
+    points, faces
+        As for `tensor`.
+    order : int
+
+    Returns
+    -------
+    list of numbers
+        In the order of `monomials`.
+
+    Examples
+    --------
+    >>> from body_moments.core.papers.durso_2005 import moments
+    >>> points, faces = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> round(moments(points, faces, 2)[4] * 60, 12)
+    1.0
+    """
     return moments_from_apexes(points, faces, [points[face[0]] for face in faces], order)
 
 
 def moments_from_apexes(
     points: Sequence[Vector], faces: Sequence[Sequence[int]], apexes: Sequence[Vector], order: int
 ) -> list[Number]:
-    """As `moments`, with an apex for each face: any point of its plane, p⊥ among them."""
+    """Return what `moments` does, with an apex for each face: any point of its plane, p⊥ among them.
+
+    Parameters
+    ----------
+    points, faces, order
+        As for `moments`.
+    apexes : sequence of (x, y, z)
+        One for each face.
+
+    Returns
+    -------
+    list of numbers
+        In the order of `monomials`.
+
+    Examples
+    --------
+    >>> from body_moments.core.papers.durso_2005 import moments_from_apexes, perpendicular_feet
+    >>> points, faces = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> round(moments_from_apexes(points, faces, perpendicular_feet(points, faces), 0)[0] * 6, 12)
+    1.0
+    """
     exponents = exponents_to(order)
-    sums = [0] * len(exponents)
+    sums: list[Number] = [0] * len(exponents)
     for face, apex in zip(faces, apexes):
         corners = [points[i] for i in face]
         for a, b in zip(corners, [*corners[1:], corners[0]]):
@@ -120,7 +179,23 @@ def moments_from_apexes(
 
 
 def perpendicular_feet(points: Sequence[Vector], faces: Sequence[Sequence[int]]) -> list[Vector]:
-    """p⊥ of each face: the apexes with which `moments_from_apexes` is D'Urso's own sum."""
+    """Return p⊥ of each face: the apexes with which `moments_from_apexes` is D'Urso's own sum.
+
+    Parameters
+    ----------
+    points, faces
+        As for `tensor`.
+
+    Returns
+    -------
+    list of (x, y, z)
+
+    Examples
+    --------
+    >>> from body_moments.core.papers.durso_2005 import perpendicular_feet
+    >>> perpendicular_feet([(5, 0, 2), (6, 0, 2), (5, 1, 2)], [(0, 1, 2)])
+    [(0.0, 0.0, 2.0)]
+    """
     return [_plane([points[i] for i in face])[1] for face in faces]
 
 

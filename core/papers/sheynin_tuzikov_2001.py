@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from math import comb, factorial, sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,7 +25,24 @@ from ..numerics.vectors import Number, Vector, cross, dot, subtract
 
 
 def sigma(exponents: tuple[int, int, int], a: Vector, b: Vector, c: Vector) -> Number:
-    """Σ_pqr of the corners a, b, c: numbers, or arrays with one entry for each triangle."""
+    """Return Σ_pqr of three corners.
+
+    Parameters
+    ----------
+    exponents : (p, q, r)
+    a, b, c : (x, y, z)
+        The corners: numbers, or arrays with one entry for each triangle.
+
+    Returns
+    -------
+    number or array
+
+    Examples
+    --------
+    >>> from body_moments.core.papers.sheynin_tuzikov_2001 import sigma
+    >>> sigma((1, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0))
+    6
+    """
     powers = [[_powers(corner[axis], exponents[axis]) for corner in (a, b, c)] for axis in range(3)]
     parts = [list(_compositions(n)) for n in exponents]
     total = 0
@@ -46,9 +64,29 @@ def sigma(exponents: tuple[int, int, int], a: Vector, b: Vector, c: Vector) -> N
 def volume_moments(
     points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int, about: Vector = (0, 0, 0)
 ) -> list[Number]:
-    """∫ x^p y^q z^r dV of the solid within outward polygons, in the order of `moments.monomials`, about `about`.
+    """Return ∫ x^p y^q z^r dV of the solid within outward polygons.
 
-    points: rows of x, y, z, of one exact or inexact type. faces: corner indices, counter-clockwise from outside.
+    Parameters
+    ----------
+    points : sequence of (x, y, z)
+        Of one exact or inexact type.
+    faces : sequence of sequence of int
+        Corner indices, counter-clockwise from outside.
+    order : int
+    about : (x, y, z)
+
+    Returns
+    -------
+    list of numbers
+        In the order of `monomials`.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> from body_moments.core.papers.sheynin_tuzikov_2001 import volume_moments
+    >>> points = [(0, 0, 0), (Fraction(1), 0, 0), (0, Fraction(1), 0), (0, 0, Fraction(1))]
+    >>> volume_moments(points, [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)], 1)[1]
+    Fraction(1, 24)
     """
     sums = _sum_over_faces(points, faces, order, about, lambda a, b, c: dot(a, cross(b, c)))
     return [total / factorial(sum(m) + 3) for m, total in zip(exponents_to(order), sums)]
@@ -59,11 +97,27 @@ def surface_moments(
     faces: Sequence[Sequence[int]],
     order: int,
     about: Vector = (0, 0, 0),
-    root: Callable[[Number], Number] = sqrt,
+    root: Callable[[Any], Number] = sqrt,
 ) -> list[Number]:
-    """∫ x^p y^q z^r dA over the faces; arguments as for `volume_moments`.
+    """Return ∫ x^p y^q z^r dA over the faces.
 
-    root: gives 2A from (2A)², by default in floats; an exact or long one keeps the rest as exact.
+    Parameters
+    ----------
+    points, faces, order, about
+        As for `volume_moments`.
+    root : callable
+        Returns 2A from (2A)², by default in floats; an exact one keeps the rest exact.
+
+    Returns
+    -------
+    list of numbers
+        In the order of `monomials`.
+
+    Examples
+    --------
+    >>> from body_moments.core.papers.sheynin_tuzikov_2001 import surface_moments
+    >>> surface_moments([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)], 0)
+    [0.5]
     """
 
     def double_area(a: Vector, b: Vector, c: Vector) -> Number:
@@ -77,7 +131,27 @@ def surface_moments(
 def triangle_moments(
     points: NDArray, triangles: NDArray, order: int, about: ArrayLike = (0.0, 0.0, 0.0)
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(K,) volume and (K,) surface moments of (m, 3) triangles over (n, 3) points, all triangles at once in float64."""
+    """Return volume and surface moments of all triangles at once, in float64.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    triangles : (m, 3) integer array
+    order : int
+    about : (3,) array_like
+
+    Returns
+    -------
+    volume, surface : (K,) arrays
+        In the order of `monomials`.
+
+    Examples
+    --------
+    >>> from body_moments.core.papers.sheynin_tuzikov_2001 import triangle_moments
+    >>> volume, area = triangle_moments(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], 0)
+    >>> np.round(volume * 6, 12).tolist()
+    [1.0]
+    """
     corners = np.asarray(points, np.float64) - np.asarray(about, np.float64)
     a, b, c = (corners[np.asarray(triangles)[:, i]].T for i in range(3))
     normal = cross(subtract(b, a), subtract(c, a))
@@ -97,7 +171,7 @@ def _sum_over_faces(
     weight: Callable[[Vector, Vector, Vector], Number],
 ) -> list[Number]:
     points = [subtract(point, about) for point in points]
-    sums = [0] * len(exponents_to(order))
+    sums: list[Number] = [0] * len(exponents_to(order))
     for face in faces:
         for j in range(1, len(face) - 1):
             a, b, c = points[face[0]], points[face[j]], points[face[j + 1]]
@@ -108,7 +182,22 @@ def _sum_over_faces(
 
 
 def exponents_to(order: int) -> list[tuple[int, int, int]]:
-    """(p, q, r) of all monomials to an order, in the order of `moments.monomials`."""
+    """Return (p, q, r) of all monomials to an order, in the order of `monomials`.
+
+    Parameters
+    ----------
+    order : int
+
+    Returns
+    -------
+    list of (p, q, r)
+
+    Examples
+    --------
+    >>> from body_moments.core.papers.sheynin_tuzikov_2001 import exponents_to
+    >>> exponents_to(1)
+    [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    """
     return [tuple(row) for row in monomials(order).tolist()]
 
 
@@ -120,7 +209,7 @@ def _compositions(n: int) -> Iterator[tuple[tuple[int, int, int], int]]:
 
 
 def _powers(value: Number, order: int) -> list[Number]:
-    powers = [1]
+    powers: list[Number] = [1]
     for _ in range(order):
         powers.append(powers[-1] * value)
     return powers

@@ -8,7 +8,7 @@ With S = Σ P_i B_i and the z-flux, the volume is (section 2, eqs. 2 to 5)
 
 each index standing for a pair, of s and of t; Φ¹ and Φ² (sections 3.1 and 3.2) hold one and two factors B more. Every
 entry is a difference of products of two integrals over one parameter. There are (n n')^(3 + order) of them: this is
-good for patches of some nine control points; `reevaluation` gives the same numbers for any.
+good for patches of some nine control points; `incremental` gives the same numbers for any.
 """
 
 from __future__ import annotations
@@ -23,9 +23,30 @@ MAX_ENTRIES = 2_000_000
 
 
 def phi(spaces: tuple[SplineSpace, SplineSpace], order: int) -> NDArray[np.float64]:
-    """Φ of the given order, 0, 1 or 2: (n, n, n, ...), indexed [i, j, l, m, ...] by control points in row-major order.
+    """Return the tensor Φ of a patch's function spaces.
 
-    ValueError where it would hold too many entries.
+    Parameters
+    ----------
+    spaces : (SplineSpace, SplineSpace)
+    order : int
+        0, 1 or 2.
+
+    Returns
+    -------
+    (n, n, n, …) array
+        Indexed [i, j, l, m, …] by control points in row-major order.
+
+    Raises
+    ------
+    ValueError
+        If it would hold too many entries.
+
+    Examples
+    --------
+    >>> from body_moments.core.numerics import clamped_space
+    >>> from body_moments.core.papers.soldea_elber_rivlin_2002_phi import phi
+    >>> phi((clamped_space(2), clamped_space(2)), 0).shape
+    (4, 4, 4)
     """
     size = (spaces[0].count * spaces[1].count) ** (3 + order)
     if size > MAX_ENTRIES:
@@ -40,7 +61,27 @@ def phi(spaces: tuple[SplineSpace, SplineSpace], order: int) -> NDArray[np.float
 
 
 def phi_moments(points: NDArray, tensors: tuple[NDArray, ...]) -> dict[tuple[int, int, int], float]:
-    """The moments of the z-flux of a polynomial patch (n_s, n_t, 3), by exponents, from Φ⁰, Φ¹ and Φ² (or fewer)."""
+    """Return the moments of the z-flux of a polynomial patch from its tensors Φ.
+
+    Parameters
+    ----------
+    points : (n_s, n_t, 3) array
+        Control points.
+    tensors : tuple of array
+        Φ⁰, Φ¹ and Φ², or fewer.
+
+    Returns
+    -------
+    dict of (p, q, r) to float
+
+    Examples
+    --------
+    >>> from body_moments.core.numerics import clamped_space
+    >>> from body_moments.core.papers.soldea_elber_rivlin_2002_phi import phi, phi_moments
+    >>> square = np.array([[[0.0, 0.0, 2.0], [0.0, 1.0, 2.0]], [[1.0, 0.0, 2.0], [1.0, 1.0, 2.0]]])
+    >>> round(phi_moments(square, (phi((clamped_space(2), clamped_space(2)), 0),))[0, 0, 0], 12)
+    2.0
+    """
     x, y, z = points.reshape(-1, 3).T
     flux = [np.einsum("ij...,i,j->...", tensor, x, y) for tensor in tensors]
     moments = {(0, 0, 0): float(z @ flux[0])}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Theorem 4.2 of Soldea, Elber and Rivlin, as printed: the reference that `density_tables` is held against.
+"""Theorem 4.2 of Soldea, Elber and Rivlin, as printed: the reference that `spline_tables` is compared with.
 
 With δ_{x,y} = (t_{x+y} - t_x) / y and [t_m, t_{m+1}) the interval that holds t,
 
@@ -14,13 +14,34 @@ exact with `fractions.Fraction`.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from numbers import Number
+
+from ..numerics.vectors import Number
 
 
 def integral_of_basis(knots: Sequence[Number], i: int, k: int, power: int, t: Number) -> Number:
-    """∫ from t_i to t of τ^power B_{i,k}(τ) dτ by equation (11); t in [t_i, t_{i+k}].
+    """Return ∫ from t_i to t of τ^power B_{i,k}(τ) dτ by equation (11).
 
     The sums reach functions of order k + power + 1, beyond the last knot: those knots may be anything that ascends.
+
+    Parameters
+    ----------
+    knots : sequence of numbers
+    i, k : int
+        The function and its order.
+    power : int
+    t : number
+        In [t_i, t_{i+k}].
+
+    Returns
+    -------
+    number
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> from body_moments.core.papers.soldea_elber_rivlin_2002_theorem_4_2 import integral_of_basis
+    >>> integral_of_basis([Fraction(n) for n in range(3)], 0, 2, 1, Fraction(2))
+    Fraction(1, 1)
     """
     last = knots[i + k]
     knots = [*knots[: i + k + 1], *(last + 1 + j for j in range(k + power + 2))]
@@ -44,7 +65,26 @@ def integral_of_basis(knots: Sequence[Number], i: int, k: int, power: int, t: Nu
 
 
 def basis(knots: Sequence[Number], i: int, k: int, t: Number) -> Number:
-    """B_{i,k}(t) by the recursion of Cox and de Boor."""
+    """Return B_{i,k}(t) by the recursion of Cox and de Boor.
+
+    Parameters
+    ----------
+    knots : sequence of numbers
+    i, k : int
+        The function and its order.
+    t : number
+
+    Returns
+    -------
+    number
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> from body_moments.core.papers.soldea_elber_rivlin_2002_theorem_4_2 import basis
+    >>> basis([0, 1, 2], 0, 2, Fraction(1, 2))
+    Fraction(1, 2)
+    """
     if k == 1:
         return 1 if knots[i] <= t < knots[i + 1] else 0
     value = 0

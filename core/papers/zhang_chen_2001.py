@@ -28,27 +28,79 @@ from ..numerics.vectors import Number, Vector, cross, dot
 
 
 def signed_area(points: Sequence[Vector], edges: Sequence[tuple[int, int]]) -> Number:
-    """Eq. 3: the area within directed edges of 2-D points, positive where the inside lies to their left."""
+    """Return the area within directed edges of 2-D points, by eq. 3.
+
+    Parameters
+    ----------
+    points : sequence of (x, y)
+    edges : sequence of (int, int)
+
+    Returns
+    -------
+    number
+        Positive where the inside lies to their left.
+
+    Examples
+    --------
+    >>> from body_moments.core.papers.zhang_chen_2001 import signed_area
+    >>> signed_area([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (3, 0)])
+    1.0
+    """
     return sum(_triangle(points[i], points[j]) for i, j in edges)
 
 
 def signed_volume(points: Sequence[Vector], triangles: Sequence[tuple[int, int, int]]) -> Number:
-    """Eq. 6: the volume within triangles of 3-D points, positive where they are counter-clockwise from outside."""
+    """Return the volume within triangles of 3-D points, by eq. 6.
+
+    Parameters
+    ----------
+    points : sequence of (x, y, z)
+    triangles : sequence of (int, int, int)
+
+    Returns
+    -------
+    number
+        Positive where they are counter-clockwise from outside.
+
+    Examples
+    --------
+    >>> from body_moments.core.papers.zhang_chen_2001 import signed_volume
+    >>> points = [(0, 0, 0), (6, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> signed_volume(points, [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
+    1.0
+    """
     return sum(_tetrahedron(*(points[i] for i in triangle)) for triangle in triangles)
 
 
 def mesh_moments(
-    points: Sequence[Vector], shapes: Sequence[Sequence[int]], exponents: Sequence[tuple[int, ...]]
+    points: Sequence[Sequence[Number]], shapes: Sequence[Sequence[int]], exponents: Sequence[tuple[int, ...]]
 ) -> list[Number]:
-    """Eq. 9: ∫ x^p y^q (z^r) over the inside for each row of exponents.
+    """Return ∫ x^p y^q (z^r) over the inside, by eq. 9.
 
-    points: rows of 2 or 3 numbers. shapes: edges of a polygon, or triangles of a closed mesh, all outward or all
-    inward: what is inside counts positive either way.
+    Parameters
+    ----------
+    points : sequence of 2 or 3 numbers each
+    shapes : sequence of sequence of int
+        Edges of a polygon, or triangles of a closed mesh, all outward or all inward: what is inside counts positive
+        either way.
+    exponents : sequence of tuple of int
+
+    Returns
+    -------
+    list of numbers
+        One for each row of exponents.
+
+    Examples
+    --------
+    >>> from body_moments.core.papers.zhang_chen_2001 import mesh_moments
+    >>> points, triangles = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> [round(float(value) * 120, 9) for value in mesh_moments(points, triangles, [(2, 0, 0), (1, 1, 0)])]
+    [2.0, 1.0]
     """
     dimension = len(points[0])
     measure = _triangle if dimension == 2 else _tetrahedron
-    sums = [0] * len(exponents)
-    total = 0
+    sums: list[Number] = [0] * len(exponents)
+    total: Number = 0
     for shape in shapes:
         corners = [points[i] for i in shape]
         size = measure(*corners)
@@ -58,7 +110,24 @@ def mesh_moments(
 
 
 def elementary_mean(exponents: Sequence[int], corners: Sequence[Vector]) -> Number:
-    """The mean of a monomial over the triangle or tetrahedron of the origin and d corners with d coordinates each."""
+    """Return the mean of a monomial over the triangle or tetrahedron of the origin and d corners.
+
+    Parameters
+    ----------
+    exponents : sequence of int
+    corners : sequence of sequence of numbers
+        d corners with d coordinates each.
+
+    Returns
+    -------
+    number
+
+    Examples
+    --------
+    >>> from body_moments.core.papers.zhang_chen_2001 import elementary_mean
+    >>> elementary_mean((1, 0), [(1, 0), (0, 1)])
+    Fraction(1, 3)
+    """
     dimension = len(corners)
     axes = [axis for axis, n in enumerate(exponents) for _ in range(n)]
     total = 0

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Polygons with holes in the plane, as directed edges: the inside lies to the left of each.
 
-Area moments of any order are those of a boundary of 1-simplices (Sheynin and Tuzikov in two dimensions; see `simplex`):
-over an edge a, b the triangle with the origin gives (a x b)·S_pq·p! q! / (p+q+2)!. Outer outlines run counter-
-clockwise, holes clockwise, separate regions simply add. What makes a region ambiguous, outlines that cross or lie on
-one another, is found by `find_defects`: no sum over edges would show it.
+Area moments of any order are those of a boundary of 1-simplices (Sheynin and Tuzikov in two dimensions; see
+`n_dimensions`): over an edge a, b the triangle with the origin gives (a x b)·S_pq·p! q! / (p+q+2)!. Outer outlines run
+counter- clockwise, holes clockwise, separate regions simply add. What makes a region ambiguous, outlines that cross or
+lie on one another, is found by `find_defects`: no sum over edges would show it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arrays import segment_ranges
+from ..numerics.arrays import segment_ranges, sums_by_index
 from ..numerics.graph import connected_components
 from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, facet_moments
 from ..verdict.finding import MeasureError
@@ -25,16 +25,28 @@ SAMPLES_PER_OUTLINE = 16  # midpoints of an outline's edges that are asked what 
 # of edges that are compared, and of rays and the edges they may meet; more rays are thinned out
 MAX_EDGE_PAIRS = 10_000_000
 PAIRS_PER_BLOCK = 1 << 18  # of those at a time
-RAYS_PER_BLOCK = 64  # neighbouring rays at a time, which meet much the same edges
+RAYS_PER_BLOCK = 64  # neighboring rays at a time, which meet much the same edges
 GRID_CELLS = 1024  # along a side of the grid that edges are compared in
 TOUCH_RTOL = 1e-9  # of the polygon's size: edges that pass each other by less than this touch
 
 
 @dataclass(frozen=True)
 class OutlineDefects:
-    """crossings: pairs of edges that cross, lost: whether there were too many pairs to look at all; overlapping:
-    whether somewhere an edge has more than one region, or less than none, beside it; negative: whether less than none.
-    shared_length: the length along which edges run against each other, which is not the region's rim."""
+    """What makes it unclear which side of the edges is inside.
+
+    Attributes
+    ----------
+    crossings : int
+        Pairs of edges that cross.
+    too_many_pairs : bool
+        Whether there were too many pairs to look at all of them.
+    overlapping : bool
+        Whether an edge has more than one region beside it somewhere, or less than none.
+    negative : bool
+        Whether less than none.
+    shared_length : float
+        The length along which edges run against each other, which does not belong to the region's boundary.
+    """
 
     crossings: int
     too_many_pairs: bool
@@ -44,12 +56,35 @@ class OutlineDefects:
 
 
 def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
-    """∫ x^p y^q dA for all p + q ≤ order, with error bounds.
+    """Return ∫ x^p y^q dA of a region for all p + q ≤ order, with error bounds.
 
-    points: (n, 2). edges: (m, 2) indices. about: by default the center of the points' box.
-    MeasureError where the edges do not close.
+    Parameters
+    ----------
+    points : (n, 2) array_like
+    edges : (m, 2) array_like of int
+        Directed; the inside lies to the left of each.
+    order : int
+    about : (2,) array_like, optional
+        By default the center of the points' box.
+
+    Returns
+    -------
+    SimplexMoments
+
+    Raises
+    ------
+    MeasureError
+        If the edges do not close.
+
+    Examples
+    --------
+    >>> from body_moments.core.plane import area_moments
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> moments = area_moments(square, [[0, 1], [1, 2], [2, 3], [3, 0]], 2, about=(0, 0))
+    >>> round(moments[0, 0], 9), round(moments[2, 0] * 3, 9)
+    (1.0, 1.0)
     """
-    edges = np.asarray(edges)
+    points, edges = np.asarray(points), np.asarray(edges)
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)] if len(edges) else [np.zeros(1)] * 2
     loose = int(np.count_nonzero(ends[0] != ends[1]))
     if loose:
@@ -60,21 +95,57 @@ def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLi
 def outline_moments(
     points: ArrayLike, edges: ArrayLike, order: int = 0, about: ArrayLike | None = None
 ) -> SimplexMoments:
-    """∫ x^p y^q ds along the edges; of order 0 the perimeter."""
+    """Return ∫ x^p y^q ds along the edges; of order 0 the perimeter."""
     return facet_moments(points, edges, order, about)
 
 
 def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
-    """(m, 2) the edges of loops of indices, in the direction of each."""
+    """Return the edges of loops, in the direction of each.
+
+    Parameters
+    ----------
+    loops : sequence of (k,) array_like of int
+        Indices of points.
+
+    Returns
+    -------
+    (m, 2) integer array
+
+    Examples
+    --------
+    >>> from body_moments.core.plane import directed_edges
+    >>> directed_edges([[0, 1, 2]]).tolist()
+    [[0, 1], [1, 2], [2, 0]]
+    """
     loop_edges = [np.stack([np.asarray(loop), np.roll(loop, -1)], axis=1) for loop in loops]
     return np.concatenate(loop_edges).astype(np.intp) if loop_edges else np.empty((0, 2), np.intp)
 
 
 def orient_loops(points: NDArray, loops: Sequence[NDArray]) -> NDArray[np.intp]:
-    """(m, 2) the edges of loops of any direction, turned so that what lies in an odd number of them is inside:
-    outlines, holes in those, islands in holes.
+    """Return the edges of loops of any direction, oriented so that what lies in an odd number of loops is inside.
 
-    MeasureError where one loop runs along another all the way, so that neither is in the other.
+    Parameters
+    ----------
+    points : (n, 2) array
+    loops : sequence of (k,) integer arrays
+        Outlines, holes in those, islands in holes.
+
+    Returns
+    -------
+    (m, 2) integer array
+        The inside lies to the left of each edge.
+
+    Raises
+    ------
+    MeasureError
+        If one loop runs along another all the way, so that neither is in the other.
+
+    Examples
+    --------
+    >>> from body_moments.core.plane import orient_loops
+    >>> square = np.array([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]])
+    >>> orient_loops(square, [np.arange(4)])[0].tolist()
+    [3, 2]
     """
     lows, highs = (
         np.array([extreme(points[loop], axis=0) for loop in loops]).reshape(-1, 2) for extreme in (np.min, np.max)
@@ -116,15 +187,32 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
     origin = points[edges[0, 0]]
     a, b = (points[edges[:, i]] - origin for i in (0, 1))
     outline = connected_components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]
-    sums = np.bincount(outline, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0)
+    sums = sums_by_index(outline, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0)
     return sums[np.unique(outline)]
 
 
 def find_defects(points: NDArray, edges: NDArray, error: float = 0.0) -> OutlineDefects:
-    """What makes it unclear which side of the edges is inside. Outlines may touch, at corners and along edges; edges so
-    short that their ends touch have no sides.
+    """Find what makes it unclear which side of the edges is inside.
 
-    error: how far the points may be from where they were meant; what overlaps by no more touches.
+    Outlines may touch, at corners and along edges; edges so short that their ends touch have no sides.
+
+    Parameters
+    ----------
+    points : (n, 2) array
+    edges : (m, 2) integer array
+    error : float
+        How far the points may be from where they were meant; what overlaps by no more touches.
+
+    Returns
+    -------
+    OutlineDefects
+
+    Examples
+    --------
+    >>> from body_moments.core.plane import directed_edges, find_defects
+    >>> bow_tie = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])
+    >>> find_defects(bow_tie, directed_edges([range(4)])).crossings
+    1
     """
     if not len(edges):
         return OutlineDefects(0, False, False)

@@ -34,9 +34,24 @@ MIN_AXIS_SHARE = 0.05  # the least share of an axis that must lie in the plane t
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """origin: (3,). axes: (3, 3), columns x, y and the normal, right-handed. out_of_plane: how far the points are off
-    it.
-    x_axis_name: which of the preferred axes x is nearest to: "X" or "Y"."""
+    """The plane of a section.
+
+    Attributes
+    ----------
+    origin : (3,) array
+    axes : (3, 3) array
+        Columns x, y and the normal, right-handed.
+    out_of_plane : float
+        How far the points are off it.
+    x_axis_name : str
+        The preferred axis that x is nearest to: "X" or "Y".
+
+    Examples
+    --------
+    >>> from body_moments.core.plane import Plane
+    >>> Plane(np.zeros(3), np.eye(3), 0.0, "X").project(np.array([[1.0, 2.0, 3.0]])).tolist()
+    [[1.0, 2.0]]
+    """
 
     origin: NDArray[np.float64]
     axes: NDArray[np.float64]
@@ -44,19 +59,37 @@ class Plane:
     x_axis_name: str
 
     def project(self, points: NDArray) -> NDArray[np.float64]:
-        """(n, 2) the points in the plane's axes."""
+        """Return the (n, 2) coordinates of points along the plane's x and y axes."""
         x, y, z = (points - self.origin).T
         return np.stack([x * a[0] + y * a[1] + z * a[2] for a in self.axes.T[:2]], axis=1)
 
 
 @dataclass(frozen=True, eq=False)
 class Section:
-    """One region, in one unit of length.
+    """Section properties of one region, in one unit of length.
 
-    centroid: (2,) in the plane's axes from its origin. second: (3,) I_x, I_y, I_xy about the centroid. reach: (4,) the
-    distance of the outermost corner from the axes x, y, 1, 2 through the centroid. outlines, holes: how many.
-    rounding_error, input_error: bounds {"area", "perimeter", "centroid", "second"} of rounding, and of what storing
-    coordinates as float32 may have moved; of the centroid its length, of the second moments each of them.
+    Attributes
+    ----------
+    plane : Plane
+    area, perimeter : float
+    centroid : (2,) array
+        In the plane's axes from its origin.
+    second : (3,) array
+        I_x, I_y, I_xy about the centroid.
+    reach : (4,) array
+        The distance of the outermost corner from the axes x, y, 1, 2 through the centroid.
+    outlines, holes : int
+    rounding_error, input_error : dict of str to float
+        Bounds of "area", "perimeter", "centroid" and "second": of rounding, and of what storing coordinates as float32
+        may have moved; of the centroid its length, of the second moments each of them.
+
+    Examples
+    --------
+    >>> from body_moments.core.plane import Plane, directed_edges, measure_section
+    >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
+    >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
+    >>> np.round(section.moduli * 6, 9).tolist(), round(section.polar * 6, 9)
+    ([2.0, 4.0, 4.0, 2.0], 5.0)
     """
 
     plane: Plane
@@ -95,7 +128,7 @@ class Section:
 
     @property
     def _noise(self) -> float:
-        """What tells nothing of the axes. Where bounds are wide the moments are those of axes all the same."""
+        """What rounding can make of the axes. Where bounds are wide the moments are still those of axes."""
         return min(self.rounding_error["second"] + self.input_error["second"], MAX_NOISE_SHARE * self.principal[0])
 
     @property
@@ -115,7 +148,8 @@ class Section:
 
 
 def principal_angle(second: NDArray, noise: float) -> float:
-    """Where axis 1 lies, in (-π/2, π/2]; a product of inertia below `noise` is none, lest it turn the axis over."""
+    """Where axis 1 lies, in (-π/2, π/2]; a product of inertia below `noise` is none, so that it cannot turn the axis
+    over."""
     first, last, mixed = second.tolist()
     if abs(mixed) <= noise:
         return 0.0 if first >= last else pi / 2.0
@@ -130,11 +164,36 @@ def fit_plane(
     error: float = 0.0,
     facing: NDArray | None = None,
 ) -> Plane:
-    """The plane of triangles over (n, 3) points, facing as most of their area does, or as `facing`.
+    """Fit the plane of triangles that are flat.
 
-    prefer: (3, 3) columns, axes that the plane's x is to be near to: the first, or where that stands upright on the
-    plane the second. origin: (3,) a point whose foot on the plane becomes its origin. error: how far the points may be
-    from where they were meant. MeasureError where they are not planar, or have no area.
+    Parameters
+    ----------
+    points : (n, 3) array
+    triangles : (m, 3) integer array
+    prefer : (3, 3) array
+        Columns: axes that the plane's x is to be near to: the first, or where that is normal to the plane the second.
+    origin : (3,) array
+        A point whose foot on the plane becomes its origin.
+    error : float
+        How far the points may be from where they were meant.
+    facing : (3,) array, optional
+        A direction that the normal is to agree with; by default most of the triangles' area.
+
+    Returns
+    -------
+    Plane
+
+    Raises
+    ------
+    MeasureError
+        If the points are not planar, or have no area.
+
+    Examples
+    --------
+    >>> from body_moments.core.plane import fit_plane
+    >>> plane = fit_plane(np.eye(4, 3, -1) + 1.0, np.array([[0, 1, 2]]), np.eye(3), np.zeros(3))
+    >>> plane.origin.tolist(), plane.axes[:, 2].tolist()
+    ([0.0, 0.0, 1.0], [0.0, 0.0, 1.0])
     """
     vectors = normals(points, triangles)
     sizes = np.sqrt((vectors * vectors).sum(axis=1))
@@ -189,11 +248,37 @@ def region(
 
 
 def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0, shared: float = 0.0) -> Section:
-    """The properties of the region left of directed edges over (n, 3) points near the plane. `polygon.find_defects`
-    tells whether that is one region, and the length that edges share, which the perimeter leaves out twice.
+    """Measure the region to the left of directed edges.
 
-    error: how far storing the points as float32 may have moved each of them.
-    MeasureError where the edges enclose no area, or do not close.
+    `find_defects` reports whether that is one region, and the length that edges share.
+
+    Parameters
+    ----------
+    plane : Plane
+    points : (n, 3) array
+        Near the plane.
+    edges : (m, 2) integer array
+    error : float
+        How far storing the points as float32 may have moved each of them.
+    shared : float
+        The length that edges share, which the perimeter leaves out twice.
+
+    Returns
+    -------
+    Section
+
+    Raises
+    ------
+    MeasureError
+        If the edges enclose no area, or do not close.
+
+    Examples
+    --------
+    >>> from body_moments.core.plane import Plane, directed_edges, measure_section
+    >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
+    >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
+    >>> round(section.area, 9), section.center.tolist(), np.round(section.second * 12, 9).tolist()
+    (2.0, [1.0, 0.5, 0.0], [2.0, 8.0, 0.0])
     """
     flat = plane.project(points)
     used = flat[edges.ravel()] if len(edges) else np.zeros((1, 2))

@@ -3,5 +3,14 @@
 """Moments of what triangles and quads bound: to third order, to any order, in n dimensions."""
 
 from .integration import MAX_ORDER, polyhedron_moments
+from .n_dimensions import SimplexMoments, enclosed_moments, facet_moments
+from .sheared_areas import area_of_images
 
-__all__ = ["MAX_ORDER", "polyhedron_moments"]
+__all__ = [
+    "MAX_ORDER",
+    "SimplexMoments",
+    "area_of_images",
+    "enclosed_moments",
+    "facet_moments",
+    "polyhedron_moments",
+]

@@ -10,8 +10,8 @@ w and over the triangle itself, of doubled area A,
 
 Their explicit sum for S has binomial(n+9, 9) terms up to order n; the recursion of `levels` takes the generating
 function factor by factor, some 14 operations for each moment and triangle. Coordinates are taken about a point of the
-body, and scaled by a power of two to at most about 1 where they are far from it, lest their 20th powers lose every
-digit or leave the range.
+body, and scaled by a power of two to at most about 1 where they are far from it, so that their 20th powers do not lose
+every digit or leave the range.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import chain, islice
 from math import factorial, frexp
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +41,7 @@ SCRATCH_NUMBERS = 1_400_000  # that a block's scratch may hold; with fewer, two 
 MIN_FACES_PER_BLOCK = 4608
 BLOCKS_PER_TASK = 8  # blocks that are handed to a thread at once
 MAX_UNSCALED_EXPONENT = 8  # powers of two up to which coordinates are left as they are
-MAX_EXPONENT = 1000.0  # powers of two beyond which a moment is no number
+MAX_EXPONENT = 1000.0  # powers of two beyond which a moment overflows
 
 
 @lru_cache
@@ -130,8 +131,9 @@ class _StreamIntegrator:
         reach: float | None,
     ):
         self.order, self.area, self.threads, self.progress = order, area, max(1, threads), progress
-        self.center = about
-        self.exponent = None if reach is None else _exponent(reach)
+        # None until the first piece is seen, where nobody has given them
+        self.center = cast("NDArray[np.float64]", about)
+        self.exponent = cast("int", None if reach is None else _exponent(reach))
         self.idle: list[AnyOrderKernel] = []
         self.half_ulp = np.zeros(3)
 
@@ -223,10 +225,10 @@ class _StreamIntegrator:
         return len(task.faces), block_sums
 
     @staticmethod
-    def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray], int]]:
+    def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray] | NDArray, int]]:
         """The corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles; and
         how many there are in a block that is full. Each block is judged by itself, so that it does not depend on its
-        neighbours."""
+        neighbors."""
         for start in range(0, len(task.faces), task.size):
             faces = task.faces[start : start + task.size]
             if faces.shape[1] == 4:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The inner loop of `recursion`: all moments of triangles and pairs of triangles, a block at a time.
+"""The inner loop of `any_order`: all moments of triangles and pairs of triangles, a block at a time.
 
 Over the triangle a, b, c the mean of the monomial x^α of degree n is 2 α! / (n+2)! times the coefficient S_α of the
 generating function 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)). Each factor is one level of a recursion,
@@ -10,7 +10,7 @@ generating function 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)). Each factor is one level 
 of which only one degree is kept at a time. Two triangles that share the edge a-c share C and D. Of the last degree only
 sums over faces are wanted, and those of S_α = C_α + Σ_i c_i D_{α-e_i} + Σ_i b_i S_{α-e_i} need no D and no S.
 
-Rows are the monomials of one degree in the order of `moments.monomials`, columns are faces. The rows that a level's sum
+Rows are the monomials of one degree in the order of `monomials`, columns are faces. The rows that a level's sum
 takes from the degree below stand in runs, so that nothing is fetched or copied: 14 operations a moment, all on whole
 rows. What Python does between two calls of numpy only one thread can do at a time, and a thread that has to wait for it
 loses more than most calls take: hence calls that are few and long, over large blocks and all levels at once, with views
@@ -33,7 +33,7 @@ from ..moments.monomials import count_of_degree, monomial_count, monomials, quot
 from .workspace import Workspace, gather
 
 FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates
-SLICES_PER_ROW = 16  # of a row, that einsum adds up: a divisor of CHUNK
+SLICES_PER_ROW = 16  # of a row, that einsum adds up: a divisor of FACES_PER_CHUNK
 # of a determinant, and of a doubled area, relative to the sizes of their terms: see `polyhedron`
 DETERMINANT_ROUNDING = 9.0 * U
 # underflow loses less than its root of a length, and than `DETERMINANT_ROUNDING` times it of a doubled area
@@ -57,8 +57,8 @@ def multinomials(degree: int) -> NDArray[np.float64]:
 class Sums:
     """What a block of faces adds, in the unit in which their coordinates are at most about 256.
 
-    sums: (weights, K) Σ over faces of determinant S_α, and of doubled area S_α.
-    chunks: (3 + 3 + weights + c-1, m), of each chunk of CHUNK faces the largest and the least coordinates, Σ |weight|
+    sums: (weights, K) Σ over faces of determinant S_α, and of doubled area S_α. chunks: (3 + 3 + weights + c-1, m), of
+    each chunk of FACES_PER_CHUNK faces the largest and the least coordinates, Σ |weight|
         and the squares of its longest edges from the first corner.
     half_ulp: (3,) of the coordinates.
     """
@@ -95,8 +95,8 @@ class _Block:
 
     corners: (3, c, k). edges: (3, c-1, k). apex_vectors: (w, c-2, k), the weights of the triangles a, b, c and a, c, d;
     both: (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree.
-    weighted_products: (w, 3, c, k), weights times corners. room: for what is needed for a moment.
-    total: (w, K), the sums. chunks: as in `Sums`; neighbours stand below each other in the (CHUNK, m) that a row is.
+    weighted_products: (w, 3, c, k), weights times corners. room: for what is needed for a moment. total: (w, K), the
+    sums. chunks: as in `Sums`; neighbors stand below each other in the (FACES_PER_CHUNK, m) that a row is.
     """
 
     def __init__(self, workspace: Workspace, count: int, k: int, *, order: int, weights: int):
@@ -243,7 +243,13 @@ class AnyOrderKernel:
         self.workspace = Workspace(partial(_Block, order=order, weights=self.weights))
 
     def block_sums(
-        self, points: NDArray, center: NDArray, scale: float, half_ulp: NDArray, faces: Sequence[NDArray], size: int
+        self,
+        points: NDArray,
+        center: NDArray,
+        scale: float,
+        half_ulp: NDArray,
+        faces: Sequence[NDArray] | NDArray,
+        size: int,
     ) -> Sums:
         """The sums over a block of faces, all triangles or all pairs. size: how many are in one that is full.
 
@@ -261,7 +267,7 @@ class AnyOrderKernel:
 
     @staticmethod
     def _gather_corners(
-        block: _Block, points: NDArray, faces: Sequence[NDArray], center: NDArray, scale: float
+        block: _Block, points: NDArray, faces: Sequence[NDArray] | NDArray, center: NDArray, scale: float
     ) -> None:
         """The corners' coordinates and the edges from the first corner."""
         k = len(faces[0])
@@ -319,7 +325,7 @@ def _first_row(run: int) -> int:
 
 def _sliced_dot(products: str, weights: NDArray, terms: NDArray, out: NDArray) -> None:
     """Scalar products over slices of the rows, and over what is left of them then."""
-    np.add.reduce(np.einsum(products, weights, terms), -1, None, out)
+    np.add.reduce(np.einsum(products, weights, terms), axis=-1, out=out)
 
 
 def _add_last(sums: NDArray, powers: NDArray, degree: int, total: NDArray) -> None:

@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The moments of what triangles and quads bound: one entry to the kernels.
 
-To third order a kernel of its own is several times as fast (`third_order`, and `third_order_small` for bodies of few
-triangles); higher orders are for the recursion (`any_order`).
+To third order a kernel of its own is several times as fast (`third_order`); higher orders are for the recursion
+(`any_order`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from math import isfinite
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,6 +27,36 @@ MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double pr
 THIRD = 3  # orders up to this one have their own kernel
 
 
+@overload
+def polyhedron_moments(
+    body: Surface | Iterable[Surface | NDArray],
+    order: int = THIRD,
+    *,
+    area_order: None = None,
+    about: ArrayLike | None = None,
+    reach: float | None = None,
+    exact: bool = False,
+    threads: int = 1,
+    progress: Callable[[int], None] | None = None,
+    planarity: PlanarityAccumulator | None = None,
+) -> tuple[Moments, None]: ...
+
+
+@overload
+def polyhedron_moments(
+    body: Surface | Iterable[Surface | NDArray],
+    order: int = THIRD,
+    *,
+    area_order: int,
+    about: ArrayLike | None = None,
+    reach: float | None = None,
+    exact: bool = False,
+    threads: int = 1,
+    progress: Callable[[int], None] | None = None,
+    planarity: PlanarityAccumulator | None = None,
+) -> tuple[Moments, Moments]: ...
+
+
 def polyhedron_moments(
     body: Surface | Iterable[Surface | NDArray],
     order: int = THIRD,
@@ -39,12 +69,13 @@ def polyhedron_moments(
     progress: Callable[[int], None] | None = None,
     planarity: PlanarityAccumulator | None = None,
 ) -> tuple[Moments, Moments | None]:
-    """The moments of the body that a closed surface bounds, and of the surface itself.
+    """Return the moments of the body that a closed surface bounds, and of the surface itself.
 
     The volume's are positive for outward faces, signed otherwise. An open surface is closed by the cone from the
-    reference point. `error` bounds the rounding of every moment, `input_error` what storing coordinates as float32 may
-    have changed (of a closed surface). Memory beside what `body` holds: for each thread a block's scratch, some 13 MB
-    at order 4, 30 MB at order 20 and 65 MB at order 30, and some 15 MB for the bounds; to third order less.
+    reference point. `rounding_error` bounds the rounding of every moment, `input_error` the change that storing
+    coordinates as float32 may have made (of a closed surface). Memory beside what `body` holds: for each thread a
+    block's scratch, some 13 MB at order 4, 30 MB at order 20 and 65 MB at order 30, and some 15 MB for the bounds; to
+    third order less.
 
     Parameters
     ----------
@@ -58,16 +89,19 @@ def polyhedron_moments(
         `input_error` the smaller. By default no areas.
     about : (3,) array_like, optional
         The reference point, by default the center of the bounding box; of a stream that can be read only once, that of
-        its first piece. Far from the body digits are lost, and `error` says how many: give a point in it.
+        its first piece. Far from the body digits are lost, and `rounding_error` states how many: give a point in it.
     reach : float, optional
         How far the body extends from there, roughly; of such a stream by default what its first piece does.
     exact : bool
-        The third order to rounding whatever the size of the mesh. Else meshes of more than 100,000 triangles leave out
-        what is of the order of an edge cubed, and `error` bounds it. Other orders are always exact to rounding.
+        Whether the third order is exact to rounding whatever the size of the mesh. Otherwise meshes of more than
+        100,000 triangles leave out what is of the order of an edge cubed, and `rounding_error` bounds it. Other orders
+        are always exact to rounding.
+    threads : int
+        Threads that share the faces.
     progress : callable, optional
         Called now and then with the number of faces done.
-    planarity : Witness, optional
-        Is shown the faces of a Surface, where that costs little.
+    planarity : PlanarityAccumulator, optional
+        Is given the faces of a Surface, where that costs little.
 
     Returns
     -------
@@ -77,10 +111,24 @@ def polyhedron_moments(
     Raises
     ------
     ValueError
-        Where coordinates are not finite, a face names no vertex, or a piece of a stream reaches much farther than the
-        first.
+        If coordinates are not finite, a face has an index without a point, or a piece of a stream reaches much farther
+        than the first.
     MeasureError
-        Where a moment is beyond the range of numbers.
+        If a moment is beyond the range of numbers.
+
+    Notes
+    -----
+    Sheynin and Tuzikov (Pattern Recognition 34, 2001), as a recursion over the monomials.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> volume, area = polyhedron_moments(surface, 8, area_order=0, about=(0, 0, 0))
+    >>> round(volume.total * 6, 12), round(area.total, 6)
+    (1.0, 2.366025)
+    >>> round(volume[8, 0, 0] * 990, 9)
+    1.0
     """
     for number in (order, 0 if area_order is None else area_order):
         if not isinstance(number, (int, np.integer)) or number < 0:
@@ -107,7 +155,7 @@ def polyhedron_moments(
             raise MeasureError("moments_overflow", order=int(order))
     else:
         volume, area = any_order.integrate(stream, highest, area_order is not None, threads, progress, about, reach)
-    if area_order is None:
+    if area_order is None or area is None:
         return _to_order(volume, order), None
     return _to_order(volume, order), _to_order(area, area_order)
 

@@ -8,10 +8,10 @@ Sheynin and Tuzikov's formulae hold in any dimension. Over the simplex of the or
 
 and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, for det and |α|+n-1 for |α|+n. Each
 factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), here a degree at a time over blocks of
-simplices. det = v_1·N, with N, the generalised cross product of the facet's edges, from minors, largest first.
+simplices. det = v_1·N, with N, the generalized cross product of the facet's edges, from minors, largest first.
 
 Bounds. Nothing but products and sums: each step's rounding is relative to the same expression in absolute values,
-which the recursion computes beside the value. So `error` is rigorous, and tight to the number of operations.
+which the recursion computes beside the value. So `rounding_error` is rigorous, and tight to the number of operations.
 """
 
 from __future__ import annotations
@@ -34,10 +34,24 @@ UNDERFLOW = 2.0**-1000  # of a body of size 1: far above what products of its co
 
 @dataclass(frozen=True, eq=False)
 class SimplexMoments:
-    """Moments in n dimensions to some order.
+    """Moments in n dimensions to some order; `moments[p, q, …]` is one of them.
 
-    raw: (K,) ∫ x^α about `about`, in the order of `multi_indices`. about: (n,). rounding_error: (K,) bound of |raw -
-    exact| for the coordinates and the point as given.
+    Attributes
+    ----------
+    raw : (K,) array
+        ∫ x^α about `about`, in the order of `multi_indices`.
+    about : (n,) array
+    order : int
+    rounding_error : (K,) array
+        Bounds of |raw - exact| for the coordinates and the point as given.
+
+    Examples
+    --------
+    >>> from body_moments.core.polyhedron import enclosed_moments
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> moments = enclosed_moments(square, [[0, 1], [1, 2], [2, 3], [3, 0]], 2, about=(0, 0))
+    >>> round(moments[1, 1], 12), moments.bound((1, 1)) < 1e-14
+    (0.25, True)
     """
 
     raw: NDArray[np.float64]
@@ -56,7 +70,7 @@ class SimplexMoments:
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
     """(K, n) all exponents of degree at most `order`, by degree, the first exponents largest first; read-only. In three
-    dimensions the order of `moments.monomials`."""
+    dimensions the order of `monomials`."""
     exponents = [row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)]
     table = np.array(exponents, np.int64).reshape(-1, dimension)
     table.flags.writeable = False
@@ -71,13 +85,42 @@ def multi_index_position(dimension: int, order: int, exponents: tuple[int, ...])
 def enclosed_moments(
     points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLike | None = None, signs: ArrayLike | None = None
 ) -> SimplexMoments:
-    """The moments of the n-volume that the simplices enclose, positive where the boundary is oriented outward.
+    """Return the moments of what a boundary of simplices encloses, in any dimension.
 
-    points: (m, n). simplices: (k, n) indices, outward where det(v_1, …, v_n) > 0 for a body around the origin: edges
-    counter-clockwise in the plane, triangles counter-clockwise from outside in space. about: (n,), by default the
-    center of the points' box. signs: (k,) 1 or -1, the orientation of each simplex beside the order of its corners; on
-    a line, where a corner alone has none, it tells the upper ends from the lower ones. ValueError for coordinates that
-    are not finite and for indices that name no point; MeasureError where moments are beyond the range of numbers.
+    Parameters
+    ----------
+    points : (m, n) array_like
+    simplices : (k, n) array_like of int
+        Outward where det(v_1, …, v_n) > 0 for a body around the origin: edges counter-clockwise in the plane, triangles
+        counter-clockwise from outside in space.
+    order : int
+    about : (n,) array_like, optional
+        By default the center of the points' box.
+    signs : (k,) array_like, optional
+        1 or -1, the orientation of each simplex beside the order of its corners; on a line, where a corner alone has
+        none, it distinguishes upper ends from lower ones.
+
+    Returns
+    -------
+    SimplexMoments
+        Positive where the boundary is oriented outward.
+
+    Raises
+    ------
+    ValueError
+        If coordinates are not finite or an index has no point.
+    MeasureError
+        If moments are beyond the range of numbers.
+
+    Notes
+    -----
+    Sheynin and Tuzikov's formulas, which hold in any dimension; the recursion of Pozo et al.
+
+    Examples
+    --------
+    >>> from body_moments.core.polyhedron import enclosed_moments
+    >>> round(enclosed_moments([[0, 0], [2, 0], [0, 2]], [[0, 1], [1, 2], [2, 0]], 0)[0, 0], 12)
+    2.0
     """
     return _measure(points, simplices, order, about, signs, enclosed=True)
 
@@ -85,8 +128,28 @@ def enclosed_moments(
 def facet_moments(
     points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLike | None = None
 ) -> SimplexMoments:
-    """The moments of the boundary itself by its (n-1)-measure: length in the plane, area in space, the number of
-    points on a line. Arguments as for `enclosed_moments`."""
+    """Return the moments of the boundary itself: length in the plane, area in space, points on a line.
+
+    Parameters
+    ----------
+    points, simplices, order, about
+        As for `enclosed_moments`.
+
+    Returns
+    -------
+    SimplexMoments
+
+    Raises
+    ------
+    ValueError, MeasureError
+        As `enclosed_moments`.
+
+    Examples
+    --------
+    >>> from body_moments.core.polyhedron import facet_moments
+    >>> round(facet_moments([[0, 0], [3, 0], [3, 4]], [[0, 1], [1, 2], [2, 0]], 0)[0, 0], 12)
+    12.0
+    """
     return _measure(points, simplices, order, about, None, enclosed=False)
 
 
@@ -116,10 +179,10 @@ def _measure(
     low, high = used.min(axis=0), used.max(axis=0)
     if not all(map(isfinite, [*low, *high])):
         raise ValueError("coordinates must be finite")
-    about = low / 2.0 + high / 2.0 if about is None else np.asarray(about, np.float64)
-    if about.shape != (dimension,) or not np.isfinite(about).all():
+    center: NDArray[np.float64] = low / 2.0 + high / 2.0 if about is None else np.asarray(about, np.float64)
+    if center.shape != (dimension,) or not np.isfinite(center).all():
         raise ValueError("about must be finite (d,)")
-    reach = float(np.maximum(np.abs(high - about), np.abs(low - about)).max())
+    reach = float(np.maximum(np.abs(high - center), np.abs(low - center)).max())
     exponent = int(np.frexp(reach)[1]) if reach else 0  # the body is brought to size 1, which rounds nothing
 
     if signs is not None and np.shape(signs) != (len(simplices),):
@@ -133,7 +196,7 @@ def _measure(
         vertices = simplices[start : start + block].T
         corners = np.ascontiguousarray(points[vertices].transpose(0, 2, 1))  # (n corners, n coordinates, k)
         edges = np.ldexp(corners[1:] - corners[:1], -exponent)
-        corners = np.ldexp(corners - about[:, None], -exponent)
+        corners = np.ldexp(corners - center[:, None], -exponent)
         weight, weight_size = _weights(corners, edges, enclosed)
         if signs is not None:
             weight = weight * np.asarray(signs, np.float64)[start : start + block]
@@ -157,7 +220,7 @@ def _measure(
         raw, error = np.ldexp(raw * factor, power), np.ldexp(error * factor, power)
     if not np.isfinite(raw).all():
         raise MeasureError("moments_overflow", order=int(order))
-    return SimplexMoments(raw, about, order, error + np.finfo(np.float64).smallest_subnormal)
+    return SimplexMoments(raw, center, order, error + np.finfo(np.float64).smallest_subnormal)
 
 
 def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
@@ -178,23 +241,25 @@ def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
 def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(k,) det or |N| of each simplex, and the same in absolute values."""
     normal, size = _normals(edges)
+    nothing = np.zeros(edges.shape[2])
     if enclosed:
-        return sum(v * n for v, n in zip(corners[0], normal)), sum(np.abs(v) * s for v, s in zip(corners[0], size))
-    return reduce(np.hypot, normal, 0.0), reduce(np.hypot, size, 0.0)
+        determinant = sum((v * n for v, n in zip(corners[0], normal)), nothing)
+        return determinant, sum((np.abs(v) * s for v, s in zip(corners[0], size)), nothing)
+    return reduce(np.hypot, normal, nothing), reduce(np.hypot, size, nothing)
 
 
 def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
-    """The n components of the generalised cross product of n-1 edges, and the same with every term positive.
+    """The n components of the generalized cross product of n-1 edges, and the same with every term positive.
 
     edges: (n-1, n, k). Minors by Laplace's expansion along the last row, smaller ones shared.
     """
     dimension = len(edges) + 1
     ones = np.ones(edges.shape[2])
-    minors = {(): (ones, ones)}
+    minors: dict[tuple[int, ...], tuple[NDArray, NDArray]] = {(): (ones, ones)}
     for row, edge in enumerate(edges):
-        grown = {}
+        grown: dict[tuple[int, ...], tuple[NDArray, NDArray]] = {}
         for columns in combinations(range(dimension), row + 1):
-            value = size = 0.0
+            value = size = np.zeros(())
             for i, column in enumerate(columns):
                 minor, minor_size = minors[columns[:i] + columns[i + 1 :]]
                 value = value + (-1) ** (row + i) * (edge[column] * minor)

@@ -20,10 +20,30 @@ SUM_ROUNDINGS = 128  # u: within a block numpy adds up in pairs of sums of at mo
 
 
 def area_of_images(surface: Surface, linear: NDArray) -> Moments:
-    """The areas of all images together, of order 0.
+    """Return the total area of a surface's images under linear maps, which may stretch it unevenly.
 
-    linear: (k, 3, 3) the maps. `error` bounds the rounding; `input_error` the change when every coordinate moves by its
-    float32 half ulp.
+    Parameters
+    ----------
+    surface : Surface
+    linear : (k, 3, 3) array
+
+    Returns
+    -------
+    Moments
+        Of order 0. `rounding_error` bounds the rounding, `input_error` the change when every coordinate moves by half
+        an ulp of its float32 value.
+
+    Notes
+    -----
+    Nanson's formula: the image of a normal under A is cof(A) n.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.polyhedron import area_of_images
+    >>> triangle = Surface.from_triangles(np.eye(4, 3, -1), [[0, 1, 2]])
+    >>> round(area_of_images(triangle, np.array([np.diag([2.0, 3.0, 1.0]), np.eye(3)])).total, 12)
+    3.5
     """
     linear = np.asarray(linear, np.float64)
     triangles, _ = surface.all_triangles()

@@ -11,14 +11,21 @@ triangle with edge e and f from the middle to the third corner
 
     E[x x' x''] = f f' f'' / 10 + (f e' e'' + e f' e'' + e e' f'') / 120.
 
-They are of the order of an edge cubed: large meshes leave them out, and add their bound to `error`; small ones, and
-large ones on request, take them along.
+They are of the order of an edge cubed: large meshes leave them out, and add their bound to `rounding_error`; small
+ones, and large ones on request, take them along.
 
 Rounding. Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the
 product of its edges, not to the body's size cubed; that keeps the bound small for fine meshes and far from the origin.
 With u = 2^-53, edges e and e' and vertices within `reach` of the reference point, a determinant is off by at most
 9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y| bounds |normal_x|: as the product of a vertex with the normal, and as
 that of an edge with the product of the other edge and the vertex.
+
+Of bodies of few triangles, where numpy's calls cost more than its arithmetic, all triangles are taken at once, by the
+complete homogeneous polynomials of their corners (Sheynin and Tuzikov's formula to third order): with s = a + b + c,
+P = aa' + bb' + cc' and a triangle's weight w,
+
+    24 ∫ x = Σ w s,   120 ∫ x x' = Σ w (s s' + P),
+    720 ∫ x x' x'' = Σ w (s s' s'' + s P' + the same for the other two orders of the indices + 2 Σ_corners c c' c'').
 """
 
 from __future__ import annotations
@@ -39,6 +46,7 @@ from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U
 from ..moments.monomials import monomial_count, monomials
 from .third_order_kernel import (
     NO_VERTEX,
+    PAIR_INDEX,
     TRIPLES,
     BlockAccumulator,
     BlockResult,
@@ -46,17 +54,16 @@ from .third_order_kernel import (
     combine_blocks,
     scratch_size,
 )
-from .third_order_small import integrate_small
 
 MAX_TRIANGLES_PER_BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
 SCRATCH_BYTES = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
 # triangles up to which the exact third order, half as much again, costs no time to speak of
 MAX_TRIANGLES_EXACT_THIRD = 100_000
-MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small` is faster
+MAX_SMALL_TRIANGLES = 1024  # triangles up to which `_integrate_small` is faster
 MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs more than it saves
 # triangles that are worth a thread: of fewer the calls are short, and wait for the interpreter
 MIN_TRIANGLES_PER_THREAD = 250_000
-# reaches beyond this, or below its inverse, are scaled, lest a product of six overflow or vanish
+# reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow or vanish
 MAX_UNSCALED_REACH = 2.0**100
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
@@ -71,6 +78,16 @@ AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2,
 # What is measured at a time: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles whose rows may be halves
 # of one quad, with the surface's row that each array begins at; or, without rows, the (4, k) corners of turned quads.
 _Block = tuple[list[int], list[NDArray]]
+
+
+ROWS, COLUMNS = np.triu_indices(3)
+NEXT_AXIS, PREVIOUS_AXIS = [1, 2, 0], [2, 0, 1]
+# Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, the three terms of each symmetric product stand.
+CUBE = np.array(
+    [[6 * i + PAIR_INDEX[j, k], 6 * j + PAIR_INDEX[i, k], 6 * k + PAIR_INDEX[i, j]] for i, j, k in TRIPLES]
+).T
+# of the sums of `blocks`, to whose divisors these bring
+DIVISOR_FACTORS = np.repeat([1.0, 2.0, 1.0, 8.0 / 3.0], [1, 3, 6, 10])
 
 
 def integrate(
@@ -99,20 +116,20 @@ def integrate(
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
     largest = max(reach.tolist())
     if largest and not 1.0 / MAX_UNSCALED_REACH < largest < MAX_UNSCALED_REACH:
-        return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area=area, shell=shell, exact=exact)
+        return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area, shell, exact)
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
+    job = _Integration(points, center, reach, surface.coordinate_error, count, area, shell, exact, planarity)
+    if count <= MAX_SMALL_TRIANGLES:
+        for faces in (surface.triangles, surface.quads):
+            if len(faces) and not indices_in_range(faces, len(points)):
+                raise ValueError(NO_VERTEX)
+        triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
+        return job.moments(_integrate_small(points, center, triangles, area=area, shell=shell))
     # Two threads have a block each: the sums are the same with one, and with more where there is room for more.
     room, each = SCRATCH_BYTES[0] * count + SCRATCH_BYTES[1], 8 * scratch_size(3, area, exact)
     size = max(2, min(MAX_TRIANGLES_PER_BLOCK, room // (2 * each), count) // 2 * 2)
     threads = max(1, min(threads, count // MIN_TRIANGLES_PER_THREAD, room // (each * size)))
-    job = _Integration(
-        points, center, reach, surface.coordinate_error, count, area, shell, exact, planarity, size, threads
-    )
-    if count <= MAX_SMALL_TRIANGLES:
-        if not all(indices_in_range(faces, len(points)) for faces in (surface.triangles, surface.quads)):
-            raise ValueError(NO_VERTEX)
-        triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
-        return job.moments(integrate_small(points, center, triangles, area=area, shell=shell))
+    job = replace(job, size=size, threads=threads)
     return job.moments(combine_blocks(job.block_sums(job.blocks(surface))))
 
 
@@ -137,7 +154,7 @@ def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float
 
 
 def _measure_rescaled(
-    surface: Surface, exponent: int, threads: int, about: NDArray | None, **options: bool
+    surface: Surface, exponent: int, threads: int, about: NDArray | None, area: bool, shell: bool, exact: bool
 ) -> tuple[Moments, Moments]:
     """The moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
     triangles, faces = surface.all_triangles()
@@ -145,9 +162,9 @@ def _measure_rescaled(
     small = Surface(points, triangles, triangle_faces=faces, displacement=np.ldexp(surface.coordinate_error, -exponent))
     results = []
     about = None if about is None else np.ldexp(about, -exponent)
-    for moments in integrate(small, threads, about=about, **options):
+    for moments in integrate(small, threads, about=about, area=area, shell=shell, exact=exact):
         powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.measure == Measure.VOLUME else 2))
-        with np.errstate(over="ignore"):  # what becomes infinite is refused by who asked for it
+        with np.errstate(over="ignore"):  # the caller refuses what becomes infinite
             results.append(
                 replace(
                     moments,
@@ -174,8 +191,8 @@ class _Integration:
     shell: bool
     exact: bool
     planarity: PlanarityAccumulator | None
-    size: int
-    threads: int
+    size: int = 0
+    threads: int = 1
 
     def blocks(self, surface: Surface) -> list[_Block]:
         """The faces in as few blocks as the memory allows, whatever the number of threads."""
@@ -241,77 +258,67 @@ class _Integration:
 
     def moments(self, sums: BlockSums) -> tuple[Moments, Moments]:
         """Volume and area, with their bounds."""
-        bounds = _ErrorBounds(self, sums)
+        sizes, rounding, inputs = _error_bounds(self, sums)
         raw = sums.sums / DIVISORS
-        volume = Moments(raw, self.center, Measure.VOLUME, *bounds.volume(raw))
+        error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
+        volume = Moments(raw, self.center, Measure.VOLUME, error, inputs[0])
         if not self.area:
             return volume, Moments(np.zeros(1), self.center, Measure.AREA)
-        raw = sums.areas / (DIVISORS / AREA_FACTORS) if self.shell else np.array([bounds.sizes[1] / 2.0])
-        return volume, Moments(raw, self.center, Measure.AREA, *bounds.area(raw))
+        raw = sums.areas / (DIVISORS / AREA_FACTORS) if self.shell else np.array([sizes[1] / 2.0])
+        count = len(raw)
+        error = rounding[1, :count] / 2.0 + 8.0 * U * np.abs(raw)
+        return volume, Moments(raw, self.center, Measure.AREA, error, inputs[1, :count])
 
 
-class _ErrorBounds:
-    """What the numbers may be off by, from the largest edges of each chunk of triangles and the sums of their sizes.
+def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
+    """Bounds, from the largest edges of each chunk of triangles and the sums of their sizes, for volume and area.
 
-    sizes: the sum of the |determinants| and that of the doubled areas. tau: the sum of each τ. powers: (20,) the
-    largest value of each monomial within reach. displaced_bound: (20,) the same for points that float32 has moved, by
-    `step` at most; swept_bound: the volume that a closed surface sweeps then. edges: what bounds the sum of the lengths
-    of the edges at the triangles' first corners.
+    Returns the sum of the |determinants| and that of the doubled areas; (2, 20) the errors of Σ w E[f], w the
+    determinants and the doubled areas; and (2, 20) the `input_error` of the moments.
     """
-
-    def __init__(self, job: _Integration, sums: BlockSums):
-        self.job, self.sums = job, sums
-        self.sizes, self.count = np.add.reduce(sums.sizes, axis=1).tolist(), int(np.add.reduce(sums.counts))
-        # No product of matrices, after which the threads of some BLAS keep a core busy for a while.
-        products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts).tolist()
-        self.tau = [products[i][j] + products[j][i] for i, j in ((1, 2), (2, 0), (0, 1))]
-        self.powers = _monomial_bounds(job.reach)
-        self.step = hypot(*job.half_ulp.tolist())
-        if self.step:
-            step, double = self.step, self.sizes[1] * (1.0 + 1e-9) if job.area else hypot(*self.tau)
-            lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
-            self.edges = float(np.add.reduce(lengths * sums.counts))
-            self.swept_bound = step * (double / 2.0 + step * self.edges + 2.0 * step**2 * self.count)
-            self.displaced_bound = _monomial_bounds(job.reach + job.half_ulp)
-
-    def volume(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(20,) and (20,) `error` and `input_error` of volume moments."""
-        x, y, z = self.job.reach.tolist()
-        weight = 9.0 * U * (x * self.tau[0] + y * self.tau[1] + z * self.tau[2])
-        error = self._error(weight, 0) / CONE_DIVISORS + 8.0 * U * np.abs(raw)
-        return error, self.swept_bound * self.displaced_bound if self.step else np.zeros(20)
-
-    def area(self, raw: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(k,) and (k,) `error` and `input_error` of area moments."""
-        error = self._error(9.0 * U * sum(self.tau), 1)[: len(raw)] / 2.0 + 8.0 * U * np.abs(raw)
-        if not self.step:
-            return error, np.zeros(len(raw))
-        tilted = self.step * (self.edges + 2.0 * self.step * self.count)
-        reach = self.job.reach + self.job.half_ulp
-        share = self.job.half_ulp / np.where(reach > 0.0, reach, 1.0)  # of an axis along which it has no extent
-        return error, (self.displaced_bound * (tilted + EXPONENTS @ share * (self.swept_bound / self.step)))[: len(raw)]
-
-    def _error(self, weight: float, which: int) -> NDArray[np.float64]:
-        """(20,) The error of Σ w E[f], w the determinants or the doubled areas: the weights are off by `weight` in all;
-        then their products with the nodes, the sums, what underflow may lose and the rest of the third order."""
-        job, sums, size = self.job, self.sums, self.sizes[which] * (1.0 + 1e-9)
-        # A product of matrices may add up one by one.
-        steps = 3.0 * job.count if job.count <= MAX_SMALL_TRIANGLES else PAIRWISE_SUM_ROUNDINGS + sums.blocks
-        error = (weight + 1e-290 * self.count + (U * (size + weight)) * (PRODUCT_ROUNDINGS + steps)) * self.powers
-        error *= THIRD_ORDER_SHARE
-        if not job.exact:
-            e, f = sums.base, sums.side + sums.base / 2.0
-            rest = [
-                f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
-                for i, j, k in TRIPLES
-            ]
-            error[10:] += (1.0 + 1e-9) * np.add.reduce(rest * sums.sizes[which], axis=1)
-        return error
+    sizes, count = np.add.reduce(sums.sizes, axis=1).tolist(), int(np.add.reduce(sums.counts))
+    # No product of matrices, after which the threads of some BLAS keep a core busy for a while.
+    products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts).tolist()
+    tau = [products[i][j] + products[j][i] for i, j in ((1, 2), (2, 0), (0, 1))]  # the sum of each τ
+    reach, half_ulp, step = job.reach, job.half_ulp, hypot(*job.half_ulp.tolist())
+    powers, displaced = _monomial_bounds(np.array([reach, reach + half_ulp]))  # (20,) and (20,)
+    x, y, z = reach.tolist()
+    # The weights are off by so much in all.
+    weight = np.array([[9.0 * U * (x * tau[0] + y * tau[1] + z * tau[2])], [9.0 * U * sum(tau)]])
+    size = np.array(sizes)[:, None] * (1.0 + 1e-9)
+    # Then come their products with the nodes, the sums, and what underflow may lose. A product of matrices may add up
+    # one by one.
+    steps = 3.0 * job.count if job.count <= MAX_SMALL_TRIANGLES else PAIRWISE_SUM_ROUNDINGS + sums.blocks
+    rounding = (weight + 1e-290 * count + (U * (size + weight)) * (PRODUCT_ROUNDINGS + steps)) * powers
+    rounding *= THIRD_ORDER_SHARE
+    if not job.exact:  # and the rest of the third order
+        e, f = sums.base, sums.side + sums.base / 2.0
+        rest = [
+            f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
+            for i, j, k in TRIPLES
+        ]
+        for which in range(2):
+            rounding[which, 10:] += (1.0 + 1e-9) * np.add.reduce(rest * sums.sizes[which], axis=1)
+    inputs = np.zeros((2, 20))
+    if step:
+        double = sizes[1] * (1.0 + 1e-9) if job.area else hypot(*tau)
+        lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
+        edges = float(np.add.reduce(lengths * sums.counts))  # bounds their sum, at the triangles' first corners
+        # the volume that a closed surface sweeps where float32 has moved its points
+        swept = step * (double / 2.0 + step * edges + 2.0 * step**2 * count)
+        tilted = step * (edges + 2.0 * step * count)
+        moved_reach = reach + half_ulp
+        share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # of an axis along which it has no extent
+        inputs[0] = swept * displaced
+        inputs[1] = displaced * (tilted + EXPONENTS @ share * (swept / step))
+    return sizes, rounding, inputs
 
 
-def _monomial_bounds(reach: NDArray) -> NDArray[np.float64]:
-    """(20,) the largest value of each monomial within reach."""
-    return np.multiply.reduce(np.array([1.0, *reach]).take(MONOMIAL_FACTORS), axis=1)
+def _monomial_bounds(reaches: NDArray) -> NDArray[np.float64]:
+    """(k, 20) the largest value of each monomial within each of (k, 3) reaches."""
+    factors = np.ones((len(reaches), 4))
+    factors[:, 1:] = reaches
+    return np.multiply.reduce(factors.take(MONOMIAL_FACTORS, axis=1), axis=2)
 
 
 def quad_corners(triangles: NDArray) -> list[NDArray] | None:
@@ -333,3 +340,37 @@ def _quad_corners_of(first: NDArray, second: NDArray) -> list[NDArray] | None:
             if all(first[0, a] == second[0, b] and np.array_equal(first[:, a], second[:, b]) for a, b in ends):
                 return [first[:, i], first[:, (i + 1) % 3], first[:, i - 1], second[:, (j + 2) % 3]]
     return None
+
+
+def _integrate_small(points: NDArray, center: NDArray, triangles: NDArray, *, area: bool, shell: bool) -> BlockSums:
+    """The sums of `blocks` over all triangles, (m, 3), as one block; the third order is exact.
+
+    area: whether doubled areas are wanted, shell: also their moments.
+    """
+    corners = points.T.astype(np.float64).take(triangles.T, axis=1)  # (3, 3, m): x, y, z of a, b, c
+    edges = corners[:, 1:] - corners[:, :1]
+    above, below = edges.take(NEXT_AXIS, 0), edges.take(PREVIOUS_AXIS, 0)
+    normals = above[:, 0] * below[:, 1] - below[:, 0] * above[:, 1]
+    nodes = np.empty((3, 4, len(triangles)))  # a, b, c and s
+    np.subtract(corners, center[:, None, None], nodes[:, :3])
+    np.add.reduce(nodes[:, :3], axis=1, out=nodes[:, 3])
+    det = np.add.reduce(normals * nodes[:, 0])
+    double = np.sqrt(np.add.reduce(normals * normals)) if area else np.zeros(1)
+    products = nodes.take(ROWS, 0) * nodes.take(COLUMNS, 0)  # (6, 4, m)
+    single = np.add.reduce(products[:, :3], axis=1)
+    second = products[:, 3] + single
+    np.add(0.5 * second, single, products[:, 3])
+
+    def sums(weights: NDArray) -> NDArray[np.float64]:
+        weighted = nodes * weights
+        first = np.add.reduce(weighted[:, 3], axis=1)
+        third = weighted.reshape(3, -1) @ products.reshape(6, -1).T
+        return DIVISOR_FACTORS * np.concatenate(
+            [[np.add.reduce(weights)], first, second @ weights, np.add.reduce(third.take(CUBE))]
+        )
+
+    edges = np.maximum.reduce(np.abs(edges), axis=2)
+    sizes = np.array([np.add.reduce(np.abs(det)), np.add.reduce(double)])
+    return BlockSums(
+        sums(det), sums(double) if shell else None, edges[:, :1], edges[:, 1:], sizes[:, None], np.array([len(det)])
+    )

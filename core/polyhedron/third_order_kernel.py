@@ -34,11 +34,12 @@ from ..mesh.surface import flipped_quads
 from .workspace import Workspace, gather
 
 SLICES_PER_ROW = 32  # of a row that einsum adds up
-COLUMNS_PER_CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES
+COLUMNS_PER_CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES_PER_ROW
 MIN_FLIP_COSINE = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
 FLOAT32_UNDERFLOW = 1e-36  # the cosine up to which they do at its other end
 NO_VERTEX = "no such vertex"
+NO_SUM = np.zeros(())
 TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
 PAIR_INDEX = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 # Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, x, y, z, the terms of the symmetric products stand: two of
@@ -54,7 +55,7 @@ class BlockSums:
     """What some blocks add.
 
     sums, areas: (20,) Σ weight, 48, 120 and 2880 ∫ of the monomials of first to third order in the order of
-    `moments.monomials`, over the cones, and over their faces as if they were cones of unit height.
+    `monomials`, over the cones, and over their faces as if they were cones of unit height.
     side, base: (3, n) the largest components of b-a (or d-a) and c-a in each chunk of triangles. sizes: (2, n)
     Σ |determinant| and Σ doubled area. counts: (n,) triangles. blocks: how many there were.
     """
@@ -114,7 +115,7 @@ class _BlockCalls:
         (self.edges, self.normals, spare), (table, middle) = workspace.overlay(
             [(3, count - 1, k), (3, crosses, k), (3, crosses, k)], [(13, k), (3, k)]
         )
-        tips, local = (workspace.take(size, fans, k) for size in (3, 6)) if exact else (None, None)
+        tips, local = (workspace.take(size, fans, k) for size in (3, 6)) if exact else (np.empty(0), np.empty(0))
 
         def chunked(array: NDArray) -> NDArray[np.float64]:
             return array.reshape(*array.shape[:-1], chunks, width)
@@ -177,7 +178,9 @@ class BlockAccumulator:
         self.flipped: list[NDArray] = []
         self.results: list[BlockResult] = []
 
-    def add_faces(self, faces: Sequence[NDArray], quads: bool = False, observe: Callable | None = None) -> None:
+    def add_faces(
+        self, faces: Sequence[NDArray] | NDArray, quads: bool = False, observe: Callable | None = None
+    ) -> None:
         """Add some faces.
 
         faces: the vertices a, b, c and perhaps d, (k,) each. quads: leave those out that Blender cuts along the other
@@ -202,17 +205,17 @@ class BlockAccumulator:
         for call in workspace.start:
             call()
         largest, least = workspace.largest(), workspace.least()
+        suspects = None
         if quads:
             suspects, flipped = self._find_flipped(workspace, np.maximum(largest, -least), k)
             workspace.normals[:, :, flipped] = 0.0
         for call in workspace.weigh:
             call()
         sizes, sums = [size() for size in workspace.sizes], []
-        if observe is not None:
-            observe(
-                workspace.weights[1, :, :k],
-                *((workspace.volume()[:k], suspects, workspace.room[:2, :k]) if quads else ()),
-            )
+        if observe is not None and suspects is not None:
+            observe(workspace.weights[1, :, :k], workspace.volume()[:k], suspects, workspace.room[:2, :k])
+        elif observe is not None:
+            observe(workspace.weights[1, :, :k])
         for call in workspace.prepare:
             call()
         for calls, totals in workspace.moments:
@@ -259,7 +262,9 @@ def combine_blocks(results: Sequence[BlockResult]) -> BlockSums:
         counts = np.minimum(k - width * np.arange(edges.shape[2]), width)
         columns += [(edges[:, 2 * i], edges[:, 1], counts, *fan) for i, fan in enumerate(zip(*sizes))]
     side, base, counts, *sizes = (np.concatenate(column, axis=-1) for column in zip(*columns))
-    sums, *areas = (to_monomial_sums(*map(sum, zip(*parts))) for parts in zip(*(sums for *_, sums in results)))
+    sums, *areas = (
+        to_monomial_sums(*(sum(of, NO_SUM) for of in zip(*parts))) for parts in zip(*(sums for *_, sums in results))
+    )
     return BlockSums(
         sums,
         areas[0] if areas else None,
@@ -337,7 +342,7 @@ def _weighted_calls(corners: NDArray, weights: NDArray, weighted: NDArray, table
 
 
 def _in_slices(table: NDArray) -> NDArray[np.float64]:
-    """(m, SLICES, ·) rows whose products can be summed."""
+    """(m, SLICES_PER_ROW, ·) rows whose products can be summed."""
     return table.reshape(len(table), SLICES_PER_ROW, -1)
 
 

@@ -36,16 +36,17 @@ class Workspace(Generic[Block]):
 
     def block(self, shape: tuple[Hashable, ...], numbers: int) -> Block:
         """The block of this shape. numbers: how many its arrays hold together, those that share memory once."""
-        if shape != self._shape:
-            self._shape = self._block = None
+        block = self._block
+        if block is None or shape != self._shape:
+            self._shape = self._block = block = None
             needed = numbers + MAX_ARRAYS * ROW_PADDING
             if len(self._buffer) < needed:
                 self._buffer = np.empty(0)  # never two of them
                 self._buffer = np.empty(needed)
             self._position = -(self._buffer.ctypes.data // 8) % 8  # aligned to 64 bytes
-            self._block = self._make(self, *shape)
+            self._block = block = self._make(self, *shape)
             self._shape = shape
-        return self._block
+        return block
 
     def take(self, *shape: int) -> NDArray[np.float64]:
         """The next contiguous array."""

@@ -31,14 +31,59 @@ SUFFIXES = tuple(READERS)
 
 
 def scan_suffix(path: str | Path) -> str:
-    """What the file's name ends with, in lower case; "" where it is no scan's."""
+    """Return what the file's name ends with, in lower case.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    str
+        One of `SUFFIXES`, or "" where it is no scan's.
+
+    Examples
+    --------
+    >>> from body_moments.core.scans import scan_suffix
+    >>> scan_suffix("Head.NII.GZ"), scan_suffix("part.stl")
+    ('.nii.gz', '')
+    """
     name = str(path).lower()
     return next((end for end in sorted(SUFFIXES, key=len, reverse=True) if name.endswith(end)), "")
 
 
 def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
-    """The scan in a file, by its suffix. FileError where it is none, damaged or beyond a limit, OSError where it cannot
-    be opened."""
+    """Read the scan in a file, by its suffix: NRRD, NIfTI-1, .npy, .npz, or .raw called NAME_XxYxZ_TYPE.raw.
+
+    Parameters
+    ----------
+    path : str or Path
+    limits : Limits
+        What its header may ask for.
+
+    Returns
+    -------
+    Scan
+        Uncompressed samples are a memory map.
+
+    Raises
+    ------
+    FileError
+        If the file is no scan, damaged or beyond a limit.
+    OSError
+        If it cannot be opened.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from body_moments.core import read_scan
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "scan.npy"
+    ...     np.save(path, np.ones((2, 3, 4), np.int16))
+    ...     read_scan(path).samples.shape
+    (2, 3, 4)
+    """
     path = Path(path)
     read = READERS.get(scan_suffix(path))
     if read is None:
@@ -62,9 +107,29 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
 def sample_matrix(
     scan: Scan, spacing: Sequence[float] | None, origin: Sequence[float] | None, unit_scale: float | None
 ) -> tuple[NDArray[np.float64], tuple[Finding, ...]]:
-    """(4, 4) where the samples stand in metres, and what was decided on the way.
+    """Return where the samples of a scan stand, in meters.
 
-    spacing, origin: in place of the header's, in units of `unit_scale` metres, by default 1; axes x, y, z.
+    Parameters
+    ----------
+    scan : Scan
+    spacing, origin : sequence of three float, or None
+        In place of the header's, in units of `unit_scale` meters; axes x, y, z.
+    unit_scale : float or None
+        Meters per unit where the file states none; 1 by default.
+
+    Returns
+    -------
+    matrix : (4, 4) array
+        The sample (i, j, k) stands at matrix @ (i, j, k, 1).
+    findings : tuple of Finding
+        What was decided on the way.
+
+    Examples
+    --------
+    >>> from body_moments.core.scans import Scan, sample_matrix
+    >>> matrix, findings = sample_matrix(Scan(np.zeros((2, 2, 2)), np.eye(4)), (2.0, 2.0, 3.0), None, 0.001)
+    >>> matrix.diagonal().tolist(), findings
+    ([0.002, 0.002, 0.003, 1.0], ())
     """
     findings = []
     matrix = scan.matrix.copy()

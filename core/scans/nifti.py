@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 import struct
 from pathlib import Path
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,8 @@ from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samp
 HEADER = 348  # bytes
 TYPES = {2: "u1", 4: "i2", 8: "i4", 16: "f4", 64: "f8", 256: "i1", 512: "u2", 768: "u4", 1024: "i8", 1280: "u8"}
 UNITS = {1: 1.0, 2: 1e-3, 3: 1e-6}
+ByteOrder: TypeAlias = Literal["<", ">"]
+BYTE_ORDERS: tuple[ByteOrder, ...] = ("<", ">")
 
 
 def read_nifti(path: Path, limits: Limits) -> Scan:
@@ -27,7 +30,9 @@ def read_nifti(path: Path, limits: Limits) -> Scan:
     head = _head(path, packed)
     if len(head) < HEADER:
         raise damaged(path, "damage_header", bytes=HEADER)
-    order = next((mark for mark in "<>" if struct.unpack_from(mark + "i", head)[0] == 348), None)
+    order: ByteOrder | None = next(
+        (mark for mark in BYTE_ORDERS if struct.unpack_from(mark + "i", head)[0] == 348), None
+    )
     if order is None or head[344:348] not in (b"n+1\0", b"ni1\0"):
         raise FileError("nifti_unrecognized")
     if head[344:348] == b"ni1\0":

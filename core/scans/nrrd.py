@@ -116,17 +116,7 @@ def _nrrd(path: Path, fields: dict[str, str], start: int | None, limits: Limits)
         _single_value(numbers(name, int, "0"), name)
         for name in (_alias(fields, "line skip"), _alias(fields, "byte skip"))
     )
-    source, name = path, data_file(fields)
-    if name is not None:
-        if name.upper().startswith("LIST") or "%" in name or len(name.split()) > 3:
-            raise FileError("nrrd_several_files")
-        source, start = path.parent / name, 0
-        if not source.is_file():
-            raise FileError("nrrd_data_file_missing", file=name)
-        if not (limits.allow_outside or source.resolve().is_relative_to(path.parent.resolve())):
-            raise FileError("nrrd_data_file_outside", file=name)
-    elif start is None:
-        raise FileError("nrrd_header_unended")
+    source, start = _samples_start(path, data_file(fields), start, limits)
     if line_skip:
         start = _skip_lines(source, start, line_skip, limits)
     encoding = needed("encoding").lower()
@@ -137,6 +127,22 @@ def _nrrd(path: Path, fields: dict[str, str], start: int | None, limits: Limits)
     else:
         raise FileError("nrrd_encoding", encoding=encoding)
     return Scan(samples, matrix, unit, placed)
+
+
+def _samples_start(path: Path, name: str | None, start: int | None, limits: Limits) -> tuple[Path, int]:
+    """The file that has the samples, and from which byte on. name: of a detached file."""
+    if name is None:
+        if start is None:
+            raise FileError("nrrd_header_unended")
+        return path, start
+    if name.upper().startswith("LIST") or "%" in name or len(name.split()) > 3:
+        raise FileError("nrrd_several_files")
+    source = path.parent / name
+    if not source.is_file():
+        raise FileError("nrrd_data_file_missing", file=name)
+    if not (limits.allow_outside or source.resolve().is_relative_to(path.parent.resolve())):
+        raise FileError("nrrd_data_file_outside", file=name)
+    return source, 0
 
 
 def _single_value(values: list, name: str) -> list:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, whose shape and type their name tells."""
+"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, whose shape and type are in their name."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import re
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +47,7 @@ def map_array(path: Path) -> NDArray:
 def read_npz(path: Path, limits: Limits) -> Scan:
     """The array called “density”, else the first of three dimensions. It is read to the end of its entry, where
     zipfile compares the checksum; of the others the headers alone are read."""
+    array = None
     try:
         with zipfile.ZipFile(path) as archive:
             entries = archive.infolist()
@@ -65,7 +67,7 @@ def read_npz(path: Path, limits: Limits) -> Scan:
         raise damaged(path, "damage_archive", error=str(error).rstrip(".")) from error
     except Exception as error:  # as above, and whatever unpacking raises
         raise damaged(path, "damage_arrays") from error
-    if not name:
+    if not name or array is None:
         raise FileError("no_3d_array")
     others = [volume for volume in volumes if volume != name]
     findings = (finding("arrays_left_out", array=name, arrays=others),) if others else ()
@@ -81,7 +83,7 @@ def _check_array_header(start: bytes) -> None:
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
     """The shape of an array in an archive, which must fill its entry: beyond the array no checksum would be reached."""
-    with archive.open(entry) as file:
+    with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # which can be looked into
         _check_array_header(file.peek(12))
         version = np.lib.format.read_magic(file)
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0

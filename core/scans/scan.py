@@ -32,9 +32,28 @@ FAULTS = {  # codes of what zlib reports, where there is more to say than its wo
 
 @dataclass(frozen=True, eq=False)
 class Scan:
-    """samples: (nx, ny, nz), any real type, perhaps a memory map; a sample stands for slope · sample + intercept.
-    matrix: (4, 4), the sample (i, j, k) stands at matrix @ (i, j, k, 1), in units of `unit` metres (None: the file does
-    not say). is_placed: whether the file says where samples stand. findings: what was decided on the way."""
+    """The samples of a scan, and where they stand.
+
+    Attributes
+    ----------
+    samples : (nx, ny, nz) array
+        Of any real type, perhaps a memory map. A sample stands for slope · sample + intercept.
+    matrix : (4, 4) array
+        The sample (i, j, k) stands at matrix @ (i, j, k, 1), in units of `unit` meters.
+    unit : float or None
+        None where the file does not state it.
+    is_placed : bool
+        Whether the file states where samples stand.
+    slope, intercept : float
+    findings : tuple of Finding
+        What was decided on the way.
+
+    Examples
+    --------
+    >>> from body_moments.core.scans import Scan
+    >>> Scan(np.zeros((2, 2, 2)), np.eye(4)).is_placed
+    False
+    """
 
     samples: NDArray
     matrix: NDArray[np.float64]
@@ -51,10 +70,10 @@ def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
     dimensions = max((number for number, size in enumerate(sizes, 1) if number <= 3 or size != 1), default=0)
     if dimensions != 3:
         raise FileError("scan_dimensions", dimensions=dimensions)
-    sizes = sizes[:3]
-    if min(sizes) < 1 or max(sizes) > 1 << 40 or math.prod(sizes) > 1 << 48:
-        raise FileError("scan_size", samples=list(sizes))
-    return sizes
+    x, y, z = sizes[:3]
+    if min(x, y, z) < 1 or max(x, y, z) > 1 << 40 or x * y * z > 1 << 48:
+        raise FileError("scan_size", samples=[x, y, z])
+    return x, y, z
 
 
 def real_samples(array: NDArray) -> NDArray:

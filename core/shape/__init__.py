@@ -1,3 +1,19 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a shape is apart from where it stands: symmetry, signature, registration, libraries of shapes."""
+
+from .library import classify, rank, read_library
+from .registration import match
+from .signature import Signature, signature, similarity
+from .symmetry import symmetry
+
+__all__ = [
+    "Signature",
+    "classify",
+    "match",
+    "rank",
+    "read_library",
+    "signature",
+    "similarity",
+    "symmetry",
+]

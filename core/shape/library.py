@@ -33,7 +33,7 @@ class Similarity(StrEnum):
     DIFFERENT = "different"
 
 
-# the signatures do not tell the hand
+# the signatures do not decide the hand
 UNDECIDED_HANDEDNESS = (Similarity.COPY_OR_MIRROR, Similarity.SCALED_COPY_OR_MIRROR)
 
 
@@ -47,7 +47,7 @@ class Entry:
 
     @property
     def label(self) -> str:
-        """FILE:NAME, by which the command line tells bodies of one name apart."""
+        """FILE:NAME, by which the command line distinguishes bodies of one name."""
         return _label(self.file, self.name)
 
 
@@ -56,7 +56,36 @@ def _label(file: str, name: str) -> str:
 
 
 def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
-    """The bodies with a signature, and a finding for each without. FileError where the file is no library."""
+    """Read a library of signatures: JSON lines, as ``measure --signature --format jsonl`` writes them.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    entries : list of Entry
+        The bodies with a signature.
+    findings : list of Finding
+        One for each body without.
+
+    Raises
+    ------
+    FileError
+        If the file is no library.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from body_moments.core.shape import read_library
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "parts.jsonl"
+    ...     _ = path.write_text('{"objects": [{"name": "Cube"}]}')
+    ...     entries, findings = read_library(path)
+    >>> entries, findings[0].code
+    ([], 'record_without_signature')
+    """
     entries, missing = [], []
     for number, line in enumerate(_lines(path), 1):
         if not line.strip():
@@ -90,7 +119,33 @@ def _lines(path: Path) -> Iterator[bytes]:
 def rank(
     query: Signature, entries: Iterable[Entry], any_size: bool = False, any_hand: bool = False
 ) -> list[tuple[Entry, Likeness]]:
-    """All entries with their likeness to the one that is wanted, the most alike first."""
+    """Sort the bodies of a library by their likeness to a shape, the most alike first.
+
+    Parameters
+    ----------
+    query : Signature
+    entries : iterable of Entry
+    any_size, any_hand : bool
+        Whether another size, or a mirror image, is as good as a copy.
+
+    Returns
+    -------
+    list of (Entry, Likeness)
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.polyhedron import polyhedron_moments
+    >>> from body_moments.core.shape import rank, signature
+    >>> from body_moments.core.shape.library import Entry
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> bodies = []
+    >>> for name, map in (("wide", np.diag([3.0, 1.0, 1.0])), ("same", np.eye(3))):
+    ...     moments = polyhedron_moments(surface.transform(map), 20)[0].about_center()
+    ...     bodies.append(Entry(name, "", signature(moments, 3.0)))
+    >>> [entry.name for entry, likeness in rank(bodies[1].signature, bodies)]
+    ['same', 'wide']
+    """
     ranked = [(entry, similarity(query, entry.signature)) for entry in entries]
     return sorted(ranked, key=lambda row: row[1].distance(any_size, any_hand))
 
@@ -101,7 +156,24 @@ def same_size(similarity: Likeness) -> bool:
 
 
 def classify(similarity: Likeness) -> Similarity:
-    """What a shape is to the one that it was compared with."""
+    """Name what a shape is to the one that it was compared with.
+
+    Parameters
+    ----------
+    similarity : Likeness
+
+    Returns
+    -------
+    Similarity
+        Such as "copy", "scaled_mirror" or "different".
+
+    Examples
+    --------
+    >>> from body_moments.core.shape import classify
+    >>> from body_moments.core.shape.signature import Likeness
+    >>> str(classify(Likeness(0.0, 2.0, 0.0, False)))
+    'scaled_copy'
+    """
     if similarity.shape > MAX_SIMILAR_DIFFERENCE:
         return Similarity.DIFFERENT
     if similarity.shape > SAME_SHAPE_DISTANCE:

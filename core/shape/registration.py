@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Laying one body onto another by their poses, and what is left between them.
 
-The pose leaves as many ways as the body has rotations, and all of them are tried. So are half turns about the axes, for
-noise may decide a sign. The residual is measured on the surfaces, in both directions, so that neither may be a part of
-the other; where a few points are farther apart than all points are in a better way, no more of them are looked at.
-A mirror image is recognized as such: a reflection fits, and no rotation does.
+The pose leaves as many choices as the body has rotations, and all of them are tried. So are half turns about the
+axes, for noise may decide a sign. The residual is measured on the surfaces, in both directions, so that neither may be
+a part of the other; where a few points are farther apart than all points are in a better way, no more of them are
+looked at. A mirror image is recognized as such: a reflection fits, and no rotation does.
 """
 
 from __future__ import annotations
@@ -25,14 +25,22 @@ HALF_TURNS = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-
 EQUAL_RESIDUAL_RTOL = 1e-4  # of the size: residuals nearer than this are equal, and the smallest turn is taken
 MAX_FIT_RTOL = 1e-3  # of the size: below, a body lies on the other one
 FIRST_SAMPLES = 32  # points of each surface that are looked at first
-MIRROR_SHARE = 0.2  # a reflection that leaves less than this share of what rotations leave tells a mirror image
+MIRROR_SHARE = 0.2  # a reflection that leaves less than this share of what rotations leave means a mirror image
 
 
 @dataclass(frozen=True, eq=False)
 class RigidMatch:
-    """rotation: (3, 3) about the centers. max_distance, mean_distance: distances of points of either surface from the
-    other one.
-    is_mirror_image: whether a reflection fits so much better that the bodies are mirror images."""
+    """How one body lies on another.
+
+    Attributes
+    ----------
+    rotation : (3, 3) array
+        About the centers.
+    max_distance, mean_distance : float
+        Distances of points of either surface from the other one.
+    is_mirror_image : bool
+        Whether a reflection fits so much better that the bodies are mirror images.
+    """
 
     rotation: NDArray[np.float64]
     max_distance: float
@@ -44,10 +52,36 @@ Residual = Callable[[NDArray, int | None], NDArray]
 
 
 def match(source: Moments, target: Moments, residual: Residual, size: float) -> RigidMatch:
-    """The rotation that lays the source onto the target, both about their centers.
+    """Find the rotation that lays one body onto another, both about their centers.
 
-    source, target: central moments to the order of a pose. residual: the distances, (n,), that an orthogonal (3, 3)
-    map of the source leaves: of all points, or of about so many of them. size: of the target.
+    Parameters
+    ----------
+    source, target : Moments
+        Central, to the order of a pose.
+    residual : callable
+        (map, count) to (n,) distances that an orthogonal (3, 3) map of the source leaves: of all points if count is
+        None, otherwise of about so many of them.
+    size : float
+        Of the target.
+
+    Returns
+    -------
+    RigidMatch
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.polyhedron import polyhedron_moments
+    >>> from body_moments.core.shape import match
+    >>> surface = Surface.from_triangles(
+    ...     np.eye(4, 3, -1) * (3, 2, 1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    ... )
+    >>> turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    >>> source, target = (polyhedron_moments(body)[0].about_center() for body in (surface, surface.transform(turn)))
+    >>> points = surface.points - source.about
+    >>> fit = match(source, target, lambda map, count: np.linalg.norm(points @ (map - turn).T, axis=1), 3.0)
+    >>> np.round(fit.rotation, 6).tolist() == turn.tolist(), fit.is_mirror_image
+    (True, False)
     """
     first = equivalent_frames(source).frames[0]
     rotation, distances = _best_rotation(_candidate_rotations(first, equivalent_frames(target)), residual, size)

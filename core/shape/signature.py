@@ -10,7 +10,7 @@
     chirality    couplings in threes whose degrees add up to an odd number: a mirror image has the same with the
                  opposite sign, and a body that is its own mirror image has none.
 
-Size is told apart, as the radius of gyration. What is compared is smooth in the shape: noise of the points changes it
+Size is kept apart, as the radius of gyration. What is compared is smooth in the shape: noise of the points changes it
 little, and nothing switches.
 """
 
@@ -47,14 +47,31 @@ MAX_SIZE = 1e150  # meters; the ratio of two sizes is still a number
 MAX_DESCRIPTOR = 1e100  # whose square is still a number
 MIN_CHIRALITY = 1e-11  # a chirality below this is rounding
 CHIRALITY_NOISE_FACTOR = 10.0  # by the difference of two shapes: what noise that makes it may make of chiralities
-# chiralities whose difference is less than this share of their sum, or the other way round, tell a hand
+# chiralities whose difference is less than this share of their sum, or the reverse, decide the hand
 CLEAR_CHIRALITY_SHARE = 0.2
 
 
 @dataclass(frozen=True, eq=False)
 class Signature:
-    """size: the radius of gyration. invariants, zernike, fourier, chirality: arrays, see the module; fourier is empty
-    where the moments are of a surface. error: an estimate of the rounding of the descriptors."""
+    """Numbers by which a shape is recognized, however it is moved, rotated, scaled or cut into faces.
+
+    Attributes
+    ----------
+    size : float
+        The radius of gyration, in the body's unit.
+    invariants, zernike, fourier, chirality : arrays
+        See the module; `fourier` is empty where the moments are of a surface.
+    error : float
+        An estimate of the rounding of the descriptors.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments, signature
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> body = signature(polyhedron_moments(surface, 20)[0].about_center(), radius=0.9)
+    >>> round(body.size, 6), len(body.zernike) > 0
+    (0.33541, True)
+    """
 
     size: float
     invariants: NDArray[np.float64]
@@ -64,7 +81,7 @@ class Signature:
     error: float = 0.0
 
     def as_record(self) -> dict:
-        """For JSON."""
+        """Return the arrays and the size by name, for JSON."""
         return {
             "size": self.size,
             "invariants": self.invariants,
@@ -75,17 +92,18 @@ class Signature:
 
     @classmethod
     def from_record(cls, record: dict) -> Signature:
-        """From JSON. FileError where it is none."""
+        """Read a signature from JSON; FileError if the record is none."""
         try:
-            arrays = {
-                name: np.array(record[name], np.float64).reshape(-1)
+            arrays = [
+                np.array(record[name], np.float64).reshape(-1)
                 for name in ("invariants", "zernike", "fourier", "chirality")
-            }
-            result = cls(size=float(record["size"]), **arrays)
+            ]
+            invariants, zernike, fourier, chirality = arrays
+            result = cls(float(record["size"]), invariants, zernike, fourier, chirality)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError("signature_unrecognized") from error
         if not (
-            (np.abs(np.concatenate(list(arrays.values()))) < MAX_DESCRIPTOR).all()  # not where one is NaN
+            (np.abs(np.concatenate(arrays)) < MAX_DESCRIPTOR).all()  # not where one is NaN
             and 1.0 / MAX_SIZE < result.size < MAX_SIZE
             and len(result.zernike)
             and len(result.invariants) == 2 + len(_pairs()) + len(_even_triples())
@@ -97,10 +115,20 @@ class Signature:
 
 @dataclass(frozen=True)
 class Likeness:
-    """shape: the difference of the shapes whatever their size and hand, 0 for the same. scale: the second body's size
-    by the first one's. chirality_difference: the difference of their chiralities. is_mirror_image: whether it is a
-    mirror image; False where neither has a hand, None where noise as large as the shapes' difference could make up
-    their hands."""
+    """How alike two bodies are.
+
+    Attributes
+    ----------
+    shape : float
+        The difference of the shapes whatever their size and hand, 0 for the same.
+    scale : float
+        The second body's size divided by the first one's.
+    chirality_difference : float
+        The difference of their chiralities.
+    is_mirror_image : bool or None
+        Whether it is a mirror image; False where neither has a hand, None where noise as large as the shapes'
+        difference could make up their hands.
+    """
 
     shape: float
     scale: float
@@ -109,7 +137,8 @@ class Likeness:
 
     def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
         """0 for a copy; also for one of another size, and for a mirror image, where that does not matter. Where it
-        does, a difference of size or hand counts as much as one of shape, but never for more than ALIKE."""
+        does, a difference of size or hand counts as much as one of shape, but never for more than
+        MAX_SIMILAR_DIFFERENCE."""
         size, hand = (
             MAX_SIMILAR_DIFFERENCE * tanh(abs(value) / MAX_SIMILAR_DIFFERENCE)
             for value in (log(self.scale), self.chirality_difference)
@@ -118,9 +147,35 @@ class Likeness:
 
 
 def signature(moments: Moments, radius: float, zernike: Multiplets | None = None) -> Signature:
-    """moments: about the center, volume or area, to order 6 at least and 20 at most. radius: of the ball about the
-    center that just holds the body. zernike: Ω_nlm in that ball where they are known otherwise, by default from the
-    moments."""
+    """Return the signature of a shape.
+
+    Parameters
+    ----------
+    moments : Moments
+        About the center, of volume or area, to order 6 at least and 20 at most.
+    radius : float
+        Of the ball about the center that just holds the body.
+    zernike : dict, optional
+        The Zernike moments Ω_nlm in that ball where they are known otherwise; by default from the moments.
+
+    Returns
+    -------
+    Signature
+
+    Notes
+    -----
+    Moment invariants (Lo and Don, PAMI 1989), 3-D Zernike descriptors (Novotni and Klein 2003), and the power of the
+    Fourier transform; see the module.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments, signature
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> volume = polyhedron_moments(surface, 20)[0].about_center()
+    >>> radius = float(np.linalg.norm(surface.points - volume.about, axis=1).max())
+    >>> round(signature(volume, radius).size, 6)
+    0.33541
+    """
     total, order = moments.total, min(moments.order, MAX_ORDER_BY_MOMENTS)
     size = sqrt(moments.second().trace() / total)
     degree = monomials(moments.order).sum(axis=1)
@@ -139,8 +194,32 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
 
 
 def similarity(a: Signature, b: Signature) -> Likeness:
-    """How alike two bodies are: the relative differences of their descriptors and invariants, and what sets apart
-    sizes and hands. Descriptors of orders that one of them lacks are left out."""
+    """Compare two signatures.
+
+    Parameters
+    ----------
+    a, b : Signature
+        Descriptors of orders that one of them lacks are left out.
+
+    Returns
+    -------
+    Likeness
+        The difference of the shapes, and what distinguishes sizes and hands.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.polyhedron import polyhedron_moments
+    >>> from body_moments.core.shape import signature, similarity
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> small, large = (
+    ...     signature(polyhedron_moments(surface.transform(size * np.eye(3)), 20)[0].about_center(), size)
+    ...     for size in (1.0, 3.0)
+    ... )
+    >>> likeness = similarity(small, large)
+    >>> round(likeness.shape, 6), round(likeness.scale, 6)
+    (0.0, 3.0)
+    """
     n = min(len(a.zernike), len(b.zernike))
     shape = sqrt(
         (

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rotations and reflections about its center that take a body to itself.
 
-Moments tell which ones can: a rotation takes one of the frames in which all moments to some order are alike to another
-one (see `canonical`), and a reflection takes a frame of the body to one of its mirror image. So every symmetry that the
-body has is among them, and moments of higher order, or details smaller than noise, may rule some out again; the body's
-geometry decides (`confirm`). The group is named by its Schoenflies symbol: C1 has nothing, D2h is a box, Oh a cube,
-C∞v a body of revolution, K a ball.
+Moments show which ones can: a rotation takes one of the frames in which all moments to some order are alike to another
+one (see `canonical_frame`), and a reflection takes a frame of the body to one of its mirror image. So every symmetry
+that the body has is among them, and moments of higher order, or details smaller than noise, may rule some out again;
+the body's geometry decides (`confirm`). The group is named by its Schoenflies symbol: C1 has nothing, D2h is a box, Oh
+a cube, C∞v a body of revolution, K a ball.
 """
 
 from __future__ import annotations
@@ -31,9 +31,19 @@ Distance = Callable[[NDArray], NDArray]
 
 @dataclass(frozen=True, eq=False)
 class Symmetry:
-    """operations: (k, 3, 3) orthogonal, the finite ones, the identity among them. revolution_axes: (3,) the axis about
-    which every rotation is one; (0, 3) none, (3, 3) all directions. order: of the moments it was found from.
-    tolerance: that the geometry was held against, None where it was not."""
+    """Rotations and reflections about the center that take a body to itself.
+
+    Attributes
+    ----------
+    operations : (k, 3, 3) array
+        The finite ones, orthogonal, the identity among them.
+    revolution_axes : array
+        (1, 3) the axis about which every rotation is one; (0, 3) none, (3, 3) all directions.
+    order : int
+        Of the moments it was found from.
+    tolerance : float or None
+        That the geometry was compared with, None where it was not.
+    """
 
     operations: NDArray[np.float64]
     revolution_axes: NDArray[np.float64]
@@ -79,7 +89,29 @@ class Symmetry:
 
 
 def symmetry(moments: Moments, noise: float = NOISE_LEVEL) -> Symmetry:
-    """What the moments, to third order at least, are compatible with. noise: as for `equivalent_frames`."""
+    """Find the symmetries that moments allow.
+
+    Parameters
+    ----------
+    moments : Moments
+        To third order at least.
+    noise : float
+        As for `equivalent_frames`.
+
+    Returns
+    -------
+    Symmetry
+        All that the body has are among them; `confirm` compares them with the surface.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.polyhedron import polyhedron_moments
+    >>> from body_moments.core.shape import symmetry
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> symmetry(polyhedron_moments(surface, 6)[0]).group
+    'C3v'
+    """
     central = moments.about_center()
     alike, mirrored = equivalent_frames(central, noise), equivalent_frames(invert_through_point(central), noise)
     first = alike.frames[0]

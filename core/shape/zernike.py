@@ -35,6 +35,7 @@ from ..numerics.quadrature import triangle_rule
 MAX_ORDER_BY_MOMENTS = 20  # the highest order that raw moments in float64 give
 MAX_DESCRIPTOR_ERROR = 1e-9  # the error of a descriptor that raw moments may have
 POINTS_PER_BLOCK = 16384  # of a quadrature that are evaluated together
+NO_SUM = np.zeros((), np.complex128)
 QUADRATURE_RTOL = 1e-13  # of a triangle's integral, as its quadrature is chosen
 
 
@@ -43,7 +44,7 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
     harmonic = harmonic_moments(raw, order)
     return {
         (n, l): sqrt(3.0 / (4.0 * pi))
-        * sum(sqrt(2 * n + 3) * float(c) * harmonic[l + 2 * i, l] for i, c in enumerate(_radial(n, l)))
+        * sum((sqrt(2 * n + 3) * float(c) * harmonic[l + 2 * i, l] for i, c in enumerate(_radial(n, l))), NO_SUM)
         for n, l in degrees(order)
     }
 
@@ -58,7 +59,7 @@ def descriptor_error(raw: NDArray, order: int) -> float:
 
 def descriptors(moments: Multiplets) -> NDArray[np.float64]:
     """‖Ω_nl‖ in the order of `degrees`."""
-    return np.array([np.linalg.norm(multiplet) for _, multiplet in sorted(moments.items())])
+    return np.array([np.linalg.norm(multiplet) for _, multiplet in sorted(moments.items())], np.float64)
 
 
 def degrees(order: int) -> list[tuple[int, int]]:

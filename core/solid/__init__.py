@@ -1,3 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether a surface bounds a solid, what has to be repaired to measure it, and its moments."""
+
+from .judgement import SolidIntegrals
+from .measure_solid import measure_solid
+
+__all__ = [
+    "SolidIntegrals",
+    "measure_solid",
+]

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rims of open surfaces: loops, which of them are gaps without area, and the caps of the others.
+"""The boundaries of open surfaces: loops, which of them are gaps without area, and the caps of the others.
 
-A rim side is joined at each of its vertices to the side that leaves in the most similar direction, so that an edge
+A boundary side is joined at each of its vertices to the side that leaves in the most similar direction, so that an edge
 and the shorter edges that run back along it (a T-junction) make a loop of their own, which has no area: there the
 surface closes in space although it does not in the mesh. The other loops are capped by the cone to their centroid. As a
 signed chain, a cone to a point in the loop's plane is the flat cap, whatever the loop's shape, so flat loops need no
@@ -16,11 +16,27 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import segment_ranges
+from ..numerics.arrays import segment_ranges, unique_pairs
 from ..numerics.graph import connected_components
 
 MAX_GAP_ASPECT = 1e-3  # width by length, at most, of a gap that counts as none
 MAX_END_PAIRS = 4_000_000  # of ends that meet; beyond, ends are joined in the order of their numbers
+
+
+def side_ends(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
+    """The vertices from which and to which sides run. Side 3t + i runs from corner i of triangle t to the next one."""
+    triangle, corner = sides // 3, sides % 3
+    return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
+
+
+def vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
+    """(k, 2) sides as pairs of vertices, the lower first."""
+    return np.sort(np.stack(side_ends(triangles, sides), axis=1), axis=1)
+
+
+def as_vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
+    """(k, 2) sides as pairs of vertices, the lower first, sorted, each once."""
+    return unique_pairs(vertex_pairs(triangles, sides))
 
 
 def join_sides(
@@ -30,11 +46,26 @@ def join_sides(
     stop: NDArray[np.integer],
     directed: bool,
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_]]:
-    """Links between the sides of rims: (k,) one side, (k,) the side joined to it, (k,) whether they run head to tail.
+    """Join the sides of boundaries at their ends.
 
-    begin, end: (r, 3) where each side begins and ends; start, stop: (r,) numbers, equal where sides may be joined.
-    directed: whether only head to tail will do. Where an even number of sides meet (of them as many arriving as
-    leaving) all are joined in pairs, the sharpest turns first.
+    Where an even number of sides meet (of them as many arriving as leaving) all are joined in pairs, the sharpest
+    turns first.
+
+    Parameters
+    ----------
+    begin, end : (r, 3) float64
+        Where each side begins and ends.
+    start, stop : (r,) int
+        Numbers of these places, equal where sides may be joined.
+    directed : bool
+        Whether only head to tail will do.
+
+    Returns
+    -------
+    first, second : (k,) int
+        Sides that are joined.
+    follows : (k,) bool
+        Whether they run head to tail.
     """
     count = len(start)
     vertex = np.concatenate([start, stop])
@@ -105,11 +136,22 @@ def _greedy_matching(first_end: NDArray, second_end: NDArray, ends: int) -> tupl
 
 @dataclass(frozen=True, eq=False)
 class BoundaryLoops:
-    """Rim sides grouped into loops, numbered in the order of their first sides.
+    """Boundary sides grouped into loops, numbered in the order of their first sides.
 
-    of_side: (r,) the loop of each side. complete: (l,) whether all its sides are joined at both ends. perimeter: (l,).
-    centroid: (l, 3), of the curve. cone_area: (l,) the area of the cone to the centroid. planar_area: (l,) the norm of
-    the loop's area vector. out_of_plane: (l,) how far from its plane the loop goes; infinite where it has none.
+    Attributes
+    ----------
+    of_side : (r,) int
+        The loop of each side.
+    complete : (l,) bool
+        Whether all the loop's sides are joined at both ends.
+    perimeter : (l,) float
+        In unit.
+    centroid : (l, 3) float
+        Of the curve.
+    cone_area, planar_area : (l,) float
+        The area of the cone to the centroid, and the norm of the loop's area vector (unit²).
+    out_of_plane : (l,) float
+        How far from its plane the loop goes (unit); infinite where it has none.
     """
 
     of_side: NDArray[np.intp]
@@ -128,7 +170,15 @@ class BoundaryLoops:
 def find_loops(
     begin: NDArray[np.float64], end: NDArray[np.float64], links: tuple[NDArray, NDArray, NDArray]
 ) -> BoundaryLoops:
-    """The loops that the links of `join_sides` make of rim sides, and their measures."""
+    """Group boundary sides into the loops that the links of `join_sides` make, and measure those.
+
+    Parameters
+    ----------
+    begin, end : (r, 3) float64
+        Where each side begins and ends.
+    links : three arrays
+        What `join_sides` gives for them.
+    """
     of_side, number = connected_components(len(begin), links[0], links[1])
     joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))
     complete = np.bincount(of_side, joined != 2) == 0

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the closed shells of one body lie to each other: apart, one in another, or through one another.
+"""How the closed components of one body lie to each other: apart, one in another, or through one another.
 
-Pairs whose boxes overlap are found by a sweep. Each pair is then asked twice (`shell_tree`): points just under the skin
-of the smaller shell are located in the larger one; then edges of one that pierce triangles of the other are looked for.
-What touches within the tolerance does not cross.
+Pairs whose boxes overlap are found by a sweep. Each pair is then asked twice (`core/mesh/bvh.py`): points just under
+the skin of the smaller component are located in the larger one; then edges of one that pierce triangles of the other
+are looked for. What touches within the tolerance does not cross.
 """
 
 from __future__ import annotations
@@ -18,17 +18,25 @@ from ..mesh.boxes import overlapping_box_pairs
 from ..mesh.bvh import Bvh, SortedComponents, intersecting_pairs, sort_components
 from ..numerics.arrays import segment_ranges
 
-MAX_COMPONENT_PAIRS = 100_000  # of shells
-# points under the skin of a shell of few faces that are asked whether it surrounds them twice
+MAX_COMPONENT_PAIRS = 100_000  # of components
+# points under the skin of a component of few faces that are asked whether it surrounds them twice
 MAX_OVERLAP_SAMPLES = 4096
 SAMPLES_PER_PAIR = 256, 8, 50_000  # points under the skin for one pair: at most, at least; and for all pairs together
 
 
 @dataclass(frozen=True, eq=False)
-class ShellRelations:
-    """contained_in: (k, 2) pairs (inner shell, outer shell). intersecting: (k, 2) pairs of shells that share a part of
-    their interiors without one containing the other, or that are the same. undecided_pairs: pairs that would have been
-    too much work."""
+class ComponentRelations:
+    """How components lie to each other.
+
+    Attributes
+    ----------
+    contained_in : (k, 2) int
+        Pairs (inner component, outer component).
+    intersecting : (k, 2) int
+        Pairs that share a part of their interiors without one containing the other, or that are the same.
+    undecided_pairs : int
+        Pairs that would have been too much work.
+    """
 
     contained_in: NDArray[np.intp]
     intersecting: NDArray[np.intp]
@@ -37,10 +45,18 @@ class ShellRelations:
 
 def classify_pairs(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
-) -> ShellRelations:
-    """How the shells selected by `candidates`, all closed and none of them flat, lie relative to each other.
+) -> ComponentRelations:
+    """Find how closed components lie relative to each other.
 
-    tolerance: (length) what counts as touching.
+    Parameters
+    ----------
+    points : (n, 3)
+    components : SortedComponents
+        Over these points.
+    candidates : (c,) bool
+        Those to be compared: closed, and none of them flat.
+    tolerance : float
+        What counts as touching (unit).
     """
     chosen = np.flatnonzero(candidates)
     i, j, skipped = overlapping_box_pairs(
@@ -48,7 +64,7 @@ def classify_pairs(
     )
     none = np.empty((0, 2), np.intp)
     if not len(i):
-        return ShellRelations(none, none, skipped)
+        return ComponentRelations(none, none, skipped)
     i, j = chosen[i], chosen[j]
     size = np.abs(components.volume)
     swap = (size[i] > size[j]) | ((size[i] == size[j]) & (i < j))
@@ -67,7 +83,7 @@ def classify_pairs(
     unsure[open_question] |= unfinished & ~pierced
     inside = within & ~through & ~unsure
     pair = np.stack([small, large], axis=1)
-    return ShellRelations(pair[inside], pair[through], skipped + int(np.count_nonzero(unsure & ~through)))
+    return ComponentRelations(pair[inside], pair[through], skipped + int(np.count_nonzero(unsure & ~through)))
 
 
 def surfaces_intersect(
@@ -81,18 +97,18 @@ def surfaces_intersect(
     """Whether surfaces go through each other, or through themselves, by more than the tolerance, as far as is found
     within bounds of time. Triangles that share a vertex are neighbours and do not count.
 
-    triangles: (m, 3), shell: (m,) the surface that each belongs to, ascending; pairs: (k, 2) of surfaces; vertex: (n,)
-    which vertex a point is.
+    triangles: (m, 3), component: (m,) the surface that each belongs to, ascending; pairs: (k, 2) of surfaces; vertex:
+    (n,) which vertex a point is.
     """
-    shells = sort_components(points, triangles, component, int(component[-1]) + 1)
-    tree = Bvh(points, shells, np.ones(len(shells.volume), bool))
+    surfaces = sort_components(points, triangles, component, int(component[-1]) + 1)
+    tree = Bvh(points, surfaces, np.ones(len(surfaces.volume), bool))
     return bool(intersecting_pairs(tree, pairs[:, 0], pairs[:, 1], tolerance, vertex)[0].any())
 
 
 def self_overlaps(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
 ) -> bool:
-    """Whether a closed shell selected by `candidates` surrounds a point under its own skin more than once, of those
+    """Whether a closed component selected by `candidates` surrounds a point under its own skin more than once, of those
     that are tried. So it does where it has run into itself, though no edge need pierce a face then."""
     chosen = np.flatnonzero(candidates)
     if not len(chosen):
@@ -108,13 +124,25 @@ def self_overlaps(
     return bool((sure & (np.abs(winding) > 1)).any())
 
 
-def orient_nested_shells(
-    components: SortedComponents, relations: ShellRelations, candidates: NDArray[np.bool_]
+def orient_nested_components(
+    components: SortedComponents, relations: ComponentRelations, candidates: NDArray[np.bool_]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
-    """Which shells to turn, and which are then outward shells in the material of others or cavities; (c,) each.
+    """Decide which components to turn, and which are then outward ones in the material of others, or cavities.
 
-    From the outermost inward: an inward shell that no material surrounds is inside out. It is turned, and so is what it
-    contains where that was consistent with it (a hollow body turned inside out as a whole).
+    From the outermost inward: an inward component that no material surrounds is inside out. It is turned, and so is
+    what it contains where that was consistent with it (a hollow body turned inside out as a whole).
+
+    Parameters
+    ----------
+    components : SortedComponents
+        With their signed volumes.
+    relations : ComponentRelations
+    candidates : (c,) bool
+        Those with a volume.
+
+    Returns
+    -------
+    flipped, nested, cavities : (c,) bool
     """
     number = len(candidates)
     given = np.where(candidates, np.sign(components.volume), 0.0)
@@ -137,9 +165,9 @@ def orient_nested_shells(
     return sign != given, (sign > 0.0) & (around >= 1.0), (sign < 0.0) & (around >= 1.0)
 
 
-def cavity_host(relations: ShellRelations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """(c,) for each cavity the shell whose material it takes away: the innermost around it that no other cavity takes
-    away before. For the other shells themselves."""
+def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """(c,) for each cavity the component whose material it takes away: the innermost around it that no other cavity
+    takes away before. For the others themselves."""
     host = np.arange(len(cavity))
     parent = _innermost_container(relations, len(cavity))
     pending = np.flatnonzero(cavity)
@@ -152,8 +180,8 @@ def cavity_host(relations: ShellRelations, cavity: NDArray[np.bool_]) -> NDArray
     return host
 
 
-def _innermost_container(relations: ShellRelations, number: int) -> NDArray[np.intp]:
-    """(number,) the innermost shell around each, -1 for none."""
+def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[np.intp]:
+    """(number,) the innermost component around each, -1 for none."""
     inner, outer = relations.contained_in.T
     depth = np.bincount(inner, minlength=number)
     parent = np.full(number, -1)
@@ -165,8 +193,8 @@ def _innermost_container(relations: ShellRelations, number: int) -> NDArray[np.i
 def _classify_by_samples(
     points: NDArray, components: SortedComponents, tree: Bvh, small: NDArray, large: NDArray, tolerance: float
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
-    """For each pair: whether some point under the smaller shell's skin is inside the larger shell, whether some is
-    outside, and whether neither could be decided."""
+    """For each pair: whether some point under the skin of the smaller component is inside the larger one, whether some
+    is outside, and whether neither could be decided."""
     most, least, together = SAMPLES_PER_PAIR
     number = np.clip(together // len(small), least, most)
     pair = np.repeat(np.arange(len(small)), number)
@@ -193,7 +221,7 @@ def _interior_samples(
     number: ArrayLike,
     tolerance: float,
 ) -> NDArray[np.float64]:
-    """(n, 3) the k-th of so many points under the skins of shells, about the tree's origin."""
+    """(n, 3) the k-th of so many points under the skins of components, about the tree's origin."""
     triangle = (
         components.start[component] + k * (components.start[component + 1] - components.start[component]) // number
     )

@@ -5,11 +5,11 @@
 Some vertices may move. With the derivative G of the center at the start, the moves v that bring it there with the least
 Σ a |v|² / m are v = (m / a) G' λ, with one λ for each coordinate of the center. Here a is the area that a vertex stands
 for, an equal share of its faces', so that the shape found does not depend on how finely the mesh is cut, and m ≤ 1 how
-willingly it moves. Moves longer than a limit are cut to it, which is the solution of the same problem with that limit.
+freely it moves. Moves longer than a limit are cut to it, which is the solution of the same problem with that limit.
 For G and a, every face is taken as the fan around its middle, so that the diagonals it is cut by show in the shape as
 little as they can: the center itself is that of the faces as they are cut.
 
-The center is no linear function of the moves, so λ is found by Newton's method, with the exact derivative at every
+The center is not a linear function of the moves, so λ is found by Newton's method, with the exact derivative at every
 step, until the center is there to rounding. The moves are then least to first order: those of the least sum differ by
 terms of their square. They are not looked for, because on fine meshes they wrinkle: a shell gains area by nothing as
 cheaply as by folds.
@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
+from ..numerics.arrays import sums_by_index
 from ..offset.walls import first_positive_root
 from ..polyhedron import polyhedron_moments
 from ..verdict.finding import MeasureError
@@ -38,7 +39,21 @@ SLIVER_RTOL = 1e-9  # of its longest side squared: a triangle without a normal
 
 @dataclass(frozen=True, eq=False)
 class BalanceResult:
-    """points: (n, 3) float64 where the vertices go. before, after: (3,) the center."""
+    """Where vertices go so that the center comes to its target.
+
+    Attributes
+    ----------
+    points : (n, 3) array
+        float64.
+    before, after : (3,) arrays
+        The center.
+
+    Examples
+    --------
+    >>> from body_moments.core.statics import BalanceResult
+    >>> BalanceResult(np.zeros((4, 3)), np.zeros(3), np.ones(3)).after.tolist()
+    [1.0, 1.0, 1.0]
+    """
 
     points: NDArray[np.float64]
     before: NDArray[np.float64]
@@ -55,12 +70,41 @@ def balance(
     limit: float = np.inf,
     shell: bool = False,
 ) -> BalanceResult:
-    """Moves the vertices `movable`, (k,), as little as possible so that the center of mass comes to `target`, (3,).
+    """Move vertices as little as possible so that the center of mass comes to a point.
 
-    across: (r, 3) orthonormal rows: along these directions only; by default all three. weights: (k,) above 0 to 1.
-    limit: how far a vertex may move. shell: the mass is in the surface, else in the body it bounds, which must be
-    closed. Uniform density, and all lengths in one unit.
-    MeasureError where the center cannot come there, or where faces would be turned over.
+    Parameters
+    ----------
+    surface : Surface
+    movable : (k,) integer array
+        The vertices that may move.
+    target : (3,) array
+    across : (r, 3) array, optional
+        Orthonormal rows: move the center along these directions only; by default all three.
+    weights : (k,) array, optional
+        Above 0 to 1: how freely each vertex moves.
+    limit : float
+        How far a vertex may move.
+    shell : bool
+        Whether the mass is in the surface, otherwise in the body it bounds, which must be closed. Uniform density, and
+        all lengths in one unit.
+
+    Returns
+    -------
+    BalanceResult
+
+    Raises
+    ------
+    MeasureError
+        If the center cannot come there, or faces would be turned over.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.statics import balance
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> result = balance(surface, np.arange(4), np.array([0.25, 0.25, 0.3]))
+    >>> np.round(result.after, 9).tolist()
+    [0.25, 0.25, 0.3]
     """
     across = np.eye(3) if across is None else np.asarray(across, np.float64)
     movable = np.asarray(movable, np.intp)
@@ -98,10 +142,10 @@ def _newton_solve(
     """(n, 3) and (3,) the points and the center, and how far it stays from its target, 0 where it comes there. start:
     as of `_Problem.evaluate`."""
     points, (center, residual, gradient) = problem.start, start
-    multiplier = np.zeros(len(step_directions))
+    multiplier, far = np.zeros(len(step_directions)), np.inf
     slope = _center_jacobian(step_directions, multiplier, gradient[:, movable], limit)
     for _ in range(MAX_NEWTON_STEPS):
-        far = np.linalg.norm(residual)
+        far = float(np.linalg.norm(residual))
         if far <= problem.tolerance:
             return points, center, 0.0
         change, share = np.linalg.solve(slope, residual), 1.0
@@ -168,7 +212,7 @@ class _Problem:
 
     def _moments(self, points: NDArray) -> Moments:
         volume, area = polyhedron_moments(replace(self.surface, points=points), area_order=3 if self.shell else 0)
-        return area if self.shell else volume
+        return area if self.shell and area is not None else volume
 
     def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
         """(3,) the center, (r,) how far it is from its target, and (r, n, 3) its derivatives; None where the body has
@@ -224,17 +268,17 @@ class _Fans:
         corner = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
         self.owner, self.vertex = corner // self.count, corner % self.count
         self.share = 1.0 / np.bincount(self.owner, minlength=number)[self.owner]
-        area = np.bincount(faces, np.linalg.norm(vectors, axis=1) / 2.0, number)
-        self.areas = np.bincount(self.vertex, area[self.owner] * self.share, self.count)
+        area = sums_by_index(faces, np.linalg.norm(vectors, axis=1) / 2.0, number)
+        self.areas = sums_by_index(self.vertex, area[self.owner] * self.share, self.count)
         middles = np.stack(
-            [np.bincount(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)], axis=1
+            [sums_by_index(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)], axis=1
         )
         whole = np.bincount(faces, minlength=number)[faces] == 1
         boundary, owners = _face_boundaries(triangles[~whole], faces[~whole], self.count)
         fan = np.concatenate([triangles[whole], np.concatenate([boundary, self.count + owners[:, None]], axis=1)])
         owners = np.concatenate([faces[whole], owners])
         self.points = np.concatenate([points, middles])
-        facing = np.stack([np.bincount(faces, column, number) for column in vectors.T], axis=1)[owners]
+        facing = np.stack([sums_by_index(faces, column, number) for column in vectors.T], axis=1)[owners]
         self.opposed = (normals(self.points, fan) * facing).sum(axis=1) < 0.0  # where a face is not convex
         self.fan = fan
 
@@ -253,7 +297,7 @@ class _Fans:
         gradient /= total
         vertex_gradient, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)
         for column, shared in zip(vertex_gradient.T, middle.T):
-            column += np.bincount(self.vertex, shared[self.owner] * self.share, self.count)
+            column += sums_by_index(self.vertex, shared[self.owner] * self.share, self.count)
         return vertex_gradient.reshape(-1, 3, 3)
 
 

@@ -33,10 +33,31 @@ PAIRS = [(i, j) for i in range(3) for j in range(i, 3)]
 
 @dataclass(frozen=True, eq=False)
 class Gradient:
-    """by_vertex: (n, K, 3) ∂ raw[α] / ∂ vertex, in the order of `monomials`; unit of the moment per length.
-    about: (3,) the fixed point that the moments are about. measure: volume or area.
-    scale: (n,) what the triangles at a vertex add up to at most, where the integrand is one. reach: (3,) of the points
-        from `about`. valence: the most triangles at one vertex.
+    """Derivatives of moments by every vertex.
+
+    Attributes
+    ----------
+    by_vertex : (n, K, 3) array
+        ∂ raw[α] / ∂ vertex, in the order of `monomials`; unit of the moment per length.
+    about : (3,) array
+        The fixed point that the moments are about.
+    measure : Measure
+        Volume or area.
+    scale : (n,) array
+        What the triangles at a vertex add up to at most, where the integrand is one.
+    reach : (3,) array
+        Of the points from `about`.
+    valence : int
+        The most triangles at one vertex.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.statics import volume_gradient
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> gradient = volume_gradient(surface, np.full(3, 0.25), order=1)
+    >>> np.round(gradient.center(1 / 6).sum(axis=0), 9).tolist()
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
     """
 
     by_vertex: NDArray[np.float64]
@@ -47,7 +68,7 @@ class Gradient:
     valence: int
 
     def error(self) -> NDArray[np.float64]:
-        """(n, K) what rounding may have changed each component by."""
+        """Return bounds, (n, K), of what rounding may have changed each component by."""
         exponents = monomials(2)[: self.by_vertex.shape[1]]
         sizes = np.multiply.reduce(self.reach**exponents, axis=1)
         if self.measure == Measure.AREA:  # |N| ∂m has one power of the reach less and one of the sides more
@@ -57,25 +78,69 @@ class Gradient:
         return self.scale[:, None] * (32.0 + 8.0 * exponents.sum(axis=1) + self.valence) * U * sizes
 
     def center(self, total: float) -> NDArray[np.float64]:
-        """(n, 3, 3) ∂ center[i] / ∂ vertex[k]. `about` must be the center, `total` the volume or area."""
+        """Return ∂ center[i] / ∂ vertex[k], (n, 3, 3). `about` must be the center, `total` the volume or area."""
         return self.by_vertex[:, 1:4] / total
 
     def inertia(self) -> NDArray[np.float64]:
-        """(n, 3, 3, 3) ∂ of the tensor about the center, of unit density. `about` must be the center."""
+        """Return the derivative of the tensor about the center, (n, 3, 3, 3), of unit density. `about` must be the
+        center.
+        """
         second = self.by_vertex[:, SECOND_MOMENT_INDEX]
         trace = np.einsum("niik->nk", second)
         return np.eye(3)[None, :, :, None] * trace[:, None, None] - second
 
 
 def volume_gradient(surface: Surface, about: NDArray, order: int = 2) -> Gradient:
-    """The derivatives of the volume's moments about a fixed point, to first or second order. The surface must be
-    closed and point outward: of any other the result is the derivative of no volume."""
+    """Return the derivatives of the volume's moments by every vertex.
+
+    Parameters
+    ----------
+    surface : Surface
+        Closed and outward: of any other the result is the derivative of no volume.
+    about : (3,) array
+        The fixed point that the moments are about.
+    order : int
+        1 or 2.
+
+    Returns
+    -------
+    Gradient
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.statics import volume_gradient
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> np.round(volume_gradient(surface, np.zeros(3), order=1).by_vertex[3, 0] * 6, 9).tolist()
+    [0.0, 0.0, 1.0]
+    """
     return _gradient(surface, about, order, _volume_shares)
 
 
 def area_gradient(surface: Surface, about: NDArray, order: int = 2) -> Gradient:
-    """The derivatives of the area's moments about a fixed point, to first or second order. A triangle without area has
-    none: what its vertices could give it is left out."""
+    """Return the derivatives of the area's moments by every vertex.
+
+    Parameters
+    ----------
+    surface : Surface
+        A triangle without area has no derivative; what its vertices could give it is left out.
+    about : (3,) array
+        The fixed point that the moments are about.
+    order : int
+        1 or 2.
+
+    Returns
+    -------
+    Gradient
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.statics import area_gradient
+    >>> triangle = Surface.from_triangles(np.eye(4, 3, -1), [[0, 1, 2]])
+    >>> area_gradient(triangle, np.zeros(3), order=1).by_vertex[2, 0].tolist()
+    [0.0, 0.5, 0.0]
+    """
     return _gradient(surface, about, order, _area_shares)
 
 

@@ -10,16 +10,31 @@ it is caught.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any
+from typing import Any, Protocol
 
 MAX_STORED_ELEMENTS = 8  # of a finding that is stored or is a value of another one: as many as a sentence names
 
 
+class Elements(Protocol):
+    """Of a mesh: a sequence or an array of faces, or of edges as pairs."""
+
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Any]: ...
+    def __getitem__(self, part: slice, /) -> Elements: ...
+
+
 class Severity(StrEnum):
-    """How much a finding matters: a note is no reason to doubt the numbers, an error leaves none."""
+    """How much a finding matters: a note does not question the numbers, an error means there are none.
+
+    Examples
+    --------
+    >>> from body_moments.core.verdict import Severity
+    >>> [str(severity) for severity in Severity]
+    ['note', 'warning', 'error']
+    """
 
     NOTE = "note"
     WARNING = "warning"
@@ -28,7 +43,7 @@ class Severity(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Finding:
-    """One decision or observation.
+    """One decision or observation, as data. `str` is its sentence.
 
     Attributes
     ----------
@@ -38,16 +53,25 @@ class Finding:
         What the sentence is filled with: numbers, strings, booleans, lists of these, and findings as mappings with the
         keys ``code`` and ``values``. Everything is plain enough for JSON. ``sources`` names the objects whose surfaces
         the finding is about, where that is not simply the measured object.
-    elements : sequence
+    elements : sequence or array
         Mesh elements that it is about, in the input's numbers: faces as integers, edges as pairs of vertices.
+
+    Examples
+    --------
+    >>> from body_moments.core import Finding
+    >>> found = Finding("flipped_faces", {"count": 2}, (4, 7))
+    >>> found.as_record()
+    {'code': 'flipped_faces', 'values': {'count': 2}, 'elements': [4, 7]}
+    >>> Finding.from_record(found.as_record()) == found
+    True
     """
 
     code: str
     values: Mapping[str, Any] = field(default_factory=dict)
-    elements: Sequence[Any] = ()
+    elements: Elements = ()
 
     def as_record(self) -> dict[str, Any]:
-        """The code, the values and the first elements as plain values for JSON, to be read by `from_record`."""
+        """Return the code, the values and the first elements as plain values for JSON, to be read by `from_record`."""
         record = {"code": self.code, "values": dict(self.values)}
         first = self.elements[:MAX_STORED_ELEMENTS]
         if len(first):
@@ -56,11 +80,11 @@ class Finding:
 
     @classmethod
     def from_record(cls, record: Mapping[str, Any]) -> Finding:
-        """The finding that `as_record` has written."""
+        """Return the finding that `as_record` has written."""
         return cls(str(record["code"]), dict(record["values"]), tuple(record.get("elements", ())))
 
     def of_sources(self, names: Sequence[str]) -> Finding:
-        """The same, said of the surfaces of these objects."""
+        """Return the same finding about the surfaces of these objects."""
         return replace(self, values={**self.values, "sources": list(names)})
 
     def __eq__(self, other: object) -> bool:
@@ -73,14 +97,56 @@ class Finding:
         return _sentence_of(self)
 
 
-def finding(code: str, elements: Sequence[Any] = (), /, **values: Any) -> Finding:
-    """A finding of that code, about these elements, with these values."""
+def finding(code: str, elements: Elements = (), /, **values: Any) -> Finding:
+    """Make a finding of that code, about these elements, with these values."""
     return Finding(code, values, elements)
 
 
 def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """The findings in their order, each once."""
+    """Return the findings in their order, each once."""
     return tuple(dict.fromkeys(findings))
+
+
+def truncate(items: Elements, limit: int, count: int | None = None) -> tuple[Elements, int]:
+    """Keep the first items of a list that is shown.
+
+    Parameters
+    ----------
+    items : sequence
+        All of them, or the first of `count`.
+    limit : int
+        How many are kept at most.
+    count : int, optional
+        How many there are in all, by default as many as `items`.
+
+    Returns
+    -------
+    shown : sequence
+        The first items.
+    more : int
+        How many others there are.
+    """
+    shown = items[:limit]
+    return shown, max((count or len(items)) - len(shown), 0)
+
+
+def truncate_findings(findings: Sequence[Finding], limit: int) -> list[Finding]:
+    """Keep the first findings, and say how many more there are.
+
+    Parameters
+    ----------
+    findings : sequence of Finding
+        All of them.
+    limit : int
+        How many are kept at most.
+
+    Returns
+    -------
+    list of Finding
+        The first ones, and ``and_more`` where there are others.
+    """
+    shown, more = truncate(findings, limit)
+    return [*shown, finding("and_more", count=more)] if more else [*shown]
 
 
 class MeasureError(Exception):
@@ -89,21 +155,40 @@ class MeasureError(Exception):
     Raised for what the user's objects, settings, files or queries make impossible. Wrong arguments of a programmer are
     ValueError and TypeError; any other exception is a fault of the program.
 
+    Parameters
+    ----------
+    reason : str or Finding
+        A code, or the finding itself.
+    subject : str
+        The name of the object or file that it is about, where that is known.
+    elements : sequence
+        Of the finding that a code makes.
+    **values
+        Of the finding that a code makes.
+
     Attributes
     ----------
     finding : Finding
         Why, and what to do.
     subject : str
-        The name of the object or file that it is about, where that is known.
+
+    Examples
+    --------
+    >>> from body_moments.core import MeasureError, Surface, measure_solid
+    >>> try:
+    ...     measure_solid(Surface.from_triangles(np.zeros((0, 3)), np.zeros((0, 3), int)))
+    ... except MeasureError as error:
+    ...     error.finding.code
+    'no_faces'
     """
 
-    def __init__(self, reason: str | Finding, /, *, subject: str = "", elements: Sequence[Any] = (), **values: Any):
+    def __init__(self, reason: str | Finding, /, *, subject: str = "", elements: Elements = (), **values: Any):
         self.finding = reason if isinstance(reason, Finding) else Finding(reason, values, elements)
         self.subject = subject
         super().__init__(self.finding.code)
 
     def about(self, subject: str) -> MeasureError:
-        """The same error, about an object or a file, unless it is about another one already."""
+        """Return the same error, about an object or a file unless it is about another one already."""
         self.subject = self.subject or subject
         return self
 
@@ -125,11 +210,25 @@ class EditRefusedError(MeasureError):
 
 
 class FileError(MeasureError):
-    """A file cannot be read or written."""
+    """A file cannot be read or written.
+
+    Examples
+    --------
+    >>> from body_moments.core.verdict import FileError
+    >>> FileError("file_missing", subject="scan.nrrd").subject
+    'scan.nrrd'
+    """
 
 
 class QueryError(MeasureError):
-    """What was asked for cannot be answered: a name, a point, an order that does not exist."""
+    """What was asked for cannot be answered: a name, a point, an order that does not exist.
+
+    Examples
+    --------
+    >>> from body_moments.core.verdict import QueryError
+    >>> QueryError("name_unknown", name="Cube").finding.values
+    {'name': 'Cube'}
+    """
 
 
 def _plain(found: Finding) -> str:

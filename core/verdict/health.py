@@ -10,8 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 NO_PAIRS = np.empty((0, 2), np.int64)
-
-
 NO_FACES = np.empty(0, np.int64)
 
 
@@ -24,23 +22,23 @@ class DefectiveElements:
     edges that lie there. duplicate_faces: the later copies. degenerate_faces: those without area.
     """
 
-    flipped_faces: NDArray[np.integer] = field(default_factory=lambda: NO_FACES)
-    boundary_edges: NDArray[np.integer] = field(default_factory=lambda: NO_PAIRS)
-    non_manifold_edges: NDArray[np.integer] = field(default_factory=lambda: NO_PAIRS)
-    inconsistent_edges: NDArray[np.integer] = field(default_factory=lambda: NO_PAIRS)
-    duplicate_faces: NDArray[np.integer] = field(default_factory=lambda: NO_FACES)
-    degenerate_faces: NDArray[np.integer] = field(default_factory=lambda: NO_FACES)
+    flipped_faces: NDArray[np.integer] = field(default_factory=NO_FACES.view)
+    boundary_edges: NDArray[np.integer] = field(default_factory=NO_PAIRS.view)
+    non_manifold_edges: NDArray[np.integer] = field(default_factory=NO_PAIRS.view)
+    inconsistent_edges: NDArray[np.integer] = field(default_factory=NO_PAIRS.view)
+    duplicate_faces: NDArray[np.integer] = field(default_factory=NO_FACES.view)
+    degenerate_faces: NDArray[np.integer] = field(default_factory=NO_FACES.view)
 
 
 @dataclass(frozen=True, eq=False)
 class MeshReport:
-    """The input, before anything was mended.
+    """The input, before anything was repaired.
 
     closed: in space: equal positions are one, and gaps without area are none.
     welded: whether positions had to be welded to judge.
     boundary_edges: with one face, after that welding, unless the gap they bound has no area.
     non_manifold_edges: with more than two faces. inconsistent_edges: with two faces that both run the same way.
-    components: shells, connected across edges. inverted_components: inside out. nested_components: outward ones in
+    components: connected across edges. inverted_components: inside out. nested_components: outward ones in
         the material of others, counted twice. cavities: inward ones in the material of others. overlapping_components:
         those that share a part of their interiors with another one, or are a copy of it.
     duplicate_faces: later copies of faces. degenerate_faces: without area. non_planar_faces, volume_spread: the faces

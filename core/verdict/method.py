@@ -9,7 +9,14 @@ from enum import StrEnum
 
 
 class Verdict(StrEnum):
-    """What a body is measured as. The first four are of solids, the least trustworthy first."""
+    """What a body is measured as. The first four are of solids, the least trustworthy first.
+
+    Examples
+    --------
+    >>> from body_moments.core.verdict import Verdict
+    >>> Verdict.CAPPED.is_closed, Verdict.OPEN.is_closed
+    (True, False)
+    """
 
     OPEN = "open"  # not closed, and not to be closed: the numbers depend on the reference point
     CAPPED = "capped"  # closed by caps over its holes
@@ -26,7 +33,14 @@ class Verdict(StrEnum):
 
 
 class Source(StrEnum):
-    """What stands before the verdict where it is not the polygons that were measured."""
+    """What stands before the verdict where it is not the polygons that were measured.
+
+    Examples
+    --------
+    >>> from body_moments.core.verdict import Source
+    >>> [str(source) for source in Source]
+    ['', 'NURBS', 'grid']
+    """
 
     POLYGONS = ""
     NURBS = "NURBS"
@@ -35,7 +49,19 @@ class Source(StrEnum):
 
 @dataclass(frozen=True)
 class Method:
-    """A verdict, and what it is about; as text the public contract's `method`, such as "NURBS exact"."""
+    """How a body was measured; `str` is the public contract's `method`.
+
+    Parameters
+    ----------
+    verdict : Verdict
+    source : Source
+
+    Examples
+    --------
+    >>> from body_moments.core.verdict import Method, Source, Verdict
+    >>> str(Method(Verdict.EXACT, Source.NURBS)), Method.parse("NURBS exact").source is Source.NURBS
+    ('NURBS exact', True)
+    """
 
     verdict: Verdict
     source: Source = Source.POLYGONS
@@ -45,7 +71,7 @@ class Method:
 
     @classmethod
     def parse(cls, text: str) -> Method | None:
-        """The method that `str` has written; None where it is none."""
+        """Return the method that `str` has written; None for any other text."""
         source, _, verdict = text.rpartition(" ")
         try:
             return cls(Verdict(verdict), Source(source))

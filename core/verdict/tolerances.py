@@ -5,15 +5,7 @@
 from __future__ import annotations
 
 MAX_COORDINATE, MIN_SIZE = 1e50, 1e-60  # lengths whose sixth, and whose fifth, power is still a number
-
-
 FLAT_CAP_VOLUME_RTOL = 1e-7  # of diagonal times area: what capping a flat sheet of float32 points leaves
-
-
 CLOSED_SHEET_VOLUME_RTOL = 1e-14  # the same for a closed one
-
-
 WELDING_RTOL = 1e-6  # of the body's diagonal
-
-
 NEGLIGIBLE = 1e-4  # of mass, size and inertia: a decision that changes them by less is a note

@@ -4,16 +4,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from time import perf_counter
 
+import bpy
 from bpy.types import Context, Event
 
 from ...core.verdict.finding import Finding
 from ..write import reports
-from . import selection
 
 STEP_SECONDS = 0.1  # seconds of work between two looks at the window's events
+
+
+def redraw(context: Context) -> None:
+    """Have the window drawn again, where there is one: what was stored shows in several of its areas."""
+    for area in context.screen.areas if context.screen else ():
+        area.tag_redraw()
+
+
+@contextmanager
+def progress(count: float) -> Iterator[Callable[[float], None]]:
+    """What to call with how much of `count` is done; shown at the cursor where there are many."""
+    manager = bpy.context.window_manager
+    shown = count > 1
+
+    def step(done: float) -> None:
+        if shown:
+            manager.progress_update(done)
+
+    if shown:
+        manager.progress_begin(0, count)
+    try:
+        yield step
+    finally:
+        if shown:
+            manager.progress_end()
 
 
 class ModalSteps:
@@ -25,10 +52,14 @@ class ModalSteps:
 
     PROGRESS: Finding
     CANCELED: Finding
+    _steps: Generator[float, None, None]
+
+    def _finish(self, context: Context) -> set[str]:
+        raise NotImplementedError
 
     def run_all_steps(self, context: Context, count: float) -> set[str]:
         """Every step, in one call of the operator. count: what the last step yields."""
-        with selection.progress(count) as step:
+        with progress(count) as step:
             for done in self._steps:
                 step(done)
         return self._finish(context)

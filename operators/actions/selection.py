@@ -6,16 +6,15 @@ one report a run.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 
-import bpy
 from bpy.types import Context, Object, Operator
 
 from ...core.verdict.finding import Finding, finding
 from ..read import measurable
 from ..scene.transforms import ancestors
 from ..write import reports
+from .modal import progress
 
 
 def selected_measurable(context: Context) -> list[Object]:
@@ -33,31 +32,6 @@ def poll_selection(cls: type[Operator], context: Context, any_mode: bool = False
     if not context.view_layer.objects.selected:
         return reports.unavailable(cls, finding("poll_select_objects"))
     return True
-
-
-def redraw(context: Context) -> None:
-    """Have the window drawn again, where there is one: what was stored shows in several of its areas."""
-    for area in context.screen.areas if context.screen else ():
-        area.tag_redraw()
-
-
-@contextmanager
-def progress(count: float) -> Iterator[Callable[[float], None]]:
-    """What to call with how much of `count` is done; shown at the cursor where there are many."""
-    manager = bpy.context.window_manager
-    shown = count > 1
-
-    def step(done: float) -> None:
-        if shown:
-            manager.progress_update(done)
-
-    if shown:
-        manager.progress_begin(0, count)
-    try:
-        yield step
-    finally:
-        if shown:
-            manager.progress_end()
 
 
 def summarize(
@@ -86,7 +60,7 @@ def summarize(
 
 def iterate_objects(
     objects: Iterable[Object], action: Callable[[Object], Iterator[float] | None], failures: list[Finding]
-) -> Iterator[float]:
+) -> Generator[float, None, None]:
     """Run `action` on one object after the other: it does the work, or returns an iterator that does it in steps and
     yields its share that is done. Yields how many objects are done. Why an object was refused, or that the work on it
     failed, is added to `failures`: none of them ends the others.

@@ -17,8 +17,8 @@ from ..read import Reading
 from ..settings.grid import GridOptions
 from ..settings.options import MeasureOptions
 from .grid import density_body
-from .mass import MassResult
-from .measurement import as_measurement, with_moments
+from .measurement import measurement_of
+from .request import Request
 
 
 @dataclass(frozen=True)
@@ -57,11 +57,11 @@ def measure_array(
         if options.density is not None:
             findings += (finding("given_density_ignored"),)
         scale = scan.slope, scan.intercept
-        body = density_body(scan.samples, shape, matrix, grid, None, findings, *scale, progress)
+        samples = density_body(scan.samples, shape, matrix, grid, None, findings, *scale, progress)
         reading = Reading(name, "ARRAY", np.eye(4), np.eye(3), np.zeros(3))
         used = replace(options, kind="solid", density=None, thickness=0.0, overlap="signed", wall="thin")
-        weighed = MassResult(body.mass, finding("density_from_samples"))
-        return with_moments(as_measurement(None, reading, body, used, 1.0, weighed, repr(grid.key)), body, used)
+        body = replace(samples, density_from=finding("density_from_samples"), density_key=repr(grid.key))
+        return measurement_of(reading, body, Request(used, 1.0))
     except MeasureError as error:
         error.about(name)
         raise

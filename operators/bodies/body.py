@@ -2,56 +2,171 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What reading and measuring any kind of object comes to: its moments, and how they came about.
 
-Each kind has a file that makes one: `mesh_body` for whatever Blender shows as polygons.
+Each kind has a module that makes one; `kinds` has them in order.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import ClassVar
 
+import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
-from ...core.moments.moments import Moments
+from ...core.moments.moments import Moments, sum_moments, sum_of_images
+from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals
-from ...core.verdict.finding import Finding
+from ...core.verdict.finding import Finding, ReadError
 from ...core.verdict.health import MeshReport
+from ...core.verdict.method import Method, Verdict
+from .instances import area_of_instances
+
+MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
+KNOWN_ORDER = 3  # the order to which every body has its moments
 
 
-@dataclass(frozen=True)
-class MeasuredBody:
-    """All parts of an object together, in SI units and world axes.
+@dataclass(frozen=True, eq=False)
+class Body:
+    """All parts of an object together, in SI units and world axes. As it is: one whose moments are known to third order
+    only.
 
-    volume, area: their moments, the volume's to order 3 at least. mass: of a body whose density is not one number, its
-    moments in kg; else None.
-    wall: of a shell of real thickness, the volume moments of its material; None of a thin one.
-    method, findings: as in `Measurement`.
-    third_order: gives what the principal frame is made from, with exact third order, where its bounds leave it
-    undecided.
-    length: of a wire, its moments; else None.
-    estimated: whether the bounds of its errors are estimates.
-    display_volume: of a body that is measured without its display mesh, what that would have given, m³; else None.
-    moments: gives the volume's and the area's moments to a higher order: (order, area wanted), and None for an area
-        that is not; itself None where only moments to order 3 are known.
-    solids: the surfaces that were measured, and the (k, 4, 4) maps to where each stands.
-    surfaces: gives the surfaces where they stand, in float64: around what is solid, or the sheets as they are (sheets
-        wanted).
-    face_count: how many triangles and quads were measured.
+    Attributes
+    ----------
+    volume, area : Moments
+        The volume's to order 3 at least.
+    method, findings
+        As in `Measurement`.
+    mass : Moments, optional
+        Of a body whose density is not one number, its moments in kg.
+    density_from : Finding, optional
+        Where such a density came from, with a code ``density_from_…``.
+    density_key : str
+        What of the settings decides such a density, for the fingerprint.
+    materials : tuple of str
+        Full names of the materials that were looked at for it.
+    wall : Moments, optional
+        Of a shell of real thickness, the volume moments of its material.
+    length : Moments, optional
+        Of a wire.
+    estimated : bool
+        Whether the bounds of its errors are estimates.
+    display_volume : float, optional
+        Of a body that is measured without its display mesh, what that would have given, m³.
+    face_count : int
+        How many triangles and quads were measured.
     """
+
+    any_order: ClassVar[bool] = False  # whether `moments` are known
+    has_surface: ClassVar[bool] = False  # whether `surfaces` are
 
     volume: Moments
     area: Moments
     health: MeshReport
-    method: str
+    method: Method
     findings: tuple[Finding, ...]
     mass: Moments | None = None
+    density_from: Finding | None = None
+    density_key: str = ""
+    materials: tuple[str, ...] = ()
     wall: Moments | None = None
-    third_order: Callable[[], Moments] | None = None
     length: Moments | None = None
     estimated: bool = False
     display_volume: float | None = None
-    moments: Callable[[int, bool], tuple[Moments, Moments | None]] | None = None
-    solids: tuple[tuple[SolidIntegrals, NDArray], ...] = ()
-    surfaces: Callable[[bool], Iterator[Surface]] | None = None
     face_count: int = 0
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the volume's and the area's moments to another order.
+
+        Parameters
+        ----------
+        order : int
+        area : bool
+            Whether the area's are wanted; else they may be None.
+
+        Raises
+        ------
+        ReadError
+            Where they are not known.
+        """
+        raise ReadError("wall_order", order=KNOWN_ORDER)
+
+    def third_order(self) -> Moments:
+        """Return what the principal frame of a solid or a wire is made from, with exact third order."""
+        return self.volume
+
+    def surfaces(self, sheets: bool) -> Iterator[Surface]:
+        """Yield the surfaces where they stand, in float64: around what is solid, or the sheets as they are."""
+        return iter(())
+
+
+@dataclass(frozen=True, eq=False)
+class MeshBody(Body):
+    """What polygons bound, or the sheets that they are.
+
+    Attributes
+    ----------
+    solids : tuple of (SolidIntegrals, (k, 4, 4) array)
+        The surfaces that were measured, and the maps to where each stands.
+    sheets : tuple of Surface
+        What each of the solids was before it was repaired.
+    """
+
+    any_order: ClassVar[bool] = True
+    has_surface: ClassVar[bool] = True
+
+    solids: tuple[tuple[SolidIntegrals, NDArray[np.float64]], ...] = ()
+    sheets: tuple[Surface, ...] = ()
+    threads: int = 1
+    _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments to an order, each part measured once and mapped to its places: the volume of the repaired
+        surface, in one pass with the area where the repair has neither added nor left out a face."""
+        if (order, area) not in self._known:  # the frame and the shape need them to one order
+            self._known[order, area] = self._to_order(order, area)
+        return self._known[order, area]
+
+    def _to_order(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        volumes, areas = [], []
+        alone = 0 if order <= 3 else None  # up to third order the area is found on the way, and makes bounds smaller
+
+        def measured(surface: Surface) -> Moments:
+            return polyhedron_moments(surface, order, area_order=order, exact=True, threads=self.threads)[1]
+
+        for (solid, matrices), surface in zip(self.solids, self.sheets):
+            same = (
+                solid.method in (Verdict.EXACT, Verdict.REORIENTED)
+                and not solid.health.duplicate_faces
+                and triangle_count(solid.repaired_surface) == triangle_count(surface)
+            )  # else flat parts are left out
+            volume, faces = polyhedron_moments(
+                solid.repaired_surface,
+                order,
+                area_order=order if area and same else alone,
+                about=solid.volume.about,  # of an open surface they depend on it
+                exact=True,
+                threads=self.threads,
+            )
+            volumes.append(sum_of_images(volume, matrices))
+            if area:
+                areas.extend(area_of_instances(surface, faces if same else measured(surface), matrices, measured))
+        return sum_moments(volumes), sum_moments(areas) if area else None
+
+    def third_order(self) -> Moments:
+        """Return the volume with its third order exact to rounding."""
+        return sum_moments(
+            [sum_of_images(solid.exact_third_order(self.threads), matrices) for solid, matrices in self.solids]
+        )
+
+    def surfaces(self, sheets: bool) -> Iterator[Surface]:
+        """Yield the surfaces where they stand."""
+        for (solid, matrices), surface in zip(self.solids, self.sheets):
+            piece = surface if sheets else solid.repaired_surface
+            yield from (piece.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
+
+
+def triangle_count(surface: Surface) -> int:
+    """Return the number of triangles, quads counting as two."""
+    return len(surface.triangles) + 2 * len(surface.quads)

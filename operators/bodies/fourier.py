@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 
 import bpy
@@ -18,11 +18,13 @@ from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.method import Verdict
 from ..read import Reading, read_object, shows_flat_region
+from ..read.reading import to_si
 from ..settings.density import density_field
-from ..settings.options import MeasureOptions, with_object_settings
-from .instances import to_si
+from ..settings.options import MeasureOptions
 from .mesh import mesh_body
+from .request import with_object_settings
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,7 @@ class ObjectTransform:
     factor: float
     findings: tuple[Finding, ...]
 
-    def steps(self) -> Iterator[float]:
+    def steps(self) -> Generator[float, None, None]:
         """Do the work. Yields the fraction done. Raises MeasureError."""
         try:
             yield from self.transform.steps()
@@ -82,7 +84,7 @@ def object_transform(
         else:
             if options.kind == "wire":
                 raise ReadError("fourier_of_wire")
-            if body.method == "open":
+            if body.method.verdict == Verdict.OPEN:
                 raise ReadError("fourier_of_open_surface")
             parts = [(solid.repaired_surface, matrices) for solid, matrices in body.solids]
             of, total = Measure.VOLUME, body.volume.total

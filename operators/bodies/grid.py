@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The body that a grid of voxels is: a density, or for a level set the solid that it bounds."""
+"""Grids of voxels: a density, or for a level set the solid that it bounds."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,15 +16,100 @@ from ...core.density.spline_grid import Blocks, grid_moments
 from ...core.moments.moments import Measure, Moments
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import MeshReport
+from ...core.verdict.method import Method, Source, Verdict
 from ..read import Part, Reading
-from ..read.volume import VolumeReading
+from ..read.quiet import paused
+from ..read.volume import VolumeReading, volume_reading
+from ..settings.digest import density_key, grid_key
 from ..settings.grid import GridOptions
-from .body import MeasuredBody
-from .mass import MAX_MASS_MOMENT
+from .body import MAX_MASS_MOMENT, Body, MeshBody
 from .mesh import mesh_body
+from .request import Request
+
+MEASURED_AS = frozenset({"solid", "shell", "wire"})  # the others to be refused
 
 
-def grid_body(reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1) -> MeasuredBody:
+@dataclass(frozen=True, eq=False)
+class GridBody(Body):
+    """Samples at matrix @ (i, j, k, 1), in metres, that stand for slope · sample + intercept.
+
+    Attributes
+    ----------
+    samples, shape
+        What is there, (offset, array) block by block or one array, and the (3,) shape of the box that holds it.
+    matrix : (4, 4) array
+    options : GridOptions
+    background : float, optional
+        A value that counts as empty.
+    """
+
+    any_order: ClassVar[bool] = True
+
+    samples: Blocks | NDArray | None = None
+    shape: Sequence[int] = ()
+    matrix: NDArray[np.float64] | None = None
+    options: GridOptions = GridOptions()
+    background: float | None = None
+    slope: float = 1.0
+    intercept: float = 0.0
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments of the voxels that are not empty; a grid has no area."""
+        weigh = _Weights(self.options, self.background, self.slope, self.intercept)
+        volume = _occupied(self.samples, self.shape, self.matrix, weigh, order)
+        return volume, Moments(np.zeros_like(volume.raw), volume.about, Measure.AREA) if area else None
+
+
+class _Weights:
+    """What a block of samples weighs, kg/m³."""
+
+    def __init__(self, options: GridOptions, background: float | None, slope: float, intercept: float):
+        self._weigh = options.to_densities(background)
+        self._slope, self._intercept = slope, intercept
+
+    def densities(self, block: NDArray) -> NDArray[np.float64]:
+        scaled = self._slope != 1.0 or self._intercept != 0.0
+        return self._weigh(block * self._slope + self._intercept if scaled else block)
+
+    def occupied(self, block: NDArray) -> NDArray[np.float64]:
+        """1 where there is something, 0 where there is nothing."""
+        return (self.densities(block) != 0.0).astype(np.float64)
+
+
+def _occupied(samples: Blocks | NDArray, shape: Sequence[int], matrix: NDArray, weigh: _Weights, order: int) -> Moments:
+    moments = grid_moments(samples, shape, matrix, order=order, value=weigh.occupied)
+    return replace(moments, measure=Measure.VOLUME)
+
+
+def read(request: Request) -> VolumeReading | None:
+    """Return the grid that an object shows; None where it shows polygons, or no volume.
+
+    Raises MeasureError where the grid cannot be read, or is to be anything but a solid.
+    """
+    obj = request.obj
+    if obj.type != "VOLUME" and "NODES" not in [modifier.type for modifier in obj.modifiers]:
+        return None
+    with ExitStack() as opened:
+        opened.enter_context(paused())
+        reading = opened.enter_context(volume_reading(obj, request.depsgraph, obj.body_moments.grid))
+        if reading is None:
+            return None
+        if request.options.kind != "solid":
+            raise ReadError("grid_as_shell")
+        request.opened.push(opened.pop_all())
+    return reading
+
+
+def body(reading: VolumeReading, request: Request) -> Body:
+    """Return the body of one grid. Raises MeasureError where there is none."""
+    obj, density, options = request.obj, request.given.density, request.options
+    made = grid_body(reading, GridOptions.of(obj.body_moments, density), request.unit, options.threads)
+    key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, ())
+    source = None if made.mass is None else finding("density_from_grid", grid=reading.grid)
+    return replace(made, density_from=source, density_key=key)
+
+
+def grid_body(reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1) -> Body:
     """The body of one grid. unit: metres per Blender unit. MeasureError where there is none."""
     if options.solid:
         return _solid(reading, unit, threads)
@@ -48,49 +135,44 @@ def density_body(
     slope: float = 1.0,
     intercept: float = 0.0,
     progress: Callable[[int], None] = lambda samples: None,
-) -> MeasuredBody:
+) -> GridBody:
     """The body of samples at matrix @ (i, j, k, 1), in metres, that stand for slope · sample + intercept.
 
     background: a value that counts as empty. progress: called with how many samples are about to be read.
     """
     if min(shape) < 1:
         raise ReadError("grid_empty")
-    weigh = options.to_densities(background)
+    weigh = _Weights(options, background, slope, intercept)
 
     def densities(block: NDArray) -> NDArray[np.float64]:
         progress(block.size)
-        return weigh(block if slope == 1.0 and intercept == 0.0 else block * slope + intercept)
+        return weigh.densities(block)
 
     mass = grid_moments(samples, shape, matrix, options.spline_order, value=densities)
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError("mass_overflow")
     if not mass.total > 0.0:
         raise ReadError("grid_empty")
-
-    def held(order: int) -> Moments:
-        moments = grid_moments(
-            samples, shape, matrix, order=order, value=lambda block: (densities(block) != 0.0).astype(np.float64)
-        )
-        return replace(moments, measure=Measure.VOLUME)
-
-    def to_order(order: int, area: bool) -> tuple[Moments, Moments | None]:
-        volume = held(order)
-        return volume, Moments(np.zeros_like(volume.raw), volume.about, Measure.AREA) if area else None
-
-    volume = held(3)
+    volume = _occupied(samples, shape, matrix, weigh, 3)
     findings += (*options.empty_background_note(background), finding("grid_without_surface"))
-    return MeasuredBody(
+    return GridBody(
         volume,
         Moments(np.zeros(1), volume.about, Measure.AREA),
         MeshReport(closed=True),
-        "grid exact",
+        Method(Verdict.EXACT, Source.GRID),
         findings,
         mass=mass,
-        moments=to_order,
+        samples=samples,
+        shape=shape,
+        matrix=matrix,
+        options=options,
+        background=background,
+        slope=slope,
+        intercept=intercept,
     )
 
 
-def _solid(reading: VolumeReading, unit: float, threads: int) -> MeasuredBody:
+def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
     """What a level set bounds, by its polygons."""
     if not reading.level_set:
         raise ReadError("grid_is_not_level_set", grid=reading.grid)
@@ -105,7 +187,8 @@ def _solid(reading: VolumeReading, unit: float, threads: int) -> MeasuredBody:
         reading.location,
         [Part(surface, reading.matrix[None])],
     )
-    body = mesh_body(shown, unit, shell=False, union=False, threads=threads)
+    bounded = mesh_body(shown, unit, shell=False, union=False, threads=threads)
     polygons = len(surface.triangles) + len(surface.quads)
     measured = finding("level_set_measured", grid=reading.grid, polygons=polygons)
-    return replace(body, method="grid " + body.method, findings=(measured, *body.findings))
+    method = Method(bounded.method.verdict, Source.GRID)
+    return replace(bounded, method=method, findings=(measured, *bounded.findings))

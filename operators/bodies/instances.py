@@ -19,8 +19,6 @@ from ...core.verdict.finding import Finding, finding
 from ...core.verdict.health import DefectiveElements, MeshReport
 from ..read import Reading
 
-METHOD_RANK = ("open", "capped", "reoriented", "exact")  # methods: of several, the first counts
-
 
 def singular_reason(reading: Reading) -> Finding:
     """Why nothing of a singular reading encloses anything."""
@@ -89,13 +87,6 @@ def instances_overlap(reading: Reading) -> bool:
         centers.append(linear @ ((low + high) / 2.0) + part.matrices[:, :3, 3])
         extents.append(np.abs(linear) @ ((high - low) / 2.0))
     return boxes_overlap(np.concatenate(centers), np.concatenate(extents))
-
-
-def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:
-    """World matrices to SI."""
-    scaled = np.array(matrices, np.float64)
-    scaled[:, :3] *= unit
-    return scaled
 
 
 def area_of_instances(

@@ -7,8 +7,8 @@ Each surface is weighed once in its own coordinates and mapped to its places, as
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,72 +21,97 @@ from ...core.moments.moments import Moments, are_similarities, sum_moments, sum_
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals
 from ...core.solid.parts import ClosedParts
-from ...core.verdict.finding import Finding, ReadError, finding
+from ...core.verdict.finding import Finding, ReadError, finding, truncate_findings
+from ...core.verdict.method import Verdict
 from ..read import Reading
-from ..read.reading import said_of
+from ..read.reading import said_of, to_si
 from ..settings.density import DensityField, material_density
-from . import polynomial_mass as weigh_polynomial
-from .body import MeasuredBody
-from .instances import area_of_instances, findings_by_part, to_si, with_sources
+from ..settings.digest import density_key
+from .body import MAX_MASS_MOMENT, MeshBody
+from .instances import area_of_instances, findings_by_part, with_sources
+from .measurement import extent
+from .polynomial_mass import polynomial_mass_result
+from .request import Request
+from .voxel_filled import filled_by_volume
 
 MAX_NAMED = 8  # materials
-MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
 
 
-@dataclass
-class MassResult:
+@dataclass(frozen=True, eq=False)
+class _Weighed:
     """mass: moments in kg, SI units and world axes. source: where the density came from. findings: what was decided.
     materials: full names of those that were met, with a density or without."""
 
     mass: Moments
     source: Finding
-    findings: list[Finding] = field(default_factory=list)
+    findings: Sequence[Finding] = ()
     materials: tuple[str, ...] = ()
 
 
-def mass_result(
-    reading: Reading,
-    body: MeasuredBody,
-    density: DensityField,
-    *,
-    unit: float,
-    shell: bool,
-    thickness: float,
-    default_density: float,
-    threads: int = 1,
-) -> MassResult:
-    """The mass of a body that `mesh_body` measured.
+def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
+    """Return the body with the mass that its density gives it.
 
-    unit: metres per Blender unit; thickness: of a shell, m; default_density: kg/m³ of faces whose material has no
-    density. MeasureError where the density is missing or negative somewhere.
+    Raises
+    ------
+    MeasureError
+        Where the density is missing or negative somewhere.
     """
-    if not body.solids or (density.kind != "polynomial" and any(part.attributes is None for part in reading.parts)):
-        raise ReadError("density_needs_polygons")
-    factor = thickness if shell else 1.0
+    density, options = request.density, request.options
+    shell = options.kind == "shell"
+    factor = options.thickness if shell else 1.0
+    extent(body, options)  # refused before it is weighed
+    if density.kind == "volume":
+        if shell:
+            raise ReadError("density_volume_of_shell")
+        filled = filled_by_volume(body, request)
+        return replace(filled, density_key=density_key(request.obj, ()))
     if density.kind == "polynomial":
-        parts, findings = weigh_polynomial.polynomial_mass_result(
-            reading, body, density, unit=unit, shell=shell, threads=threads
-        )
-        mass = sum_moments(parts) * factor
-        if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
-            raise ReadError("mass_overflow")
-        return MassResult(mass, density.polynomial_source(), findings)
-    if density.kind == "attribute":
-        if not shell:
-            raise ReadError("density_attribute_of_solid")
-        parts = [
-            _sheet_moments(reading, i, _vertex_density(reading, i, density.attribute), unit, threads, by_vertex=True)
-            for i in range(len(reading.parts))
-        ]
-        source = finding("density_from_attribute", attribute=density.attribute)
-        return MassResult(to_mass_moments(sum_moments([moments for part in parts for moments in part]), factor), source)
-    return _by_material(reading, body, unit, shell, factor, default_density, threads)
+        weighed = _by_polynomial(reading, body, density, request.unit, shell, factor, options.threads)
+    elif density.kind == "attribute":
+        weighed = _by_attribute(reading, density, request.unit, shell, factor, options.threads)
+    else:
+        weighed = _by_material(reading, body, request.unit, shell, factor, options.density, options.threads)
+    return replace(
+        body,
+        mass=weighed.mass,
+        density_from=weighed.source,
+        density_key=density_key(request.obj, weighed.materials),
+        materials=weighed.materials,
+        findings=(*body.findings, *weighed.findings),
+    )
+
+
+def _by_polynomial(
+    reading: Reading, body: MeshBody, density: DensityField, unit: float, shell: bool, factor: float, threads: int
+) -> _Weighed:
+    parts, findings = polynomial_mass_result(reading, body, density, unit=unit, shell=shell, threads=threads)
+    mass = sum_moments(parts) * factor
+    if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
+        raise ReadError("mass_overflow")
+    return _Weighed(mass, density.polynomial_source(), findings)
+
+
+def _by_attribute(
+    reading: Reading, density: DensityField, unit: float, shell: bool, factor: float, threads: int
+) -> _Weighed:
+    if any(part.attributes is None for part in reading.parts):
+        raise ReadError("density_needs_polygons")
+    if not shell:
+        raise ReadError("density_attribute_of_solid")
+    parts = [
+        _sheet_moments(reading, i, _vertex_density(reading, i, density.attribute), unit, threads, by_vertex=True)
+        for i in range(len(reading.parts))
+    ]
+    source = finding("density_from_attribute", attribute=density.attribute)
+    return _Weighed(to_mass_moments(sum_moments([moments for part in parts for moments in part]), factor), source)
 
 
 def _by_material(
-    reading: Reading, body: MeasuredBody, unit: float, shell: bool, factor: float, default_density: float, threads: int
-) -> MassResult:
-    if body.method == "union":
+    reading: Reading, body: MeshBody, unit: float, shell: bool, factor: float, default_density: float, threads: int
+) -> _Weighed:
+    if any(part.attributes is None for part in reading.parts):
+        raise ReadError("density_needs_polygons")
+    if body.method.verdict == Verdict.UNION:
         raise ReadError("materials_of_union")
     face_densities = _FaceDensities(reading, default_density)
     parts: list[Moments] = []
@@ -109,7 +134,7 @@ def _by_material(
     health = body.health
     if not shell and health.nested_components + health.overlapping_components and face_densities.has_several:
         findings.append(finding("overlapping_densities"))
-    return MassResult(
+    return _Weighed(
         to_mass_moments(sum_moments(parts), factor), face_densities.source(mixed), findings, face_densities.names
     )
 
@@ -163,16 +188,15 @@ class _FaceDensities:
         """Where the densities come from. by_area: whether components of several materials took their mean."""
         known = [(material.name, material_density(material)) for material in self.materials]
         known = [(name, value) for name, value in known if value is not None]
-        parts = [finding("density_of_material", material=name, density=value) for name, value in known[:MAX_NAMED]]
-        if len(known) > MAX_NAMED:
-            parts.append(finding("and_more", count=len(known) - MAX_NAMED))
+        parts = [finding("density_of_material", material=name, density=value) for name, value in known]
+        parts = truncate_findings(parts, MAX_NAMED)
         if self.faces_without_density:
             parts.append(finding("density_of_others", density=self.default_density))
         if by_area:
             parts.append(finding("density_mixed_by_area"))
         return finding("density_from_materials", materials=[part.as_record() for part in parts])
 
-    def for_solids(self, body: MeasuredBody) -> Iterator[tuple[NDArray, NDArray]]:
+    def for_solids(self, body: MeshBody) -> Iterator[tuple[NDArray, NDArray]]:
         """The densities and the material's names of the faces of each measured surface; of one that joins all places,
         those of each place in turn."""
         names = [
@@ -190,7 +214,7 @@ class _FaceDensities:
         yield np.concatenate(blocks), np.concatenate(row_names)
 
 
-def is_joined(reading: Reading, body: MeasuredBody) -> bool:
+def is_joined(reading: Reading, body: MeshBody) -> bool:
     """Whether the body was measured as one surface though it stands in several places."""
     return sum(len(matrices) for _, matrices in body.solids) != reading.instance_count
 

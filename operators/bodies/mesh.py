@@ -4,24 +4,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface, join_surfaces
-from ...core.moments.moments import Moments, sum_moments, sum_of_images
+from ...core.moments.moments import Moments, are_similarities, sum_moments, sum_of_images
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals, measure_solid
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import DefectiveElements, MeshReport
-from ..read import Part, Reading
+from ...core.verdict.method import Method, Verdict, least_trusted
+from ..read import Part, Reading, shows_flat_region
+from ..read.reading import to_si
 from ..read.union import union_surface
-from .body import MeasuredBody
+from .body import Body, MeshBody, triangle_count
 from .instances import (
-    METHOD_RANK,
     area_of_instances,
     findings_by_part,
     instances_overlap,
@@ -29,155 +29,131 @@ from .instances import (
     not_compared,
     singular_instances_message,
     singular_reason,
-    to_si,
     with_sources,
 )
+from .mass import weigh
+from .request import Request
+from .wall import find_walls
+
+MEASURED_AS = frozenset({"solid", "shell"})
 
 MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared with each other as shells of one mesh
+DRAWN_CODES = ("surface_drawn_as_polygons", "curves_drawn_as_polygons")
 
 
-def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeasuredBody:
+def read(request: Request) -> Reading | None:
+    """Return the polygons that an object shows; None where patches are better, which have one density. Raises
+    MeasureError where it shows none."""
+    reading, density, obj = request.surfaces, request.density, request.obj
+    if reading.has_patches:
+        if density is None:
+            return None
+        reading.findings.append(finding("display_mesh_for_density"))
+    elif density is not None and request.options.kind == "shell" and obj.type == "CURVE" and shows_flat_region(obj):
+        reading.findings.append(finding("curve_fill_for_density"))
+    return reading
+
+
+def body(reading: Reading, request: Request) -> Body:
+    """Return what polygons bound, weighed and with walls as the settings want it. Raises MeasureError where there is
+    nothing to measure."""
+    options = request.options
+    shell = options.kind == "shell"
+    made = mesh_body(reading, request.unit, shell=shell, union=options.overlap == "union", threads=options.threads)
+    if request.density is not None:
+        made = weigh(reading, made, request)
+    if shell and options.wall != "thin":
+        return find_walls(reading, made, options.wall).body(options.thickness)
+    return made
+
+
+def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
     """What an object's surfaces bound, or with `shell` the sheets that they are.
 
     unit: metres per Blender unit. union: shells that overlap are united first. MeasureError where there is nothing to
     measure.
     """
-    if reading.all_singular and not shell:
+    if shell:
+        return _sum_of_instances(reading, unit, True, threads)
+    flat = reading.singular_instance_count
+    if flat == reading.instance_count:
         raise ReadError(singular_reason(reading))
-    body = (
-        _boolean_union(reading, unit, threads)
-        if union and not shell
-        else _sum_of_instances(reading, unit, shell, threads)
-    )
-    if reading.singular_instance_count and not shell:
-        body = replace(body, findings=(singular_instances_message(reading.singular_instance_count), *body.findings))
-    return body
+    made = _boolean_union(reading, unit, threads) if union else _sum_of_instances(reading, unit, False, threads)
+    return replace(made, findings=(singular_instances_message(flat), *made.findings)) if flat else made
 
 
-def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeasuredBody:
+def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
     """Each part measured once in its own coordinates, and mapped to wherever it stands."""
-    volumes, areas, healths, methods, findings, by_part, parts = [], [], [], [], [], [], []
-    drawn = _drawn(reading)
-    if not shell and reading.instance_count > 1 and instances_overlap(reading):
-        if sum(_triangles(part.surface) * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
+    volumes, areas, healths, verdicts, findings, by_part, parts = [], [], [], [], [], [], []
+    drawn = _drawn(reading) if reading.findings else set()
+    alone = reading.instance_count == 1
+    if not shell and not alone and instances_overlap(reading):
+        if sum(triangle_count(part.surface) * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
             return _joined_body(reading, unit, threads)
         findings.append(not_compared(reading))
     for part in reading.parts:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
         matrices = to_si(part.matrices, unit)
         volumes.append(sum_of_images(solid.volume, matrices))
-        measured = (lambda surface: polyhedron_moments(surface, area_order=3, threads=threads)[1]) if shell else None
-        image_areas = list(area_of_instances(part.surface, solid.area, matrices, measured))
+        if are_similarities(matrices[:, :3, :3]).all():
+            image_areas = [sum_of_images(solid.area, matrices)]
+        else:
+            image_areas = list(area_of_instances(part.surface, solid.area, matrices, _area(threads) if shell else None))
         areas.extend(image_areas)
-        stretch = volumes[-1].total / solid.volume.total if solid.volume.total else 0.0  # Σ |det|
+        total = float(solid.volume.raw[0])
+        stretch = float(volumes[-1].raw[0]) / total if total else 0.0  # Σ |det|
         healths.append(
             (
                 replace(solid.health, volume_spread=solid.health.volume_spread * stretch),
                 len(matrices),
-                sum(moments.total for moments in image_areas),
+                sum([float(moments.raw[0]) for moments in image_areas]),
             )
         )
         flat = not shell and not solid.volume.raw.any()
-        methods.append(None if flat else solid.method)
-        if shell:  # it is measured as it is
-            copies = solid.health.defective_elements.duplicate_faces
-            found = [finding("duplicate_faces_of_shell", copies, count=len(copies))] if len(copies) else []
+        verdicts.append(None if flat else Verdict(solid.method))
+        if shell or solid.findings:
+            by_part.append((part.source_object_name, _part_findings(part, solid, shell, flat, drawn)))
         else:
-            found = [] if flat else _of_drawn(solid.findings, [part], drawn)
-        by_part.append((part.source_object_name, found))
+            by_part.append((part.source_object_name, ()))
         parts.append((solid, matrices))
-    findings += findings_by_part(by_part, reading.name)
-    solid_methods = [method for method in methods if method]
-    if solid_methods and len(solid_methods) < len(methods):
-        findings.append(finding("flat_instance_sources", count=methods.count(None), total=len(methods)))
-    method = min(solid_methods, key=METHOD_RANK.index, default="open")
-    return _measured_body(
+    if any([found for _, found in by_part]):
+        findings += findings_by_part(by_part, reading.name)
+    of_solids = [verdict for verdict in verdicts if verdict]
+    if of_solids and len(of_solids) < len(verdicts):
+        findings.append(finding("flat_instance_sources", count=verdicts.count(None), total=len(verdicts)))
+    return MeshBody(
         sum_moments(volumes),
         sum_moments(areas),
-        merge_health(healths),
-        method,
-        findings,
-        parts,
-        [part.surface for part in reading.parts],
-        threads,
-    )
-
-
-def _measured_body(
-    volume: Moments,
-    area: Moments,
-    health: MeshReport,
-    method: str,
-    findings: Iterable[Finding],
-    solids: list[tuple[SolidIntegrals, NDArray]],
-    surfaces: list[Surface],
-    threads: int,
-) -> MeasuredBody:
-    """surfaces: what each of the solids was before it was repaired."""
-
-    def refined() -> Moments:
-        return sum_moments([sum_of_images(solid.exact_third_order(threads), matrices) for solid, matrices in solids])
-
-    @cache  # the frame and the shape need them to one order
-    def to_order(order: int, area: bool) -> tuple[Moments, Moments | None]:
-        return _moments_to_order(solids, surfaces, order, area, threads)
-
-    def pieces(sheets: bool) -> Iterator[Surface]:
-        for (solid, matrices), surface in zip(solids, surfaces):
-            piece = surface if sheets else solid.repaired_surface
-            yield from (piece.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
-
-    faces = sum(len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads) for solid, _ in solids)
-    return MeasuredBody(
-        volume,
-        area,
-        health,
-        method,
+        healths[0][0] if alone else merge_health(healths),
+        Method(of_solids[0] if len(of_solids) == 1 else least_trusted(of_solids)),
         tuple(findings),
-        third_order=refined,
-        moments=to_order,
-        solids=tuple(solids),
-        surfaces=pieces,
-        face_count=faces,
+        face_count=sum(
+            [len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads) for solid, _ in parts]
+        ),
+        solids=tuple(parts),
+        sheets=tuple([part.surface for part in reading.parts]),
+        threads=threads,
     )
 
 
-def _moments_to_order(
-    solids: list[tuple[SolidIntegrals, NDArray]], surfaces: list[Surface], order: int, area: bool, threads: int
-) -> tuple[Moments, Moments | None]:
-    """The moments to an order of what was measured, each part once and mapped to its places: the volume of the repaired
-    surface, in one pass with the area where the repair has neither added nor left out a face."""
-    volumes, areas = [], []
-    alone = 0 if order <= 3 else None  # up to third order the area is found on the way, and makes bounds smaller
+def _part_findings(part: Part, solid: SolidIntegrals, shell: bool, flat: bool, drawn: set[str]) -> list[Finding]:
+    """What is reported of one surface. A sheet is measured as it is."""
+    if shell:
+        copies = solid.health.defective_elements.duplicate_faces
+        return [finding("duplicate_faces_of_shell", copies, count=len(copies))] if len(copies) else []
+    return [] if flat else _of_drawn(solid.findings, [part], drawn)
+
+
+def _area(threads: int) -> Callable[[Surface], Moments]:
+    """What measures the area of a mapped surface."""
 
     def measured(surface: Surface) -> Moments:
-        return polyhedron_moments(surface, order, area_order=order, exact=True, threads=threads)[1]
+        return polyhedron_moments(surface, area_order=3, threads=threads)[1]
 
-    for (solid, matrices), surface in zip(solids, surfaces):
-        same = (
-            solid.method in ("exact", "reoriented")
-            and not solid.health.duplicate_faces
-            and _triangles(solid.repaired_surface) == _triangles(surface)
-        )  # else flat parts are left out
-        volume, faces = polyhedron_moments(
-            solid.repaired_surface,
-            order,
-            area_order=order if area and same else alone,
-            about=solid.volume.about,  # of an open surface they depend on it
-            exact=True,
-            threads=threads,
-        )
-        volumes.append(sum_of_images(volume, matrices))
-        if area:
-            areas.extend(area_of_instances(surface, faces if same else measured(surface), matrices, measured))
-    return sum_moments(volumes), sum_moments(areas) if area else None
+    return measured
 
 
-def _triangles(surface: Surface) -> int:
-    return len(surface.triangles) + 2 * len(surface.quads)
-
-
-def _joined_body(reading: Reading, unit: float, threads: int) -> MeasuredBody:
+def _joined_body(reading: Reading, unit: float, threads: int) -> MeshBody:
     """All parts where they stand as one surface, so that they are compared as the shells of one mesh are."""
     surface = reading.join()
     solid = measure_solid(surface, threads=threads)
@@ -185,28 +161,55 @@ def _joined_body(reading: Reading, unit: float, threads: int) -> MeasuredBody:
     health = replace(
         solid.health, volume_spread=solid.health.volume_spread * unit**3, defective_elements=DefectiveElements()
     )
-    return _measured_body(
+    findings = _of_drawn(solid.findings, reading.parts, _drawn(reading))
+    return _single_surface_body(
         solid.volume.transform(scale),
         solid.area.transform(scale),
         health,
-        solid.method,
-        [with_sources(reading, result) for result in _of_drawn(solid.findings, reading.parts, _drawn(reading))],
-        [(solid, scale[None])],
-        [surface],
+        Verdict(solid.method),
+        [with_sources(reading, result) for result in findings],
+        solid,
+        scale,
+        surface,
         threads,
+    )
+
+
+def _single_surface_body(
+    volume: Moments,
+    area: Moments,
+    health: MeshReport,
+    verdict: Verdict,
+    findings: Iterable[Finding],
+    solid: SolidIntegrals,
+    matrix: NDArray[np.float64],
+    surface: Surface,
+    threads: int,
+) -> MeshBody:
+    """The body of one surface in one place."""
+    solids = [(solid, matrix[None])]
+    return MeshBody(
+        volume,
+        area,
+        health,
+        Method(verdict),
+        tuple(findings),
+        face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
+        solids=tuple(solids),
+        sheets=(surface,),
+        threads=threads,
     )
 
 
 def _drawn(reading: Reading) -> set[str]:
     """The sources of which Blender draws polygons in place of something round."""
-    codes = ("surface_drawn_as_polygons", "curves_drawn_as_polygons")
-    results = [result for result in reading.findings if result.code in codes]
+    results = [result for result in reading.findings if result.code in DRAWN_CODES]
     return {name for result in results for name in result.values.get("sources", ["", reading.name])}
 
 
 def _of_drawn(findings: Iterable[Finding], parts: Iterable[Part], drawn: set[str]) -> list[Finding]:
     """How polygons are cut that stand for something round matters less than that they do."""
-    if not all(part.source_object_name in drawn for part in parts):
+    if not drawn.issuperset([part.source_object_name for part in parts]):
         return list(findings)
     of_display_mesh = "non_planar_faces_of_display_mesh"
     return [
@@ -214,7 +217,7 @@ def _of_drawn(findings: Iterable[Finding], parts: Iterable[Part], drawn: set[str
     ]
 
 
-def _boolean_union(reading: Reading, unit: float, threads: int) -> MeasuredBody:
+def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
     """All parts where they stand as one surface, overlaps removed by Blender's exact boolean."""
     before = _sum_of_instances(reading, unit, False, threads)
     if not before.volume.total > 0.0:
@@ -225,24 +228,26 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeasuredBody:
         for matrix in matrices
     ]
     surface = union_surface(join_surfaces(repaired))
-    solid = measure_solid(surface, threads=threads) if _triangles(surface) else None
-    if solid is None or solid.method == "open":
+    solid = measure_solid(surface, threads=threads) if triangle_count(surface) else None
+    if solid is None or solid.method == Verdict.OPEN:
         raise ReadError("union_failed")
     findings = [finding("union_by_boolean")]
-    if before.method == "capped":
+    verdict = before.method.verdict
+    if verdict == Verdict.CAPPED:
         slight = all(result.code != "holes_capped" for result in before.findings)
         code = "holes_capped_before_union_slightly" if slight else "holes_capped_before_union"
         findings.append(finding(code, share=before.health.cap_area_share))
-    elif before.method != "exact":
-        reoriented = before.method == "reoriented"
+    elif verdict != Verdict.EXACT:
+        reoriented = verdict == Verdict.REORIENTED
         findings.append(finding("faces_reversed_before_union" if reoriented else "open_components_united"))
-    return _measured_body(
+    return _single_surface_body(
         solid.volume,
         solid.area,
         before.health,
-        "union",
+        Verdict.UNION,
         (*findings, *_of_drawn(solid.findings, reading.parts, _drawn(reading))),
-        [(solid, np.eye(4)[None])],
-        [surface],
+        solid,
+        np.eye(4),
+        surface,
         threads,
     )

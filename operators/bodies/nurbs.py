@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,11 +23,12 @@ from ...core.nurbs.creases import sharpest_crease
 from ...core.nurbs.patch import Patch
 from ...core.nurbs.patch_moments import area_moments, volume_moments
 from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
-from ...core.verdict.finding import MeasureError, ReadError, finding
+from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.method import Method, Source, Verdict, least_trusted
 from ..read import Part, Reading
-from .body import MeasuredBody
+from ..read.reading import to_si
+from .body import Body, MeshBody
 from .instances import (
-    METHOD_RANK,
     each_once,
     findings_by_part,
     instances_overlap,
@@ -34,12 +36,96 @@ from .instances import (
     not_compared,
     singular_instances_message,
     singular_reason,
-    to_si,
 )
 from .mesh import mesh_body
+from .request import Request
+
+MEASURED_AS = frozenset({"solid", "shell"})
 
 MIN_CREASE_ANGLE = 0.02  # radians: less is what float32 leaves of a surface without
 HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)}  # of a wall, in thicknesses
+
+
+@dataclass(frozen=True, eq=False)
+class PatchBody(Body):
+    """What patches bound, and polygons beside them.
+
+    Attributes
+    ----------
+    reading : Reading
+        All of it. Asked for surfaces, it gives those of its display mesh.
+    pieces : tuple of (Part, PatchIntegrals, (k, 4, 4) array)
+        The parts that are patches, and the maps to where each stands.
+    polygons : MeshBody, optional
+        The other parts.
+    """
+
+    any_order: ClassVar[bool] = True
+    has_surface: ClassVar[bool] = True
+
+    reading: Reading | None = None
+    unit: float = 1.0
+    pieces: tuple[tuple[Part, PatchIntegrals, NDArray[np.float64]], ...] = ()
+    polygons: MeshBody | None = None
+    threads: int = 1
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments to another order. Raises ReadError for an open body."""
+        volumes = [sum_of_images(_moments_to_order(measure, order), matrices) for _, measure, matrices in self.pieces]
+        areas = []
+        for part, measure, matrices in self.pieces if area else ():
+            of_part = area_moments(part.splines.patches, order, measure.area.about)[0]
+            areas.extend(_image_areas(part, of_part, matrices))
+        if self.polygons is not None:
+            volume, faces = self.polygons.moments(order, area)
+            volumes.append(volume)
+            areas += [faces] if area else []
+        return sum_moments(volumes), sum_moments(areas) if area else None
+
+    def surfaces(self, sheets: bool) -> Iterator[Surface]:
+        """Yield the display mesh where it stands: what asks for surfaces asks for polygons."""
+        return mesh_body(self.reading, self.unit, shell=sheets, union=False, threads=self.threads).surfaces(sheets)
+
+
+@dataclass(frozen=True, eq=False)
+class PatchSheetBody(Body):
+    """Thin sheets that are patches, and polygons beside them: `parts` and `polygons`, as in `PatchBody`."""
+
+    any_order: ClassVar[bool] = True
+
+    unit: float = 1.0
+    parts: tuple[Part, ...] = ()
+    polygons: MeshBody | None = None
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
+        """Return that there is no volume, and the area's moments."""
+        areas = []
+        for part in self.parts:
+            of_part = area_moments(part.splines.patches, order)[0]
+            areas.extend(_image_areas(part, of_part, to_si(part.matrices, self.unit)))
+        if self.polygons is not None:
+            areas.append(self.polygons.moments(order, True)[1])
+        return Moments(np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME), sum_moments(areas)
+
+
+def read(request: Request) -> Reading:
+    """Return the surfaces of an object of one density some of whose surfaces are patches. Raises MeasureError."""
+    return request.surfaces
+
+
+def body(reading: Reading, request: Request) -> Body:
+    """Return what patches bound, or the sheets or walls that they are. Raises MeasureError where there is nothing to
+    measure."""
+    options = request.options
+    return nurbs_body(
+        reading,
+        request.unit,
+        wall=options.wall if options.kind == "shell" else None,
+        thickness=options.thickness,
+        union=options.overlap == "union",
+        threads=options.threads,
+        compare=options.compare,
+    )
 
 
 def nurbs_body(
@@ -51,7 +137,7 @@ def nurbs_body(
     union: bool,
     threads: int,
     compare: bool = True,
-) -> MeasuredBody:
+) -> Body:
     """What an object's surfaces bound where some of them are B-spline patches, or the sheets that they are.
 
     unit: metres per Blender unit. wall: of a shell, as in `MeasureOptions`; None for solids. thickness: m. union:
@@ -65,79 +151,55 @@ def nurbs_body(
     patch_parts, meshes = _split_parts(reading)
     measures = [measure_patches(part.splines.patches, area_order=3, stored=part.splines.stored) for part in patch_parts]
     if union and (reading.instance_count > 1 or measures[0].health.components > 1):
-        body = mesh_body(reading, unit, shell=False, union=True, threads=threads)
-        return replace(body, findings=(finding("union_of_display_mesh"), *body.findings))
+        united = mesh_body(reading, unit, shell=False, union=True, threads=threads)
+        return replace(united, findings=(finding("union_of_display_mesh"), *united.findings))
     rest = mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
-    mesh_bodies = [rest] if rest else []
-    findings = findings_by_part(
-        [(part.source_object_name, measure.findings) for part, measure in zip(patch_parts, measures)], reading.name
-    )
-    findings += [result for measure in mesh_bodies for result in measure.findings]
-    if reading.singular_instance_count:
-        findings.append(singular_instances_message(reading.singular_instance_count))
-    if reading.instance_count > 1 and instances_overlap(reading):
-        findings.append(not_compared(reading))
-    matrices_of_parts = [to_si(part.matrices, unit) for part in patch_parts]
+    pieces = [(part, measure, to_si(part.matrices, unit)) for part, measure in zip(patch_parts, measures)]
     volume = sum_moments(
         [
-            *map(sum_of_images, (measure.volume for measure in measures), matrices_of_parts),
-            *(measure.volume for measure in mesh_bodies),
+            *(sum_of_images(measure.volume, matrices) for _, measure, matrices in pieces),
+            *([rest.volume] if rest else []),
         ]
     )
-    areas = [
-        sum_moments(list(_image_areas(part, measure.area, matrices)))
-        for part, measure, matrices in zip(patch_parts, measures, matrices_of_parts)
-    ]
-    area = sum_moments(areas + [measure.area for measure in mesh_bodies])
+    areas = [sum_moments(list(_image_areas(part, measure.area, matrices))) for part, measure, matrices in pieces]
+    healths = [(measure.health, len(part.matrices), faces.total) for (part, measure, _), faces in zip(pieces, areas)]
+    verdicts = [Verdict(measure.method) for measure in measures]
+    if rest:
+        areas.append(rest.area)
+        healths.append((rest.health, 1, rest.area.total))
+        verdicts.append(rest.method.verdict)
     display = None
     if compare:
         with suppress(MeasureError):  # a display mesh that cannot be measured compares with nothing
             display = mesh_body(reading, unit, shell=False, union=False, threads=threads).volume.total
-
-    def to_order(order: int, with_area: bool) -> tuple[Moments, Moments | None]:
-        volumes = [
-            sum_of_images(_moments_to_order(measured_patches, order), matrices)
-            for measured_patches, matrices in zip(measures, matrices_of_parts)
-        ]
-        faces = (
-            [
-                moments
-                for part, measured_patches, matrices in zip(patch_parts, measures, matrices_of_parts)
-                for moments in _image_areas(
-                    part, area_moments(part.splines.patches, order, measured_patches.area.about)[0], matrices
-                )
-            ]
-            if with_area
-            else []
-        )
-        for measured_patches in mesh_bodies:
-            more, outside = measured_patches.moments(order, with_area)
-            volumes, faces = [*volumes, more], [*faces, *([outside] if with_area else [])]
-        return sum_moments(volumes), sum_moments(faces) if with_area else None
-
-    def pieces(sheets: bool) -> Iterator[Surface]:  # of the display mesh: what asks for them asks for polygons
-        return mesh_body(reading, unit, shell=sheets, union=False, threads=threads).surfaces(sheets)
-
-    health = merge_health(
-        [
-            (measure.health, len(part.matrices), faces.total)
-            for measure, part, faces in zip(measures, patch_parts, areas)
-        ]
-        + [(measure.health, 1, measure.area.total) for measure in mesh_bodies]
-    )
-    method = min((measure.method for measure in (*measures, *mesh_bodies)), key=METHOD_RANK.index)
-    return MeasuredBody(
+    return PatchBody(
         volume,
-        area,
-        health,
-        _with_nurbs(reading, method),
-        tuple(each_once(findings)),
-        third_order=lambda: volume,
+        sum_moments(areas),
+        merge_health(healths),
+        Method(least_trusted(verdicts), _source(reading)),
+        tuple(each_once(_solid_findings(reading, pieces, rest))),
         display_volume=display,
-        moments=to_order,
-        surfaces=pieces,
         estimated=True,
+        reading=reading,
+        unit=unit,
+        pieces=tuple(pieces),
+        polygons=rest,
+        threads=threads,
     )
+
+
+def _solid_findings(
+    reading: Reading, pieces: list[tuple[Part, PatchIntegrals, NDArray]], rest: MeshBody | None
+) -> list[Finding]:
+    by_part = [(part.source_object_name, measure.findings) for part, measure, _ in pieces]
+    findings = findings_by_part(by_part, reading.name)
+    if rest:
+        findings += rest.findings
+    if reading.singular_instance_count:
+        findings.append(singular_instances_message(reading.singular_instance_count))
+    if reading.instance_count > 1 and instances_overlap(reading):
+        findings.append(not_compared(reading))
+    return findings
 
 
 def _split_parts(reading: Reading) -> tuple[list[Part], Reading]:
@@ -148,14 +210,14 @@ def _split_parts(reading: Reading) -> tuple[list[Part], Reading]:
     )
 
 
-def _with_nurbs(reading: Reading, method: str) -> str:
-    """With `NURBS` before it where all that was measured are patches."""
-    return "NURBS " + method if all(part.splines for part in reading.parts) else method
+def _source(reading: Reading) -> Source:
+    """What was measured: NURBS where all of it are patches."""
+    return Source.NURBS if all(part.splines for part in reading.parts) else Source.POLYGONS
 
 
 def _moments_to_order(measure: PatchIntegrals, order: int) -> Moments:
     """The volume's moments to another order; those of an open body, or of none, to the one that is known."""
-    if measure.method == "open":
+    if measure.method == Verdict.OPEN:
         raise ReadError("open_patches_order")
     return volume_moments(measure.patches, order, measure.volume.about)[0]
 
@@ -169,7 +231,7 @@ def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Momen
         yield sum_of_images(area_moments(patches, area.order)[0], translations_of_image)
 
 
-def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> MeasuredBody:
+def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> Body:
     """Thin sheets, or walls with the surfaces at their inner or outer side or in their middle."""
     patch_parts, meshes = _split_parts(reading)
     if meshes.parts and wall != "thin":
@@ -199,11 +261,12 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
             if not fine:
                 by_part.append((part.source_object_name, [finding("wall_error_estimate_large")]))
     findings = [] if not by_part else findings_by_part(by_part, reading.name)
+    polygons = None
     if meshes.parts:
-        body = mesh_body(meshes, unit, shell=True, union=False, threads=threads)
-        areas.append(body.area)
-        healths.append((body.health, 1, body.area.total))
-        findings += body.findings
+        polygons = mesh_body(meshes, unit, shell=True, union=False, threads=threads)
+        areas.append(polygons.area)
+        healths.append((polygons.health, 1, polygons.area.total))
+        findings += polygons.findings
     area = sum_moments(areas)
     nothing = replace(
         area,
@@ -212,26 +275,10 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
         input_error=np.zeros_like(area.raw),
         measure=Measure.VOLUME,
     )
-
-    def to_order(order: int, _with_area: bool) -> tuple[Moments, Moments]:
-        area_parts = [
-            moments
-            for part in patch_parts
-            for moments in _image_areas(part, area_moments(part.splines.patches, order)[0], to_si(part.matrices, unit))
-        ]
-        volume = Moments(np.zeros(monomial_count(order)), area.about, Measure.VOLUME)
-        return volume, sum_moments(area_parts + ([body.moments(order, True)[1]] if meshes.parts else []))
-
-    return MeasuredBody(
-        nothing,
-        area,
-        merge_health(healths),
-        _with_nurbs(reading, "shell"),
-        tuple(each_once(findings)),
-        wall=sum_moments(sheets) if sheets else None,
-        moments=to_order if wall == "thin" else None,
-        estimated=True,
-    )
+    common = (nothing, area, merge_health(healths), Method(Verdict.SHELL, _source(reading)), tuple(each_once(findings)))
+    if wall != "thin":
+        return Body(*common, wall=sum_moments(sheets), estimated=True)
+    return PatchSheetBody(*common, estimated=True, unit=unit, parts=tuple(patch_parts), polygons=polygons)
 
 
 def _distinct_images(patches: Sequence[Patch], matrices: NDArray) -> Iterator[tuple[list[Patch], NDArray]]:

@@ -22,10 +22,12 @@ from ...core.moments.moments import Moments
 from ...core.numerics.rotations import polar_rotation
 from ...core.polyhedron import polyhedron_moments
 from ...core.verdict.finding import Finding, ReadError, finding
+from ...core.verdict.method import Verdict
 from ..read import Reading
+from ..read.reading import to_si
 from ..settings.density import DensityField
-from .body import MeasuredBody
-from .instances import group_by_similarity, to_si
+from .body import MeshBody
+from .instances import group_by_similarity
 
 MAX_CHECKED_INSTANCES = 50  # different places whose points are looked at one by one
 
@@ -42,7 +44,7 @@ class _Piece:
 
 
 def polynomial_mass_result(
-    reading: Reading, body: MeasuredBody, density: DensityField, *, unit: float, shell: bool, threads: int
+    reading: Reading, body: MeshBody, density: DensityField, *, unit: float, shell: bool, threads: int
 ) -> tuple[list[Moments], list[Finding]]:
     """The mass moments of all parts (of a shell for a thickness of one metre), and the findings.
 
@@ -68,10 +70,10 @@ def polynomial_mass_result(
     return parts, findings
 
 
-def _solid_pieces(reading: Reading, body: MeasuredBody, in_world: bool, unit: float) -> Iterator[_Piece]:
+def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float) -> Iterator[_Piece]:
     """What encloses the body, as it was repaired."""
     together = len(body.solids) == 1 and len(body.solids[0][1]) == 1 and reading.instance_count > 1
-    if body.method == "union" or (together and in_world):
+    if body.method.verdict == Verdict.UNION or (together and in_world):
         if reading.instance_count > 1 and not in_world:
             raise ReadError("density_of_united_instances")
         solid, matrices = body.solids[0]
@@ -89,7 +91,7 @@ def _solid_pieces(reading: Reading, body: MeasuredBody, in_world: bool, unit: fl
         )
 
 
-def _pieces_by_instance(reading: Reading, body: MeasuredBody, unit: float) -> Iterator[_Piece]:
+def _pieces_by_instance(reading: Reading, body: MeshBody, unit: float) -> Iterator[_Piece]:
     """The triangles of a body that was measured as one, by the place that they came from; caps go with their part."""
     solid, scale = body.solids[0]
     parts = solid.parts()

@@ -31,8 +31,9 @@ from ...core.shape.signature import Signature, signature
 from ...core.shape.symmetry import symmetry
 from ...core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ...core.verdict.finding import ReadError
+from ...core.verdict.method import Source, Verdict
 from ..settings.options import MeasureOptions
-from .body import MeasuredBody
+from .body import Body
 from .measure_object import THREADS, measure_body
 
 # of the size: between them single precision mistakes the distances of thin triangles
@@ -46,7 +47,7 @@ class Shape:
     """An object as measured, in SI units and world axes, and what its moments of higher order say."""
 
     measurement: Measurement
-    body: MeasuredBody
+    body: Body
     threads: int = 1
 
     @property
@@ -95,7 +96,7 @@ class Shape:
     @property
     def has_surface(self) -> bool:
         """Whether there are polygons, which a signature and a comparison of surfaces need."""
-        return self.body.surfaces is not None
+        return self.body.has_surface
 
     def signature(self, order: int = MAX_ORDER_BY_MOMENTS) -> Signature:
         """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature.
@@ -139,7 +140,7 @@ class Shape:
 
 def is_display_mesh(measurement: Measurement) -> bool:
     """Whether a body's pieces are the display mesh of something smooth, whose moments differ a little."""
-    return measurement.method.startswith("NURBS")
+    return measurement.method.source == Source.NURBS
 
 
 class NoShapeError(ReadError):
@@ -162,11 +163,11 @@ def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: Mea
     """Measure an object for its shape. Raises MeasureError, and of these NoShapeError where it has none."""
     measured = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
     measurement, body = measured.measurement, measured.body
-    if body.mass is not None and not body.solids:
+    if body.mass is not None and not body.has_surface:
         raise NoShapeError("shape_of_grid", measurement)
-    if body.moments is None or body.length is not None:
+    if not body.any_order or body.length is not None:
         raise NoShapeError("shape_of_wire_or_wall", measurement)
-    if measurement.method.endswith("open"):
+    if measurement.method.verdict == Verdict.OPEN:
         raise NoShapeError("shape_of_open_surface", measurement)
     shape = Shape(measurement, body, options.threads if options else 1)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:

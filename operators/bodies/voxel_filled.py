@@ -13,26 +13,51 @@ from ...core.density.voxel_fill import MAX_VOXELS as MOST_VOXELS
 from ...core.density.voxel_fill import inside_moments
 from ...core.moments.moments import Measure, Moments
 from ...core.solid.measure_solid import SolidIntegrals
-from ...core.verdict.finding import ReadError, finding
+from ...core.verdict.finding import MeasureError, ReadError, finding
+from ...core.verdict.method import Method, Source, Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
+from ..read.quiet import paused
 from ..read.reading import said_of
-from ..read.volume import VolumeReading
+from ..read.volume import VolumeReading, volume_reading
 from ..settings.grid import GridOptions
-from .body import MeasuredBody
-from .mass import MAX_MASS_MOMENT
+from .body import MAX_MASS_MOMENT, MeshBody
+from .request import Request
 
 MAX_OUTSIDE_SHARE = 1e-9  # of the volume: below this, rounding
 
 
-def voxel_filled_body(
-    body: MeasuredBody, reading: VolumeReading, options: GridOptions, unit: float, name: str
-) -> MeasuredBody:
+def filled_by_volume(body: MeshBody, request: Request) -> MeshBody:
+    """Return the solid with the density of the Volume object that its settings name.
+
+    Raises
+    ------
+    MeasureError
+        Where that has no grid that can be read, or does not reach the solid.
+    """
+    name, source = request.obj.name, request.obj.body_moments.density_volume
+    grid = GridOptions.of(source.body_moments)
+    try:
+        with paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
+            if volume is None:
+                raise ReadError("object_without_grid")
+            filled = voxel_filled_body(body, volume, grid, request.unit, name)
+            origin = finding("density_from_grid_of", grid=volume.grid, object=source.name)
+            return replace(filled, density_from=origin)
+    except MeasureError as error:
+        if error.subject == name:  # about both together
+            raise
+        raise ReadError(
+            "density_volume_unreadable", subject=name, object=source.name, cause=error.finding.as_record()
+        ) from error
+
+
+def voxel_filled_body(body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str) -> MeshBody:
     """The body with the mass that the grid gives its inside. unit: metres per Blender unit.
 
     name: of the object, which MeasureErrors are about that are not about the grid alone.
     """
     whose = {"grid": reading.grid, "object": reading.name}
-    if body.method.endswith("open"):
+    if body.method.verdict == Verdict.OPEN:
         raise ReadError("open_surface_of_grid", subject=name)
     if reading.level_set:
         raise ReadError("density_grid_is_level_set", subject=name, **whose)
@@ -70,8 +95,7 @@ def voxel_filled_body(
     return replace(
         body,
         mass=mass,
-        third_order=None,
-        method="grid " + body.method,
+        method=Method(body.method.verdict, Source.GRID),
         estimated=True,
         findings=(*body.findings, *findings, *(said_of(result, reading.name, name) for result in reading.findings)),
     )
@@ -98,7 +122,7 @@ def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, h
     return densities
 
 
-def _input_error(body: MeasuredBody, mass: Moments) -> NDArray[np.float64]:
+def _input_error(body: MeshBody, mass: Moments) -> NDArray[np.float64]:
     """What float32 coordinates may have moved, as a share of each moment like that of the solid's own."""
     solid = body.volume.about_point(mass.about).truncate(mass.order)
     scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)

@@ -21,9 +21,10 @@ from ...core.offset.walls import OffsetSolid, offset_solid, split_thickness
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals
 from ...core.verdict.finding import Finding, ReadError, finding, unique
+from ...core.verdict.method import Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
 from ..read import Reading
-from .body import MeasuredBody
+from .body import Body, MeshBody
 from .instances import group_by_similarity
 
 REPORTED = 0.01  # of the thickness: less unevenness is not reported
@@ -74,7 +75,7 @@ class Walls:
     thin: the body as a thin shell. side: "inward", "outward" or "centered". findings: what was decided about the sides.
     """
 
-    thin: MeasuredBody
+    thin: Body
     side: str
     pieces: tuple[WallPiece, ...]
     findings: tuple[Finding, ...]
@@ -84,7 +85,7 @@ class Walls:
         """The thickness in m from which a wall folds over."""
         return min(piece.max_thickness(self.side) for piece in self.pieces)
 
-    def body(self, thickness: float, check_overlap: bool = True) -> MeasuredBody:
+    def body(self, thickness: float, check_overlap: bool = True) -> WallBody:
         """The body with walls that thick, m. check_overlap: whether walls that meet are looked for, which takes time.
         ReadError where a wall folds over."""
         if not thickness > 0.0:
@@ -92,18 +93,23 @@ class Walls:
         if any(piece.folds(self.side, thickness) for piece in self.pieces):
             raise ReadError(self._folded_reason(thickness))
         wall = sum_moments([piece.moments(self.side, thickness) for piece in self.pieces])
-        return replace(
-            self.thin,
+        thin = self.thin
+        return WallBody(
+            thin.volume,
+            thin.area,
+            thin.health,
+            thin.method,
+            (*thin.findings, *self._decisions(thickness, check_overlap)),
             wall=wall,
-            moments=None,
-            findings=(*self.thin.findings, *self._decisions(thickness, check_overlap)),
+            face_count=thin.face_count,
+            walls=self,
         )
 
     def drop_arrays(self) -> Walls:
         """The same without the arrays that are as large as the mesh."""
         return replace(
             self,
-            thin=replace(self.thin, solids=(), third_order=None),
+            thin=Body(self.thin.volume, self.thin.area, self.thin.health, self.thin.method, self.thin.findings),
             pieces=tuple(replace(piece, offset=piece.offset.drop_arrays()) for piece in self.pieces),
         )
 
@@ -152,7 +158,14 @@ class Walls:
         return boxes_overlap(np.concatenate(centers), np.concatenate(extents))
 
 
-def find_walls(reading: Reading, body: MeasuredBody, side: str) -> Walls:
+@dataclass(frozen=True, eq=False)
+class WallBody(Body):
+    """A shell of real thickness, and the `walls` of any thickness that it is one of."""
+
+    walls: Walls | None = None
+
+
+def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
     """The walls of an object that was measured as a thin shell. MeasureError where a surface has no sides."""
     if body.mass is not None:
         raise ReadError("wall_needs_one_density")
@@ -171,10 +184,10 @@ def find_walls(reading: Reading, body: MeasuredBody, side: str) -> Walls:
 
 def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Finding]) -> Surface:
     """The surface with its faces outward where it is closed, else as it is."""
-    if solid.method in {"exact", "reoriented"}:
+    if solid.method in (Verdict.EXACT, Verdict.REORIENTED):
         area = polyhedron_moments(solid.repaired_surface, area_order=0)[1].total
         if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:  # else the repair has left something out
-            if solid.method == "reoriented":
+            if solid.method == Verdict.REORIENTED:
                 findings.append(finding("wall_faces_reversed"))
             return solid.repaired_surface
     findings.append(finding("wall_unoriented"))

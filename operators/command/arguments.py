@@ -90,7 +90,7 @@ def _join_negative_values(argv: list[str]) -> list[str]:
 
 def _keep_files(options: argparse.Namespace, parser: argparse.ArgumentParser) -> None:
     """Ends with a message where a result would be written over a file that is read, or, without --force, over one that
-    is no result of ours. `options.forced`: those of the targets that --force is about.
+    is not a result of ours. `options.forced`: those of the targets that --force is about.
     """
     options.forced = []
     # Also the file that is open, whether or not it is measured, and that of the wave vectors.
@@ -145,8 +145,14 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
         "--object",
         action="append",
         metavar="NAME",
-        help="only this object; repeatable (every measurable object; lights, cameras, empties that instance "
-        "nothing and curves that show no surface are left out unless they are named)",
+        help="only this object; repeatable (every measurable object that the file renders; lights, cameras, empties "
+        "that instance nothing and curves that show no surface are left out unless they are named)",
+    )
+    add(
+        "--all",
+        action="store_true",
+        help="also what is not rendered, and what is only an operand of Boolean modifiers, displayed as wire or "
+        "bounds (left out, and listed in left_out)",
     )
     add("--kind", choices=("solid", "shell"), help="(each object's setting, or solid)")
     add(

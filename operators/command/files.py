@@ -13,17 +13,21 @@ from __future__ import annotations
 import os
 import struct
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import addon_utils
 import bpy
 
 from ...core.scans import formats as scans
-from ...core.verdict.finding import FileError
+from ...core.verdict.finding import FileError, Finding, finding
+from .finite import check_numbers
+from .references import unresolved_references
 
 BLEND = ".blend"
 _TRACEBACK = "Traceback (most recent call last)"
 UNITLESS = (".stl", ".obj", ".ply")
+USD = (".usd", ".usda", ".usdc", ".usdz")
 
 # Invisible prims are imported hidden, and a hidden object is reported; left out, it would be
 # missing without a word. Bone shapes are objects of the importer's own making.
@@ -37,7 +41,7 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
         lambda path: bpy.ops.import_scene.gltf(filepath=path, disable_bone_shape=True),
     ),
     **dict.fromkeys(
-        (".usd", ".usda", ".usdc", ".usdz"),
+        USD,
         lambda path: bpy.ops.wm.usd_import(filepath=path, import_visible_only=False),
     ),
 }
@@ -48,27 +52,32 @@ def file_suffix(path: str) -> str:
     return scans.scan_suffix(path) or Path(path.lower()).suffix
 
 
-def open_file(path: str) -> None:
-    """Make a file the open scene. Raises FileError."""
+def open_file(path: str) -> list[Finding]:
+    """Make a file the open scene, and return what it refers to and is not there. Raises FileError."""
     kind = file_suffix(path)
     _check(path, kind)
+    check_numbers(path, kind)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     absolute = os.path.abspath(path)
     try:
         if kind == BLEND:
             # With the interface, so that saving the file again keeps its windows and workspaces.
             bpy.ops.wm.open_mainfile(filepath=absolute, load_ui=True, use_scripts=False)
-            return
+            return []
         if kind in (".glb", ".gltf"):
             # An add-on that comes with Blender, and may be switched off.
             addon_utils.enable("io_scene_gltf2")
-        _IMPORTERS[kind](absolute)
+        missing = unresolved_references(partial(_IMPORTERS[kind], absolute)) if kind in USD else []
+        if kind not in USD:
+            _IMPORTERS[kind](absolute)
     except AttributeError as error:
         raise FileError("importer_missing", suffix=kind) from error
     except RuntimeError as error:
         raise FileError("import_failed", error=reason(error)) from error
+    unresolved = [finding("missing_references", names=missing)] if missing else []
     if not bpy.context.scene.objects:
-        raise FileError("file_without_objects", suffix=kind)
+        raise FileError(unresolved[0] if unresolved else finding("file_without_objects", suffix=kind))
+    return unresolved
 
 
 def _check(path: str, kind: str) -> None:

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from ..write.whole_file import whole_file
 
-_STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor is no longer 1
+_STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may not be 1 any more
 
 
 def claim_stdout() -> int:

@@ -22,8 +22,8 @@ _LAST = 2  # of them stand at the end, behind those that only some records have
 
 
 def replaceable(path: Path, option: str) -> bool:
-    """Whether nothing is lost where a result takes the place of `path`: there is nothing, or what is no file, or an
-    older result. option: "output" or "fourier". Raises OSError.
+    """Whether nothing is lost where a result takes the place of `path`: there is nothing, or something that is not a
+    file, or an older result. option: "output" or "fourier". Raises OSError.
     """
     return not path.exists() or not path.is_file() or _is_result(path, option)
 

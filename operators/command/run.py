@@ -26,13 +26,15 @@ from ...core.measurement import Measurement
 from ...core.scans import formats as scans
 from ...core.verdict import internal_error
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding
+from ...core.verdict.method import Source
 from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
 from ..bodies.shape import NoShapeError, shape_of
 from ..read import measurable, measurable_objects
-from ..read.total_caveats import open_body_caveats, total_caveats
+from ..read.total_caveats import boolean_operands, left_out_reasons, open_body_caveats, total_caveats
 from ..session.staleness import mark_up_to_date
 from ..settings import properties as settings
+from ..settings.density import unset_density
 from ..settings.options import MeasureOptions
 from ..write import record
 from ..write.properties import store
@@ -40,6 +42,7 @@ from ..write.terminal import tell
 from . import fourier
 from .files import BLEND, UNITLESS, file_suffix, open_file
 from .interruption import Progress, check_interruption
+from .references import blocked_scripts, missing_links
 from .saving import Place, reserved
 from .scripts import scripts_of_open_file
 
@@ -97,22 +100,29 @@ class Run:
 
     def _measured(self, path: str | None, file: str | None, place: Place | None) -> dict[str, Any]:
         measured: list[tuple[str, bpy.types.Object, Measurement]] = []
-        objects, errors, caveats = [], [], []
+        objects, errors, caveats, left_out = [], [], [], []
         try:
             if path is not None and scans.scan_suffix(path):
                 objects, measured, errors = self._measure_array_file(path)
                 wanted = self._measure_options
             else:
-                self._measure_open_file(path, file)
-                of_file = (*_unit_findings(path, self.options.unit_scale), *_unused_array_options(self.options))
+                unresolved = self._open(path, file)
                 # Not by way of the scene, whose unit scale is a float32 with limits.
                 unit = (self.options.unit_scale or 1.0) if _unitless(path) else None
                 wanted = replace(self._measure_options, unit_scale=unit)
-                chosen, errors = _objects_to_measure(self.options.object)
-                errors.extend(_missing_links())
+                chosen, left_out, errors = _objects_to_measure(self.options.object, self.options.all)
+                errors += [_error(None, reason) for reason in (*unresolved, *missing_links())]
+                of_file = (
+                    *_unit_findings(path, self.options.unit_scale),
+                    *_unused_array_options(self.options),
+                    *blocked_scripts(),
+                )
+                operands = boolean_operands(bpy.context.scene) if self.options.object is None else {}
                 for label, obj in chosen:
+                    user = operands.get(obj)
+                    cut = [] if user is None else [finding("solid_operand_measured", object=user.name)]
                     try:
-                        one, entry = self._measure_record(label, obj, wanted, of_file, errors)
+                        one, entry = self._measure_record(label, obj, wanted, (*of_file, *cut), errors)
                     except MeasureError as refusal:
                         errors.append(_error(label, refusal.finding))
                     except Exception as error:
@@ -127,6 +137,8 @@ class Run:
                     caveats += _other_scenes(bpy.context.scene)
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
+                if not objects and not errors:
+                    errors.append(_error(None, _why_nothing(len(left_out))))
             if self.options.write:
                 errors.extend(self._store(path, measured, wanted))
                 caveats += _save(place, file)
@@ -141,6 +153,7 @@ class Run:
             objects,
             record.total([one for _, _, one in measured], caveats),
             errors,
+            left_out,
             file=file,
             blender=".".join(map(str, bpy.app.version)),
             frame=self.options.frame,
@@ -167,9 +180,22 @@ class Run:
             errors.append(_error(label, finding("moments_unavailable", cause=refusal.finding.as_record())))
             order = None
         surface = measurement.area_moments if self.options.surface_moments and order is not None else None
-        findings = (*measurement.findings, *of_shape, *findings, *self._unused_options(measurement))
+        findings = (
+            *(*measurement.findings, *of_shape, *findings),
+            *(*self._default_density(obj, measurement), *self._unused_options(measurement)),
+        )
         named = replace(measurement, name=label, findings=findings)
         return measurement, record.record(named, self.options.frame, order, surface, more)
+
+    def _default_density(self, obj: bpy.types.Object, measurement: Measurement) -> Iterator[Finding]:
+        """That nobody has set the density, where that is so."""
+        if self.options.density is not None or self.options.mass is not None:
+            return
+        unset = unset_density(obj, measurement)
+        if unset == "density":
+            yield finding("density_defaulted")
+        elif unset is not None:
+            yield finding("linear_density_defaulted")
 
     def _unused_options(self, measurement: Measurement) -> Iterator[Finding]:
         if self.options.thickness is not None and measurement.kind != "shell":
@@ -203,11 +229,13 @@ class Run:
         entry = record.record(measurement, self.options.frame, self.options.order, surface, dict.fromkeys(requested))
         return [entry], [(name, None, measurement)], errors
 
-    def _measure_open_file(self, path: str | None, file: str | None) -> None:
+    def _open(self, path: str | None, file: str | None) -> list[Finding]:
+        """Open what is to be measured, and return what it refers to and is not there."""
         if path is not None:
-            open_file(path)
-        elif file and not bpy.data.filepath:
+            return open_file(path)
+        if file and not bpy.data.filepath:
             raise FileError("file_not_opened")
+        return []
 
     def _fourier(
         self,
@@ -247,11 +275,11 @@ class Run:
             shape = shape_of(obj, depsgraph, measure_options)
         except NoShapeError as refusal:
             return refusal.measurement, dict.fromkeys(requested), (refusal.finding,)
-        more = {"pose": shape.pose()} if self.options.pose else {}
-        findings = ()
+        more: dict[str, Any] = {"pose": shape.pose()} if self.options.pose else {}
+        findings: tuple[Finding, ...] = ()
         if self.options.signature and shape.has_surface:
             more["signature"] = shape.signature().as_record()
-            if shape.measurement.method.startswith("NURBS"):
+            if shape.measurement.method.source == Source.NURBS:
                 findings = (finding("signature_of_display_mesh"),)
         elif self.options.signature:
             more["signature"] = None
@@ -288,23 +316,33 @@ class Run:
 
 
 def _error(name: str | None, reason: Finding) -> dict[str, Any]:
+    """An entry of `errors`, or of `left_out`."""
     return {"name": name, "reason": str(reason)}
 
 
-def _objects_to_measure(
-    names: list[str] | None,
-) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]]]:
-    """The objects to measure, each under a name of its own, and an error for each name of none.
+def _why_nothing(left_out: int) -> Finding:
+    """Why a file without errors has no records."""
+    return finding("nothing_rendered", count=left_out) if left_out else finding("no_measurable_object")
 
-    What the view layer excludes is among them: reading it tells why it cannot be measured.
+
+def _objects_to_measure(
+    names: list[str] | None, everything: bool
+) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]], list[dict[str, Any]]]:
+    """The objects to measure, each under a name of its own; those that are left out, with the reason; and an error for
+    each name of none. everything: nothing is left out.
+
+    What the view layer excludes is among them where another one renders it: reading it reports the reason.
     """
     scene, layer = bpy.context.scene, bpy.context.view_layer
     same = Counter(obj.name for obj in scene.objects)
-    # A linked object may have a local one's name; the full name tells the library too.
+    # A linked object may have a local one's name; the full name has the library too.
     labels = {obj: obj.name if same[obj.name] == 1 else obj.name_full for obj in scene.objects}
     if names is None:
         candidates = {*measurable_objects(layer), *_excluded(scene, layer)}
-        return [(label, obj) for obj, label in labels.items() if obj in candidates], []
+        reasons = {} if everything else left_out_reasons(scene, layer)
+        chosen = [(label, obj) for obj, label in labels.items() if obj in candidates and obj not in reasons]
+        left_out = [_error(labels[obj], reason) for obj, reason in reasons.items() if obj in candidates]
+        return chosen, left_out, []
     chosen, errors = [], []
     for name in names:
         matches = [(label, obj) for obj, label in labels.items() if label == name]
@@ -312,16 +350,7 @@ def _objects_to_measure(
         chosen += [pair for pair in matches if pair not in chosen]
         if not matches:
             errors.append(_error(name, finding("object_not_in_scene")))
-    return chosen, errors
-
-
-def _missing_links() -> Iterator[dict[str, Any]]:
-    """An error where Blender opened a file but not what it links to. It puts empty data there."""
-    data = bpy.data
-    groups = (data.objects, data.meshes, data.curves, data.metaballs, data.collections)
-    missing = [item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing]
-    if missing:
-        yield _error(None, finding("missing_links", names=sorted(missing)))
+    return chosen, [], errors
 
 
 def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.types.Object]:

@@ -94,7 +94,7 @@ def _control_points(spline) -> NDArray[np.float64]:
 
 
 def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
-    """Those of the splines, None for what is no curve, as shape keys and hooks move them."""
+    """Those of the splines, None for anything but a curve, as shape keys and hooks move them."""
     name, splines = evaluated.original.name, list(evaluated.data.splines)
     control_points = [_control_points(spline) for spline in splines]
     points = np.concatenate(control_points) if control_points else np.zeros((0, 3))
@@ -126,7 +126,7 @@ def _has_known_knots(spline, curve: Curve | None) -> bool:
 
 
 def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
-    """Those of a geometry set, None for what is no curve."""
+    """Those of a geometry set, None for anything but a curve."""
     positions = _values(curves, "position", "vector", 3, 0.0)
     left, right = (_values(curves, side, "vector", 3, 0.0) for side in ("handle_left", "handle_right"))
     weights = _values(curves, "nurbs_weight", "value", 1, 1.0)[:, 0]
@@ -158,8 +158,8 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
 
 
 def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
-    """(n, 3) the handles of the Bézier curve that is the same: a third of the slope, half of the way from neighbour to
-    neighbour."""
+    """(n, 3) the handles of the Bézier curve that is the same: a third of the slope, half of the way from neighbor to
+    neighbor."""
     around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic else "edge")
     return (around[2:] - around[:-2]) / 6.0
 

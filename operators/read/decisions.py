@@ -3,7 +3,7 @@
 """The findings for what reading an object decided, and for why there was nothing to read.
 
 The viewport is what is read. Where the render would show another body, by Blender's settings as far
-as they tell, that is a finding; a node tree that asks where it runs is beyond them.
+as they report, that is a finding; a node tree that asks where it runs is beyond them.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
         yield finding("hidden_object_measured", cause=hidden.as_record())
-    if instanced_by_parent(obj):
+    if obj.parent is not None and instanced_by_parent(obj):
         yield finding("instanced_by_parent", parent=obj.parent.name)
     for evaluated, splines in gathered.splines.items():
         for result in _spline_findings(evaluated, splines):
@@ -66,14 +66,17 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
         family_members = _family(obj, depsgraph)[1:]
         if family_members:
             yield finding("metaball_family", objects=_names(family_members))
-    yield from _polygons(obj, gathered.drawn)
+    if gathered.drawn:
+        yield from _polygons(obj, gathered.drawn)
     yield from _mode_findings(obj)
     exact = {evaluated.original for evaluated, splines in gathered.splines.items() if splines}
-    for source in (obj, *(source for source in gathered.sources if source != obj)):
+    for source in (obj, *[source for source in gathered.sources if source != obj]):
         for result in _render_findings(source, depsgraph.scene, source in exact):
             yield said_of(result, source.name, obj.name)
-    yield from _member_findings(gathered.collections)
-    yield from _node_errors(obj)
+    if gathered.collections:
+        yield from _member_findings(gathered.collections)
+    if obj.modifiers:
+        yield from _node_errors(obj)
     if gathered.vanished_count:
         yield finding("instances_vanished", count=gathered.vanished_count)
     if gathered.left_out:

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What stored numbers were computed from, in a text short enough for a property: geometry, transform and settings.
 
-The geometry's part is a digest of the moments themselves: no two shapes that a person would tell apart share twenty
+The geometry's part is a digest of the moments themselves: no two shapes that a person would distinguish share twenty
 moments to the last bit, and it costs nothing. Transform and settings can be digested without measuring, so a panel
-may compare them while it draws.
+may compare them while it draws. Beside them stands a digest of the shape that a mesh object shows, cheap enough to be
+taken whenever Blender re-evaluates it.
 """
 
 from __future__ import annotations
@@ -15,9 +16,13 @@ import bpy
 import numpy as np
 
 from ...core.numerics.float32 import shortest_decimal
+from ...core.verdict.finding import ReadError
 from ..settings.digest import density_key
+from .mesh import mesh_surface
+from .visibility import evaluated_geometry
 
 VERSION = "v1"
+MAX_DIGESTED_FACES = 50_000  # faces: reading and digesting them takes 2 ms
 
 
 def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
@@ -69,7 +74,7 @@ def effective_hash(
     takes the place of the density."""
     density = None if varying else density
     # as a setting holds it
-    density, mass = (None if value is None else shortest_decimal(value) for value in (density, mass))
+    density, mass = [None if value is None else shortest_decimal(value) for value in (density, mass)]
     used = [
         kind,
         density,
@@ -82,6 +87,32 @@ def effective_hash(
     if kind == "SHELL" and wall != "THIN":
         used.append(wall)
     return _digest(repr(used).encode())
+
+
+def shape_digest(obj, depsgraph) -> bytes | None:
+    """Of the faces of a mesh object in Object Mode, wherever it stands; None of others, large ones, those that show
+    instances, and those whose mesh is edited by way of another object."""
+    if (
+        obj.type != "MESH"
+        or obj.mode != "OBJECT"
+        or obj.data.is_editmode
+        or obj.instance_type != "NONE"
+        or len(obj.particle_systems)
+        or "NODES" in [modifier.type for modifier in obj.modifiers]
+    ):
+        return None
+    try:
+        geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
+    except ReadError:
+        return None
+    if geometry.mesh is None or len(geometry.mesh.polygons) > MAX_DIGESTED_FACES:
+        return None
+    surface = mesh_surface(geometry.mesh, edges=False)
+    digest = hashlib.blake2b(digest_size=16)
+    for array in (surface.points, surface.triangles, surface.quads):
+        digest.update(np.ascontiguousarray(array).tobytes())
+        digest.update(repr(array.shape).encode())
+    return digest.digest()
 
 
 def _digest(data: bytes) -> str:

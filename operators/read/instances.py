@@ -34,7 +34,7 @@ MAX_DEPTH = 8
 
 
 class _NeedsInstanceList(Exception):
-    """The instances are of a kind that only Blender's own list of instances tells."""
+    """The instances are of a kind that only Blender's own list of instances has."""
 
 
 class InstanceCollector:
@@ -55,24 +55,24 @@ class InstanceCollector:
         self.root = root
         self.depsgraph = depsgraph
         self.materials, self.attribute, self.edges = materials, attribute, edges
-        # A geometry set owns the meshes that it hands out, and the keys are their addresses.
+        # A geometry set owns the meshes that it returns, and the keys are their addresses.
         self._owners: list[object] = []
-        self.collections: dict[object, None] = {}
+        self.collections: dict[bpy.types.Collection, None] = {}
         self._reset()
 
     def _reset(self) -> None:
         self.faceless = (0, 0)
         self.left_out: Counter[str] = Counter()
-        self.sources: dict[object, None] = {}
-        self.drawn: dict[object, None] = {}
+        self.sources: dict[bpy.types.Object, None] = {}
+        self.drawn: dict[bpy.types.Object, None] = {}
         self.vanished_count = 0
         self._surfaces: dict[Hashable, Surface] = {}
-        self.splines: dict[Hashable, SplineReading | None] = {}
+        self.splines: dict[bpy.types.Object, SplineReading | None] = {}
         self._attributes: dict[Hashable, FaceAttributes] = {}
         self._patches: dict[Hashable, SplineReading | None] = {}
         self._matrices: dict[Hashable, list[NDArray[np.float64]]] = {}
         self._names: dict[Hashable, str] = {}
-        self._path: list[object] = []
+        self._path: list[bpy.types.Object] = []
 
     def collect(self) -> None:
         """Read the root object and its instances."""
@@ -162,9 +162,9 @@ class InstanceCollector:
     def _add_instances(self, geometry, matrices: NDArray) -> bool:
         """Add what the geometry set instances at every place of it; whether there was anything."""
         cloud = geometry.instances_pointcloud()
-        count = len(cloud.points) if cloud is not None else 0
-        if not count:
+        if cloud is None or not len(cloud.points):
             return False
+        count = len(cloud.points)
         flat = np.empty(16 * count, np.float32)
         cloud.attributes["instance_transform"].data.foreach_get("value", flat)
         # Stored column by column.
@@ -237,7 +237,9 @@ class InstanceCollector:
         if not len(mesh.polygons):
             vertices, edges = self.faceless
             self.faceless = (vertices + len(mesh.vertices), edges + len(mesh.edges))
-        return mesh_surface(mesh, edges=self.edges), self._read_attributes(mesh, owner)
+        wanted = self.materials or self.attribute is not None
+        attributes = self._read_attributes(mesh, owner) if wanted else FaceAttributes()
+        return mesh_surface(mesh, edges=self.edges), attributes
 
     def _read_attributes(self, mesh, owner) -> FaceAttributes:
         vertices = None
@@ -310,12 +312,8 @@ def shows_itself(obj, instanced: bool) -> bool:
 def _needs_instance_list(obj) -> bool:
     if obj.instance_type in {"VERTS", "FACES"}:
         return True
-    return any(
-        modifier.type == "PARTICLE_SYSTEM"
-        and modifier.show_viewport
-        and modifier.particle_system.settings.render_type in {"OBJECT", "COLLECTION"}
-        for modifier in obj.modifiers
-    )
+    systems = [modifier for modifier in obj.modifiers if modifier.type == "PARTICLE_SYSTEM" and modifier.show_viewport]
+    return any([modifier.particle_system.settings.render_type in {"OBJECT", "COLLECTION"} for modifier in systems])
 
 
 def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:

@@ -42,7 +42,7 @@ def mesh_surface(mesh, *, edges: bool = True) -> Surface:
     points = _attribute(mesh, "position", "vector", (len(mesh.vertices), 3), np.float32)
     corners = _attribute(mesh, ".corner_vert", "value", (len(mesh.loops),), np.int32)
     faces = _faces(mesh, corners)
-    # What telling the faces apart took is free again: to come to new memory costs more than to fill it.
+    # The memory that sorting the faces took is free again: getting new memory costs more than filling it.
     named = _attribute(mesh, ".corner_edge", "value", corners.shape, np.int32) if edges else None
     return Surface(points, corner_vertices=corners, corner_edges=named, **faces)
 
@@ -110,8 +110,10 @@ def vertex_values(mesh, name: str) -> NDArray[np.float64]:
 
 
 def _attribute(mesh, name: str, member: str, shape: tuple[int, ...], dtype) -> NDArray:
-    # Where there are no elements there may be no attribute either.
-    return _array(mesh.attributes[name].data, member, shape, dtype) if shape[0] else np.empty(shape, dtype)
+    array = np.empty(shape, dtype)
+    if shape[0]:  # where there are no elements there may be no attribute either
+        mesh.attributes[name].data.foreach_get(member, array.reshape(-1))
+    return array
 
 
 def _array(data, member: str, shape: tuple[int, ...], dtype) -> NDArray:

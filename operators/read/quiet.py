@@ -4,23 +4,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 
-_is_paused = False
+class paused:
+    """A context in which no change is noted: for changes that leave every object's shape as it was.
 
+    Attributes
+    ----------
+    depth : int
+        Of the class: how many such contexts are open. While there is one, changes that Blender reports are no edits.
+    """
 
-@contextmanager
-def paused() -> Iterator[None]:
-    """No change is noted in this context: for changes that leave every object's shape as it was."""
-    global _is_paused
-    before, _is_paused = _is_paused, True
-    try:
-        yield
-    finally:
-        _is_paused = before
+    depth = 0
 
+    def __enter__(self) -> None:
+        paused.depth += 1
 
-def is_paused() -> bool:
-    """Whether changes that Blender reports now are no edits."""
-    return _is_paused
+    def __exit__(self, *_error: object) -> None:
+        paused.depth -= 1

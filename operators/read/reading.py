@@ -15,7 +15,7 @@ from ...core.nurbs.patch import Patch
 from ...core.verdict.finding import Finding
 
 # Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
-# float32 entries alone may have made it: such a matrix cannot be told from one that flattens.
+# float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
 SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 
 
@@ -88,7 +88,7 @@ class Reading:
     @property
     def has_patches(self) -> bool:
         """Whether some of it are B-spline patches."""
-        return any(part.splines is not None for part in self.parts)
+        return any([part.splines is not None for part in self.parts])
 
     @property
     def is_singular(self) -> bool:
@@ -97,7 +97,7 @@ class Reading:
 
     @property
     def singular_instance_count(self) -> int:
-        return sum(int(are_singular(part.matrices).sum()) for part in self.parts)
+        return sum([int(are_singular(part.matrices).sum()) for part in self.parts])
 
     @property
     def all_singular(self) -> bool:
@@ -105,7 +105,7 @@ class Reading:
 
     @property
     def instance_count(self) -> int:
-        return sum(len(part.matrices) for part in self.parts)
+        return sum([len(part.matrices) for part in self.parts])
 
     def join(self) -> Surface:
         """All parts, wherever they stand, as one surface of triangles in the world, float64."""
@@ -121,13 +121,14 @@ def said_of(result: Finding, source: str, whole: str) -> Finding:
 
 
 def are_singular(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """(k,) whether each of the (k, 4, 4) maps is singular, as far as entries that were float32 can
-    tell."""
+    """(k,) whether each of the (k, 4, 4) maps is singular, as far as entries that were float32 show."""
     columns = matrices[:, :3, :3].transpose(1, 2, 0).copy()
     # By the largest entry first, so that no square of a very small or large scale leaves the range
     # of float64.
-    columns /= _nonzero_lengths(np.abs(columns).max(axis=0))
-    columns /= _nonzero_lengths(np.sqrt((columns * columns).sum(axis=0)))
+    largest = np.abs(columns).max(axis=0)
+    columns /= np.where(largest > 0.0, largest, 1.0)
+    lengths = np.sqrt((columns * columns).sum(axis=0))
+    columns /= np.where(lengths > 0.0, lengths, 1.0)
     x, y, z = columns
     volume = (
         x[0] * (y[1] * z[2] - z[1] * y[2]) + y[0] * (z[1] * x[2] - x[1] * z[2]) + z[0] * (x[1] * y[2] - y[1] * x[2])
@@ -135,8 +136,11 @@ def are_singular(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:
     return np.abs(volume) <= SINGULAR_RTOL
 
 
-def _nonzero_lengths(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.where(lengths > 0.0, lengths, 1.0)
+def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:
+    """(k, 4, 4) world matrices to SI. unit: metres per Blender unit."""
+    scaled = np.array(matrices, np.float64)
+    scaled[:, :3] *= unit
+    return scaled
 
 
 def float64_matrix(matrix) -> NDArray[np.float64]:

@@ -5,7 +5,7 @@
 A mesh with a vertex at the center of each voxel stores there, by a node tree, what the nearest voxel of the volume
 holds: the same values to the bit. Mesh, tree and a scene to evaluate them in live for this reading only, so that
 nothing of the user's scene is changed or evaluated anew. The extent is that of Blender's bounding box; empty space
-cannot be told before it is sampled.
+is not known before it is sampled.
 """
 
 from __future__ import annotations

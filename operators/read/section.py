@@ -10,7 +10,7 @@ read by its fill.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import bpy
@@ -33,21 +33,21 @@ class SectionReading:
     """Faces or outlines as arrays, in the world, Blender units.
 
     description: of what object or part, in words. points: (n, 3). triangles: (m, 3), facing as drawn, and faces: (m,)
-    the face of each; for outlines fans that tell the plane, with loops: the points of each closed outline, in order.
-    facing: (3,) where the plane has to look, None where the triangles tell. error: how far float32 storage may have
+    the face of each; for outlines fans that give the plane, with loops: the points of each closed outline, in order.
+    facing: (3,) where the plane has to look, None where the triangles decide. error: how far float32 storage may have
     moved a point. drawn_area: the area that Blender fills, of outlines in a plane. rotation, location: the object
     frame, or where a zero scale leaves `decompose()` without a rotation, the right-angled axes that are left.
     """
 
     name: str
     description: str
-    points: NDArray[np.float64]
+    points: NDArray[np.floating]
     triangles: NDArray[np.integer]
     faces: NDArray[np.integer]
     error: float
     rotation: NDArray[np.float64]
     location: NDArray[np.float64]
-    loops: list[NDArray[np.integer]] | None = None
+    loops: Sequence[NDArray[np.integer]] | None = None
     facing: NDArray[np.float64] | None = None
     drawn_area: float | None = None
     findings: list[Finding] = field(default_factory=list)
@@ -68,12 +68,13 @@ def read_section(obj, depsgraph) -> SectionReading:
     if obj.type in {"CURVE", "FONT"}:
         findings.append(finding("section_modified_fill"))
     surface = reading.join()
+    triangles, faces = surface.all_triangles()
     return SectionReading(
         obj.name,
         "All Faces",
         surface.points,
-        surface.triangles,
-        surface.triangle_faces,
+        triangles,
+        faces,
         float(np.linalg.norm(surface.coordinate_error)),
         _axes(reading),
         reading.location,
@@ -97,8 +98,9 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
         raise ReadError("section_no_selected_face", subject=obj.name)
     place = locate(obj, depsgraph)
     surface = surface.transform(place.matrix[:3, :3], place.matrix[:3, 3])
-    inside = chosen[surface.triangle_faces]
-    triangles = surface.triangles[inside]
+    triangles, faces = surface.all_triangles()
+    inside = chosen[faces]
+    triangles = triangles[inside]
     _require_finite(obj, surface.points[triangles])
     acting = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
     findings = [finding("section_without_modifiers", modifiers=acting)] if acting else []
@@ -108,7 +110,7 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
         "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count),
         surface.points,
         triangles,
-        surface.triangle_faces[inside],
+        faces[inside],
         float(np.linalg.norm(surface.coordinate_error)),
         _axes(place),
         place.location,
@@ -135,7 +137,7 @@ def _outlines(obj, depsgraph) -> SectionReading:
         if filled is None:
             raise ReadError("section_text_on_curve", subject=obj.name)
         surface, loops = filled.transform(linear, place.matrix[:3, 3]), None
-        triangles, faces = surface.triangles, surface.triangle_faces
+        triangles, faces = surface.all_triangles()
     else:
         surface = Surface(local).transform(linear, place.matrix[:3, 3])
         fans = [np.stack([np.full(len(loop) - 2, loop[0]), loop[1:-1], loop[2:]], axis=1) for loop in loops]

@@ -106,7 +106,7 @@ def weighted_points(spline) -> NDArray[np.float32]:
 
 def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
     """The spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
-    spaces = (
+    v, u = (
         blender_space(
             spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v, spline.use_endpoint_v
         ),
@@ -114,7 +114,7 @@ def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
             spline.point_count_u, spline.order_u, spline.use_cyclic_u, spline.use_bezier_u, spline.use_endpoint_u
         ),
     )
-    return None if None in spaces else spaces
+    return None if v is None or u is None else (v, u)
 
 
 def _verified(
@@ -131,8 +131,9 @@ def _verified(
     ]
     if all(_agrees(patch, sample, piece, tolerance) for patch, sample, piece in zip(patches, samples, pieces)):
         return patches
-    solved = [_interpolating_patch(patch, sample, piece) for patch, sample, piece in zip(patches, samples, pieces)]
-    if None in solved or not all(_agrees(*row, tolerance) for row in zip(solved, samples, pieces)):
+    attempts = [_interpolating_patch(patch, sample, piece) for patch, sample, piece in zip(patches, samples, pieces)]
+    solved = [patch for patch in attempts if patch is not None]
+    if len(solved) < len(attempts) or not all(_agrees(*row, tolerance) for row in zip(solved, samples, pieces)):
         return None
     return solved
 
@@ -142,7 +143,7 @@ def _agrees(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray, toler
 
 
 def _interpolating_patch(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray) -> Patch | None:
-    """The patch of the same spaces and weights that goes through the samples; None where they do not tell it."""
+    """The patch of the same spaces and weights that goes through the samples; None where they do not determine it."""
     inverses = []
     for table in sample:
         acting = table.any(axis=0)

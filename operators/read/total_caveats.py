@@ -1,14 +1,41 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What counts in a total and may be no part of it: cutters and helpers are objects like any other."""
+"""What is no part of a body, or may be none, and would count in a total: cutters and helpers are objects too."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 
-from bpy.types import LayerCollection, Object, ViewLayer
+from bpy.types import LayerCollection, Object, Scene, ViewLayer
 
 from ...core.verdict.finding import Finding, finding
+from ...core.verdict.method import Method, Verdict
+
+
+def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
+    """The scene's objects that are no parts of what it shows, each with the reason: operands of Boolean modifiers that
+    are drawn as mere wire or bounds, and what no view layer renders.
+    """
+    # One that is switched off renders nothing; the open one is all there is where all are.
+    layers = [layer for layer in scene.view_layers if layer.use] or [view_layer]
+    rendered = {obj for layer in layers for obj in _rendered(layer.layer_collection) if not obj.hide_render}
+    operands = boolean_operands(scene)
+    reasons = {}
+    for obj in scene.objects:
+        if obj in operands and obj.display_type in {"WIRE", "BOUNDS"}:
+            reasons[obj] = finding("boolean_operand")
+        elif obj not in rendered:
+            reasons[obj] = finding("not_rendered")
+    return reasons
+
+
+def boolean_operands(scene: Scene) -> dict[Object, Object]:
+    """What the Boolean modifiers of the scene's objects work with, each with the first of these by name."""
+    operands: dict[Object, Object] = {}
+    for user in sorted(scene.objects, key=lambda obj: obj.name):
+        for operand in _operands(user):
+            operands.setdefault(operand, user)
+    return operands
 
 
 def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Finding]:
@@ -41,17 +68,17 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
     return findings
 
 
-def open_body_caveats(methods: Iterable[tuple[str, str]]) -> list[Finding]:
+def open_body_caveats(methods: Iterable[tuple[str, Method | None]]) -> list[Finding]:
     """The same of bodies, given as names and methods, whose own numbers depend on a reference point."""
     methods = list(methods)
-    names = sorted(name for name, method in methods if method.endswith("open"))
+    names = sorted(name for name, method in methods if method is not None and method.verdict == Verdict.OPEN)
     return [finding("total_of_open_objects", objects=names)] if names and len(methods) > 1 else []
 
 
 def _operands(obj: Object) -> Iterator[Object]:
     """The objects that the Boolean modifiers of another one work with."""
     for modifier in obj.modifiers:
-        if modifier.type != "BOOLEAN" or not modifier.show_viewport:
+        if modifier.type != "BOOLEAN" or not (modifier.show_viewport or modifier.show_render):
             continue
         if modifier.operand_type == "OBJECT" and modifier.object is not None:
             yield modifier.object
@@ -60,8 +87,9 @@ def _operands(obj: Object) -> Iterator[Object]:
 
 
 def _rendered(layer: LayerCollection) -> Iterator[Object]:
-    """The objects of the collections that are rendered."""
+    """The objects of the collections that are rendered. What is excluded may hold a collection that is not."""
     if not layer.collection.hide_render:
-        yield from layer.collection.objects
+        if not layer.exclude:
+            yield from layer.collection.objects
         for child in layer.children:
             yield from _rendered(child)

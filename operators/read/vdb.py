@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One grid of a volume by the openvdb module that comes with Blender, block by block where there is something.
 
-An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side. The depth at which a value is held tells whether a node of
+An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side. The depth at which a value is held shows whether a node of
 128 is there at all, so the empty rest of a sparse grid costs nothing.
 """
 
@@ -12,6 +12,7 @@ import importlib
 from collections.abc import Iterator
 from itertools import product
 from types import ModuleType
+from typing import cast
 
 import bpy
 import numpy as np
@@ -47,14 +48,15 @@ class VdbGrid:
     """
 
     def __init__(self, path: str, name: str) -> None:
-        module = openvdb()
+        module = cast("ModuleType", openvdb())  # whoever makes one has seen that it is there
         try:
             self._grid = module.read(path, name)
         except (RuntimeError, KeyError, TypeError, OSError) as error:
             raise ReadError("grid_unreadable", grid=name, error=str(error).rstrip(".")) from error
-        self._dtype = DTYPES.get(self._grid.valueTypeName)
-        if self._dtype is None:
+        dtype = DTYPES.get(self._grid.valueTypeName)
+        if dtype is None:
             raise ReadError("grid_value_type", grid=name, type=self._grid.valueTypeName)
+        self._dtype = dtype
         transform = self._grid.transform
         if not transform.isLinear:
             raise ReadError("grid_frustum", grid=name)
@@ -114,4 +116,5 @@ class VdbGrid:
 
 def _cells(low: NDArray, end: NDArray, size: int) -> Iterator[tuple[int, int, int]]:
     """The corners of the cells of `size` that hold voxels of the box."""
-    return product(*(range(int(a) // size * size, int(b), size) for a, b in zip(low, end)))
+    i, j, k = (range(int(a) // size * size, int(b), size) for a, b in zip(low, end))
+    return product(i, j, k)

@@ -3,7 +3,7 @@
 """What can be read, and whether Blender has evaluated it.
 
 Blender does not evaluate what is disabled in viewports, excluded from the view layer or in another
-scene, and then hands out the object without its modifiers and at its last place as if nothing were
+scene, and then returns the object without its modifiers and at its last place as if nothing were
 wrong. `evaluated_geometry()` is the one test: it refuses such an object, also where only the
 object's transform was evaluated for another's sake. What is merely hidden (the eye), or is
 evaluated because something shown needs it, is read rightly and said.
@@ -12,6 +12,7 @@ evaluated because something shown needs it, is read rightly and said.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 from ...core.verdict.finding import Finding, ReadError, finding
 
@@ -54,7 +55,7 @@ def shows_flat_region(obj) -> bool:
 
 
 def measurable_objects(view_layer) -> list:
-    """The measurable objects of a view layer by name, hidden ones included: reading them tells what
+    """The measurable objects of a view layer by name, hidden ones included: reading them reports what
     can be done.
 
     Without those that only others show, and so are in their records: children of objects that
@@ -105,12 +106,12 @@ def require_kind(obj) -> None:
 
 
 def evaluated_geometry(obj, depsgraph, reader):
-    """The object's `GeometrySet`, which owns the meshes that it hands out.
+    """The object's `GeometrySet`, which owns the meshes that it returns.
 
     Raises ReadError about `reader`, the object for which `obj` is read, where Blender has not
     evaluated `obj` in full.
     """
-    reason = _sculpt_mode_reason(obj)
+    reason = _sculpt_mode_reason(obj) if obj.mode == "SCULPT" else None
     if reason is None:
         try:
             return obj.evaluated_get(depsgraph).evaluated_geometry()
@@ -128,8 +129,6 @@ def why_not_evaluated(obj, depsgraph) -> Finding:
 
 def _sculpt_mode_reason(obj) -> Finding | None:
     """Why what the viewport shows of an object in Sculpt Mode is not its evaluated mesh; None where it is."""
-    if obj.mode != "SCULPT":
-        return None
     if obj.use_dynamic_topology_sculpting:
         return finding("dynamic_topology")
     for modifier in obj.modifiers:
@@ -154,11 +153,12 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
         (lambda layer: layer.collection.hide_viewport, "collection_disabled"),
         (lambda layer: layer.hide_viewport, "collection_hidden"),
     ):
-        blocking = [next(filter(blocks, path), None) for path in branches]
-        if all(blocking):
-            return finding(code, collection=blocking[0].collection.name)
-        reasons += [finding(code, collection=layer.collection.name) for layer in blocking if layer is not None]
-        barred |= {k for k, layer in enumerate(blocking) if layer is not None}
+        blocking = {k: layer for k, path in enumerate(branches) for layer in islice(filter(blocks, path), 1)}
+        named = [finding(code, collection=layer.collection.name) for layer in blocking.values()]
+        if len(blocking) == len(branches):
+            return named[0]
+        reasons += named
+        barred |= blocking.keys()
     if len(barred) == len(branches):
         return reasons[-1]  # one for each of its collections: the mildest
     if obj.hide_get(view_layer=depsgraph.view_layer):

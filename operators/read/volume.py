@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A grid of voxels as an object shows it: of a Volume object, or of any that its nodes turn into a volume.
 
-Voxels are handed out by Blender in no other way than as a file or through nodes. What Blender has read from a .vdb file
+Blender gives voxels only as a file or through nodes. What Blender has read from a .vdb file
 and not changed is read from that file; what it has made is written, where its openvdb module can read it again, to
 Blender's temporary folder for as long as the reading lasts; else it is sampled by nodes.
 """
@@ -141,8 +141,8 @@ def _volume(obj, depsgraph):
 class _OwnedVolume:
     """A volume with the geometry set that may own it."""
 
-    geometry: object
-    data: object
+    geometry: bpy.types.GeometrySet
+    data: bpy.types.Volume
 
 
 def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):

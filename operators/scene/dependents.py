@@ -66,7 +66,10 @@ def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
 def transform_shape(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape | None:
     """The shape as it is where its object went with all of it. was, now: (4, 4) the object's matrices."""
     way = now @ np.linalg.pinv(was)
-    return before and [tuple(points @ way[:3, :3].T + way[:3, 3] for points in pair) for pair in before]
+    if before is None:
+        return None
+    linear, offset = way[:3, :3].T, way[:3, 3]
+    return [(first @ linear + offset, rest @ linear + offset) for first, rest in before]
 
 
 def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
@@ -77,8 +80,8 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
     if len(before) == len(after) and all(first.shape == second.shape for first, second in pairs):
         return all(_nearly_equal(*pair, size) for pair in pairs)
     # Objects that shared a mesh are parts of their own once one of them has got a copy.
-    before, after = _sample_instances(before), _sample_instances(after)
-    return before.keys() == after.keys() and all(_nearly_equal(before[count], after[count], size) for count in before)
+    samples, others = _sample_instances(before), _sample_instances(after)
+    return samples.keys() == others.keys() and all(_nearly_equal(samples[n], others[n], size) for n in samples)
 
 
 def _sample_instances(shape: Shape) -> dict[int, NDArray[np.float64]]:

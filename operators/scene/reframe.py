@@ -12,7 +12,7 @@ is kept. Otherwise all is put back. Other users of the data keep it as it is; th
 changed get a copy of their own, shared among them.
 
 Objects that have nothing to do with each other are changed side by side. One that is refused so is tried again alone,
-lest another's change was the reason.
+in case another's change was the reason.
 """
 
 from __future__ import annotations
@@ -39,6 +39,7 @@ from .transforms import (
     basis,
     set_location,
     set_rotation_and_scale,
+    solve,
     world,
 )
 
@@ -142,7 +143,7 @@ def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
     groups: list[list[Plan]] = []
     sharing: dict[ID, list[tuple[Matrix4, list[Plan]]]] = {}
     for plan in plans:
-        change = np.linalg.solve(plan.target, world(plan.obj))
+        change = solve(plan.target, world(plan.obj))
         reach = np.abs(np.array(plan.obj.bound_box)).max()
         above = set(ancestors(plan.obj))
         data_groups = sharing.setdefault(plan.obj.data, [])
@@ -172,7 +173,7 @@ def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> Scene
     around = DependentsGuard(objects, users, depsgraph)
     was = {obj: world(obj) for obj in objects}
     channels = [TransformChannels(obj) for obj in objects]
-    trial = None
+    trial, change = None, np.eye(4)
     succeeded = False
     try:
         yield from run_together(set_world_matrix(plan) for plan in group)
@@ -253,7 +254,7 @@ def set_world_matrix(plan: Plan) -> SceneChange:
     tolerance = location_tolerance(obj, plan.size) / np.cbrt(abs(np.linalg.det(outer[:3, :3])))
     target = plan.target
     for _ in range(3):  # what the parents' float32 matrices round is corrected once it is known
-        local = np.linalg.solve(outer, target)
+        local = solve(outer, target)
         set_location(obj, local[:3, 3], tolerance)
         if not plan.move_only:
             set_rotation_and_scale(obj, local[:3, :3])
@@ -280,12 +281,12 @@ def _parent_matrix(obj: Object) -> Matrix4:
     local = basis(obj)
     if abs(np.linalg.det(local[:3, :3])) == 0.0:
         raise EditRefusedError("scale_zero_axis")
-    return np.linalg.solve(local.T, world(obj).T).T
+    return solve(local.T, world(obj).T).T
 
 
 def _data_change(plan: Plan, was: Matrix4) -> Matrix4:
     now = world(plan.obj)
-    change = np.linalg.solve(now, was)
+    change = solve(now, was)
     if plan.move_only:
         change[:3, :3] = np.eye(3)
         change[:3, 3] = np.linalg.solve(was[:3, :3], was[:3, 3] - now[:3, 3])

@@ -47,6 +47,11 @@ def world(obj: Object) -> Matrix4:
     return np.array(obj.matrix_world, np.float64)
 
 
+def solve(matrix: Matrix4, right_side: Matrix4) -> Matrix4:
+    """(4, 4) what the matrix has to be multiplied with: float64, which numpy's types do not say."""
+    return np.asarray(np.linalg.solve(matrix, right_side), np.float64)
+
+
 def _turn(axis: int, angle: float) -> Matrix3:
     matrix = np.eye(3)
     j, k = (axis + 1) % 3, (axis + 2) % 3

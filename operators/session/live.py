@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of NURBS objects that follow an edit while Live is on: shown, never stored.
 
-A handler notes, in memory, which objects with Live on Blender has evaluated anew, and a timer measures them once
+What Blender has evaluated anew is noted, in memory, of objects with Live on, and a timer measures them once
 Blender is idle: nothing is written to any data, and nothing is measured while Blender evaluates, renders or draws. What
 takes long is measured less often. A body is tracked (core/nurbs/tracked_solid.py) as long as its patches and what was
 decided about them stay; Measure stores the numbers, with the bounds of their errors. Which objects have Live on is kept
@@ -16,21 +16,22 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
-from bpy.app.handlers import persistent
 from bpy.types import Depsgraph, Object, Scene
 
 from ...core.measurement import Measurement
-from ...core.numerics.float32 import shortest_decimal
 from ...core.nurbs.tracked_solid import TrackedSolid
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError
-from ..bodies.body import MeasuredBody
+from ...core.verdict.method import Method, Source, Verdict
+from ..bodies.body import Body
 from ..bodies.measure_object import measure_object
-from ..bodies.measurement import as_measurement
+from ..bodies.measurement import measurement_of
+from ..bodies.request import Request
 from ..read import read_patches
 from ..read.fingerprint import settings_hash
-from ..settings.density import density_field
-from ..settings.options import MeasureOptions, with_object_settings
+from ..settings.options import MeasureOptions
+from . import handlers
+from .cache import SessionCache
 
 MAX_WAIT = 2.0  # s between two measurements of a body that takes long
 
@@ -46,21 +47,34 @@ class LiveResult:
     settings: str
 
 
-# by session uid; none of it outlives the file
-_live: set[int] = set()
-_pending: set[int] = set()
-_results: dict[int, LiveResult] = {}
-_tracked: dict[int, TrackedSolid] = {}
+@dataclass(eq=False)
+class _Followed:
+    """An object with Live on. tracked: its body, where that is followed rather than measured each time. is_pending:
+    whether it was evaluated anew since it was measured."""
+
+    result: LiveResult | None = None
+    tracked: TrackedSolid | None = None
+    is_pending: bool = False
+
+
+_followed: SessionCache[_Followed] = SessionCache()
 
 
 def is_live(obj: Object) -> bool:
     """Whether the object's numbers are to follow its edits."""
-    return obj.session_uid in _live
+    return obj in _followed
+
+
+def is_pending(obj: Object) -> bool:
+    """Whether an object with Live on is going to be measured: Blender has evaluated it anew."""
+    followed = _followed.get(obj)
+    return followed is not None and followed.is_pending
 
 
 def current_numbers(obj: Object) -> LiveResult | None:
     """The numbers of an object with Live on, None before they were first measured."""
-    return _results.get(obj.session_uid) if is_live(obj) else None
+    followed = _followed.get(obj)
+    return None if followed is None else followed.result
 
 
 def is_stale(obj: Object, scene: Scene) -> bool:
@@ -70,39 +84,37 @@ def is_stale(obj: Object, scene: Scene) -> bool:
 
 
 def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
-    """Measure an object as it is now, and keep the outcome to be shown."""
-    start = time.perf_counter()
+    """Measure an object with Live on as it is now, and keep the outcome to be shown."""
+    followed, start = _followed.get(obj), time.perf_counter()
     measurement, refusal = None, None
     try:
-        measurement = _measure(obj, depsgraph)
+        measurement = _measure(obj, followed, depsgraph)
     except MeasureError as error:
         refusal = error.finding
     except Exception as error:
         refusal = internal_error.finding_of(error)
-        _tracked.pop(obj.session_uid, None)  # what is half followed is no start for the next edit
-    result = _results[obj.session_uid] = LiveResult(
-        measurement, refusal, time.perf_counter() - start, settings_hash(obj, depsgraph.scene)
-    )
-    return result
+        followed.tracked = None  # what is half followed is no start for the next edit
+    followed.result = LiveResult(measurement, refusal, time.perf_counter() - start, settings_hash(obj, depsgraph.scene))
+    return followed.result
 
 
 def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Let the object's numbers follow its edits; the first of them."""
-    _live.add(obj.session_uid)
+    _followed[obj] = _Followed()
     return update(obj, depsgraph)
 
 
 def stop(obj: Object) -> None:
     """Let the object's numbers follow its edits no more."""
-    _forget(obj.session_uid)
+    _followed.forget(obj)
 
 
-def _measure(obj: Object, depsgraph: Depsgraph) -> Measurement:
-    unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> Measurement:
     plain = MeasureOptions(compare=False)
-    options = with_object_settings(plain, obj, unit)
-    followed = options.kind == "solid" and options.overlap == "signed" and density_field(obj.body_moments) is None
-    reading = read_patches(obj, depsgraph) if followed else None
+    request = Request.of(obj, depsgraph, plain)
+    options, unit = request.options, request.unit
+    can_track = options.kind == "solid" and options.overlap == "signed" and request.density is None
+    reading = read_patches(obj, depsgraph) if can_track else None
     if reading is None or reading.all_singular:
         return measure_object(obj, depsgraph, plain)
     (part,) = reading.parts
@@ -112,35 +124,29 @@ def _measure(obj: Object, depsgraph: Depsgraph) -> Measurement:
     if np.linalg.det(matrix) < 0.0:
         patches = [patch.reverse_orientation() for patch in patches]
     stored = part.splines.stored * float(np.linalg.norm(matrix[:3, :3], 2))
-    body = _tracked.get(obj.session_uid)
-    if body is None:
-        body = _tracked[obj.session_uid] = TrackedSolid(patches, stored)
+    if followed.tracked is None:
+        followed.tracked = TrackedSolid(patches, stored)
     else:
-        body.update(patches, stored)
-    measure = body.measure
-    measured_body = MeasuredBody(
+        followed.tracked.update(patches, stored)
+    measure = followed.tracked.measure
+    measured_body = Body(
         measure.volume,
         measure.area,
         measure.health,
-        "NURBS " + measure.method,
+        Method(Verdict(measure.method), Source.NURBS),
         (*part.splines.findings, *measure.findings),
-        third_order=lambda: measure.volume,
         estimated=True,
     )
-    return as_measurement(obj, reading, measured_body, options, unit)
+    return measurement_of(reading, measured_body, request)
 
 
-@persistent
-def _on_depsgraph_update(_scene: Scene, depsgraph: Depsgraph | None = None) -> None:
-    if depsgraph is None or depsgraph.mode != "VIEWPORT":
-        return
-    for update in depsgraph.updates:
-        if isinstance(update.id, Object) and (update.is_updated_geometry or update.is_updated_transform):
-            obj = update.id.original
-            if is_live(obj):
-                _pending.add(obj.session_uid)
-    if _pending and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
-        slowest = max((_results[uid].seconds for uid in _pending if uid in _results), default=0.0)
+def _note_updates(updates: handlers.Updates) -> None:
+    for obj in (*updates.reshaped, *updates.moved) if len(_followed) else ():
+        if (followed := _followed.get(obj)) is not None:
+            followed.is_pending = True
+    pending = [followed for followed in _followed if followed.is_pending]
+    if pending and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
+        slowest = max(followed.result.seconds if followed.result else 0.0 for followed in pending)
         bpy.app.timers.register(_tick, first_interval=min(2.0 * slowest, MAX_WAIT))
 
 
@@ -149,8 +155,9 @@ def _tick() -> float | None:
         return 0.5
     layer = bpy.context.view_layer
     depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
-    due = [obj for obj in layer.objects if obj.session_uid in _pending]
-    _pending.clear()
+    due = [obj for obj in layer.objects if is_pending(obj)]
+    for followed in _followed:
+        followed.is_pending = False
     for obj in due:
         update(obj, depsgraph)
     for window in bpy.context.window_manager.windows:
@@ -160,34 +167,13 @@ def _tick() -> float | None:
     return None
 
 
-def _forget(uid: int) -> None:
-    for cache in (_live, _pending):
-        cache.discard(uid)
-    for cache in (_results, _tracked):
-        cache.pop(uid, None)
-
-
-@persistent
-def _on_load(*_args) -> None:
-    for cache in (_live, _pending, _results, _tracked):
-        cache.clear()
-
-
-HANDLERS = (
-    ("depsgraph_update_post", _on_depsgraph_update),
-    ("frame_change_post", _on_depsgraph_update),
-    ("load_post", _on_load),
-)
-
-
 def register() -> None:
-    for name, function in HANDLERS:
-        getattr(bpy.app.handlers, name).append(function)
+    """Follow what Blender evaluates anew."""
+    handlers.on_update.append(_note_updates)
 
 
 def unregister() -> None:
-    for name, function in reversed(HANDLERS):
-        getattr(bpy.app.handlers, name).remove(function)
+    """Follow it no more."""
+    handlers.on_update.remove(_note_updates)
     if bpy.app.timers.is_registered(_tick):
         bpy.app.timers.unregister(_tick)
-    _on_load()

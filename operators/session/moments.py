@@ -3,7 +3,8 @@
 """Moments to a chosen order, kept in memory, and what a panel and the clipboard show of them.
 
 Nothing is written to the object: a thousand numbers would burden the file, and no undo step is needed. The last few
-objects' moments are kept until Blender ends; they know what they were computed from, and so when they are out of date.
+objects' moments are kept while the file is open; they know what they were computed from, and so when they are out of
+date.
 """
 
 from __future__ import annotations
@@ -11,9 +12,7 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections import OrderedDict
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from bpy.types import Object, Scene
@@ -26,6 +25,7 @@ from ..read.fingerprint import matrix_hash, settings_hash
 from ..write.terminal import visible
 from ..write.units import number
 from . import staleness
+from .cache import SessionCache
 
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
 
@@ -65,20 +65,20 @@ class Degree:
     rows: tuple[tuple[str, str, str], ...]
 
 
-_cache: OrderedDict[int, ComputedMoments] = OrderedDict()
+Display = tuple[tuple[Degree, ...], Finding | None]  # what a panel shows, and where that is nothing, why
+
+_computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
+_displays: SessionCache[tuple[tuple, Display]] = SessionCache(MAX_CACHED_OBJECTS)  # and what they show
 
 
 def cache_moments(obj: Object, computed: ComputedMoments) -> None:
     """Remember what was computed for an object."""
-    _cache.pop(obj.session_uid, None)
-    _cache[obj.session_uid] = computed
-    while len(_cache) > MAX_CACHED_OBJECTS:
-        _cache.popitem(last=False)
+    _computed[obj] = computed
 
 
 def computed_moments(obj: Object) -> ComputedMoments | None:
     """What was computed for an object; None where nothing was."""
-    return _cache.get(obj.session_uid)
+    return _computed.get(obj)
 
 
 def stale_reason(obj: Object, scene: Scene) -> str | None:
@@ -94,16 +94,18 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
     return "stale_transform" if matrix != matrix_hash(obj) else None
 
 
-def current_numbers(obj: Object, scene: Scene) -> tuple[tuple[Degree, ...], Finding | None]:
-    """The moments to order SHOWN as the scene's settings want them, and where there are none, why."""
+def current_numbers(obj: Object, scene: Scene) -> Display:
+    """The moments to MAX_SHOWN_ORDER as the scene's settings want them, and where there are none, why."""
     settings = scene.body_moments
-    return _displayed_degrees(computed_moments(obj), settings.moments_of, settings.moments_about, settings.frame)
+    # A panel is drawn at every movement of the mouse.
+    request = (computed_moments(obj), settings.moments_of, settings.moments_about, settings.frame)
+    cached = _displays.get(obj)
+    if cached is None or cached[0] != request:
+        cached = _displays[obj] = (request, _displayed_degrees(*request))
+    return cached[1]
 
 
-@lru_cache(maxsize=32)
-def _displayed_degrees(
-    computed: ComputedMoments, of: str, about: str, frame: str
-) -> tuple[tuple[Degree, ...], Finding | None]:
+def _displayed_degrees(computed: ComputedMoments, of: str, about: str, frame: str) -> Display:
     try:
         moments = in_frame(computed, of, about, frame, min(computed.order, MAX_SHOWN_ORDER))
     except MeasureError as error:
@@ -179,13 +181,3 @@ def as_csv(computed: ComputedMoments, of: str, about: str, frame: str) -> str:
     )
     table.writerows([*powers, *values] for powers, *values in values)
     return text.getvalue()
-
-
-def register() -> None:
-    """Nothing is remembered yet."""
-
-
-def unregister() -> None:
-    """Forget everything."""
-    _cache.clear()
-    _displayed_degrees.cache_clear()

@@ -21,10 +21,12 @@ from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError
 from ..bodies.measure_object import Measured
+from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
-from . import live, staleness, walls
+from . import handlers, live, staleness, walls
+from .cache import SessionCache
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,29 +43,32 @@ class Total:
     findings: tuple[Finding, ...]
 
 
-_failures: dict[int, tuple[Finding, str]] = {}  # session uid → why, and the digest of the settings of then
-_total: tuple[tuple, Total] | None = None  # what the last total was computed for, and that total
+_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # why, and the digest of the settings of then
+_totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last one, after what was computed for it
 
 
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
     """Write what was measured on the object, and remember what its sliders need. EditRefusedError where the object
     cannot hold results."""
     properties.store(obj, measured.measurement)
-    walls.cache_walls(obj, measured, _unit(scene))
+    if isinstance(measured.body, WallBody):
+        walls.cache_walls(obj, measured, _unit(scene))
 
 
 def remember_failure(obj: Object, reason: Finding | None) -> None:
-    """Keep, until Blender ends, why the object could not be measured; None forgets it."""
-    _failures.pop(obj.session_uid, None)
-    if reason is not None:
-        _failures[obj.session_uid] = reason, settings_hash(obj, bpy.context.scene)
+    """Keep, while the file is open, why the object could not be measured; None forgets it."""
+    if reason is None:
+        _failures.forget(obj)
+    else:
+        _failures[obj] = reason, settings_hash(obj, bpy.context.scene)
 
 
 def failure(obj: Object) -> Finding | None:
     """Why the object could not be measured when that was last tried with these settings, or nothing."""
-    if obj.session_uid not in _failures:
+    remembered = _failures.get(obj)
+    if remembered is None:
         return None
-    reason, settings = _failures[obj.session_uid]
+    reason, settings = remembered
     return reason if settings == settings_hash(obj, bpy.context.scene) else None
 
 
@@ -85,11 +90,11 @@ def of_object(obj: Object, scene: Scene) -> properties.StoredProperties | None:
 
 def total(context: Context) -> Total:
     """The selected objects as one body, by the parallel-axis theorem, from what is stored."""
-    global _total
-    key = (staleness.generation(), context.scene.session_uid, context.view_layer.name)
-    if _total is None or _total[0] != key:
-        _total = (key, _sum(context))
-    return _total[1]
+    key = (handlers.generation(), context.view_layer.name)
+    cached = _totals.get(context.scene)
+    if cached is None or cached[0] != key:
+        cached = _totals[context.scene] = (key, _sum(context))
+    return cached[1]
 
 
 def _sum(context: Context) -> Total:

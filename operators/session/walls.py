@@ -9,7 +9,6 @@ numbers stay, and are reported as out of date.
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from dataclasses import dataclass, replace
 
 from bpy.types import Context, Object, PropertyGroup
@@ -17,40 +16,37 @@ from bpy.types import Context, Object, PropertyGroup
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import MeasureError
 from ..bodies.measure_object import Measured
-from ..bodies.measurement import as_measurement
+from ..bodies.measurement import measurement_of
+from ..bodies.request import Request
 from ..bodies.wall import Walls
 from ..read import Reading
 from ..settings import hooks
-from ..settings.options import MeasureOptions, with_object_settings
 from ..write import properties
-from . import staleness
+from . import marks, staleness
+from .cache import SessionCache
 
 MAX_CACHED_OBJECTS = 64  # objects
-
-_cache: OrderedDict[int, _CachedWalls] = OrderedDict()  # by session uid, the last one measured last
 
 
 @dataclass(frozen=True)
 class _CachedWalls:
-    """What was measured of one object, and the fingerprint that it was given."""
+    """What was measured of one object, and what the mark that it was given says of geometry and transform."""
 
     reading: Reading
     walls: Walls
     geometry: str
-    matrix: str
+    transform: str
     unit: float
 
 
+_cache: SessionCache[_CachedWalls] = SessionCache(MAX_CACHED_OBJECTS)
+
+
 def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
-    """Remember the walls that an object was measured with, if any. unit: metres per Blender unit."""
-    if measured.walls is None:
-        return
-    _, geometry, matrix, _ = measured.measurement.fingerprint.split(":")
+    """Remember the walls that an object was measured with. unit: metres per Blender unit."""
+    mark = marks.Mark(*measured.measurement.fingerprint.split(":"))
     reading = replace(measured.reading, parts=[])
-    _cache[obj.session_uid] = _CachedWalls(reading, measured.walls.drop_arrays(), geometry, matrix, unit)
-    _cache.move_to_end(obj.session_uid)
-    while len(_cache) > MAX_CACHED_OBJECTS:
-        _cache.popitem(last=False)
+    _cache[obj] = _CachedWalls(reading, measured.body.walls.drop_arrays(), mark.geometry, mark.transform, unit)
 
 
 def max_thickness(obj: Object) -> float | None:
@@ -64,8 +60,8 @@ def max_thickness(obj: Object) -> float | None:
 
 def is_too_thick(obj: Object) -> bool:
     """Whether the thickness that is set is known to be too large."""
-    limit = max_thickness(obj)
-    return limit is not None and not shortest_decimal(obj.body_moments.thickness) * _cache[obj.session_uid].unit < limit
+    limit, cached = max_thickness(obj), _cache.get(obj)
+    return limit is not None and not shortest_decimal(obj.body_moments.thickness) * cached.unit < limit
 
 
 def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
@@ -86,10 +82,10 @@ def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
         or obj.override_library is not None
     ):
         return
-    options = with_object_settings(MeasureOptions(), obj, cached.unit)
+    request = Request.of(obj, unit=cached.unit)
     try:
-        body = _walls_on_side(cached, obj).body(options.thickness, check_overlap=False)
-        measurement = as_measurement(obj, cached.reading, body, options, cached.unit)
+        body = _walls_on_side(cached, obj).body(request.options.thickness, check_overlap=False)
+        measurement = measurement_of(cached.reading, body, request)
     except MeasureError:  # the panel shows how thick it may be
         return
     properties.store(obj, measurement)
@@ -102,15 +98,17 @@ def _walls_on_side(cached: _CachedWalls, obj: Object) -> Walls:
 
 def _current_walls(obj: Object) -> _CachedWalls | None:
     """What is kept of an object, where its stored numbers are of the same geometry and transform."""
-    cached = _cache.get(obj.session_uid)
-    parts = str(obj.get("body_fingerprint", "")).split(":")
-    return cached if cached is not None and parts[1:3] == [cached.geometry, cached.matrix] else None
+    cached, mark = _cache.get(obj), marks.parse(marks.of_results(obj))
+    if cached is None or mark is None or (mark.geometry, mark.transform) != (cached.geometry, cached.transform):
+        return None
+    return cached
 
 
 def register() -> None:
+    """Follow the settings of walls."""
     hooks.on_wall_change.append(on_wall_setting)
 
 
 def unregister() -> None:
+    """Follow them no more."""
     hooks.on_wall_change.remove(on_wall_setting)
-    _cache.clear()

@@ -8,14 +8,18 @@ from dataclasses import dataclass
 
 import bpy
 
-from ...core.density.polynomial import Polynomial, parse
+from ...core.density.polynomial import Polynomial, parse_polynomial
+from ...core.measurement import Measurement
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
+
+# Where the density comes from the object's one value, or that of some faces.
+_BY_OBJECT = {"density_from_value", "object_density_used", "object_density_used_for_materials"}
 
 
 @dataclass(frozen=True, eq=False)
 class DensityField:
-    """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of metres, along the
+    """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of meters, along the
     world's axes or each surface's own; text: as it was typed. attribute: the name of that of the vertices."""
 
     kind: str
@@ -44,7 +48,7 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
         return DensityField("materials")
     if settings.density_from == "POLYNOMIAL":
         text = settings.density_polynomial.strip()
-        return DensityField("polynomial", parse(text), settings.density_frame == "WORLD", text)
+        return DensityField("polynomial", parse_polynomial(text), settings.density_frame == "WORLD", text)
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:
             raise ReadError("density_volume_missing")
@@ -58,6 +62,17 @@ def material_density(material: bpy.types.Material | None) -> float | None:
     """kg/m³; None where there is no material, or it has no density."""
     density = 0.0 if material is None else shortest_decimal(material.body_moments.density)
     return density if density > 0.0 else None
+
+
+def unset_density(obj: bpy.types.Object, measurement: Measurement) -> str | None:
+    """Which density of the object's settings was used and set by nobody: "density" or "linear_density"; None where
+    none was. measurement: of the object, with no density or mass from elsewhere."""
+    settings = obj.body_moments
+    used = {measurement.density_from.code, *(one.code for one in measurement.findings)}
+    if settings.mass_from != "DENSITY" or not used & _BY_OBJECT:
+        return None
+    name = "linear_density" if measurement.kind == "wire" else "density"
+    return None if settings.is_property_set(name) else name
 
 
 def density_anchor(obj: bpy.types.Object) -> str:

@@ -4,11 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
-import bpy
-
-from ...core.numerics.float32 import shortest_decimal
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
@@ -16,7 +12,7 @@ class MeasureOptions:
     """What overrides the objects' own settings; None leaves the setting. SI units.
 
     kind: "solid", "shell" or "wire"; density: kg/m³, of a wire kg/m; mass: kg; thickness: m; overlap: "signed" or
-    "union"; wall: of a shell, "thin", "inward", "outward" or "centered"; unit_scale: metres per Blender unit, else the
+    "union"; wall: of a shell, "thin", "inward", "outward" or "centered"; unit_scale: meters per Blender unit, else the
     scene's. order: of the moments that the measurement is to hold; None for what mass properties need. surface: those
     of the area too. pose: the principal frame follows the body's shape to sixth order however many faces it has.
     compare: whether what needs no display mesh is compared with it.
@@ -37,26 +33,3 @@ class MeasureOptions:
 
 
 AS_SET = MeasureOptions()  # every object as its own settings say
-
-
-def with_object_settings(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> MeasureOptions:
-    """The options with every gap filled from the object's settings."""
-    settings = obj.body_moments
-    density, mass = options.density, options.mass
-    kind = options.kind or settings.kind.lower()
-    if density is None and mass is None:
-        given = settings.linear_density if kind == "wire" else settings.density
-        density, mass = (
-            (shortest_decimal(given), None)
-            if settings.mass_from == "DENSITY"
-            else (None, shortest_decimal(settings.mass))
-        )
-    return replace(
-        options,
-        kind=kind,
-        density=density,
-        mass=mass,
-        thickness=shortest_decimal(settings.thickness) * unit if options.thickness is None else options.thickness,
-        overlap=options.overlap or settings.overlap.lower(),
-        wall=options.wall or settings.wall.lower(),
-    )

@@ -298,13 +298,14 @@ class BodyMomentsSceneSettings(PropertyGroup):
 
 
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
-    """Copy every setting; whether anything was different."""
+    """Copy every setting; whether anything was different. What is set in the source is set in the target."""
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)
-        if getattr(target, name) != value:
+        different = getattr(target, name) != value
+        if different or source.is_property_set(name) and not target.is_property_set(name):
             setattr(target, name, value)
-            changed = True
+        changed = changed or different
     return changed
 
 

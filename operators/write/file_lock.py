@@ -18,10 +18,10 @@ from pathlib import Path
 
 from .leftovers import removed
 
-try:
-    import fcntl
-except ImportError:  # Windows
+if os.name == "nt":
     import msvcrt
+else:
+    import fcntl
 
 WAIT = 60.0  # seconds that a writer waits for the one before it
 _PAUSE = 0.1

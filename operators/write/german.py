@@ -80,6 +80,7 @@ TEXTS = {
 
 # Codes of messages → German, and for several where the English has such a text
 MESSAGES = {
+    "and_more": ("und {count} weitere",),
     "no_faces": ("Keine Flächen. Flächen hinzufügen oder ein anderes Objekt auswählen.",),
     "no_geometry": ("Keine Geometrie. Flächen hinzufügen oder prüfen, ob ein Modifikator sie entfernt.",),
     "no_volume": (

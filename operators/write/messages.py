@@ -7,7 +7,7 @@ Values stay numbers, strings, booleans and lists; only the table formats them:
 
     {share:percent}      a fraction, as 12.3%                {samples:size}   integers, as 2 x 3 x 4
     {thickness:length}   meters, as the scene shows them     {point:point}    three of these
-    {names}              a list, the first 8: “A”, “B”, 3 more    {side:word}     a word of ours, to be translated
+    {names}              a list, the first 8: “A”, “B”, and 3 more    {side:word}     a word of ours, to be translated
     {cause}, {causes}    another finding, or several ({"code", "values"}): their messages
     {elements}           what it is about (`Finding.elements`, of which there are `count`): 3, 5, 9, or 3 of “Cube”
 
@@ -22,7 +22,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ...core.verdict.finding import MAX_STORED_ELEMENTS, Finding, Severity
+from ...core.verdict.finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
+from ...core.verdict.method import Method, Verdict
 
 MAX_LISTED = MAX_STORED_ELEMENTS
 
@@ -57,12 +58,28 @@ def _item(item: Any) -> str:
     return "“{}”".format(item) if isinstance(item, str) else "{}".format(item)
 
 
-def truncate_list(items: Sequence[Any], count: int | None = None) -> str:
-    """The first items, names in quotation marks, and how many more there are. count: of all, where `items` are only the
-    first of them."""
-    shown = [_item(item) for item in items[:MAX_LISTED]]
-    more = (count or len(items)) - len(shown)
-    return ", ".join(shown + (["{:d} more".format(more)] if more > 0 else []))
+def truncate_list(items: Elements, count: int | None = None, translate: Callable[[str], str] = str) -> str:
+    """Write the first items of a list, names in quotation marks, and how many more there are.
+
+    Parameters
+    ----------
+    items : sequence
+        Names, numbers, or pairs of them.
+    count : int, optional
+        How many there are in all, where `items` are only the first of them.
+    translate : callable
+        Applied to the template of what is not an item.
+
+    Returns
+    -------
+    str
+        “A”, “B”, and 3 more.
+    """
+    shown, more = truncate(items, MAX_LISTED, count)
+    texts = [_item(item) for item in shown]
+    if more:
+        texts.append(translate(MESSAGES["and_more"].text).format(count=more))
+    return ", ".join(texts)
 
 
 class _Formatter(string.Formatter):
@@ -89,7 +106,7 @@ class _Formatter(string.Formatter):
         if isinstance(value, (list, tuple)) or hasattr(value, "tolist") and getattr(value, "ndim", 0):
             if len(value) and isinstance(value[0], Mapping):
                 return self._joined([self.format_field(finding, "") for finding in value])
-            return truncate_list(value)
+            return truncate_list(value, translate=self.translate)
         return super().format_field(value, format_spec)
 
     @staticmethod
@@ -105,9 +122,10 @@ def sentence(
     in meters, by default in meters."""
     entry, values = MESSAGES[finding.code], finding.values
     template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
-    elements = truncate_list(finding.elements, values.get("count"))
+    elements = truncate_list(finding.elements, values.get("count"), translate)
     text = _Formatter(translate, lengths).vformat(translate(template), (), {**values, "elements": elements})
-    return "{}: {}".format(truncate_list(values["sources"]), text) if values.get("sources") else text
+    sources = values.get("sources")
+    return "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
 
 
 def severity(finding: Finding) -> Severity:
@@ -307,6 +325,10 @@ MESSAGES: dict[str, Message] = {
     ),
     "not_rendered": _note("Not rendered. Use --all to measure it."),
     "boolean_operand": _note("Only an operand of Boolean modifiers. Use --all to measure it."),
+    "solid_operand_measured": _warning(
+        "Measured as a part, but cuts or joins “{object}” by a Boolean modifier. Display it as wire or bounds, or turn "
+        "off its rendering, if it is no part."
+    ),
     # ------------------------------------------------------------------ Modes, modifiers, render differences
     "edit_mode_modifiers": _note("Read in Edit Mode with its modifiers: {modifiers}."),
     "edit_mode_shape_keys": _note("Read in Edit Mode with shape keys."),
@@ -533,6 +555,9 @@ MESSAGES: dict[str, Message] = {
     ),
     # ------------------------------------------------------------------ Density and mass
     "density_defaulted": _warning("No density is set: 1000 kg/m³ was used. Set Density or a material."),
+    "density_default_kept": _note("No density is set: 1000 kg/m³ was used. Set Density or a material."),
+    "linear_density_defaulted": _warning("No linear density is set: 1 kg/m was used. Set Linear Density."),
+    "linear_density_default_kept": _note("No linear density is set: 1 kg/m was used. Set Linear Density."),
     "zero_density": _error("The density is zero. Set Density."),
     "zero_mass": _error("The mass is zero. Set Mass."),
     "mass_overflow": _error("The densities are too large. Lower them."),
@@ -1100,6 +1125,17 @@ MESSAGES: dict[str, Message] = {
     "importer_missing": _error("This Blender has no importer for {suffix} files."),
     "import_failed": _error("Blender cannot read the file: {error}."),
     "file_without_objects": _error("No object in the file. Check that it is a {suffix} file."),
+    "no_measurable_object": _error("Nothing was measured: there is no object with a surface or volume."),
+    "nothing_rendered": _error(
+        "Nothing was measured: {count} object was left out. Use --all, or turn on its rendering.",
+        "Nothing was measured: {count} objects were left out. Use --all, or turn on their rendering.",
+    ),
+    "missing_references": _error("The file refers to what cannot be found: {names}. Restore these files."),
+    "driver_blocked": _warning(
+        "Drivers did not run, as the scripts of files are disabled: {drivers}. Bake what they drive, or save the file "
+        "with simple expressions."
+    ),
+    "script_blocked": _note("A script in the file did not run, as the scripts of files are disabled: {script}."),
     "file_not_opened": _error("Blender cannot open the file. Check that it exists and is complete."),
     "file_read_only": _error("The file is read-only and cannot be saved."),
     "file_not_saved": _error("The file cannot be saved: {error}."),
@@ -1122,6 +1158,20 @@ MESSAGES: dict[str, Message] = {
     "file_not_regular": _error("Not a regular file."),
     "file_unreadable": _error("The file cannot be read: {error}."),
     "file_empty": _error("The file is empty."),
+    "non_finite_coordinates": _error(
+        "{count} number in the file is not finite (NaN or infinity), at {place}. Repair the file, or export it again.",
+        "{count} numbers in the file are not finite (NaN or infinity), the first at {place}. Repair the file, or "
+        "export it again.",
+    ),
+    "at_vertex": _note("vertex {vertex}"),
+    "at_triangle": _note("triangle {triangle}"),
+    "at_mesh_vertex": _note("vertex {vertex} of “{mesh}”"),
+    "at_accessor": _note("element {element} of accessor {accessor}"),
+    "at_node": _note("node “{node}”"),
+    "gltf_buffer_missing": _error("The buffer “{buffer}” is missing. Restore the file beside the glTF file."),
+    "gltf_buffer_short": _error(
+        "The buffer “{buffer}” is cut short: {size} of {expected} bytes. Export the file again."
+    ),
     "stl_size": _error("The STL file is cut short or damaged: its size does not match its number of triangles."),
     "stl_cut_short": _error("The STL file is cut short: “endsolid” is missing."),
     "file_exists": _error("The file “{file}” exists. Turn on Overwrite."),
@@ -1359,6 +1409,17 @@ METHODS = {
     "union": ("Union", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits"),
     "wire": ("Wire", "The mass is along the curve"),
 }
+
+
+def method_key(method: Method | None, walled: bool) -> str:
+    """Return the entry of METHODS that a method belongs to, "" for none. walled: whether a shell is a wall."""
+    if method is None:
+        return ""
+    if walled and method.verdict == Verdict.SHELL:
+        return "wall"
+    return str(method) if str(method) in METHODS else method.verdict.value
+
+
 # Counts of the health record, as `report_text` and Select Defects name them: one, several.
 HEALTH = {
     "boundary_edges": ("boundary edge", "boundary edges"),

@@ -20,9 +20,10 @@ from numpy.typing import NDArray
 
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.principal_frame import PrincipalFrame
-from ...core.measurement import Measurement
+from ...core.measurement import UNIFORM_DENSITIES, Measurement
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
+from ...core.verdict.method import Method, Source, Verdict
 from .messages import of_severity, sentence
 from .record import TENSOR, plain
 
@@ -77,7 +78,7 @@ class StoredProperties:
     error_bound: dict
 
     def in_world(self, matrix_world, unit: float) -> StoredProperties:
-        """The same in the world frame. matrix_world: of the object; unit: metres per Blender unit."""
+        """The same in the world frame. matrix_world: of the object; unit: meters per Blender unit."""
         location, turn, _ = matrix_world.decompose()
         to_object = rotation_matrix(turn).T
         origin = -to_object @ np.array(location, np.float64) * unit
@@ -87,7 +88,8 @@ class StoredProperties:
 def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     """Write all results on the object, or none. EditRefusedError where the object cannot hold them."""
     require_storable(obj)
-    body, bound = measurement.in_object_frame(), measurement.error_bound
+    body = measurement.mass_properties.in_frame(measurement.rotation, measurement.location)
+    bound = measurement.error_bound
     entries = tensor_entries(body.inertia).tolist()
     values = {
         "body_mass": body.mass,
@@ -110,7 +112,7 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     values |= {key: value for key, value in optional.items() if value is not None}
     varying = (
         {}
-        if measurement.has_uniform_density
+        if measurement.density_from in UNIFORM_DENSITIES
         else {"body_density_from": str(measurement.density_from), "body_materials": "\n".join(measurement.materials)}
     )
     values |= {key: value for key, value in varying.items() if value}
@@ -168,8 +170,13 @@ def is_stored(obj: bpy.types.Object) -> bool:
     return numbers(obj) is not None
 
 
-def method(obj: bpy.types.Object) -> str:
-    """How the stored numbers came about, "" where there are none."""
+def method(obj: bpy.types.Object) -> Method | None:
+    """How the stored numbers came about; None where there are none, or this version does not know their method."""
+    return Method.parse(method_text(obj))
+
+
+def method_text(obj: bpy.types.Object) -> str:
+    """The method as it is stored, "" where there are no numbers."""
     return str(obj.get("body_method", ""))
 
 
@@ -180,12 +187,12 @@ def findings(obj: bpy.types.Object) -> tuple[Finding, ...]:
 
 def warning_lines(findings: Iterable[Finding]) -> str:
     """The English sentences of the warnings, one a line."""
-    return "\n".join(sentence(finding) for finding in of_severity(findings, Severity.WARNING))
+    return "\n".join([sentence(finding) for finding in of_severity(findings, Severity.WARNING)])
 
 
 def findings_text(findings: Iterable[Finding]) -> str:
     """Findings as JSON text, to be read by `findings_in`."""
-    return json.dumps(plain([finding.as_record() for finding in findings]), ensure_ascii=False, allow_nan=False)
+    return json.dumps([plain(finding.as_record()) for finding in findings], ensure_ascii=False, allow_nan=False)
 
 
 def findings_in(text: object) -> tuple[Finding, ...]:
@@ -212,8 +219,14 @@ def _has_sentence(finding: Finding) -> bool:
 
 def is_estimated(obj: bpy.types.Object) -> bool:
     """Whether the stored bounds are estimates: those of splines are, and those of solids filled with a grid."""
-    word = method(obj)
-    return word.startswith("NURBS") or word == "wire" or (word.startswith("grid") and obj.type != "VOLUME")
+    how = method(obj)
+    if how is None:
+        return False
+    return (
+        how.source == Source.NURBS
+        or how.verdict == Verdict.WIRE
+        or (how.source == Source.GRID and obj.type != "VOLUME")
+    )
 
 
 def optional(obj: bpy.types.Object, key: str) -> float | None:
@@ -228,7 +241,7 @@ def density_from(obj: bpy.types.Object) -> str:
 
 
 def numbers(obj: bpy.types.Object) -> tuple[tuple[float, ...], ...] | None:
-    """The stored numbers as they are, in the order of LENGTHS; None where one is missing or is no finite number."""
+    """The stored numbers as they are, in the order of LENGTHS; None where one is missing or not finite."""
     values = []
     for key, length in LENGTHS.items():
         value = obj.get(key)

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 from ...core.inertia.mass_properties import MassProperties, combine
-from ...core.measurement import Measurement
+from ...core.measurement import UNIFORM_DENSITIES, Measurement
 from ...core.moments.moments import Moments, monomials
 from ...core.verdict.finding import Finding, MeasureError, Severity
 from .messages import sentence, severity
@@ -63,9 +63,9 @@ def record(
         "name": measurement.name,
         "type": measurement.type,
         "kind": measurement.kind,
-        "method": measurement.method,
+        "method": str(measurement.method),
         "density": measurement.density,
-        **({} if measurement.has_uniform_density else {"density_from": str(measurement.density_from)}),
+        **({} if measurement.density_from in UNIFORM_DENSITIES else {"density_from": str(measurement.density_from)}),
         "mass": properties.mass,
         "volume": measurement.volume,
         "area": measurement.area,
@@ -150,13 +150,14 @@ def document(
     objects: Iterable[dict[str, Any]],
     total: dict[str, Any],
     errors: Iterable[dict[str, Any]],
+    left_out: Iterable[dict[str, Any]] = (),
     *,
     file: str | None,
     blender: str | None,
     frame: str = "world",
 ) -> dict[str, Any]:
     """What one file gave. The objects are sorted by name; `file` is None for a scene that was never
-    saved.
+    saved. errors, left_out: names and reasons, of what could not be measured and of what was not to be.
     """
     if frame != "world":
         total = {"frame": "world", **total}
@@ -167,6 +168,7 @@ def document(
         "frame": frame,
         "objects": sorted(objects, key=lambda entry: entry["name"]),
         "total": total,
+        "left_out": sorted(left_out, key=lambda entry: entry["name"]),
         "errors": list(errors),
     }
 
@@ -187,7 +189,7 @@ def to_json_lines(documents: Iterable[dict[str, Any]]) -> str:
 
 def to_csv(documents: Iterable[dict[str, Any]]) -> str:
     """One row an object under one header. What could not be measured is a row too, with its reason
-    under `error`.
+    under `error`, and so is what was left out, with its reason under `left_out`.
 
     Spreadsheets take text that begins with =, +, -, @ and the like for a formula. It gets an apostrophe before it, and
     so does text that has one there already: whoever reads a text removes one apostrophe from its start.
@@ -196,7 +198,8 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> str:
     for file_document in documents:
         place = {"file": file_document["file"], "frame": file_document["frame"]}
         records += [{**place, **_columns(entry)} for entry in file_document["objects"]]
-        records += [{**place, "name": entry["name"], "error": entry["reason"]} for entry in file_document["errors"]]
+        for column, entries in (("left_out", file_document["left_out"]), ("error", file_document["errors"])):
+            records += [{**place, "name": entry["name"], column: entry["reason"]} for entry in entries]
     header = list(
         dict.fromkeys(
             [*_COLUMNS, *(name for row in records for name in row if name not in _LAST_COLUMNS), *_LAST_COLUMNS]

@@ -19,8 +19,9 @@ import numpy as np
 from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.method import Method, Verdict
 from . import properties
-from .messages import HEALTH, METHODS
+from .messages import HEALTH, METHODS, method_key
 from .record import TENSOR, described, document, plain
 from .terminal import visible
 
@@ -65,6 +66,9 @@ def text(document: dict[str, Any]) -> str:
     if len(document["objects"]) > 1:
         heading = "Total of {} objects, world frame".format(len(document["objects"]))
         lines += ["", heading, *_body(document["total"], "world")]
+    if document["left_out"]:
+        lines += ["", "Left out"]
+        lines += ["{}{}: {}".format(INDENT, entry["name"], entry["reason"]) for entry in document["left_out"]]
     if document["errors"]:
         lines += ["", "Not measured"]
         lines += [
@@ -76,9 +80,9 @@ def text(document: dict[str, Any]) -> str:
 def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     """The lines of one object, or of a total."""
     if "method" in entry:
-        method = entry["method"]
-        _, explanation = METHODS.get(_method_shown(entry), ("", ""))
-        yield _line("Verdict", ": ".join(filter(None, (method, explanation))))
+        walled = any(found["code"] == "wall_measured" for found in entry.get("findings", ()))
+        _, explanation = METHODS.get(method_key(Method.parse(entry["method"]), walled), ("", ""))
+        yield _line("Verdict", ": ".join(filter(None, (entry["method"], explanation))))
         counts = list(_counts(entry.get("health", {})))
         if counts:
             yield _line("Found", ", ".join(counts))
@@ -111,14 +115,6 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     for label, name in (("Warning", "warnings"), ("Note", "notes")):
         for message in entry.get(name, []):
             yield _line(label, message)
-
-
-def _method_shown(entry: dict[str, Any]) -> str:
-    """The key of METHODS that a record belongs to."""
-    method = entry["method"]
-    if method.endswith("shell") and any(one["code"] == "wall_measured" for one in entry.get("findings", ())):
-        return "wall"
-    return method if method in METHODS else method.rpartition(" ")[2]
 
 
 def _counts(health: dict[str, Any]) -> Iterable[str]:
@@ -189,14 +185,15 @@ def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | No
 def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool) -> dict[str, Any]:
     """A record without health, which is not stored."""
     method, findings = properties.method(obj), properties.findings(obj)
+    kinds = {Verdict.SHELL: "shell", Verdict.WIRE: "wire"}
     source = properties.density_from(obj)
     if outdated:
         findings = (finding("stale_results"), *findings)
     entry = {
         "name": obj.name,
         "type": obj.type,
-        "kind": {"shell": "shell", "wire": "wire"}.get(method.rpartition(" ")[2], "solid"),
-        "method": method,
+        "kind": "solid" if method is None else kinds.get(method.verdict, "solid"),
+        "method": properties.method_text(obj),
         "density": stored.density,
         **({"density_from": source} if source else {}),
         "mass": stored.body.mass,

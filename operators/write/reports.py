@@ -6,13 +6,12 @@ of the interface and lengths in the scene's units."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 
 import bpy
 from bpy.types import Operator
 
 from ...core.verdict import internal_error
-from ...core.verdict.finding import Finding, MeasureError, Severity, finding
+from ...core.verdict.finding import Finding, MeasureError, Severity, finding, truncate_findings
 from .messages import sentence, severity
 from .units import Units
 
@@ -22,21 +21,24 @@ LEVELS = {Severity.NOTE: "INFO", Severity.WARNING: "WARNING", Severity.ERROR: "E
 
 def text(*findings: Finding) -> str:
     """The sentences of findings, one after the other."""
-    lengths = partial(Units.of(bpy.context.scene.unit_settings).text, "length")
     joined = ""
-    for shown in (sentence(one, bpy.app.translations.pgettext_rpt, lengths) for one in findings):
-        between = " " if joined.endswith(".") else ". " if shown.endswith(".") else "; "
-        joined += between + shown if joined else shown
+    for added in [sentence(shown, bpy.app.translations.pgettext_rpt, _length) for shown in findings]:
+        between = " " if joined.endswith(".") else ". " if added.endswith(".") else "; "
+        joined += between + added if joined else added
     return joined
 
 
-def _rank(found: Finding) -> int:
-    return tuple(Severity).index(severity(found))
+def _length(meters: float) -> str:
+    return Units.of(bpy.context.scene.unit_settings).text("length", meters)
+
+
+def _rank(shown: Finding) -> int:
+    return tuple(Severity).index(severity(shown))
 
 
 def report(operator: Operator, *findings: Finding) -> None:
     """One report of findings, as severe as the most severe of them."""
-    worst = max(findings, key=_rank)
+    worst = findings[0] if len(findings) == 1 else max(findings, key=_rank)
     operator.report({LEVELS[severity(worst)]}, text(*findings))
 
 
@@ -48,9 +50,7 @@ def unavailable(operator: type[Operator], reason: Finding) -> bool:
 
 def first(findings: Sequence[Finding]) -> list[Finding]:
     """The first of the most severe findings, and how many more there are."""
-    ranked = sorted(findings, key=_rank, reverse=True)
-    more = len(ranked) - MAX_REPORTED
-    return [*ranked[:MAX_REPORTED], *([finding("and_more", count=more)] if more > 0 else [])]
+    return truncate_findings(sorted(findings, key=_rank, reverse=True), MAX_REPORTED)
 
 
 def failure(name: str, reason: Finding | Exception) -> Finding:

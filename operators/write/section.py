@@ -44,7 +44,7 @@ ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest of several values: what float32
 
 @dataclass(frozen=True, eq=False)
 class StoredSection:
-    """unit: metres per Blender unit when it was measured."""
+    """unit: meters per Blender unit when it was measured."""
 
     section: Section
     description: str
@@ -119,7 +119,8 @@ def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -
         np.array(values["centroid"]),
         np.array(values["second"]),
         np.array(values["reach"]),
-        *map(int, values["counts"]),
+        int(values["counts"][0]),
+        int(values["counts"][1]),
         dict(zip(BOUND_KEYS, values["error"])),
         dict(zip(BOUND_KEYS, values["input"])),
     )

@@ -21,7 +21,7 @@ from . import german
 from .messages import MESSAGES, sentence
 from .units import Units
 
-ADDON_ID = __package__.removesuffix(".operators.write")
+ADDON_ID = __name__.removesuffix(".operators.write.translations")
 LANGUAGES = {"de_DE": german}
 # Words that mean something else in Blender's own translations, such as Frame and Order, are looked up under this.
 CONTEXT = "Body Moments"

@@ -152,7 +152,7 @@ class Units:
     def _inertia(self, value: float) -> tuple[float, str]:
         masses, lengths = MASSES[self.system], LENGTHS[self.system]
         if self.mass != "ADAPTIVE" or self.length != "ADAPTIVE":
-            mass = masses.get(self.mass, masses.get("KILOGRAMS", masses.get("POUNDS")))
+            mass = masses.get(self.mass) or masses["KILOGRAMS" if "KILOGRAMS" in masses else "POUNDS"]
             length = lengths.get(self.length, _base(lengths))
             return mass[0] * length[0] ** 2, "{:s}·{:s}²".format(mass[1], length[1])
         return _fitting_unit(ADAPTIVE_INERTIAS[self.system], value, ADAPTIVE_INERTIAS[self.system][0])

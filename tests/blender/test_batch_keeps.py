@@ -240,7 +240,7 @@ def test_a_file_that_appears_meanwhile_is_kept_and_so_is_the_result(tmp_path, ma
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.1.npz", "out.npz", "part.stl"]
 
 
-@pytest.mark.skipif(not Path("/dev/stdout").exists(), reason="no such device here")
+@pytest.mark.skipif(not Path("/dev/stdout").exists(), reason="not on this system: devices")
 def test_the_standard_output_goes_where_it_is_sent_whatever_is_there(tmp_path):
     from tests.blender.test_batch_process import script
 

@@ -13,6 +13,8 @@ pytest.importorskip("bpy")
 import bpy
 import numpy as np
 from body_moments.operators import batch
+from body_moments.operators.settings.properties import copy_settings
+from body_moments.operators.write import report
 from mathutils import Euler, Matrix
 
 from tests.blender import batch_files as files
@@ -90,43 +92,162 @@ def test_what_shows_no_surface_by_its_settings_is_left_out_unless_it_is_named():
     assert names(document("--object", "Circle", "--kind", "shell")) == ["Circle"]
 
 
-def test_what_may_be_no_part_of_the_total_is_told_with_it():
-    body, cutter, helper, blank, part = map(files.add_box, ("Body", "Cutter", "Helper", "Blank", "Part"))
-    cut = body.modifiers.new("Cut", "BOOLEAN")
-    cut.object, cut.solver = cutter, "FLOAT" if bpy.app.version >= (5, 0) else "FAST"
+def left_out(found):
+    return {entry["name"]: entry["reason"] for entry in found["left_out"]}
+
+
+def test_what_is_not_rendered_and_operands_drawn_as_wire_are_left_out_and_listed():
+    body, cutter, joined, helper, blank = map(files.add_box, ("Body", "Cutter", "Joined", "Helper", "Blank"))
+    for number, operand in enumerate((cutter, joined)):
+        cut = body.modifiers.new("Cut", "BOOLEAN")
+        cut.object, cut.solver = operand, "FLOAT" if bpy.app.version >= (5, 0) else "FAST"
+        operand.location.x += 10.0 + 10.0 * number
     body.modifiers.new("Empty", "BOOLEAN")
-    cutter.location.x += 0.5
-    cutter.display_type = helper.display_type = "WIRE"
-    blank.hide_render = True
+    cutter.display_type, joined.display_type, helper.display_type = "WIRE", "BOUNDS", "WIRE"
+    blank.hide_render = joined.hide_render = True
     found = document()
-    assert len(found["objects"]) == 5 and found["errors"] == []
-    total = found["total"]
-    assert codes(total) == ["total_boolean_operands", "total_hidden_objects"] and len(total["warnings"]) == 2
-    assert values(total, "total_boolean_operands") == {"operands": [["Cutter", "Body"]]}
-    assert values(total, "total_hidden_objects") == {"objects": ["Blank", "Helper"]}
-    blank.hide_render, helper.display_type = False, "TEXTURED"
-    cut.show_viewport = False
-    total = document()["total"]
-    assert codes(total) == ["total_hidden_objects"]
-    assert values(total, "total_hidden_objects") == {"objects": ["Cutter"]}
-    everything = [word for name in names(found) for word in ("--object", name)]
-    assert document(*everything)["total"]["warnings"] == []  # whoever names them knows
+    assert names(found) == ["Body", "Helper"] and found["errors"] == []
+    operand = sentence("boolean_operand")
+    assert left_out(found) == {"Cutter": operand, "Joined": operand, "Blank": sentence("not_rendered")}
+    assert [entry["name"] for entry in found["left_out"]] == ["Blank", "Cutter", "Joined"]
+    assert found["total"]["mass"] == pytest.approx(12000.0)
+    assert codes(found["total"]) == ["total_hidden_objects"]
+    assert values(found["total"], "total_hidden_objects") == {"objects": ["Helper"]}
+    every = document("--all")
+    assert names(every) == ["Blank", "Body", "Cutter", "Helper", "Joined"] and every["left_out"] == []
+    assert codes(every["total"]) == ["total_boolean_operands", "total_hidden_objects"]
+    assert values(every["total"], "total_boolean_operands") == {"operands": [["Cutter", "Body"], ["Joined", "Body"]]}
+    named = document("--object", "Blank", "--object", "Cutter")
+    assert names(named) == ["Blank", "Cutter"] and named["left_out"] == []
+    assert named["total"]["warnings"] == [] and codes(named["objects"][1]) == ["density_defaulted"]
+    for modifier in body.modifiers:
+        modifier.show_viewport = modifier.show_render = False
+    assert left_out(document()) == {"Blank": sentence("not_rendered"), "Joined": sentence("not_rendered")}
 
 
-def test_cutters_in_a_collection_and_in_one_that_is_not_rendered_are_told():
-    body, one, two, other = map(files.add_box, ("Body", "One", "Two", "Other"))
-    cutters, hidden = bpy.data.collections.new("Cutters"), bpy.data.collections.new("Unrendered")
-    for home, obj in ((cutters, one), (cutters, two), (hidden, other)):
-        bpy.context.scene.collection.children.link(home) if not home.users else None
+def test_an_operand_drawn_as_a_solid_is_a_part_with_a_warning():
+    body, cutter = files.add_box("Body"), files.add_box("Cutter")
+    body.modifiers.new("Cut", "BOOLEAN").object = cutter
+    body.modifiers["Cut"].show_viewport = False  # the render cuts
+    found = document()
+    assert names(found) == ["Body", "Cutter"] and found["left_out"] == []
+    cut = found["objects"][1]
+    assert values(cut, "solid_operand_measured") == {"object": "Body"}
+    assert sentence("solid_operand_measured", object="Body") in cut["warnings"]
+    assert "solid_operand_measured" not in codes(found["objects"][0])
+    assert codes(found["total"]) == ["total_boolean_operands"]
+
+
+def test_operands_in_a_collection_and_what_its_collection_does_not_render_are_left_out():
+    body, one, two, other, both = map(files.add_box, ("Body", "One", "Two", "Other", "Both"))
+    cutters, hidden, inner = map(bpy.data.collections.new, ("Cutters", "Unrendered", "Inner"))
+    top = bpy.context.scene.collection
+    for parent, child in ((top, cutters), (top, hidden), (hidden, inner)):
+        parent.children.link(child)
+    for home, obj in ((cutters, one), (cutters, two), (inner, other), (inner, both)):
         home.objects.link(obj)
-        bpy.context.scene.collection.objects.unlink(obj)
+        if obj is not both:  # which the scene's own collection renders
+            top.objects.unlink(obj)
     hidden.hide_render = True
+    one.display_type = "WIRE"
     cut = body.modifiers.new("Cut", "BOOLEAN")
     cut.operand_type, cut.collection, cut.operation = "COLLECTION", cutters, "UNION"
-    total = document()["total"]
-    assert values(total, "total_boolean_operands") == {"operands": [["One", "Body"], ["Two", "Body"]]}
-    assert values(total, "total_hidden_objects") == {"objects": ["Other"]}
-    assert document("--object", "Body", "--object", "One")["total"]["warnings"] == []
+    found = document()
+    assert names(found) == ["Body", "Both", "Two"]
+    assert left_out(found) == {"One": sentence("boolean_operand"), "Other": sentence("not_rendered")}
+    assert values(found["total"], "total_boolean_operands") == {"operands": [["Two", "Body"]]}
+
+
+def test_what_another_view_layer_renders_is_no_less_rendered():
+    files.add_box("shown")
+    collection = bpy.data.collections.new("Away")
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(bpy.data.objects.new("hidden", bpy.data.meshes["shown"]))
+    bpy.context.view_layer.layer_collection.children["Away"].exclude = True
+    assert left_out(document()) == {"hidden": sentence("not_rendered")}
+    second = bpy.context.scene.view_layers.new("Second")
+    found = document()
+    assert errors(found) == {"hidden": sentence("collection_excluded", collection="Away")}
+    assert found["left_out"] == []
+    second.use = False
+    assert left_out(document()) == {"hidden": sentence("not_rendered")}
+    bpy.context.view_layer.use = False  # none is rendered: the open one decides
+    assert left_out(document()) == {"hidden": sentence("not_rendered")} and names(document()) == ["shown"]
+
+
+def test_a_file_from_which_nothing_is_measured_is_an_error(tmp_path):
+    bpy.ops.object.light_add()
+    path = files.save(tmp_path / "empty.blend")
+    assert files.reason(path) == sentence("no_measurable_object")
+    for name in "ab":
+        files.add_box(name).hide_render = True
+    path = files.save(tmp_path / "hidden.blend")
+    line = run(path)
+    assert errors(line.documents[0]) == {None: sentence("nothing_rendered", count=2)} and line.errors == 1
+    assert list(left_out(line.documents[0])) == ["a", "b"]
+    assert document(path, "--all")["errors"] == []
+    assert errors(document(path, "--object", "z")) == {"z": sentence("object_not_in_scene")}
+
+
+def test_what_is_left_out_is_a_row_of_a_table_and_a_line_of_a_report(tmp_path, standard_output):
+    files.add_box("a")
+    files.add_box("b").hide_render = True
+    path = tmp_path / "out.csv"
+    assert batch.main(["measure", "--format", "csv", "--output", str(path)]) == 0
+    rows = {row["name"]: row for row in csv.DictReader(path.read_text(encoding="utf-8").splitlines())}
+    assert rows["b"]["left_out"] == sentence("not_rendered") and rows["b"]["mass"] == "" == rows["b"]["error"]
+    assert rows["a"]["left_out"] == ""
+    assert batch.main(["measure", "--format", "csv", "--output", str(path)]) == 0  # it is known as ours again
+    assert "Left out\n  b: " + sentence("not_rendered") in report.text(document())
+
+
+def test_a_density_that_nobody_set_is_a_finding():
+    box = files.add_box()
+    entry = measured()
+    assert codes(entry) == ["density_defaulted"] and entry["density"] == 1000.0
+    for words in (("--density", "1000"), ("--mass", "3")):
+        assert measured(*words)["findings"] == []
+    box.body_moments.density_from = "MATERIALS"
+    assert codes(measured()) == ["object_density_used", "density_defaulted"]
+    material = bpy.data.materials.new("Steel")
+    material.body_moments.density = 7850.0
+    box.data.materials.append(material)
+    assert measured()["findings"] == []
+    box.body_moments.density_from, box.body_moments.density = "VALUE", 1000.0
+    assert measured()["findings"] == []
+    box.body_moments.property_unset("density")
+    box.body_moments.mass_from = "MASS"
+    assert measured()["findings"] == []
+    bpy.ops.curve.primitive_bezier_circle_add()
+    wire = bpy.context.object
+    wire.body_moments.kind = "WIRE"
+    assert codes(measured("--object", wire.name)) == ["linear_density_defaulted"]
+    wire.body_moments.linear_density = 1.0
+    assert measured("--object", wire.name)["findings"] == []
+
+
+def test_a_copied_density_is_set_though_it_is_the_default():
+    source, target = files.add_box("source"), files.add_box("target")
+    source.body_moments.density = 1000.0
+    copy_settings(source.body_moments, target.body_moments)
+    assert measured("--object", "target")["findings"] == []
+
+
+def test_a_driver_or_a_script_that_did_not_run_is_a_finding(tmp_path):
+    box = files.add_box()
+    box.driver_add("location", 0).driver.expression = "2 * frame"  # which Blender itself computes
+    simple = files.save(tmp_path / "simple.blend")
+    script = bpy.data.texts.new("startup.py")
+    script.use_module = True
+    text = files.save(tmp_path / "text.blend")
+    box.driver_add("location", 1).driver.expression = "bpy.data.filepath"
+    driver = files.save(tmp_path / "driver.blend")
+    assert measured(simple, "--density", "1")["findings"] == []
+    assert values(measured(text), "script_blocked") == {"script": "Text 'startup.py'"}
+    entry = measured(driver)
+    assert values(entry, "driver_blocked") == {"drivers": ["bpy.data.filepath"]}
+    assert sentence("driver_blocked", drivers=["bpy.data.filepath"]) in entry["warnings"]
+    assert measured(simple, "--density", "1")["findings"] == []
 
 
 def test_only_the_named_objects_are_measured():
@@ -145,7 +266,7 @@ def test_a_name_that_is_not_there_or_has_no_geometry_is_an_error():
     assert names(found) == ["a"] and set(errors(found)) == {"z", "Camera"} and line.errors == 2
 
 
-@pytest.mark.parametrize("how", ["hide_viewport", "excluded", "collection"])
+@pytest.mark.parametrize("how", ["hide_viewport", "collection"])
 def test_an_object_that_blender_does_not_evaluate_is_an_error_with_its_reason(how):
     files.add_box("shown")
     hidden = files.add_box("hidden")
@@ -156,11 +277,7 @@ def test_an_object_that_blender_does_not_evaluate_is_an_error_with_its_reason(ho
         bpy.context.scene.collection.children.link(collection)
         bpy.context.scene.collection.objects.unlink(hidden)
         collection.objects.link(hidden)
-        layer = bpy.context.view_layer.layer_collection.children["Away"]
-        if how == "excluded":
-            layer.exclude = True
-        else:
-            collection.hide_viewport = True
+        collection.hide_viewport = True
     found = document()
     assert names(found) == ["shown"] and list(errors(found)) == ["hidden"]
     assert errors(found)["hidden"]
@@ -391,8 +508,8 @@ def test_no_result_is_written_over_the_wave_vectors(tmp_path, capfd, standard_ou
 def test_a_thickness_is_told_to_be_unused_where_there_is_no_shell(tmp_path):
     files.add_box()
     for words in (("--thickness", "0.1"), ("--thickness", "0.1", "--kind", "solid")):
-        assert codes(measured(*words)) == ["thickness_option_unused"]
-    assert measured("--thickness", "0.1", "--kind", "shell")["warnings"] == []
+        assert codes(measured("--density", "1", *words)) == ["thickness_option_unused"]
+    assert measured("--density", "1", "--thickness", "0.1", "--kind", "shell")["warnings"] == []
     np.save(tmp_path / "ones.npy", np.ones((2, 2, 2)))
     assert "thickness_option_unused" in codes(measured(tmp_path / "ones.npy", "--thickness", "1"))
 

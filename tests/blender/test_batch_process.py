@@ -24,11 +24,13 @@ from tests.blender import batch_files as files
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCRIPT = str(ROOT / "operators" / "batch.py")
 BLENDER = os.environ.get("BLENDER") or shutil.which("blender")
-in_blender = pytest.mark.skipif(not BLENDER, reason="no Blender: set BLENDER to its path")
+in_blender = pytest.mark.skipif(
+    not BLENDER, reason="no real Blender: put one on the PATH or name it with the variable BLENDER"
+)
 
 
 def process(*words, env=None, **options):
-    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "timeout": 300, **options}
+    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "timeout": 1200, **options}
     return subprocess.run(list(map(str, words)), env={**os.environ, **(env or {})}, **options)
 
 
@@ -69,7 +71,7 @@ def test_a_closed_standard_output_is_told_and_does_not_matter_where_there_is_an_
 def test_a_closed_standard_error_keeps_nothing_from_ending_well(folder, closed, tmp_path):
     def without(*words):
         shell = ("sh", "-c", 'exec "$@" ' + closed, "sh")
-        return process(*shell, sys.executable, SCRIPT, "measure", *words, cwd=folder, timeout=60)
+        return process(*shell, sys.executable, SCRIPT, "measure", *words, cwd=folder, timeout=300)
 
     ended = without("part.blend", "part.glb")
     assert ended.returncode == 0 and [one["file"] for one in json.loads(ended.stdout)] == ["part.blend", "part.glb"]
@@ -103,13 +105,13 @@ def test_the_output_goes_to_a_file_and_nowhere_else(folder, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["out.json"]
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no such devices here")
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="not on this system: devices")
 def test_a_device_is_written_to_and_not_replaced(folder):
     ended = script("measure", "part.stl", "--output", "/dev/null", cwd=folder)
     assert ended.returncode == 0 and Path("/dev/null").is_char_device()
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no such devices here")
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="not on this system: devices")
 def test_a_fourier_transform_is_written_to_a_pipe_and_does_not_replace_it(folder, tmp_path):
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
@@ -120,7 +122,7 @@ def test_a_fourier_transform_is_written_to_a_pipe_and_does_not_replace_it(folder
     assert ended.returncode == 0 and found["F"].shape == (8,) and pipe.is_fifo()
 
 
-@pytest.mark.skipif(not Path("/dev/stdout").exists(), reason="no such device here")
+@pytest.mark.skipif(not Path("/dev/stdout").exists(), reason="not on this system: devices")
 def test_the_standard_output_may_be_named(folder):
     ended = script("measure", "part.stl", "--output", "/dev/stdout", cwd=folder)
     assert ended.returncode == 0 and json.loads(ended.stdout)["file"] == "part.stl"

@@ -19,6 +19,7 @@ from body_moments.operators.write import properties
 
 from tests.blender.findings import refused, said
 from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object
+from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -68,7 +69,7 @@ def check(measurement, values, matrix):
     mass, center, inertia = expected_body(values, matrix)
     body = measurement.mass_properties
     size = np.sqrt(np.trace(inertia) / mass)
-    assert body.mass == pytest.approx(mass, rel=1e-6)
+    assert close(body.mass, mass, rel=1e-6)
     assert np.abs(body.center - center).max() <= 1e-6 * (size + np.abs(center).max())
     assert np.abs(body.inertia - inertia).max() <= 3e-6 * np.trace(inertia)
 
@@ -118,7 +119,7 @@ def test_what_a_modifier_makes_is_read(monkeypatch, nodes):
     if nodes:
         by_nodes(monkeypatch)
     found = measure(fog)
-    assert found.method == "grid exact"
+    assert str(found.method) == "grid exact"
     assert found.mass_properties.mass == pytest.approx(8.0, rel=0.25)
     assert found.mass_properties.center == pytest.approx([3, 0, 0], abs=0.11)
 
@@ -195,7 +196,7 @@ def test_grid_and_object_transforms(tmp_path, name, matrix):
     offset[:3, 3] = (-2, 4, 9)
     check(found, values, np.array(obj.matrix_world, float) @ matrix @ offset)
     filled = np.count_nonzero(values) * abs(np.linalg.det((np.array(obj.matrix_world, float) @ matrix)[:3, :3]))
-    assert found.volume == pytest.approx(filled, rel=1e-6)
+    assert close(found.volume, filled, rel=1e-6)
     assert found.density == pytest.approx(found.mass_properties.mass / found.volume, rel=1e-12)
 
 
@@ -221,9 +222,9 @@ def test_a_uniform_fog_is_a_box():
         obj.body_moments.value_density = 4.0
         found = measure(obj)
     body = found.mass_properties
-    assert body.mass == pytest.approx(12.0, rel=1e-14)
-    assert np.diag(body.inertia) == pytest.approx([10.0, 13.0, 5.0], rel=1e-13)
-    assert found.volume == pytest.approx(6.0, rel=1e-14)
+    assert close(body.mass, 12.0, rel=1e-14)
+    assert close(np.diag(body.inertia), [10.0, 13.0, 5.0], rel=1e-13)
+    assert close(found.volume, 6.0, rel=1e-14)
     assert found.area == 0.0
 
 
@@ -243,7 +244,7 @@ def test_the_spline_order_spreads_the_mass(tmp_path, order):
 def test_given_mass_and_density_options(tmp_path):
     obj = volume_object(tmp_path / "a.vdb", vdb_grid(random_values(np.float32)))
     plain = measure(obj)
-    assert measure(obj, mass=5.0).mass_properties.mass == pytest.approx(5.0, rel=1e-14)
+    assert close(measure(obj, mass=5.0).mass_properties.mass, 5.0, rel=1e-14)
     twice = measure(obj, density=2.0)
     assert twice.mass_properties.mass == pytest.approx(2.0 * plain.mass_properties.mass, rel=1e-14)
     with refused("grid_as_shell", obj.name):
@@ -302,7 +303,7 @@ def test_a_level_set_is_refused_as_a_density_and_measured_as_the_solid_it_bounds
         measure(obj)
     obj.body_moments.grid_as = "SOLID"
     found = measure(obj)
-    assert found.method == "grid exact"
+    assert str(found.method) == "grid exact"
     exact = 4 / 3 * np.pi * 8
     assert 0.0 < exact - found.volume < 4e-3 * exact  # its polygons are chords
     finer = level_set(tmp_path / "b.vdb", size=0.05)
@@ -383,7 +384,7 @@ def test_a_mesh_that_its_nodes_turn_into_a_volume():
     tree.links.new(fog.outputs[0], end.inputs[0])
     cube.modifiers.new("Fog", "NODES").node_group = tree
     found = measure(cube)
-    assert found.method == "grid exact"
+    assert str(found.method) == "grid exact"
     assert found.mass_properties.center == pytest.approx([0, 0, 0], abs=0.05)
     properties.store(cube, found)
     staleness.mark_up_to_date(bpy.context, [cube])

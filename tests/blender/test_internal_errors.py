@@ -17,6 +17,7 @@ from body_moments.operators.actions.measure import section as measure_section
 from body_moments.operators.actions.measure.measure_selected import OBJECT_OT_body_moments_measure
 from body_moments.operators.actions.snap import empty
 from body_moments.operators.bodies import measure_object as measure
+from body_moments.operators.bodies import request
 from body_moments.operators.scene import reframe
 from body_moments.operators.session import live, results
 from body_moments.operators.write import properties, section
@@ -62,7 +63,7 @@ def three(flat=False):
     return bodies
 
 
-def plant(monkeypatch, error, *names, module=measure, function="read_object"):
+def plant(monkeypatch, error, *names, module=request, function="read_object"):
     """The error, wherever one of these objects is read."""
     real = getattr(module, function)
 
@@ -182,8 +183,8 @@ def test_live_goes_on_with_the_others(monkeypatch):
         live._tick()
     assert live.current_numbers(spheres[0]).refusal.code == "internal_error"
     assert live.current_numbers(spheres[1]).measurement.volume == pytest.approx(2.0 * before, rel=1e-6)
-    assert set(live._tracked) == {spheres[1].session_uid}
-    live._pending.add(spheres[0].session_uid)
+    assert [live._followed.get(sphere).tracked is None for sphere in spheres] == [True, False]
+    live._followed.get(spheres[0]).is_pending = True
     live._tick()
     assert live.current_numbers(spheres[0]).measurement.volume == pytest.approx(2.0 * before, rel=1e-6)
 

@@ -336,6 +336,7 @@ FOUND = (finding("t_junctions", count=3), finding("overlap_unchecked", count=2),
 
 def test_warnings_are_shown_wrapped_before_the_numbers_and_notes_behind_them_errors_first():
     obj = add(mesh_body())
+    obj.body_moments.density = 1000.0
     bpy.ops.object.body_moments_measure()
     assert not any(label.startswith(("Warnings", "Notes")) for label in labels(drawn()))
     store_findings(obj, *FOUND)
@@ -459,11 +460,11 @@ def test_numbers_are_whole_in_the_narrowest_sidebar(monkeypatch):
 
 
 def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
-    from body_moments.operators.bodies import measure_object as measure
+    from body_moments.operators.bodies import request
 
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
-    monkeypatch.setattr(measure, "read_object", lambda *_: pytest.fail("the panel measures"))
+    monkeypatch.setattr(request, "read_object", lambda *_: pytest.fail("the panel measures"))
     before = {key: str(obj[key]) for key in obj.keys() if key.startswith("body_")}  # noqa: SIM118
     drawn()
     assert {key: str(obj[key]) for key in obj.keys() if key.startswith("body_")} == before  # noqa: SIM118

@@ -44,7 +44,7 @@ def test_findings_are_stored_as_data_and_warnings_as_lines():
     assert str(found[0]) == str(FINDINGS[0]) and found[1].values == {"count": 1, "share": None}
     assert found[2] == FINDINGS[2]
     assert box["body_warnings"].splitlines() == [str(FINDINGS[0]), str(FINDINGS[2])]
-    assert properties.method(box) == "exact"
+    assert properties.method_text(box) == "exact"
 
 
 @pytest.mark.parametrize(
@@ -71,7 +71,7 @@ def test_what_is_no_text_gives_no_findings_either():
         box["body_findings"] = value
         assert properties.findings(box) == ()
     del box["body_findings"]
-    assert properties.findings(box) == () and properties.method(box) == ""
+    assert properties.findings(box) == () and properties.method_text(box) == ""
 
 
 def test_a_finding_of_another_version_does_not_hide_the_others():

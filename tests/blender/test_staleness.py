@@ -8,8 +8,8 @@ pytest.importorskip("bpy")
 import bmesh
 import body_moments
 import bpy
-from body_moments.operators.read import digest, instances
-from body_moments.operators.session import staleness
+from body_moments.operators.read import fingerprint, instances
+from body_moments.operators.session import handlers, staleness
 
 from tests.blender.bodies import add, mesh_body, only
 
@@ -54,8 +54,11 @@ def instancer(name, member):
     return empty
 
 
-def test_numbers_that_undo_brings_back_are_not_those_of_a_later_edit():
+@pytest.mark.parametrize("comparable", [True, False])
+def test_numbers_that_undo_brings_back_are_not_those_of_a_later_edit(comparable, monkeypatch):
     obj = add(mesh_body())
+    if not comparable:
+        monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
     bpy.ops.ed.undo_push(message="Start")
     measure(obj)
     bpy.ops.ed.undo_push(message="Measured")
@@ -74,6 +77,19 @@ def test_numbers_that_undo_brings_back_are_not_those_of_a_later_edit():
     obj = bpy.data.objects["Body"]
     assert obj["body_volume"] != first and reason(obj) is None
     measure(obj)
+
+
+def test_an_edit_in_a_file_that_was_opened_after_undo_is_one(tmp_path, monkeypatch):
+    monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
+    measure(add(mesh_body()))
+    path = str(tmp_path / "body.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    handlers._on_undo()
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects["Body"]
+    assert reason(obj) is None
+    edit(obj)
+    assert reason(obj) == "stale_geometry"
 
 
 def evaluated_anew(obj):
@@ -181,7 +197,7 @@ def edited_vertices(obj):
 @pytest.mark.parametrize("change", [grown_by_nodes, made_large, edited_in_edit_mode])
 def test_an_edit_that_redo_brings_back_is_noticed_where_it_cannot_be_compared(change, monkeypatch):
     obj = add(mesh_body())
-    monkeypatch.setattr(digest, "MAX_DIGESTED_FACES", len(obj.data.polygons))
+    monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", len(obj.data.polygons))
     measure(obj)
     bpy.ops.ed.undo_push(message="Measured")
     change(obj)

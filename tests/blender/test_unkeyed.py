@@ -162,7 +162,7 @@ def test_live_keeps_what_is_not_keyed_yet_and_comes_to_rest():
     bpy.ops.object.body_moments_measure()
     live._tick()
     bpy.context.view_layer.update()
-    assert obj.scale.x == 2.0 and not live._pending
+    assert obj.scale.x == 2.0 and not live.is_pending(obj)
     assert live.current_numbers(obj).measurement.volume == pytest.approx(obj["body_volume"], rel=1e-9)
     assert live.current_numbers(obj).measurement.volume == pytest.approx(measured(obj).volume, rel=1e-9)
 

@@ -9,11 +9,20 @@ from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
+import pytest
 from body_moments.core.shape.library import Similarity
 from body_moments.core.verdict import finding as module
-from body_moments.core.verdict.finding import Finding, MeasureError, ReadError, Severity, finding, unique
+from body_moments.core.verdict.finding import (
+    Finding,
+    MeasureError,
+    ReadError,
+    Severity,
+    finding,
+    truncate_findings,
+    unique,
+)
 from body_moments.core.verdict.health import DefectiveElements
-from body_moments.operators.write.messages import MESSAGES, of_severity, sentence, severity
+from body_moments.operators.write.messages import MESSAGES, of_severity, sentence, severity, truncate_list
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
@@ -40,7 +49,7 @@ def test_values_come_back_from_json_and_equal_findings_are_one():
 
 def test_numbers_lists_causes_and_sources_are_filled_in():
     text = sentence(finding("flipped_faces", np.arange(3, 15), count=12))
-    assert "3, 4, 5, 6, 7, 8, 9, 10, 4 more" in text
+    assert "3, 4, 5, 6, 7, 8, 9, 10, and 4 more" in text
     assert sentence(finding("no_faces").of_sources(["A", "B"])).startswith("“A”, “B”: No faces.")
     cause = finding("no_faces").as_record()
     assert "No faces." in sentence(finding("hidden_object_measured", cause=cause))
@@ -51,7 +60,7 @@ def test_what_is_stored_names_the_same_elements():
     first = finding("flipped_faces", np.arange(3, 15), count=12)
     stored = json.loads(json.dumps(first.as_record()))
     assert stored["elements"] == list(range(3, 11)) and sentence(Finding.from_record(stored)) == sentence(first)
-    assert "3, 4, 5, 6, 7, 8, 9, 10, 4 more" in sentence(finding("failure", object="Cube", cause=stored))
+    assert "3, 4, 5, 6, 7, 8, 9, 10, and 4 more" in sentence(finding("failure", object="Cube", cause=stored))
     of_source = finding("flipped_faces", [[np.int64(3), "Cube"]], count=1)
     assert "3 of “Cube”" in sentence(of_source) and "elements" not in finding("no_faces").as_record()
 
@@ -97,3 +106,17 @@ def test_every_code_that_is_made_has_a_message():
 def test_every_kind_of_shape_and_of_defect_that_can_be_counted_has_a_message():
     kinds = {"shapes_" + similarity for similarity in Similarity} - {"shapes_different"}
     assert kinds | {"defect_" + field.name for field in fields(DefectiveElements)} <= MESSAGES.keys()
+
+
+@pytest.mark.parametrize("count, more", [(7, ""), (8, ""), (9, ", und 1 weitere"), (20, ", und 12 weitere")])
+def test_a_list_is_cut_in_one_way_and_what_is_left_out_is_translated(count, more):
+    german = {"and {count} more": "und {count} weitere"}
+    names = ["a"] * count
+    shown = ", ".join(["“a”"] * min(count, 8)) + more
+    assert truncate_list(names, translate=lambda text: german.get(text, text)) == shown
+    assert truncate_list(names[:8], count, german.get) == shown
+    missing = sentence(finding("missing_links", names=names), lambda text: german.get(text, text))
+    assert missing.startswith("Linked data is missing: " + shown)
+    several = [finding("no_faces")] * count
+    cut = truncate_findings(several, 8)
+    assert cut[:8] == several[:8] and cut[8:] == ([finding("and_more", count=count - 8)] if more else [])

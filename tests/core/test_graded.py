@@ -7,7 +7,7 @@ from math import comb
 
 import numpy as np
 import pytest
-from body_moments.core.density.polynomial import Polynomial, parse
+from body_moments.core.density.polynomial import Polynomial, parse_polynomial
 from body_moments.core.density.polynomial_mass import local_coordinates, polynomial_mass_of_images
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.winding import winding_number
@@ -16,6 +16,7 @@ from body_moments.core.numerics.rotations import polar_rotation
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.close import close
 from tests.core import bodies, exact
 
 PRISM = (
@@ -72,7 +73,7 @@ def within(found, expected):
 @pytest.mark.parametrize("offset", [(0.0, 0.0, 0.0), (1024.0, -2048.0, 512.0)])
 def test_mass_moments_are_exact_within_their_bounds(text, offset):
     points, triangles = prism(offset)
-    density = parse(text)
+    density = parse_polynomial(text)
     volume = moments_of(points, triangles, 3 + density.degree)
     found = polynomial_mass_of_images(volume, density, np.eye(4)[None])
     assert found.measure == "mass" and found.order == 3
@@ -86,11 +87,11 @@ def test_mass_moments_are_exact_within_their_bounds(text, offset):
 def test_a_density_given_far_away_loses_no_digits():
     """(z - 10000)² on a body at 10000: its expanded coefficients cancel to nothing, the rational ones do not."""
     points, triangles = prism((0.0, 0.0, 10000.0))
-    density = parse("(z - 10000)**2 + 1")
+    density = parse_polynomial("(z - 10000)**2 + 1")
     found = polynomial_mass_of_images(moments_of(points, triangles, 5), density, np.eye(4)[None])
     expected = truth(points, triangles, density.terms, found.about)
     assert within(found, expected)
-    assert found.total == pytest.approx(float(expected[0]), rel=1e-13)
+    assert close(found.total, float(expected[0]), rel=1e-13)
     assert found.rounding_error[0] < 1e-11 * found.total
 
 
@@ -118,7 +119,7 @@ def test_a_density_in_world_coordinates_stays_where_it_is_when_the_body_moves(na
     """The truth is the mapped body itself, in rationals."""
     points, triangles = prism()
     matrix = np.array(MAPS[name], float)
-    density = parse(text)
+    density = parse_polynomial(text)
     found = polynomial_mass_of_images(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
     faces = [face[::-1] for face in triangles] if np.linalg.det(matrix) < 0 else triangles
     assert within(found, truth(placed(points, matrix), faces, density.terms, found.about))
@@ -146,7 +147,7 @@ def test_a_density_in_own_coordinates_moves_turns_and_mirrors_with_the_body(name
     """Along its own axes a scaled body is the body with scaled coordinates: measure that, and map it rigidly."""
     points, triangles = prism()
     matrix = np.array(MAPS[name], float)
-    density = parse("2 + x*y + z**2")
+    density = parse_polynomial("2 + x*y + z**2")
     found = polynomial_mass_of_images(
         moments_of(points, triangles, 5), density, matrix[None], local_coordinates(matrix[None])
     )
@@ -181,7 +182,7 @@ def test_many_images_are_the_sum_of_each_and_a_constant_is_a_factor():
     maps = np.tile(np.eye(4), (1500, 1, 1))  # more than a block
     maps[:, :3, :3] += rng.normal(size=(1500, 3, 3)) * 0.2
     maps[:, :3, 3] = rng.normal(size=(1500, 3)) * 10.0
-    density = parse("50 + x*y - z**2/1000")
+    density = parse_polynomial("50 + x*y - z**2/1000")
     together = polynomial_mass_of_images(volume, density, maps, about=(0, 0, 0))
     each = [
         polynomial_mass_of_images(volume, density, maps[part], about=(0, 0, 0))
@@ -190,7 +191,7 @@ def test_many_images_are_the_sum_of_each_and_a_constant_is_a_factor():
     total = np.sum([one.raw for one in each], axis=0)
     bound = together.rounding_error + np.sum([one.rounding_error for one in each], axis=0)
     assert (np.abs(together.raw - total) <= bound).all() and (bound < 1e-9 * np.abs(total).max()).all()
-    constant, plain = polynomial_mass_of_images(volume, parse("7"), maps), sum_of_images(volume, maps)
+    constant, plain = polynomial_mass_of_images(volume, parse_polynomial("7"), maps), sum_of_images(volume, maps)
     assert (np.abs(constant.raw - 7.0 * plain.raw) <= constant.rounding_error + 7.0 * plain.rounding_error).all()
 
 
@@ -198,9 +199,10 @@ def test_the_input_bound_follows_the_density():
     points, triangles = prism()
     volume = moments_of(points, triangles, 4)
     one, ten = (
-        polynomial_mass_of_images(volume, parse(text), np.eye(4)[None]).input_error for text in ("1 + z", "10 + 10*z")
+        polynomial_mass_of_images(volume, parse_polynomial(text), np.eye(4)[None]).input_error
+        for text in ("1 + z", "10 + 10*z")
     )
-    assert np.allclose(ten, 10.0 * one) and one[0] >= volume.input_error[0]
+    assert close(ten, 10.0 * one, rel=1e-5) and one[0] >= volume.input_error[0]
 
 
 def test_a_cylinder_with_a_linear_density():
@@ -210,7 +212,9 @@ def test_a_cylinder_with_a_linear_density():
     angle = 2.0 * np.pi * np.arange(n) / n
     outline = list(zip((radius * np.cos(angle)).tolist(), (radius * np.sin(angle)).tolist()))
     points, faces = exact.prism(outline, 0.0, height, [tuple(range(n))])
-    found = polynomial_mass_of_images(moments_of(points, exact.fan(faces), 4), parse("1000 + 20*z"), np.eye(4)[None])
+    found = polynomial_mass_of_images(
+        moments_of(points, exact.fan(faces), 4), parse_polynomial("1000 + 20*z"), np.eye(4)[None]
+    )
     area = n / 2.0 * radius**2 * np.sin(2.0 * np.pi / n)
     body = MassProperties.from_moments(found)
     assert body.mass == pytest.approx(area * height * (a + b * height / 2.0), rel=1e-14)
@@ -228,7 +232,7 @@ def test_a_ball_with_a_radial_density_by_refinement():
         points, triangles = bodies.sphere(level)
         volume = moments_of(points.tolist(), triangles.tolist(), 5, (0, 0, 0))
         body = MassProperties.from_moments(
-            polynomial_mass_of_images(volume, parse("x**2 + y**2 + z**2"), np.eye(4)[None])
+            polynomial_mass_of_images(volume, parse_polynomial("x**2 + y**2 + z**2"), np.eye(4)[None])
         )
         wrong.append([1.0 - body.mass / (0.8 * np.pi), 1.0 - body.inertia[0, 0] / (8.0 * np.pi / 21.0)])
     ratio = np.array(wrong[0]) / np.array(wrong[1])
@@ -237,7 +241,7 @@ def test_a_ball_with_a_radial_density_by_refinement():
 
 def test_an_order_that_does_not_reach_is_refused():
     with pytest.raises(ValueError, match="below"):
-        polynomial_mass_of_images(moments_of(*prism(), 3), parse("x**4"), np.eye(4)[None])
+        polynomial_mass_of_images(moments_of(*prism(), 3), parse_polynomial("x**4"), np.eye(4)[None])
 
 
 def test_the_winding_number_tells_inside_from_outside():

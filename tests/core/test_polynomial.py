@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.density.polynomial import MAX_DEGREE, Polynomial, parse
+from body_moments.core.density.polynomial import MAX_DEGREE, Polynomial, parse_polynomial
 from body_moments.core.verdict.finding import MeasureError
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -35,7 +35,7 @@ SMALL = st.integers(-5, 5).map(float)
     ],
 )
 def test_what_is_typed_is_taken_exactly(text, terms):
-    assert parse(text).terms == terms
+    assert parse_polynomial(text).terms == terms
 
 
 @pytest.mark.parametrize(
@@ -79,7 +79,7 @@ def test_what_is_typed_is_taken_exactly(text, terms):
 )
 def test_anything_else_is_refused_and_the_offending_part_named(text, code, part):
     with pytest.raises(MeasureError) as refusal:
-        parse(text)
+        parse_polynomial(text)
     finding = refusal.value.finding
     assert finding.code in code.split("|")
     assert part is None or finding.values["part"] == part
@@ -99,7 +99,7 @@ def test_coefficients_come_back():
     values = np.arange(1.0, 21.0)
     assert np.array_equal(Polynomial.from_coefficients(values).coefficients(), values)
     assert Polynomial.from_coefficients(values).degree == 3
-    assert parse("0").degree == 0 and np.array_equal(parse("0").coefficients(), [0.0])
+    assert parse_polynomial("0").degree == 0 and np.array_equal(parse_polynomial("0").coefficients(), [0.0])
     for value in (np.nan, np.inf):
         with pytest.raises(ValueError, match="finite"):
             Polynomial.from_coefficients([1.0, value])
@@ -123,7 +123,7 @@ def test_nothing_on_a_box_is_below_the_bound(coefficients, one, other, seed):
 
 @pytest.mark.parametrize("text", ["x**2 + 0.01", "(x - y)**2 + z + 1.01", "x**4 - x**2 + 0.26", "1000 + 999*z"])
 def test_what_is_positive_is_proven_so(text):
-    assert parse(text).lower_bound((-1, -1, -1), (1, 1, 1)) > 0.0
+    assert parse_polynomial(text).lower_bound((-1, -1, -1), (1, 1, 1)) > 0.0
 
 
 @pytest.mark.parametrize(
@@ -140,22 +140,22 @@ def test_what_is_positive_is_proven_so(text):
 )
 def test_what_touches_zero_on_planes_and_lines_is_told_from_what_is_negative(text):
     """Halved along each axis in turn, a thousandth of the largest value was left in doubt."""
-    assert 0.0 > parse(text).lower_bound((-1.1, -1.2, -1.3), (1, 1.25, 1.5)) > -2e-7
+    assert 0.0 > parse_polynomial(text).lower_bound((-1.1, -1.2, -1.3), (1, 1.25, 1.5)) > -2e-7
 
 
 def test_what_is_negative_somewhere_is_never_proven_positive():
-    assert parse("x**2 - 1e-6").lower_bound((-1, -1, -1), (1, 1, 1)) < 0.0
-    assert parse("1 - x**17").lower_bound((0, 0, 0), (1.001, 0, 0)) < 0.0
-    assert parse("x").lower_bound((2, 2, 2), (2, 2, 2)) == pytest.approx(2.0)
+    assert parse_polynomial("x**2 - 1e-6").lower_bound((-1, -1, -1), (1, 1, 1)) < 0.0
+    assert parse_polynomial("1 - x**17").lower_bound((0, 0, 0), (1.001, 0, 0)) < 0.0
+    assert parse_polynomial("x").lower_bound((2, 2, 2), (2, 2, 2)) == pytest.approx(2.0)
 
 
 def test_values_beyond_the_range_of_numbers_are_refused():
     with refused("polynomial_beyond_numbers"):
-        parse("z**17").lower_bound((0, 0, 1e30), (0, 0, 2e30))
+        parse_polynomial("z**17").lower_bound((0, 0, 1e30), (0, 0, 2e30))
 
 
 def test_the_highest_degree_works():
-    polynomial = parse("(1 + x + y + z)**{:d}".format(MAX_DEGREE))
+    polynomial = parse_polynomial("(1 + x + y + z)**{:d}".format(MAX_DEGREE))
     assert polynomial([[1, 1, 1]])[0] == pytest.approx(4.0**MAX_DEGREE, rel=1e-13)
     assert polynomial.translate((0.5, 0.25, -1.0))([[0.5, 0.75, 2.0]])[0] == pytest.approx(4.0**MAX_DEGREE, rel=1e-13)
 

@@ -19,6 +19,8 @@ from body_moments.core.moments.moments import Moments, monomials
 from body_moments.core.verdict.finding import finding
 from body_moments.operators.write import record
 
+from tests.close import close
+
 HEALTH = {
     "closed": True,
     "welded": False,
@@ -88,14 +90,14 @@ def test_a_record_has_the_keys_of_the_contract_in_its_order():
         *("health", "error_bound", "findings", "warnings", "notes"),
     ]
     assert list(one_document(box())["total"])[-3:] == ["findings", "warnings", "notes"]
-    keys = ["schema", "blender", "file", "frame", "objects", "total", "errors"]
+    keys = ["schema", "blender", "file", "frame", "objects", "total", "left_out", "errors"]
     assert list(one_document(box())) == keys
 
 
 def test_a_box_of_one_by_two_by_three_has_its_closed_form():
     entry = record.record(box())
     assert entry["mass"] == 6000.0 and entry["volume"] == 6.0 and entry["area"] == 22.0
-    assert entry["center_of_mass"] == pytest.approx([0.5, 1.0, 1.5], rel=1e-15)
+    assert close(entry["center_of_mass"], [0.5, 1.0, 1.5], rel=1e-15)
     ixx, iyy, izz = 6000 / 12 * (4 + 9), 6000 / 12 * (1 + 9), 6000 / 12 * (1 + 4)
     np.testing.assert_allclose(entry["inertia"], np.diag([ixx, iyy, izz]), rtol=1e-14, atol=1e-11)
     np.testing.assert_allclose(entry["principal_moments"], [izz, iyy, ixx], rtol=1e-14)
@@ -154,7 +156,7 @@ def test_the_axes_are_the_columns_of_the_principal_axes():
 def test_the_object_frame_turns_and_moves_what_has_a_direction_and_nothing_else():
     body = box(rotation=QUARTER_TURN, location=(10, 0, 0))
     world, own = record.record(body), record.record(body, "object")
-    assert own["center_of_mass"] == pytest.approx([1.0, 9.5, 1.5], rel=1e-14)  # x' = y, y' = 10 - x
+    assert close(own["center_of_mass"], [1.0, 9.5, 1.5], rel=1e-14)  # x' = y, y' = 10 - x
     np.testing.assert_allclose(np.diag(own["inertia"]), np.diag(world["inertia"])[[1, 0, 2]], rtol=1e-14)
     for name in ("mass", "volume", "area", "density", "principal_moments", "health"):
         assert own[name] == world[name]
@@ -167,7 +169,7 @@ def test_moments_are_about_the_worlds_origin(order):
     assert list(entry["volume"]) == [",".join(map(str, powers)) for powers in monomials(order)]
     for powers in monomials(order):
         key = ",".join(map(str, powers))
-        assert entry["volume"][key] == pytest.approx(box_moment((1, 2, 3), (2, 4, 6), powers), rel=1e-14)
+        assert close(entry["volume"][key], box_moment((1, 2, 3), (2, 4, 6), powers), rel=1e-14)
 
 
 def test_moments_in_the_object_frame_are_about_the_objects_origin_along_its_axes():
@@ -175,7 +177,7 @@ def test_moments_in_the_object_frame_are_about_the_objects_origin_along_its_axes
     entry = record.record(body, "object", order=3)["moments"]["volume"]
     for powers in monomials(3):
         exact = box_moment((2, 8, 3), (4, 9, 6), powers)  # x' = y, y' = 10 - x
-        assert entry[",".join(map(str, powers))] == pytest.approx(exact, rel=1e-13)
+        assert close(entry[",".join(map(str, powers))], exact, rel=1e-13)
 
 
 def test_surface_moments_stand_beside_those_of_the_volume():
@@ -203,9 +205,9 @@ def test_the_total_of_two_halves_is_the_whole():
 def test_the_total_weighs_each_object_by_its_own_density():
     total = record.total([box("A", (0, 0, 0), (1, 1, 1), 1.0), box("B", (2, 0, 0), (3, 1, 1), 3.0)])
     assert total["mass"] == 4.0
-    assert total["center_of_mass"] == pytest.approx([2.0, 0.5, 0.5], rel=1e-14)
+    assert close(total["center_of_mass"], [2.0, 0.5, 0.5], rel=1e-14)
     # Two cubes, each m/6, and arms of 1.5 and 0.5 m.
-    assert total["inertia"][2][2] == pytest.approx(4.0 / 6.0 + 1.0 * 1.5**2 + 3.0 * 0.5**2, rel=1e-13)
+    assert close(total["inertia"][2][2], 4.0 / 6.0 + 1.0 * 1.5**2 + 3.0 * 0.5**2, rel=1e-13)
 
 
 def test_the_total_of_nothing_has_no_center():
@@ -307,7 +309,7 @@ def test_csv_of_nothing_is_a_header():
 
 def test_csv_has_a_column_for_each_moment_that_was_asked_for():
     table = rows(record.to_csv([one_document(box(), order=2)]))
-    assert float(table[0]["volume_moment_2_0_0"]) == pytest.approx(2.0, rel=1e-14)
+    assert close(float(table[0]["volume_moment_2_0_0"]), 2.0, rel=1e-14)
     assert "volume_moment_3_0_0" not in table[0]
 
 

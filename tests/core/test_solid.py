@@ -14,6 +14,7 @@ from body_moments.core.polyhedron import third_order as polyhedron
 from body_moments.core.solid.measure_solid import measure_solid
 from body_moments.core.verdict.finding import Finding, MeasureError
 
+from tests.close import close
 from tests.core.bodies import (
     CORNERS,
     SIDES,
@@ -53,7 +54,7 @@ def verdict(part, dtype=np.float64, **options):
 
 def check_unit_cube(result, centre, method):
     assert result.method == method
-    assert result.volume.total == pytest.approx(1.0, rel=2e-15)
+    assert close(result.volume.total, 1.0, rel=2e-15)
     np.testing.assert_allclose(result.volume.center, centre, rtol=1e-15)
     np.testing.assert_allclose(inertia(result.volume), 1.0 / 6.0, rtol=5e-15)
 
@@ -76,7 +77,7 @@ def test_a_cube_without_its_top_is_capped_flat_wherever_it_stands(spin, dtype):
     result = verdict(part, dtype)
     assert result.method == "capped" and not result.health.closed
     tolerance = 1e-14 if spin is None or dtype == np.float64 else 1e-5
-    assert result.volume.total == pytest.approx(1.0, rel=tolerance)
+    assert close(result.volume.total, 1.0, rel=tolerance)
     np.testing.assert_allclose(inertia(result.volume), 1.0 / 6.0, rtol=10 * tolerance)
     assert result.area.total == pytest.approx(5.0, rel=1e-6)
     assert result.health.boundary_edges == 4
@@ -126,7 +127,7 @@ def test_a_doubled_triangle_counts_once(turn):
     assert result.health.non_manifold_edges == 3 == len(result.health.defective_elements.non_manifold_edges)
     finding = only(result)
     assert finding == Finding("duplicate_faces_ignored", {"count": 1}) and finding.elements.tolist() == [12]
-    assert result.area.total == pytest.approx(6.5, rel=1e-15)  # of the faces as they are
+    assert close(result.area.total, 6.5, rel=1e-15)  # of the faces as they are
 
 
 @pytest.mark.parametrize("turn", [1, -1])
@@ -144,7 +145,7 @@ def test_a_two_sided_body_is_the_body_and_does_not_cancel_itself(layers, apart):
     points, triangles = CUBE
     doubled = points, np.concatenate([triangles[:, ::way] for way in layers])
     result = verdict(soup(doubled) if apart else doubled)
-    assert result.volume.total == pytest.approx(1.0, rel=1e-15)
+    assert close(result.volume.total, 1.0, rel=1e-15)
     assert result.method == ("exact" if layers[0] > 0 else "reoriented")
     assert result.health.duplicate_faces == 12 * (len(layers) - 1) and codes(result)[0] == "duplicate_faces_ignored"
     assert verdict((points, np.concatenate([triangles[:10], triangles[:10, ::-1]]))).method == "open"
@@ -188,7 +189,7 @@ def test_a_doubled_region_counts_once_also_where_its_quads_are_cut_differently()
 )
 def test_boxes_in_boxes(parts, volume, moment, method, expected):
     result = verdict(joined(*parts))
-    assert result.volume.total == pytest.approx(volume, rel=1e-14)
+    assert close(result.volume.total, volume, rel=1e-14)
     np.testing.assert_allclose(inertia(result.volume), moment, rtol=1e-13)
     assert result.method == method
     assert marked(result.health) == {"closed": True, **expected}
@@ -222,13 +223,13 @@ def test_overlap_counts_twice_and_is_said_and_touching_is_not_overlap(parts, vol
 
 def test_boxes_welded_along_a_face_or_an_edge_are_closed():
     wall = verdict(welded(joined(CUBE, box((1, 0, 0), (2, 1, 1)))))
-    assert wall.volume.total == pytest.approx(2.0, rel=1e-15)
+    assert close(wall.volume.total, 2.0, rel=1e-15)
     assert wall.method == "exact" and not wall.findings and wall.health.closed
     assert wall.health.non_manifold_edges == 5
     edge = joined(CUBE, box((1, 1, 0), (2, 2, 1)))
     for part, method in ((edge, "exact"), (joined(CUBE, inverted(box((1, 1, 0), (2, 2, 1)))), "reoriented")):
         result = verdict(welded(part))
-        assert result.volume.total == pytest.approx(2.0, rel=1e-15) and result.method == method
+        assert close(result.volume.total, 2.0, rel=1e-15) and result.method == method
         assert result.health.components == 2 and result.health.non_manifold_edges == 1 and result.health.closed
 
 
@@ -294,8 +295,8 @@ def test_a_tube_is_capped_at_both_ends(spin):
     result = verdict(part)
     end = n / 2 * np.sin(2 * np.pi / n)
     assert result.method == "capped"
-    assert result.volume.total == pytest.approx(3 * end, rel=1e-13)
-    assert result.health.cap_area_share == pytest.approx(2 * end / result.area.total, rel=1e-12)
+    assert close(result.volume.total, 3 * end, rel=1e-13)
+    assert close(result.health.cap_area_share, 2 * end / result.area.total, rel=1e-12)
     values = only(result).values
     assert (values["count"], values["flat"], values["curved"]) == (2, 2, 0)
     assert len(only(result).elements) == 2 * n
@@ -306,7 +307,7 @@ def test_a_bowl_is_closed_with_its_own_rim_and_a_curved_hole_with_a_cone():
     lower = np.flatnonzero(points[triangles][:, :, 2].mean(axis=1) < 0)
     result = verdict((points, triangles[lower]))
     assert result.method == "capped" and only(result).values["flat"] == 1
-    assert result.volume.total == pytest.approx(volume((points, triangles)) / 2.0, rel=1e-13)
+    assert close(result.volume.total, volume((points, triangles)) / 2.0, rel=1e-13)
     # A triangular prism's side with one corner bent out: the cone to the loop's centroid.
     bent = CORNERS.copy()
     bent[7] = [1, 1, 1.5]
@@ -317,7 +318,7 @@ def test_a_bowl_is_closed_with_its_own_rim_and_a_curved_hole_with_a_cone():
     cone = [[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]]
     expected = volume((np.concatenate([bent, [apex]]), np.concatenate([without(CUBE, *TOP)[1], cone])))
     assert result.findings[0].values["curved"] == 1
-    assert result.volume.total == pytest.approx(expected, rel=1e-14)
+    assert close(result.volume.total, expected, rel=1e-14)
 
 
 def test_a_hole_that_is_not_convex_has_its_true_share_of_the_area():
@@ -333,7 +334,7 @@ def test_a_hole_that_is_not_convex_has_its_true_share_of_the_area():
     top = points, np.delete(triangles, sorted(columns), axis=0)
     result = verdict(joined(sides, top))
     check_unit_cube(result, [0.5] * 3, "capped")
-    assert result.health.cap_area_share == pytest.approx(3 / 16 / (6 - 3 / 16), rel=1e-12)
+    assert close(result.health.cap_area_share, 3 / 16 / (6 - 3 / 16), rel=1e-12)
 
 
 def test_two_holes_that_meet_in_a_vertex_are_capped():
@@ -341,7 +342,7 @@ def test_two_holes_that_meet_in_a_vertex_are_capped():
     holes = [2 * (4 * i + i) + k for i in (1, 2) for k in (0, 1)]
     result = verdict(joined(without(CUBE, *TOP), (points, np.delete(triangles, holes, axis=0))))
     check_unit_cube(result, [0.5] * 3, "capped")
-    assert result.health.cap_area_share == pytest.approx(2 / 16 / (6 - 2 / 16), rel=1e-12)
+    assert close(result.health.cap_area_share, 2 / 16 / (6 - 2 / 16), rel=1e-12)
 
 
 @pytest.mark.parametrize("spin, dtype, rel", [(None, np.float64, 1e-14), (7, np.float64, 1e-13), (7, np.float32, 1e-6)])
@@ -350,7 +351,7 @@ def test_a_box_with_one_side_subdivided_is_closed_in_space(spin, dtype, rel, fli
     top = moved(grid(5), None, (0, 0, 1))
     part = joined(without(CUBE, *TOP), inverted(top) if flip else top)
     result = verdict(moved(part, spin and rotation(spin), (3, 4, 5)), dtype)
-    assert result.volume.total == pytest.approx(1.0, rel=rel)
+    assert close(result.volume.total, 1.0, rel=rel)
     np.testing.assert_allclose(inertia(result.volume), 1.0 / 6.0, rtol=100 * rel)
     assert result.health.closed and result.health.boundary_edges == 0 and result.health.components == 1
     assert result.method == ("reoriented" if flip else "exact")
@@ -371,7 +372,7 @@ def test_the_sides_of_a_box_may_all_be_cut_differently():
     centred = [moved(moved(grid(n), None, (-0.5, -0.5, 0.5)), turn) for n, turn in zip((2, 3, 5, 7, 4, 1), turns)]
     result = verdict(joined(*centred))
     assert result.method == "exact" and result.health.closed
-    assert result.volume.total == pytest.approx(1.0, rel=1e-14)
+    assert close(result.volume.total, 1.0, rel=1e-14)
 
 
 def test_triangle_soup_in_float32_far_from_the_origin_is_welded_and_closed():
@@ -397,7 +398,7 @@ def test_a_small_open_part_is_not_welded_away():
     small = moved(without(CUBE, *TOP), 1e-5 * np.eye(3))
     result = verdict(joined(small, box((10, 10, 10), (11, 11, 11))))
     assert result.method == "capped" and result.health.components == 2
-    assert result.volume.total == pytest.approx(1.0 + 1e-15, rel=1e-15)
+    assert close(result.volume.total, 1.0 + 1e-15, rel=1e-15)
     small = verdict(joined(moved(without(sphere(2), 0), 1e-6 * np.eye(3)), box((10, 10, 10), (10.1, 10.1, 10.1))))
     assert small.health.boundary_edges == 3
 
@@ -420,7 +421,7 @@ def test_the_verdict_does_not_depend_on_the_size(part, scale):
     for dtype in (np.float32, np.float64):
         plain, scaled = verdict(part, dtype), verdict((part[0] * scale, part[1]), dtype)
         assert scaled.method == plain.method and codes(scaled) == codes(plain)
-        assert scaled.volume.total == pytest.approx(plain.volume.total * scale**3, rel=1e-6)
+        assert close(scaled.volume.total, plain.volume.total * scale**3, rel=1e-6)
         before, after = (replace(result.health, cap_area_share=0).as_record() for result in (plain, scaled))
         assert before == after
 
@@ -434,7 +435,7 @@ def test_the_verdict_does_not_depend_on_the_size(part, scale):
 )
 def test_the_spread_is_what_the_choice_of_diagonals_can_change(points, faces, spread):
     result = measure_solid(mesh(points, faces))
-    assert result.health.volume_spread == pytest.approx(spread, rel=1e-14)
+    assert close(result.health.volume_spread, spread, rel=1e-14)
     assert result.health.non_planar_faces == (1 if spread else 0)
     low, high = 1 + 0.5 / 6, 1 + 0.5 / 3
     assert not spread or min(abs(result.volume.total - low), abs(result.volume.total - high)) < 1e-14
@@ -455,7 +456,7 @@ def test_polygons_have_a_spread_too():
     raised = measure_solid(mesh(*prism([1, 1, 1, 1.3, 1, 1])))
     assert raised.health.non_planar_faces == 1
     # The raised corner is in two of the tetrahedra between the fans, over the triangles 0, 1, 2 and 0, 1, 4.
-    assert raised.health.volume_spread == pytest.approx(0.3 * (np.sqrt(3) / 4 + np.sqrt(3) / 2) / 3, rel=1e-14)
+    assert close(raised.health.volume_spread, 0.3 * (np.sqrt(3) / 4 + np.sqrt(3) / 2) / 3, rel=1e-14)
     far = mesh(moved(CUBE, rotation(1), (300, 200, 100))[0], SIDES.tolist(), np.float32)
     assert measure_solid(far).health.non_planar_faces == 0  # what float32 bends is not bent
 
@@ -471,7 +472,7 @@ def test_the_meshs_own_corners_lead_to_the_same_result_as_its_triangles(dtype):
     assert quick.health.as_record() == slow.health.as_record()
     np.testing.assert_allclose(quick.volume.raw, slow.volume.raw, rtol=1e-11, atol=1e-12)
     upright = measure_solid(mesh(points, np.concatenate([quads, quads + len(points) // 2]).tolist(), dtype))
-    assert quick.volume.total == pytest.approx(upright.volume.total, rel=1e-13)  # turned quads keep their diagonals
+    assert close(quick.volume.total, upright.volume.total, rel=1e-13)  # turned quads keep their diagonals
 
 
 @pytest.mark.parametrize("flipped", [0, 1])
@@ -670,7 +671,7 @@ def test_a_body_of_any_size_is_as_possible_as_another(exponent):
     points[points[:, 0] > 0.0] *= 1.5  # so that its center is not that of its box
     one, other = (measure_solid(Surface(np.ldexp(points, k), quads=quads)) for k in (0, exponent))
     assert one.method == other.method == "exact"
-    assert other.volume.total == pytest.approx(np.ldexp(one.volume.total, 3 * exponent), rel=1e-14)
+    assert close(other.volume.total, np.ldexp(one.volume.total, 3 * exponent), rel=1e-14)
 
 
 def test_a_body_whose_moments_would_vanish_is_refused_as_one_whose_moments_overflow_is():
@@ -697,7 +698,7 @@ def test_what_welding_may_have_changed_is_bounded(seed):
 @pytest.mark.parametrize("thick", [1e-7, 1e-6, 5e-6])
 def test_an_open_foil_is_not_welded_into_a_wedge(thick, faces, dtype):
     result = verdict(without(box((0, 0, 0), (1, 1, thick)), *faces), dtype)
-    assert result.volume.total == pytest.approx(thick, rel=1e-6) and result.method in ("capped", "exact")
+    assert close(result.volume.total, thick, rel=1e-6) and result.method in ("capped", "exact")
     assert result.volume.input_error[0] < 1e-6 and result.health.components == 1
 
 
@@ -725,7 +726,7 @@ def test_the_area_has_what_is_flat_and_encloses_nothing(shell):
     both = [*quads.tolist(), *(np.array([[0, 1, 2, 3], [3, 2, 1, 0]]) + len(points)).tolist()]  # its two sides
     result = measure_solid(mesh(np.concatenate([points, sheet]), both), shell=shell)
     assert result.method == "exact" and "flat_components" in codes(result)
-    assert result.area.total == pytest.approx(area.total + 12.0, rel=1e-14)
+    assert close(result.area.total, area.total + 12.0, rel=1e-14)
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])

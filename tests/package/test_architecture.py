@@ -47,7 +47,10 @@ def imports(module: tuple[str, ...]) -> list[tuple[tuple[str, ...], int, bool]]:
     result = []
     package = module[:-1]
     tree = ast.parse(MODULES[module].read_text(encoding="utf-8"))
-    top = {id(node) for node in tree.body}
+    checked = [
+        node.body for node in tree.body if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+    ]
+    top = {id(node) for body in (tree.body, *checked) for node in body}
     for node in ast.walk(tree):
         if not (isinstance(node, ast.ImportFrom) and node.level):
             continue

@@ -121,7 +121,7 @@ def test_the_zip_installs_works_and_leaves_cleanly(archive, tmp_path):
         capture_output=True,
         encoding="utf-8",
         errors="replace",
-        timeout=300,
+        timeout=1200,
     )
     assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
     assert "all steps passed" in done.stdout

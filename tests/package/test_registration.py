@@ -3,6 +3,7 @@
 """Registering adds everything, unregistering removes it all, a failure leaves nothing."""
 
 import sys
+from collections import Counter
 
 import bpy
 import pytest
@@ -10,29 +11,30 @@ import pytest
 body_moments = sys.modules["body_moments"]
 
 
-def footprint() -> dict[str, set]:
-    """Everything that an add-on can leave in Blender and that Blender lets us list."""
+def footprint() -> dict[str, set | Counter]:
+    """Everything that an add-on can leave in Blender and that Blender lets us list, and how often."""
     types = {name: kind for name in dir(bpy.types) if isinstance(kind := getattr(bpy.types, name), type)}
-    properties, menus = set(), set()
+    properties, menus = set(), Counter()
     for type_name, kind in types.items():
         if rna := getattr(kind, "bl_rna", None):
             properties |= {(type_name, key) for key in rna.properties.keys()}  # noqa: SIM118
         for function in getattr(getattr(kind, "draw", None), "_draw_funcs", ()):
-            menus.add((type_name, f"{function.__module__}.{function.__qualname__}"))
-    handlers = {
+            menus[type_name, f"{function.__module__}.{function.__qualname__}"] += 1
+    handlers = Counter(
         (name, function.__module__, function.__qualname__)
         for name in dir(bpy.app.handlers)
         if isinstance(functions := getattr(bpy.app.handlers, name), list)
         for function in functions
-    }
-    keymaps = {
+    )
+    keymaps = Counter(
         (keymap.name, item.idname)
         for config in bpy.context.window_manager.keyconfigs
         for keymap in config.keymaps
         for item in keymap.keymap_items
-    }
+    )
     return {
         "types": set(types),
+        "classes": {f"{kind.__module__}.{name}" for name, kind in types.items()},
         "properties": properties,
         "menus": menus,
         "handlers": handlers,
@@ -40,14 +42,24 @@ def footprint() -> dict[str, set]:
     }
 
 
-def ours(before: dict[str, set]) -> set:
+def ours(before: dict[str, set | Counter]) -> set:
     return footprint()["types"] - before["types"]
 
 
+def named(entries: set | Counter) -> list:
+    """Those that bear the add-on's name."""
+    return sorted(str(entry) for entry in entries if "body_moments" in str(entry))
+
+
 @pytest.fixture
-def before():
+def before(unregistered):
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     return footprint()
+
+
+def test_nothing_of_ours_is_there_while_it_is_not_registered(before):
+    """As other tests have registered it before; what bears no name of ours is seen to grow, below."""
+    assert {kind: named(entries) for kind, entries in before.items() if named(entries)} == {}
 
 
 def test_unregistering_removes_everything_and_registering_again_works(before):

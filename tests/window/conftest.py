@@ -44,7 +44,7 @@ def run_blender(blender, tmp_path_factory):
             capture_output=True,
             encoding="utf-8",
             errors="replace",
-            timeout=300,
+            timeout=1200,
         )
         assert not check or done.returncode == 0, f"{done.stdout}\n{done.stderr}"
         return done

@@ -17,8 +17,8 @@ import time
 from pathlib import Path
 
 WIDTH, HEIGHT = 1600, 1000
-START_LIMIT = 120.0  # seconds until Blender's window answers
-STEP_LIMIT = 30.0  # seconds until what was pressed has happened
+START_LIMIT = 480.0  # seconds until Blender's window answers
+STEP_LIMIT = 240.0  # seconds until what was pressed has happened
 PAGES = 3  # how far down the sidebar a button is looked for
 TOOLS = ("Xvfb", "xdotool", "scrot")
 
@@ -123,7 +123,7 @@ class Window:
     # hands
 
     def _xdotool(self, *words) -> None:
-        subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, timeout=60)
+        subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, timeout=240)
 
     def move(self, x: float, y: float) -> None:
         """Put the pointer there; the small step before lets Blender notice where it is."""
@@ -224,14 +224,14 @@ class Window:
     def picture(self, name: str) -> Path:
         """A picture of the screen, kept in the folder of artefacts."""
         path = self.artefacts / f"{name}.png"
-        subprocess.run(["scrot", "-o", str(path)], env=self.environment, check=True, timeout=60)
+        subprocess.run(["scrot", "-o", str(path)], env=self.environment, check=True, timeout=240)
         return path
 
 
 def _end(process: subprocess.Popen) -> None:
     process.terminate()
     try:
-        process.wait(10)
+        process.wait(60)
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()

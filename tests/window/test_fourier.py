@@ -26,7 +26,7 @@ def test_left_alone_it_writes_the_file_and_shows_slices_in_the_image_editor(wind
     path = tmp_path / "ring.npz"
     window.ask("[a for a in window.screen.areas if a.type == 'PROPERTIES'][0].type = 'IMAGE_EDITOR'")
     window.ask(START.format(str(path)))
-    window.wait("not [op for op in window.modal_operators if 'FOURIER' in op.bl_idname.upper()]", limit=120.0)
+    window.wait("not [op for op in window.modal_operators if 'FOURIER' in op.bl_idname.upper()]", limit=480.0)
     assert window.get(IMAGES) == [[3 * 64 + 4, 64]]
     shown = "[a for a in window.screen.areas if a.type == 'IMAGE_EDITOR'][0].spaces.active.image.name"
     assert window.get(shown) == "Fourier Transform of Ring"

@@ -24,6 +24,6 @@ def test_esc_ends_a_search_and_leaves_nothing(window, escape):
     window.point_at_view()
     if escape:
         window.key("Escape")
-    window.wait(OVER, limit=120.0)
+    window.wait(OVER, limit=480.0)
     assert window.get(FOUND) == (0 if escape else 11)
     assert window.get(SELECTED) == (1 if escape else 12)

@@ -66,7 +66,7 @@ def test_a_copy_is_found_and_told(window):
         "bpy.context.view_layer.objects.active = bpy.data.objects['Monkey']"
     )
     run(window, "object.body_moments_find_similar")
-    window.wait("len(bpy.context.scene.body_moments_search.found)", limit=60.0)
+    window.wait("len(bpy.context.scene.body_moments_search.found)")
     found = window.get("[[one.name, one.verdict] for one in bpy.context.scene.body_moments_search.found]")
     assert found[0] == ["Twin", "copy"] and ["Bracket", "different"] in found
     shown(window, "subpanel-similar", 60)

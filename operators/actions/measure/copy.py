@@ -18,7 +18,7 @@ from .. import selection
 
 
 def copy_text(operator: Operator, context: Context, text: str, done: Finding) -> None:
-    """In background there is no clipboard, and long reports are cut short: the text goes to the standard output."""
+    """Without a window there is no clipboard, and long reports are cut short: the text goes to the standard output."""
     if bpy.app.background:
         sys.stdout.write(text.removesuffix("\n") + "\n")
     else:

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator
+from dataclasses import replace
 
 import bpy
 
@@ -13,10 +14,10 @@ from ....core.verdict.finding import Finding, Severity, finding
 from ...bodies.measure_object import Measured, measure_body
 from ...session import results
 from ...session.staleness import mark_up_to_date
+from ...settings.density import unset_density
 from ...write import reports
 from ...write.messages import of_severity
-from .. import selection
-from ..modal import ModalSteps
+from ..modal import ModalSteps, redraw
 
 MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
 
@@ -32,31 +33,31 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not _objects_to_measure(context):
+        if not context.selected_objects:
             return reports.unavailable(cls, finding("poll_select_objects"))
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        self._begin(context)
-        return self.run_all_steps(context, len(_objects_to_measure(context)))
+        return self.run_all_steps(context, self._begin(context))
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        count = len(_objects_to_measure(context))
-        if count <= MAX_OBJECTS_WITHOUT_REDRAW or context.window is None:
+        if len(context.selected_objects) <= MAX_OBJECTS_WITHOUT_REDRAW or context.window is None:
             return self.execute(context)
-        self._begin(context)
-        return self.start_modal(context, count)
+        return self.start_modal(context, self._begin(context))
 
-    def _begin(self, context: bpy.types.Context) -> None:
+    def _begin(self, context: bpy.types.Context) -> int:
+        """Start with the selected objects, in edit mode those being edited; how many there are."""
+        objects = list(context.selected_objects)
         self._results: list[tuple[bpy.types.Object, Measured]] = []
         self._refusals: list[tuple[bpy.types.Object, Finding]] = []
         self._failures: list[Finding] = []
-        self._steps = self._measure(_objects_to_measure(context), context.evaluated_depsgraph_get())
+        self._steps = self._measure(objects, context.evaluated_depsgraph_get())
+        return len(objects)
 
-    def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Iterator[int]:
+    def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Generator[int, None, None]:
         for done, obj in enumerate(objects, 1):
             try:
-                self._results.append((obj, measure_body(obj, depsgraph)))
+                self._results.append((obj, _with_default_density(obj, measure_body(obj, depsgraph))))
             except Exception as error:
                 self._refusals.append((obj, internal_error.finding_of(error)))
             yield done
@@ -77,14 +78,12 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             stored.append(obj)
         mark_up_to_date(context, stored)
         self._report(len(stored))
-        selection.redraw(context)
+        redraw(context)
         return {"FINISHED"} if stored else {"CANCELLED"}
 
     def _report(self, stored: int) -> None:
-        warned = sum(
-            bool(of_severity(measured.measurement.findings, Severity.WARNING, Severity.ERROR))
-            for _, measured in self._results
-        )
+        reported = [measured.measurement.findings for _, measured in self._results]
+        warned = sum([bool(of_severity(findings, Severity.WARNING, Severity.ERROR)) for findings in reported])
         tried = stored + len(self._failures)
         done = [finding("measured_several", count=stored, total=tried)] if tried > 1 else []
         if tried == stored == 1:
@@ -92,12 +91,17 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             done.append(finding("measured_one_with_warnings" if warned else "measured_one", object=name))
         elif warned:
             done.append(finding("with_warnings", count=warned))
-        reports.report(self, *done, *reports.first(self._failures))
+        reports.report(self, *done, *(reports.first(self._failures) if self._failures else ()))
 
 
-def _objects_to_measure(context: bpy.types.Context) -> list[bpy.types.Object]:
-    """The selected objects; in edit mode the ones being edited."""
-    return list(context.selected_objects)
+def _with_default_density(obj: bpy.types.Object, measured: Measured) -> Measured:
+    """With a note where nobody has set the density."""
+    unset = unset_density(obj, measured.measurement)
+    if unset is None:
+        return measured
+    kept = finding("density_default_kept") if unset == "density" else finding("linear_density_default_kept")
+    findings = (*measured.measurement.findings, kept)
+    return replace(measured, measurement=replace(measured.measurement, findings=findings))
 
 
 CLASSES = (OBJECT_OT_body_moments_measure,)

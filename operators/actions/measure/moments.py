@@ -45,7 +45,8 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
 
     def execute(self, context: Context) -> set[str]:
         obj, scene = context.object, context.scene
-        options = MeasureOptions(order=scene.body_moments.moments_order, surface=True, threads=THREADS)
+        order: int = scene.body_moments.moments_order
+        options = MeasureOptions(order=order, surface=True, threads=THREADS)
         depsgraph = context.evaluated_depsgraph_get()
         try:
             measurement = measure_object(obj, depsgraph, options)
@@ -55,9 +56,9 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         if measurement.length is not None:
             reports.report(self, finding("wire_without_moments", object=obj.name))
             return {"CANCELLED"}
-        area = measurement.area_moments.truncate(options.order)
+        area = measurement.area_moments.truncate(order)
         volume = (measurement.volume_moments or replace(area * measurement.thickness, measure=Measure.VOLUME)).truncate(
-            options.order
+            order
         )
         key = (matrix_hash(obj), settings_hash(obj, scene), staleness.geometry_changes(obj))
         cache_moments(obj, ComputedMoments(obj.name, volume, area, measurement.rotation, measurement.location, key))
@@ -82,6 +83,8 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
 
     def execute(self, context: Context) -> set[str]:
         settings, computed = context.scene.body_moments, computed_moments(context.object)
+        if computed is None:
+            return {"CANCELLED"}
         try:
             text = as_csv(computed, settings.moments_of, settings.moments_about, settings.frame)
         except MeasureError as error:

@@ -19,7 +19,7 @@ from ...session import staleness
 from ...write import properties, reports
 from ...write import section as record
 from ...write.messages import of_severity
-from .. import selection
+from ..modal import redraw
 from .copy import copy_text
 
 FILL_AREA_RTOL = 1e-4  # Blender's fill and the outlines differ by more than this share: the fill is wrong
@@ -122,7 +122,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
             mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
             record.store(obj, section, what, findings, mark, unit)
         staleness.mark_fingerprints(context, [(obj, record.fingerprint(obj)) for obj, *_ in sections])
-        selection.redraw(context)
+        redraw(context)
         warned = sum(bool(of_severity(findings, Severity.WARNING, Severity.ERROR)) for *_, findings in sections)
         if len(sections) > 1:
             done = [finding("measured_sections", count=len(sections))]
@@ -150,6 +150,8 @@ class OBJECT_OT_body_moments_copy_section(Operator):
     def execute(self, context: Context) -> set[str]:
         obj = context.object
         stored = record.stored(obj)
+        if stored is None:
+            return {"CANCELLED"}
         code = stale_reason(obj, context.scene, stored)
         text = record.text(obj.name, stored, None if code is None else Finding(code))
         copy_text(self, context, text, finding("section_copied", object=obj.name))

@@ -128,8 +128,8 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
 
 
 def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> float:
-    """Write the scan as a grid, whole or not at all, and return its least value. The background is no sample's value,
-    so that none is lost, but zero where no sample is negative."""
+    """Write the scan as a grid, whole or not at all, and return its least value. The background is not any sample's
+    value, so that none is lost, but zero where no sample is negative."""
     least, exact = np.inf, True
     for _, slab in _slabs(scan):
         if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):

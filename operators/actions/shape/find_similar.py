@@ -9,7 +9,7 @@ is selected.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,7 +25,7 @@ from ...bodies.shape import SurfaceDistance, register_surfaces, surface_shape_of
 from ...read import measurable_objects
 from ...write import reports
 from .. import selection
-from ..modal import ModalSteps
+from ..modal import ModalSteps, redraw
 
 DESCRIPTOR_ORDER = 12  # of the descriptors: more than separate parts, a fourth of the time that 20 takes
 MAX_LISTED_BODIES = 20
@@ -58,6 +58,8 @@ class _SearchMixin:
     """What both searches share."""
 
     bl_options = {"REGISTER", "UNDO"}
+    mirrored: bool
+    scaled: bool
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -144,9 +146,10 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
         self._failures: list[Finding] = []
         self._steps = self._compare(context)
 
-    def _compare(self, context: Context) -> Iterator[float]:
+    def _compare(self, context: Context) -> Generator[float, None, None]:
         yield from self.measure_active(context)
-        if self.wanted is None:
+        wanted = self.wanted
+        if wanted is None:
             return
         active_shape, skin = self.shape, None
 
@@ -155,7 +158,7 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
             shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
             entry = Entry(obj.name_full, "", shape.signature(DESCRIPTOR_ORDER))
-            likeness = similarity(self.wanted, entry.signature)
+            likeness = similarity(wanted, entry.signature)
             if classify(likeness) in UNDECIDED_HANDEDNESS:
                 yield 0.6
                 if skin is None:
@@ -190,7 +193,7 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
             picked = [self._objects[entry] for entry, likeness in ranked if chosen.get(classify(likeness))]
             for obj in context.view_layer.objects:
                 obj.select_set(obj in picked or obj == context.object)
-        selection.redraw(context)
+        redraw(context)
         return self.report_found(ranked, self._failures)
 
 

@@ -30,9 +30,10 @@ from ...bodies.shape import Shape, SurfaceDistance, is_display_mesh, surface_sha
 from ...read.fingerprint import scale_hash
 from ...scene.transforms import require_storable_data
 from ...session import staleness
+from ...session.marks import Mark
 from ...write import reports
 from .. import selection
-from ..modal import ModalSteps
+from ..modal import ModalSteps, redraw
 
 MAX_STORED_ELEMENTS = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
 
@@ -137,7 +138,7 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
             )
             for obj, measurement, found_symmetry, _ in self._results
         ]
-        selection.redraw(context)
+        redraw(context)
         if self._failures or not symmetries:
             count = len(symmetries)
             done = finding("symmetry_searched", count=count) if self._objects else finding("nothing_measurable")
@@ -161,8 +162,8 @@ def _store_symmetry(
     stored = obj.body_moments_symmetry
     stored.group, stored.compatible, stored.tolerance = confirmed.group, allowed.group, tolerance
     stored.of_display_mesh = is_display_mesh(measurement)
-    version, geometry, _, settings = measurement.fingerprint.split(":")
-    stored.fingerprint = ":".join([version, geometry, scale_hash(obj), settings])
+    mark = Mark(*measurement.fingerprint.split(":"))
+    stored.fingerprint = ":".join(mark._replace(transform=scale_hash(obj)))
     stored.elements.clear()
     turn = measurement.rotation.T
     for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:

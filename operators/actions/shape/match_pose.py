@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 
 import numpy as np
 from bpy.types import Context, Event, Object, Operator
@@ -60,7 +60,7 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
         self._failures: list[Finding] = []
         self._steps = self._compare(context)
 
-    def _compare(self, context: Context) -> Iterator[float]:
+    def _compare(self, context: Context) -> Generator[float, None, None]:
         active = context.object
         try:
             target = surface_shape_of(active, context.evaluated_depsgraph_get())

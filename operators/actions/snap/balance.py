@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sculpt Balance: move chosen vertices least so that the center of mass comes over a point, "make it stand".
 
-Which vertices: the selected ones in Edit Mode, those of a vertex group in Object Mode, as willingly as their weights
+Which vertices: the selected ones in Edit Mode, those of a vertex group in Object Mode, as freely as their weights
 say. The change is made on the mesh itself and measured again, the way the object is always measured; where faces that
 are not flat were cut anew by it, it is found again for the new cut. What does not come there is put back.
 """
@@ -26,6 +26,7 @@ from ....core.moments.moments import Measure
 from ....core.numerics.float32 import shortest_decimal
 from ....core.statics.balance import BalanceResult, balance
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ....core.verdict.method import Method, Verdict
 from ...bodies.measure_object import measure_object
 from ...read import Part, read_object
 from ...read.quiet import paused
@@ -124,7 +125,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         )
         try:
             mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, self.group)
-            with paused():  # what is tried and put back is no edit
+            with paused():  # what is tried and restored is not an edit
                 findings = _balance_mesh(context, obj, mesh, balance_target, unit)
             obj.data.update_tag()  # for others that show the mesh it is one
         except MeasureError as error:
@@ -150,7 +151,8 @@ def _horizontal_directions(scene: bpy.types.Scene) -> NDArray[np.float64]:
     if not down.any():
         down = np.array((0.0, 0.0, -1.0))
     down /= np.linalg.norm(down)
-    side = np.cross(down, np.eye(3)[np.argmin(np.abs(down))])
+    farthest: NDArray[np.float64] = np.eye(3)[np.argmin(np.abs(down))]
+    side = np.cross(down, farthest)
     side /= np.linalg.norm(side)
     return np.array([side, np.cross(down, side)])
 
@@ -293,7 +295,7 @@ def _measure(context: Context, obj: Object) -> Measurement:
     measurement = measure_object(obj, context.evaluated_depsgraph_get())
     if measurement.mass_moments[0].measure == Measure.MASS:
         raise EditRefusedError("balance_varying_density")
-    if measurement.kind == "solid" and (measurement.method != "exact" or measurement.health.welded):
+    if measurement.kind == "solid" and (measurement.method != Method(Verdict.EXACT) or measurement.health.welded):
         raise EditRefusedError("balance_unclean")
     return measurement
 

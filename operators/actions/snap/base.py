@@ -23,6 +23,7 @@ from ....core.inertia.principal_frame import EQUAL_AXES, zhang_chen_frame
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import EditRefusedError, Finding, finding
+from ....core.verdict.method import Verdict
 from ...bodies.measure_object import measure_body
 from ...read.quiet import paused
 from ...scene import reframe
@@ -30,6 +31,7 @@ from ...session import results, staleness
 from ...settings.options import MeasureOptions
 from ...write import properties, reports
 from .. import selection
+from ..modal import progress
 
 STRICT_PROPERTY = BoolProperty(
     name="Zhang and Chen's Rule",
@@ -94,7 +96,7 @@ def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarg
     and Chen's rule, or refused where it has none."""
     measured = measure_body(obj, context.evaluated_depsgraph_get(), MeasureOptions(pose=True))
     measurement = measured.measurement
-    if measurement.method.endswith("open"):
+    if measurement.method.verdict == Verdict.OPEN:
         raise EditRefusedError("open_object")
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     body = measurement.mass_properties
@@ -158,7 +160,7 @@ def reframe_selected(
         return True
 
     _, failures = selection.apply_to_all(objects, plan)
-    with paused(), selection.progress(len(plans)) as step:
+    with paused(), progress(len(plans)) as step:
         changed, refused = reframe.reframe(context, plans, step)
         failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
         if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body

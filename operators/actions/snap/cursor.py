@@ -10,6 +10,7 @@ from mathutils import Matrix
 from ....core.inertia.mass_properties import combine
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, finding
+from ....core.verdict.method import Verdict
 from ...bodies.measure_object import measure_object
 from .. import selection
 
@@ -38,7 +39,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
 
         def add(obj: Object) -> bool:
             measurement = measure_object(obj, depsgraph)
-            if measurement.method.endswith("open"):
+            if measurement.method.verdict == Verdict.OPEN:
                 raise EditRefusedError("open_object")
             bodies.append((measurement.mass_moments, measurement.mass_properties))
             return True

@@ -15,6 +15,7 @@ from ...scene.changes import SceneChange, dependents, independent_rounds, run_ch
 from ...scene.transforms import TransformChannels, basis, world
 from ...write import reports
 from .. import selection
+from ..modal import progress
 from . import base as snapping
 
 OBJECT_KEY = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
@@ -66,7 +67,7 @@ class OBJECT_OT_body_moments_add_empty(Operator):
                 failures.append(reports.failure(obj.name_full, error))
 
         followers = dependents(existing.values())  # what moves with an empty is measured after that
-        with selection.progress(len(objects)) as step:
+        with progress(len(objects)) as step:
             for several in independent_rounds((obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects):
                 run_change(context, run_together(map(add, several)))
         done, idle = finding("empties_placed", count=len(placed)), finding("empties_in_place")

@@ -1,0 +1,234 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The last steps of a repair: gaps without area close, the faces of each part agree, and holes are capped.
+
+Sides are numbered as in `Edges`: 3t + i runs from corner i of triangle t to the next one, the triangles as given.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.edges import Edges, consistent_orientation, find_edges, group_components
+from ..mesh.surface import normals
+from ..numerics.graph import connected_components
+from ..verdict.finding import finding
+from .holes import BoundaryLoops, as_vertex_pairs, find_loops, join_sides, side_ends, vertex_pairs
+from .repaired_mesh import NO_INDICES, FoldedLoops, RepairedMesh, ZeroAreaLoops
+
+
+def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+    """Find the boundary loops without area, across which the surface closes in space."""
+    side = mesh.state.edges.boundary_sides()
+    if not len(side):
+        none = NO_INDICES
+        return mesh.with_state(gaps=ZeroAreaLoops(none, none, 0, none, none, np.empty(0, bool)))
+    start, stop = side_ends(mesh.triangles, side)
+    begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
+    links = join_sides(begin, end, start, stop, directed=False)
+    loops = find_loops(begin, end, links)
+    closed = loops.complete & ~loops.has_area(tolerance)
+    within = closed[loops.of_side]
+    linked = within[links[0]]
+    gaps = ZeroAreaLoops(
+        side[within],
+        (np.cumsum(closed) - 1)[loops.of_side][within],
+        int(np.count_nonzero(closed)),
+        side[links[0][linked]],
+        side[links[1][linked]],
+        ~links[2][linked],
+    )
+    return mesh.with_state(gaps=gaps)
+
+
+def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+    """Decide which faces of each part to turn so that they agree, and group parts into components."""
+    edges, gaps, count = mesh.state.edges, mesh.state.gaps, len(mesh.triangles)
+    first, second = edges.manifold_side_pairs()
+    misoriented = edges.upward[first] == edges.upward[second]
+    a = np.concatenate([first, gaps.first]) // 3
+    b = np.concatenate([second, gaps.second]) // 3
+    disagree = np.concatenate([misoriented, gaps.misoriented])
+    area = np.linalg.norm(normals(mesh.points, mesh.triangles), axis=1) if disagree.any() else np.zeros(count)
+    flipped, twisted = consistent_orientation(count, a, b, disagree, area)
+    component, number = group_components(edges, *connected_components(count, a, b), _edges_along(mesh))
+    is_open = np.zeros(number, bool)
+    is_open[component[twisted]] = True
+    report = replace(mesh.report, components=number)
+    if misoriented.any():
+        sides = as_vertex_pairs(mesh.state.given, np.concatenate([first[misoriented], second[misoriented]]))
+        elements = replace(report.defective_elements, inconsistent_edges=sides)
+        report = replace(report, inconsistent_edges=int(np.count_nonzero(misoriented)), defective_elements=elements)
+    return replace(
+        mesh,
+        flipped=flipped,
+        component=component,
+        number=number,
+        open=is_open,
+        caps=np.zeros((number, 3)),
+        report=report,
+        state=replace(mesh.state, one_sided=is_open),
+    )
+
+
+def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+    """Find the components that no caps can close, and what those with edges of three faces or more leave over."""
+    edges = mesh.state.edges
+    if np.any(edges.count > 2) and mesh.number > 1:
+        # Components that meet in an edge are judged one by one, each with vertices of its own.
+        key = mesh.component.repeat(3) * len(mesh.points) + mesh.triangles.ravel()
+        edges = find_edges(np.unique(key, return_inverse=True)[1].reshape(-1, 3))
+    signed_count = edges.signed_use_count(mesh.flipped)
+    unclosable = np.zeros(mesh.number, bool)
+    unclosable[mesh.component[edges.first[(signed_count != 0) & (edges.count > 1)] // 3]] = True
+    folded = _find_folded_loops(mesh, edges, signed_count, unclosable & ~mesh.open, tolerance)
+    return replace(
+        mesh,
+        open=mesh.open | (unclosable & ~folded.components),
+        state=replace(mesh.state, component_edges=edges, folded=folded),
+    )
+
+
+def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+    """Fill the gaps without area, and report what boundary is left."""
+    edges, gaps, folded, given = mesh.state.edges, mesh.state.gaps, mesh.state.folded, mesh.state.given
+    closed_already = np.zeros(edges.of_side.shape, bool)
+    closed_already[folded.sides] = True
+    number = folded.number + len(np.unique(gaps.loop[~closed_already[gaps.sides]]))
+    if number:
+        sides = np.concatenate([gaps.sides, np.flatnonzero(closed_already)])
+        mesh = mesh.with_findings(finding("t_junctions", as_vertex_pairs(given, sides), count=number))
+    boundary = edges.first[(edges.count == 1) & ~_edges_along(mesh)]
+    boundary = boundary[~closed_already[boundary]]
+    if len(boundary):
+        mesh = mesh.with_report(
+            boundary_edges=len(boundary), elements={"boundary_edges": as_vertex_pairs(given, boundary)}
+        )
+
+    boundary = mesh.state.component_edges.boundary_sides()
+    boundary = boundary[~mesh.open[mesh.component[boundary // 3]] & ~closed_already[boundary]]
+    loop = np.full(len(closed_already), -1)
+    loop[gaps.sides] = gaps.loop
+    loop = loop[boundary]
+    filled = loop >= 0
+    start, stop = _oriented_ends(mesh, boundary[filled])
+    apex = np.empty(gaps.number, np.intp)
+    apex[loop[filled][::-1]] = start[::-1]
+    caps = np.concatenate([np.stack([stop, start, apex[loop[filled]]], axis=1), folded.caps])
+    owner = np.concatenate([boundary[filled] // 3, folded.sides // 3])
+    if len(caps):
+        mesh = mesh.with_caps(caps, owner)
+    return mesh if filled.all() else mesh.with_state(uncapped_sides=boundary[~filled])
+
+
+def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+    """Cap the boundary loops that have an area, each by the cone to its centroid."""
+    side = mesh.state.uncapped_sides
+    if not len(side):
+        return mesh
+    owner, (start, stop) = side // 3, _oriented_ends(mesh, side)
+    begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
+    component = mesh.component[owner]
+    meet = [component * len(mesh.points) + vertex for vertex in (start, stop)]
+    loops = find_loops(begin, end, join_sides(begin, end, *meet, directed=True))
+    of_loop = np.empty(len(loops.perimeter), np.intp)
+    of_loop[loops.of_side] = component
+    is_open = mesh.open.copy()
+    is_open[of_loop[~loops.complete]] = True
+    # In the points' own type: a cap's apex then carries the same coordinate error as every vertex. A cap over three
+    # sides needs none.
+    apex = len(mesh.points) + np.arange(len(loops.perimeter))
+    first = np.empty(len(apex), np.intp)
+    first[loops.of_side[::-1]] = start[::-1]
+    apex = np.where(np.bincount(loops.of_side) == 3, first, apex)[loops.of_side]
+    return replace(
+        mesh,
+        points=np.concatenate([mesh.points, loops.centroid.astype(mesh.points.dtype)]),
+        open=is_open,
+        caps=_count_caps(loops, of_loop, is_open, tolerance),
+        capped_edges=vertex_pairs(mesh.state.given, side),
+        capped_component=component,
+    ).with_caps(np.stack([stop, start, apex], axis=1), owner)
+
+
+def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+    """Turn the faces that were found to disagree. Sides have other numbers from here on."""
+    if not mesh.flipped.any():
+        return mesh
+    return replace(mesh, triangles=np.where(mesh.flipped[:, None], mesh.triangles[:, ::-1], mesh.triangles))
+
+
+def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+    """Report whether all components are closed, and why those that are not cannot be."""
+    elements, findings = mesh.report.defective_elements, []
+    count = int(np.count_nonzero(mesh.state.one_sided))
+    if count:
+        findings.append(finding("one_sided_components", elements.inconsistent_edges, count=count, total=mesh.number))
+    count = int(np.count_nonzero(mesh.open)) - count
+    if count:
+        edges = np.concatenate([elements.non_manifold_edges, elements.boundary_edges])
+        findings.append(finding("non_manifold_components", edges, count=count, total=mesh.number))
+    closed = not (mesh.open.any() or mesh.caps.any())
+    return replace(mesh, findings=(*mesh.findings, *findings), report=replace(mesh.report, closed=closed))
+
+
+def _edges_along(mesh: RepairedMesh) -> NDArray[np.bool_]:
+    """(e,) the edges along gaps without area."""
+    edges = mesh.state.edges
+    along = np.zeros(len(edges.count), bool)
+    along[edges.of_side[mesh.state.gaps.sides]] = True
+    return along
+
+
+def _oriented_ends(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
+    """The vertices from which and to which sides run once the faces are turned."""
+    start, stop = side_ends(mesh.triangles, sides)
+    flipped = mesh.flipped[sides // 3]
+    return np.where(flipped, stop, start), np.where(flipped, start, stop)
+
+
+def _find_folded_loops(
+    mesh: RepairedMesh,
+    edges: Edges,
+    signed_count: NDArray[np.float64],
+    unclosable: NDArray[np.bool_],
+    tolerance: float,
+) -> FoldedLoops:
+    """Components with edges of three faces or more that close nevertheless, as all that they leave over are loops
+    without area: letters whose outline turns back on itself.
+
+    edges: of the components; signed_count: of these edges. unclosable: (c,) the components to look at.
+    """
+    edge = np.flatnonzero((signed_count != 0) & unclosable[mesh.component[edges.first // 3]])
+    edge = np.repeat(edge, np.abs(signed_count[edge]).astype(np.intp))
+    side = edges.first[edge]
+    if not len(side):
+        return FoldedLoops(unclosable, side, np.empty((0, 3), np.intp), 0)
+    start, stop = side_ends(mesh.triangles, side)
+    reversed_side = edges.upward[side] != (signed_count[edge] > 0.0)
+    start, stop = np.where(reversed_side, stop, start), np.where(reversed_side, start, stop)
+    begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
+    component = mesh.component[side // 3]
+    meet = [component * len(mesh.points) + vertex for vertex in (start, stop)]
+    loops = find_loops(begin, end, join_sides(begin, end, *meet, directed=True))
+    closes = unclosable.copy()
+    closes[component[(~loops.complete | loops.has_area(tolerance))[loops.of_side]]] = False
+    apex = np.empty(len(loops.perimeter), np.intp)
+    apex[loops.of_side[::-1]] = start[::-1]
+    caps = np.stack([stop, start, apex[loops.of_side]], axis=1)
+    taken = closes[component]
+    return FoldedLoops(closes, side[taken], caps[taken], len(np.unique(loops.of_side[taken])))
+
+
+def _count_caps(
+    loops: BoundaryLoops, of_loop: NDArray[np.intp], is_open: NDArray[np.bool_], tolerance: float
+) -> NDArray[np.float64]:
+    """(c, 3) of each component how many flat caps and curved caps it has, and their area. of_loop: (l,) the component
+    of each loop; is_open: (c,)."""
+    hole = loops.has_area(tolerance) & ~is_open[of_loop]
+    level = loops.out_of_plane <= tolerance
+    columns = level, ~level, np.where(level, loops.planar_area, loops.cone_area)
+    return np.stack([np.bincount(of_loop, column * hole, minlength=len(is_open)) for column in columns], axis=1)

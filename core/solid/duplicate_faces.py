@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A step of a repair: copies of faces are left out where the edges around them say so."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.edges import Edges, find_edges
+from ..mesh.surface import normals
+from ..mesh.welding import same_vertices_groups
+from ..numerics.graph import connected_components
+from ..verdict.finding import Finding, finding
+from ..verdict.tolerances import NEGLIGIBLE
+from .holes import as_vertex_pairs
+from .repaired_mesh import RepairedMesh
+
+
+def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+    """Leave out faces on the same vertices as an earlier one, where one layer of them is meant.
+
+    A region of copied faces is reduced to one layer where an odd number of other faces meets its boundary, so that one
+    layer closes it. Where an even number does, both layers belong: a wall between two boxes that touch, a two-sided
+    fin. A region with no others at its boundary is reduced where its layers run the same way, or where one layer is
+    closed: a two-sided body, which would cancel itself.
+    """
+    edges, face = mesh.state.edges, mesh.face
+    if edges.count.max() <= 2:  # copies of faces would have no others beside them
+        return mesh
+    sides = _non_manifold_sides(edges, face)
+    mesh = mesh.with_report(
+        non_manifold_edges=len(np.unique(edges.of_side[sides])),
+        elements={"non_manifold_edges": as_vertex_pairs(mesh.state.given, sides)},
+    )
+    group = same_vertices_groups(mesh.triangles, face)
+    later = group != face
+    if not later.any():
+        return mesh
+    copies = np.unique(face[later])
+    mesh = mesh.with_report(duplicate_faces=len(copies), elements={"duplicate_faces": copies})
+
+    vector = normals(mesh.points, mesh.triangles)
+    vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)  # of each face
+    agree = np.sign(np.einsum("ij,ij->i", vector[face], vector[group])) * np.linalg.norm(vector[face], axis=1)
+    reduced = _regions_of_one_layer(edges, later, is_duplicated(group, face), agree)
+    left_out = later & reduced
+    ignored, counted = np.unique(face[left_out]), np.unique(face[later & ~reduced & (agree > 0.0)])
+    mesh = mesh.with_findings(*_copies_findings(ignored, counted, np.linalg.norm(vector, axis=1)))
+    if not len(ignored):
+        return mesh
+    mesh = replace(mesh.with_rows(np.flatnonzero(~left_out)), topology_changed=True)
+    return mesh.with_state(edges=find_edges(mesh.triangles))
+
+
+def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """(m,) which triangles are of faces on the vertices of another one. group: what `same_vertices_groups` gives."""
+    copied = np.zeros(int(face.max()) + 1, bool)
+    copied[group[group != face]] = True
+    return copied[group]
+
+
+def _regions_of_one_layer(
+    edges: Edges, later: NDArray[np.bool_], copied: NDArray[np.bool_], agree: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(m,) which triangles are in regions to be reduced to one layer. later, copied: (m,) which are of later copies,
+    and of faces with copies at all; agree: (m,) positive where a triangle's face runs as the first of its copies."""
+    side = np.flatnonzero(np.repeat(copied, 3))
+    edge, owner = edges.of_side[side], side // 3
+    meet = np.empty(len(edges.count), np.intp)
+    meet[edge] = owner  # any of them
+    region, number = connected_components(len(copied), owner, meet[edge])
+    single_count = np.bincount(edges.of_side, np.repeat(~copied, 3))[edge]
+    vote = np.where(single_count % 2 == 1, 1, -1) * (single_count > 0)
+    votes = np.bincount(region[owner], vote, minlength=number)
+    has_neighbors = np.bincount(region[owner], single_count > 0, minlength=number) > 0
+    parallel = np.bincount(region, agree * later, minlength=number)
+    single = np.bincount(edges.of_side, np.repeat(copied & ~later, 3))[edge] % 2 == 1
+    closed = np.bincount(region[owner], single, minlength=number) == 0
+    return np.where(has_neighbors, votes > 0, (parallel > 0) | closed)[region]
+
+
+def _copies_findings(
+    ignored: NDArray[np.integer], counted: NDArray[np.integer], area: NDArray[np.float64]
+) -> list[Finding]:
+    """About copies that were left out, and copies that count twice. area: of each face, doubled."""
+    findings = []
+    if len(ignored):
+        slight = area[ignored].sum() < NEGLIGIBLE * area.sum()
+        findings.append(
+            finding(
+                "duplicate_faces_ignored_slightly" if slight else "duplicate_faces_ignored", ignored, count=len(ignored)
+            )
+        )
+    if len(counted):
+        slight = area[counted].sum() < NEGLIGIBLE * area.sum()
+        findings.append(
+            finding(
+                "duplicate_faces_counted_slightly" if slight else "duplicate_faces_counted", counted, count=len(counted)
+            )
+        )
+    return findings
+
+
+def _non_manifold_sides(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.intp]:
+    """The sides on edges with more than two triangles. A polygon's own diagonal, which it has on both sides, is none
+    of its edges. face: (m,) the mesh face of each triangle."""
+    sides = np.flatnonzero((edges.count > 2)[edges.of_side])
+    key = edges.of_side[sides] * (int(face.max()) + 1) + face[sides // 3]
+    _, place, times = np.unique(key, return_inverse=True, return_counts=True)
+    return sides[times[place] == 1]

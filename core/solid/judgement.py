@@ -1,0 +1,235 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The last stage of measuring a solid: its verdict, what is to be reported of it, and its health."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.planarity import Planarity
+from ..mesh.surface import Surface
+from ..moments.moments import SECOND_MOMENT_INDEX, Moments
+from ..numerics.arrays import unique_pairs
+from ..polyhedron import polyhedron_moments
+from ..verdict.finding import Finding, finding
+from ..verdict.health import NO_FACES, DefectiveElements, MeshReport
+from ..verdict.method import Verdict
+from ..verdict.tolerances import NEGLIGIBLE
+from .orientation import ComponentComparison, OrientedSolid
+from .parts import ClosedParts
+from .repaired_mesh import RepairedMesh
+from .triage import CheckedSurface, GivenIntegrals
+
+MIN_REPORTED_AMBIGUITY = 1e-6  # of the volume: below, nobody needs to know
+
+
+@dataclass(frozen=True, eq=False)
+class SolidIntegrals:
+    """The moments of the body that a surface bounds, and how they came about.
+
+    Of a body that is flat the volume's moments are zero; of an open one they depend on the reference point. Where
+    vertices were welded across gaps, `input_error` bounds what that may have changed too.
+
+    Attributes
+    ----------
+    volume : Moments
+        To order 3, about the body's reference point.
+    area : Moments
+        Of the input's faces, without caps.
+    health : MeshReport
+        What the input is like.
+    method : Verdict
+        EXACT, CAPPED, REORIENTED or OPEN.
+    findings : tuple of Finding
+        The decisions taken; those about the whole surface have no elements.
+    oriented : OrientedSolid
+        The surface that was measured, and its components.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, measure_solid
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2]])
+    >>> body = measure_solid(surface)
+    >>> str(body.method), [found.code for found in body.findings], round(body.exact_third_order().total * 6, 9)
+    ('capped', ['holes_capped'], 1.0)
+    """
+
+    volume: Moments
+    area: Moments
+    health: MeshReport
+    method: Verdict
+    findings: tuple[Finding, ...]
+    oriented: OrientedSolid
+
+    @property
+    def repaired_surface(self) -> Surface:
+        """The surface whose signed sum ``volume`` is."""
+        return self.oriented.surface
+
+    def parts(self) -> ClosedParts:
+        """The same surface by closed part."""
+        return self.oriented.closed_parts()
+
+    def exact_third_order(self, threads: int = 1) -> Moments:
+        """`volume` with its third order exact to rounding, for what its bounds leave undecided."""
+        return polyhedron_moments(self.repaired_surface, exact=True, threads=threads)[0]
+
+
+def judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid) -> SolidIntegrals:
+    """Give a verdict on what was measured, and report all that was decided on the way.
+
+    Parameters
+    ----------
+    checked : CheckedSurface
+    given : GivenIntegrals
+    oriented : OrientedSolid
+        All three of the same surface.
+    """
+    mesh, volume = oriented.mesh, oriented.volume
+    has_open = bool(mesh.open.any())
+    if not oriented.is_solid and not has_open:  # what rounding leaves of nothing would pass for a tiny body
+        volume = replace(
+            volume, raw=np.zeros_like(volume.raw), rounding_error=volume.rounding_error + np.abs(volume.raw)
+        )
+    flipped, inverted = NO_FACES, np.flatnonzero(oriented.turned)
+    if len(mesh.face) and (mesh.flipped.any() or len(inverted)):
+        flipped, inverted = _flipped_faces(mesh, oriented.turned)
+    self_intersecting = oriented.is_solid and not has_open and not _is_physical(volume, checked)
+    caps = mesh.caps[oriented.solid].sum(axis=0)
+    cap_share = float(caps[2] / given.area.total) if caps.any() and given.area.total > 0.0 else 0.0
+    if has_open or not oriented.is_solid or self_intersecting:
+        verdict = Verdict.OPEN
+    elif caps.any():
+        verdict = Verdict.CAPPED
+    else:
+        verdict = Verdict.REORIENTED if len(flipped) or len(inverted) else Verdict.EXACT
+    findings: list[Finding] = []
+    if mesh.max_displacement > 0.0:
+        findings.append(_weld_finding(mesh.max_displacement, checked.size, given.area.total, volume.total))
+    findings += [_of_input(item, checked.vertices) for item in mesh.findings]
+    if len(flipped):
+        findings.append(finding("flipped_faces", flipped, count=len(flipped)))
+    if len(inverted):
+        findings.append(_inverted_finding(mesh, inverted))
+    if caps[:2].any():
+        findings.append(_cap_finding(checked, oriented, caps, cap_share))
+    if oriented.comparison is not None:
+        findings += _component_findings(mesh, oriented.comparison)
+    if self_intersecting:
+        findings.append(finding("self_intersecting"))
+    findings += _shape_findings(oriented.is_solid, given.planarity, volume)
+    health = _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share)
+    return SolidIntegrals(volume, given.area, health, verdict, tuple(findings), oriented)
+
+
+def _flipped_faces(mesh: RepairedMesh, turned: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
+    """The mesh faces that were turned within their components, and the components that were turned as a whole."""
+    of_mesh = mesh.face >= 0
+    flipped, component = (mesh.flipped ^ turned[mesh.component])[of_mesh], mesh.component[of_mesh]
+    whole = np.bincount(component, ~flipped, minlength=mesh.number) == 0
+    return np.unique(mesh.face[of_mesh][flipped & ~whole[component]]), np.flatnonzero(whole)
+
+
+def _is_physical(volume: Moments, checked: CheckedSurface) -> bool:
+    """Whether a body within the points' bounding box can have these moments: its center is inside, and its second
+    central moments are those of a positive mass. Where a surface intersects itself, they need not be."""
+    total = volume.raw[0]
+    if not total > 0.0:
+        return True  # an open surface's sum, which is reported as such
+    mean = volume.raw[1:4] / total
+    second = volume.raw[SECOND_MOMENT_INDEX] / total - np.outer(mean, mean)
+    rounding = 8.0 * (
+        volume.rounding_error[SECOND_MOMENT_INDEX].max() / total + np.finfo(float).eps * np.abs(second).max()
+    )
+    tolerance = 1e-6 * checked.size + volume.rounding_error[1:4].max() / total
+    center = volume.about + mean
+    low, high = checked.surface.box
+    inside = bool((low - tolerance <= center).all() and (center <= high + tolerance).all())
+    return bool(inside and np.linalg.eigvalsh(second)[0] >= -rounding)
+
+
+def _health(
+    checked: CheckedSurface,
+    planarity: Planarity,
+    oriented: OrientedSolid,
+    flipped: NDArray[np.integer],
+    inverted_count: int,
+    cap_share: float,
+) -> MeshReport:
+    """The report of the repair, completed, with edges in the input's vertices."""
+    report, vertices = oriented.mesh.report, checked.vertices
+    defects = report.defective_elements
+    edges = defects.boundary_edges, defects.non_manifold_edges, defects.inconsistent_edges
+    if vertices is not None:
+        edges = tuple(vertices[pairs] for pairs in edges)
+    return replace(
+        report,
+        **({} if oriented.comparison is None else oriented.comparison.counts()),
+        inverted_components=inverted_count,
+        degenerate_faces=len(planarity.degenerate_faces),
+        non_planar_faces=planarity.non_planar_count,
+        volume_spread=planarity.volume_ambiguity,
+        cap_area_share=cap_share,
+        defective_elements=DefectiveElements(
+            flipped, *edges, duplicate_faces=defects.duplicate_faces, degenerate_faces=planarity.degenerate_faces
+        ),
+    )
+
+
+def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
+    """The finding with edges in the input's vertices, where those of no face were left out before."""
+    edges = np.ndim(item.elements) == 2
+    return replace(item, elements=vertices[item.elements]) if edges and vertices is not None else item
+
+
+def _weld_finding(displacement: float, size: float, area: float, volume: float) -> Finding:
+    slight = displacement * area < NEGLIGIBLE * abs(volume)
+    return finding("vertices_welded_slightly" if slight else "vertices_welded", share=float(displacement / size))
+
+
+def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp]) -> Finding:
+    which = np.zeros(mesh.number, bool)
+    which[inverted] = True
+    faces = NO_FACES if which.all() else mesh.faces_of(which)
+    return finding("inverted_components", faces, count=len(inverted), total=int(mesh.number))
+
+
+def _cap_finding(checked: CheckedSurface, oriented: OrientedSolid, caps: NDArray[np.float64], share: float) -> Finding:
+    """About the capped holes of components that have a volume. caps: (3,) flat ones, curved ones, and their area;
+    share: of the surface's."""
+    mesh, vertices = oriented.mesh, checked.vertices
+    flat, curved = map(int, caps[:2])
+    edges = mesh.capped_edges[oriented.solid[mesh.capped_component]]
+    edges = unique_pairs(edges if vertices is None else vertices[edges])
+    if caps[2] * checked.size < NEGLIGIBLE * oriented.volume.total:  # all their moments together
+        return finding("holes_capped_slightly", edges, count=flat + curved, share=share)
+    return finding("holes_capped", edges, count=flat + curved, flat=flat, curved=curved, share=share)
+
+
+def _component_findings(mesh: RepairedMesh, comparison: ComponentComparison) -> list[Finding]:
+    """About components that are in others, go through others, or have no volume."""
+    findings, nested, crossing, solid = [], comparison.nested, comparison.intersecting, comparison.solid
+    flat = ~solid & ~mesh.open if solid.any() else np.zeros(mesh.number, bool)
+    if nested.any():
+        findings.append(finding("components_nested", mesh.faces_of(nested), count=int(nested.sum())))
+    if crossing.any():
+        findings.append(finding("components_overlap", mesh.faces_of(crossing), count=int(crossing.sum())))
+    if flat.any():
+        findings.append(finding("flat_components", mesh.faces_of(flat), count=int(flat.sum()), total=int(mesh.number)))
+    if comparison.undecided_pairs:
+        findings.append(finding("overlap_unchecked", count=int(comparison.undecided_pairs)))
+    return findings
+
+
+def _shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> list[Finding]:
+    """About a surface without a volume, and about faces whose diagonals make a difference."""
+    if not is_solid:
+        return [finding("flat_surface")]
+    total = volume.total
+    if not planarity.volume_ambiguity > MIN_REPORTED_AMBIGUITY * total > 0.0:
+        return []
+    share = float(planarity.volume_ambiguity / total)
+    return [finding("non_planar_faces_slightly" if share < NEGLIGIBLE else "non_planar_faces", share=share)]

@@ -1,0 +1,243 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The fourth stage of measuring a solid: how its components lie to each other, which of them are inside out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.bvh import SortedComponents, sort_components
+from ..mesh.surface import Surface
+from ..moments.moments import Moments, sum_moments
+from ..polyhedron import polyhedron_moments
+from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL
+from .nesting import ComponentRelations, cavity_host, classify_pairs, orient_nested_components
+from .parts import ClosedParts
+from .repaired_mesh import RepairedMesh
+from .triage import CheckedSurface, GivenIntegrals
+
+
+@dataclass(frozen=True, eq=False)
+class ComponentComparison:
+    """What comparing the components of a body came to.
+
+    Attributes
+    ----------
+    flipped : (c,) bool
+        Those to be turned.
+    solid : (c,) bool
+        Those with a volume.
+    nested, cavities, intersecting : (c,) bool
+        Outward ones in the material of others; inward ones in the material of others; and those that share a part of
+        their interiors with another one, or are a copy of it.
+    host : (c,) int
+        As `ClosedParts.host_part`.
+    undecided_pairs : int
+        Pairs that would have been too much work.
+    """
+
+    flipped: NDArray[np.bool_]
+    solid: NDArray[np.bool_]
+    nested: NDArray[np.bool_]
+    cavities: NDArray[np.bool_]
+    intersecting: NDArray[np.bool_]
+    host: NDArray[np.intp]
+    undecided_pairs: int
+
+    @classmethod
+    def from_relations(
+        cls, components: SortedComponents, relations: ComponentRelations, solid: NDArray[np.bool_]
+    ) -> ComponentComparison:
+        """Decide which components to turn, from how the solid ones lie to each other."""
+        flipped, nested, cavities = orient_nested_components(components, relations, solid)
+        intersecting = np.zeros(len(solid), bool)
+        intersecting[relations.intersecting] = True
+        host = cavity_host(relations, cavities)
+        return cls(flipped, solid, nested, cavities, intersecting, host, relations.undecided_pairs)
+
+    def counts(self) -> dict[str, int]:
+        """The entries of `MeshReport` that it tells."""
+        return {
+            "nested_components": int(self.nested.sum()),
+            "cavities": int(self.cavities.sum()),
+            "overlapping_components": int(self.intersecting.sum()),
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class OrientedSolid:
+    """A body whose components face as they count.
+
+    Attributes
+    ----------
+    mesh : RepairedMesh
+        As it was repaired.
+    is_proven : bool
+        Whether nothing had to be repaired, so that ``surface`` has the input's faces.
+    surface : Surface
+        The one whose signed sum is ``volume``: without flat parts, with caps.
+    volume : Moments
+        Not negative; of a flat body what rounding leaves, with either sign.
+    is_solid : bool
+        Whether anything has a volume.
+    solid : (c,) bool
+        The components that have one.
+    turned : (c,) bool
+        The components that had to be turned as a whole.
+    reversed : (c,) bool
+        The components whose triangles in ``mesh`` run against those in ``surface``.
+    comparison : ComponentComparison, optional
+        Where there are several components.
+    """
+
+    mesh: RepairedMesh
+    is_proven: bool
+    surface: Surface
+    volume: Moments
+    is_solid: bool
+    solid: NDArray[np.bool_]
+    turned: NDArray[np.bool_]
+    reversed: NDArray[np.bool_]
+    comparison: ComponentComparison | None
+
+    def closed_parts(self) -> ClosedParts:
+        """The triangles of ``surface`` by closed part."""
+        mesh = self.mesh
+        host = np.arange(mesh.number) if self.comparison is None else self.comparison.host
+        if self.is_proven:
+            triangles, face = self.surface.all_triangles()
+            part = np.zeros(len(face), np.intp)
+            if mesh.number > 1:
+                of_face = np.zeros(int(mesh.face.max()) + 1, np.intp)
+                of_face[mesh.face] = mesh.component
+                part = of_face[face]
+            return ClosedParts(self.surface.points, triangles, face, part, mesh.number, host)
+        included = np.ones(len(mesh.face), bool)
+        if self.comparison is not None:
+            included = (mesh.open | self.comparison.solid)[mesh.component]
+            included |= not included.any()
+        triangles = np.where(self.reversed[mesh.component][:, None], mesh.triangles[:, ::-1], mesh.triangles)
+        return ClosedParts(
+            mesh.points, triangles[included], mesh.face[included], mesh.component[included], mesh.number, host
+        )
+
+
+def orient_components(
+    checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, threads: int
+) -> OrientedSolid:
+    """Compare the components of a body, turn those that are inside out, and integrate what comes of it.
+
+    Parameters
+    ----------
+    checked : CheckedSurface
+    given : GivenIntegrals
+        Of the same surface; used again where nothing but caps was added.
+    mesh : RepairedMesh
+        ``given.proven``, or the surface repaired.
+    threads : int
+    """
+    is_proven, comparison, flipped = mesh is given.proven, None, np.zeros(mesh.number, bool)
+    surface, volume = checked.surface, given.volume
+    if mesh.number > 1:
+        comparison = compare_components(mesh, checked.tolerance, checked.error)
+        flipped = comparison.flipped
+    if comparison is not None or not is_proven:
+        counted = np.ones(1, bool) if comparison is None else comparison.solid
+        surface = _oriented_surface(surface, mesh, flipped, counted, is_proven)
+    if surface is not checked.surface:
+        volume = _integrate_oriented(checked.surface, given, mesh, flipped, surface, threads)
+    total, has_open = volume.total, bool(mesh.open.any())
+    if comparison is None:
+        threshold = _zero_volume_threshold(checked.size, given.area.total, mesh.caps.any(), checked.error)
+        is_solid = bool(abs(total) > max(threshold, volume.rounding_error[0]))
+        solid = np.full(mesh.number, is_solid)
+        # what is open has no inside
+        turned = np.full(mesh.number, is_solid and total < 0.0 and not has_open)
+    else:
+        solid, turned = comparison.solid, flipped
+        is_solid = bool(solid.any())
+    inside_out = total < 0.0 and (is_solid or has_open)
+    if inside_out:
+        volume = replace(volume, raw=-volume.raw)
+        surface = replace(surface, quads=surface.quads[:, [0, 3, 2, 1]], triangles=surface.triangles[:, ::-1])
+    return OrientedSolid(mesh, is_proven, surface, volume, is_solid, solid, turned, flipped ^ inside_out, comparison)
+
+
+def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> ComponentComparison:
+    """Find which components have a volume, and how those lie to each other.
+
+    Parameters
+    ----------
+    mesh : RepairedMesh
+        With its triangles.
+    tolerance : float
+        What counts as touching (unit).
+    error : float
+        How far storing the points may have moved them (unit).
+    """
+    components = sort_components(mesh.points, mesh.triangles, mesh.component, mesh.number)
+    size = np.linalg.norm(components.high - components.low, axis=1)
+    closed, capped = [_zero_volume_threshold(size, components.area, caps, error) for caps in (False, True)]
+    solid = ~mesh.open & (np.abs(components.volume) > np.where(mesh.caps.any(axis=1), capped, closed))
+    return ComponentComparison.from_relations(
+        components, classify_pairs(mesh.points, components, solid, tolerance), solid
+    )
+
+
+def _zero_volume_threshold(size: float, area: float, capped: bool, error: float) -> float:
+    """The volume that is none: what rounding leaves of a closed sheet, and what capping leaves of a flat one."""
+    return (FLAT_CAP_VOLUME_RTOL * size + 4.0 * error) * area if capped else CLOSED_SHEET_VOLUME_RTOL * size * area
+
+
+def _oriented_surface(
+    surface: Surface, mesh: RepairedMesh, flip: NDArray[np.bool_], solid: NDArray[np.bool_], proven: bool
+) -> Surface:
+    """The surface whose signed sum is the body's."""
+    flipped = mesh.flipped ^ flip[mesh.component]
+    included = (mesh.open | solid)[mesh.component]  # of flat parts only rounding would count
+    if not (mesh.topology_changed or flipped.any() or (mesh.face < 0).any()) and (included.all() or not included.any()):
+        return surface
+    if proven:
+        quads, triangles = surface.quads.copy(), surface.triangles.copy()
+        flipped_rows = flipped[: 2 * len(quads) : 2]
+        quads[flipped_rows] = quads[flipped_rows][:, [0, 3, 2, 1]]  # the first corner stays, and with it the diagonal
+        flipped_rows = flipped[2 * len(quads) :]
+        triangles[flipped_rows] = triangles[flipped_rows][:, ::-1]
+        return replace(surface, quads=quads, triangles=triangles)
+    triangles = mesh.triangles
+    if flip.any():
+        triangles = np.where(flip[mesh.component][:, None], triangles[:, ::-1], triangles)
+    displacement = surface.coordinate_error + mesh.max_displacement if mesh.max_displacement else surface.displacement
+    return Surface(mesh.points, triangles if included.all() else triangles[included], displacement=displacement)
+
+
+def _integrate_oriented(
+    surface: Surface,
+    given: GivenIntegrals,
+    mesh: RepairedMesh,
+    flip: NDArray[np.bool_],
+    measured: Surface,
+    threads: int,
+) -> Moments:
+    """The volume's moments of the surface that is measured, of its caps alone where the rest is as given."""
+    caps = _caps_only(surface, mesh, flip, measured)
+    about = None if caps is None else given.volume.about
+    volume = polyhedron_moments(caps or measured, area_order=0, about=about, threads=threads)[0]
+    return volume if caps is None else sum_moments([given.volume, volume])
+
+
+def _caps_only(surface: Surface, mesh: RepairedMesh, flip: NDArray[np.bool_], measured: Surface) -> Surface | None:
+    """The caps, where they are all by which `measured` differs from `surface`."""
+    caps = mesh.face < 0
+    if (
+        mesh.topology_changed
+        or not caps.any()
+        or len(measured.triangles) < len(mesh.triangles)
+        or mesh.flipped.any()
+        or flip.any()
+    ):
+        return None
+    return replace(measured, triangles=measured.triangles[caps])

@@ -1,0 +1,211 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The mesh that the steps of a repair hand on to each other. No step changes the one it was given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.edges import Edges
+from ..verdict.finding import Finding
+from ..verdict.health import MeshReport
+
+NO_EDGES = np.empty((0, 2), np.intp)
+NO_INDICES = np.empty(0, np.intp)
+
+
+@dataclass(frozen=True, eq=False)
+class OpenParts:
+    """What welding may touch: the connected parts that are not closed.
+
+    Attributes
+    ----------
+    rows : (k,) int
+        Their triangles with three different vertices.
+    vertices : (v,) int
+        Sorted, the vertices along their open edges, or all of theirs where no edge is known.
+    are_all : bool
+        Whether no other triangle has three different vertices.
+    """
+
+    rows: NDArray[np.intp]
+    vertices: NDArray[np.intp]
+    are_all: bool
+
+
+@dataclass(frozen=True, eq=False)
+class ZeroAreaLoops:
+    """Boundary loops without area (T-junctions): there the surface closes in space, though not in the mesh.
+
+    Attributes
+    ----------
+    sides, loop : (k,) int
+        Their sides, and the loop of each, 0 to ``number`` - 1.
+    first, second : (l,) int
+        Sides that are joined.
+    misoriented : (l,) bool
+        Whether the faces at such a joint disagree.
+    """
+
+    sides: NDArray[np.intp]
+    loop: NDArray[np.intp]
+    number: int
+    first: NDArray[np.intp]
+    second: NDArray[np.intp]
+    misoriented: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class FoldedLoops:
+    """What components with edges of three faces or more leave over, where that is loops without area.
+
+    Attributes
+    ----------
+    components : (c,) bool
+        Those that close after all.
+    sides : (k,) int
+        A side on each edge that they leave over.
+    caps : (k, 3) int
+        The triangle that closes it.
+    number : int
+        Of such loops.
+    """
+
+    components: NDArray[np.bool_]
+    sides: NDArray[np.intp]
+    caps: NDArray[np.intp]
+    number: int
+
+
+@dataclass(frozen=True, eq=False)
+class RepairState:
+    """What earlier steps know and later ones need; dropped when the repair is done.
+
+    Attributes
+    ----------
+    given : (t, 3) int
+        The triangles over the input's vertices. Side 3t + i runs from corner i of triangle t to the next one.
+    edges : Edges, optional
+        Of the triangles with three different vertices, where they are known.
+    component_edges : Edges, optional
+        The same with vertices of its own for each component.
+    open_parts : OpenParts, optional
+        None where nothing is left to weld.
+    gaps : ZeroAreaLoops, optional
+    folded : FoldedLoops, optional
+    one_sided : (c,) bool, optional
+        The components in which faces cannot agree, as on a Möbius strip.
+    uncapped_sides : (k,) int
+        Boundary sides that bound no gap, of components that may still be closed.
+    """
+
+    given: NDArray[np.intp]
+    edges: Edges | None = None
+    component_edges: Edges | None = None
+    open_parts: OpenParts | None = None
+    gaps: ZeroAreaLoops | None = None
+    folded: FoldedLoops | None = None
+    one_sided: NDArray[np.bool_] | None = None
+    uncapped_sides: NDArray[np.intp] = field(default_factory=NO_INDICES.view)
+
+
+@dataclass(frozen=True, eq=False)
+class RepairedMesh:
+    """A surface as triangles, repaired as far as the steps have come.
+
+    Attributes
+    ----------
+    points : (n, 3) float32 or float64
+        In the input's type and unit.
+    triangles : (t, 3) int
+        In the end all face as ``flipped`` says, caps last.
+    face : (t,) int
+        The mesh face of each triangle, -1 for caps.
+    flipped : (t,) bool
+        Which triangles are, or are to be, reversed.
+    component : (t,) int
+        0 to ``number`` - 1.
+    open : (number,) bool
+        Components that cannot be closed.
+    caps : (number, 3) float
+        Of each component how many flat caps and curved caps it has, and their area (unit²).
+    report : MeshReport
+        What the input is like, as far as the steps have seen it. Its edges are pairs of the surface's vertices.
+    topology_changed : bool
+        Whether the triangles, apart from their direction and from caps, are not simply the input's.
+    max_displacement : float
+        How far welding has moved a vertex at most (unit).
+    capped_edges, capped_component : (k, 2) int and (k,) int
+        The boundary edges of capped holes, and the component of each.
+    findings : tuple of Finding
+        What was decided, but for welding and caps, whose effect depends on the volume.
+    state : RepairState, optional
+        None before the first step and after the last.
+    """
+
+    points: NDArray[np.floating]
+    triangles: NDArray[np.integer]
+    face: NDArray[np.integer]
+    flipped: NDArray[np.bool_]
+    component: NDArray[np.intp]
+    number: int
+    open: NDArray[np.bool_]
+    caps: NDArray[np.float64]
+    report: MeshReport
+    topology_changed: bool = False
+    max_displacement: float = 0.0
+    capped_edges: NDArray[np.intp] = field(default_factory=NO_EDGES.view)
+    capped_component: NDArray[np.intp] = field(default_factory=NO_INDICES.view)
+    findings: tuple[Finding, ...] = ()
+    state: RepairState | None = None
+
+    def with_state(self, **changes: Any) -> RepairedMesh:
+        """The same mesh, with more known for later steps."""
+        return replace(self, state=replace(self.state, **changes))
+
+    def with_report(self, *, elements: dict[str, NDArray[np.integer]] | None = None, **counts: Any) -> RepairedMesh:
+        """The same mesh, with entries of its report replaced. elements: of its `DefectiveElements`."""
+        if elements:
+            counts["defective_elements"] = replace(self.report.defective_elements, **elements)
+        return replace(self, report=replace(self.report, **counts))
+
+    def with_findings(self, *findings: Finding) -> RepairedMesh:
+        """The same mesh, with more findings."""
+        return replace(self, findings=(*self.findings, *findings))
+
+    def with_rows(self, rows: NDArray[np.integer]) -> RepairedMesh:
+        """The mesh of some of the triangles alone. Their edges are not known."""
+        return replace(
+            self,
+            triangles=self.triangles[rows],
+            face=self.face[rows],
+            flipped=self.flipped[rows],
+            component=self.component[rows],
+            state=replace(self.state, given=self.state.given[rows], edges=None),
+        )
+
+    def with_caps(self, caps: NDArray[np.integer], owner: NDArray[np.integer]) -> RepairedMesh:
+        """The mesh with more triangles, but for those without area. owner: (k,) a triangle of each one's component."""
+        useful = has_distinct_vertices(caps)
+        caps, owner = caps[useful], owner[useful]
+        return replace(
+            self,
+            triangles=np.concatenate([self.triangles, caps]),
+            face=np.concatenate([self.face, np.full(len(caps), -1)]),
+            flipped=np.concatenate([self.flipped, np.zeros(len(caps), bool)]),
+            component=np.concatenate([self.component, self.component[owner]]),
+        )
+
+    def faces_of(self, components: NDArray[np.bool_]) -> NDArray[np.integer]:
+        """The mesh faces of some components, sorted."""
+        return np.unique(self.face[components[self.component] & (self.face >= 0)])
+
+
+def has_distinct_vertices(triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """(m,) which triangles have three different vertices; the others have no boundary and no area."""
+    a, b, c = triangles.T
+    return (a != b) & (b != c) & (c != a)

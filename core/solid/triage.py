@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The first stages of measuring a solid: is there something to measure, and do its own edges prove it closed?"""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.edges import closed_side_faces, face_of_each
+from ..mesh.planarity import Planarity, PlanarityAccumulator
+from ..mesh.surface import Surface, indices_in_range
+from ..moments.moments import Moments
+from ..numerics.graph import connected_components
+from ..polyhedron import polyhedron_moments, third_order
+from ..verdict.finding import MeasureError
+from ..verdict.health import MeshReport
+from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
+from .repaired_mesh import RepairedMesh
+
+
+@dataclass(frozen=True, eq=False)
+class CheckedSurface:
+    """A surface that can be measured.
+
+    Attributes
+    ----------
+    surface : Surface
+        Without the vertices that no face uses.
+    vertices : (n,) int, optional
+        The input's number of each vertex; None where all are used.
+    size : float
+        The diagonal of the bounding box (unit).
+    error : float
+        How far storing the points may have moved them (unit).
+    tolerance : float
+        What counts as touching (unit).
+    """
+
+    surface: Surface
+    vertices: NDArray[np.intp] | None
+    size: float
+    error: float
+    tolerance: float
+
+
+@dataclass(frozen=True, eq=False)
+class GivenIntegrals:
+    """What the faces come to as they are given.
+
+    Attributes
+    ----------
+    volume : Moments
+        To order 3: the signed sum over the faces.
+    area : Moments
+        The input's: without caps, with what a repair leaves out and with flat parts.
+    planarity : Planarity
+        How flat the faces are.
+    proven : RepairedMesh, optional
+        The mesh where its own edges prove it closed and oriented; None where they do not.
+    """
+
+    volume: Moments
+    area: Moments
+    planarity: Planarity
+    proven: RepairedMesh | None
+
+
+def check_surface(surface: Surface) -> CheckedSurface:
+    """Check that a surface can be measured, and leave out vertices that no face uses.
+
+    Raises
+    ------
+    MeasureError
+        Where there are no faces, faces name vertices that do not exist, or positions are not finite, or too large or
+        too small for their powers to be numbers.
+    """
+    faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
+    if not faces:
+        raise MeasureError("no_faces")
+    total = len(surface.points)
+    if not all([indices_in_range(corners, total) for corners in faces]):
+        raise MeasureError("invalid_faces")
+    used = np.zeros(total, bool)
+    for column in (0, 2, 1, 3):  # opposite corners first: they reach most vertices
+        for corners in faces:
+            if column < corners.shape[1]:
+                used[corners[:, column].astype(np.intp)] = True
+        if used.all():
+            break
+    vertices = None
+    if not used.all():
+        vertices = np.flatnonzero(used)
+        number = np.cumsum(used) - 1
+        surface = replace(
+            surface,
+            points=surface.points[used],
+            triangles=number[surface.triangles],
+            quads=number[surface.quads],
+            corner_vertices=None if surface.corner_vertices is None else number[surface.corner_vertices],
+        )
+    low, high = surface.box
+    with np.errstate(invalid="ignore", over="ignore"):
+        size = float(np.linalg.norm(high - low))
+    if not np.isfinite(size):
+        misplaced = np.flatnonzero(~np.isfinite(surface.points).all(axis=1))
+        if len(misplaced):
+            elements = misplaced if vertices is None else vertices[misplaced]
+            raise MeasureError("non_finite_vertices", elements=elements, count=len(misplaced), total=total)
+    if not max(size, float(np.abs([low, high]).max())) < MAX_COORDINATE:
+        raise MeasureError("object_too_large")
+    if 0.0 < size < MIN_SIZE:
+        raise MeasureError("object_too_small")
+    error = float(np.linalg.norm(surface.coordinate_error))
+    return CheckedSurface(surface, vertices, size, error, tolerance=max(WELDING_RTOL * size, 4.0 * error))
+
+
+def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> GivenIntegrals:
+    """Integrate over the faces as they are given, and look whether their edges prove the surface closed.
+
+    Sums and proof run side by side where that is worth a thread.
+
+    Parameters
+    ----------
+    checked : CheckedSurface
+    shell : bool
+        Whether the area's moments are wanted to order 3; else to order 0.
+    threads : int
+    """
+    surface, options = checked.surface, {"area_order": 3 if shell else 0, "threads": threads}
+    accumulator = PlanarityAccumulator(surface, checked.error)
+    if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // third_order.MIN_TRIANGLES_PER_THREAD) > 1:
+        with ThreadPoolExecutor(1) as pool:
+            waiting = pool.submit(prove_closed, surface)
+            volume, area = polyhedron_moments(surface, planarity=accumulator, **options)
+        proven = waiting.result()
+    else:
+        volume, area = polyhedron_moments(surface, planarity=accumulator, **options)
+        proven = prove_closed(surface)
+    return GivenIntegrals(volume, area, accumulator.planarity(), proven)
+
+
+def prove_closed(surface: Surface) -> RepairedMesh | None:
+    """Give the mesh in need of no repair where its own edges prove it closed and oriented; else None.
+
+    The triangles of a single component are left out: nothing asks for them.
+    """
+    sides = closed_side_faces(surface)
+    if sides is None:
+        return None
+    component, component_count = connected_components(int(sides.max()) + 1, *sides)
+    triangles, face = surface.triangles[:0], component[:0]
+    if component_count > 1:
+        quad_faces, triangle_faces = face_of_each(surface)
+        triangles = np.concatenate([surface.quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3), surface.triangles])
+        face = np.concatenate([np.repeat(quad_faces, 2), triangle_faces])
+    return RepairedMesh(
+        surface.points,
+        triangles,
+        face,
+        np.zeros(len(face), bool),
+        component[face],
+        component_count,
+        np.zeros(component_count, bool),
+        np.zeros((component_count, 3)),
+        report=MeshReport(closed=True, components=component_count),
+    )

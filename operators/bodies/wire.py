@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curve objects as wires: from control points, not polygons."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.moments.moments import FLOAT32_HALF_ULP, Measure, Moments, monomial_count, monomials
+from ...core.nurbs.curve import Curve
+from ...core.nurbs.curve_moments import length_moments
+from ...core.verdict.finding import ReadError
+from ...core.verdict.health import MeshReport
+from ...core.verdict.method import Method, Verdict
+from ..read import Reading, read_lines
+from .body import Body
+from .request import Request
+
+MEASURED_AS = frozenset({"wire"})
+
+DEGREE = monomials(3).sum(axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class WireBody(Body):
+    """Curves as a wire, without volume or area."""
+
+    any_order: ClassVar[bool] = True
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
+        """Return that there is no volume and no area, to any order."""
+        nothing = np.zeros(monomial_count(order))
+        about = self.volume.about
+        return Moments(nothing, about, Measure.VOLUME), Moments(nothing, about, Measure.AREA)
+
+    def third_order(self) -> Moments:
+        """Return the length's moments."""
+        return self.length
+
+
+def read(request: Request) -> Reading:
+    """Return the curves of an object that is to be measured as a wire. Raises MeasureError for what has none."""
+    return read_lines(request.obj, request.depsgraph)
+
+
+def body(reading: Reading, request: Request) -> Body:
+    """Return the curves as a wire. Raises MeasureError where they have no length."""
+    curves, stored = curves_in_world(reading.curves, reading.matrix, request.unit)
+    length = length_moments(curves)
+    if not length.total > 0.0:
+        raise ReadError("no_length")
+    nothing = Moments(np.zeros(monomial_count(3)), length.about, Measure.VOLUME)
+    # a length moves by as much as its ends, and by its turning as much again: an estimate for smooth curves
+    reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
+    moved = stored * (2.0 * len(curves) + 8.0 * length.total / max(reach, 1e-300)) * reach**DEGREE
+    return WireBody(
+        nothing,
+        Moments(nothing.raw, length.about, Measure.AREA),
+        MeshReport(closed=all(np.allclose(*curve.samples(1)[[0, -1]]) for curve in curves), components=len(curves)),
+        Method(Verdict.WIRE),
+        (),
+        length=replace(length, input_error=moved),
+        estimated=True,
+    )
+
+
+def curves_in_world(curves: list[Curve], matrix: NDArray[np.float64], unit: float) -> tuple[list[Curve], float]:
+    """Return the curves in the world, m, and by how much storing their points as float32 may have moved them.
+
+    Parameters
+    ----------
+    matrix : (4, 4) array
+        World from their coordinates, Blender units.
+    unit : float
+        Metres per Blender unit.
+    """
+    largest = max(float(np.abs(curve.points).max()) for curve in curves)
+    scaled = np.array(matrix, np.float64)
+    scaled[:3] *= unit
+    stored = 2.0 * FLOAT32_HALF_ULP * largest * float(np.linalg.norm(scaled[:3, :3], 2))
+    return [curve.transform(scaled) for curve in curves], stored

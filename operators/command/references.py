@@ -1,0 +1,100 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What files refer to and is not there, and which of their scripts did not run: Blender opens the rest, and says so on
+the standard error at most.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+
+import bpy
+
+from ...core.verdict.finding import Finding, finding
+
+# As stage.cpp reports each error of composing a stage: "… -- In </A>: Could not open asset @file@ for reference …".
+_REPORT = re.compile(r"_ReportErrors at line \d+ of \S*stage\.cpp -- (.*)")
+_ASSET = re.compile(r"@([^@]+)@(<[^>]*>)?")
+
+
+def unresolved_references(import_file: Callable[[], object]) -> list[str]:
+    """Import a file, and return the names of the layers, references and payloads that were not found. What is printed
+    on the standard error meanwhile appears there afterwards.
+    """
+    sys.stderr.flush()
+    try:
+        standard_error = os.dup(2)
+    except OSError:  # it is closed
+        import_file()
+        return []
+    with tempfile.TemporaryFile() as printed:
+        os.dup2(printed.fileno(), 2)
+        try:
+            import_file()
+        finally:
+            sys.stderr.flush()
+            os.dup2(standard_error, 2)
+            os.close(standard_error)
+            printed.seek(0)
+            text = printed.read()
+            with open(2, "wb", closefd=False) as again:
+                again.write(text)
+    return names_in(text.decode("utf-8", "replace"))
+
+
+def names_in(printed: str) -> list[str]:
+    """What USD's reports are about, each once: a file, of a prim that is missing in one its path too."""
+    names = {}
+    for report in _REPORT.findall(printed):
+        asset = _ASSET.search(report)
+        names["".join(part or "" for part in asset.groups()) if asset else report] = None
+    return sorted(names)
+
+
+def missing_links() -> Iterator[Finding]:
+    """Where Blender opened a file but not what it links to, in whose place it puts empty data, or not the caches that
+    its modifiers read.
+    """
+    data = bpy.data
+    groups = (data.objects, data.meshes, data.curves, data.metaballs, data.collections)
+    missing = {item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing}
+    missing |= {path for path in _cache_paths() if not os.path.exists(path)}
+    if missing:
+        yield finding("missing_links", names=sorted(missing))
+
+
+def _cache_paths() -> Iterator[str]:
+    """The files that modifiers of the scene's objects read their points from."""
+    for obj in bpy.context.scene.objects:
+        for modifier in obj.modifiers:
+            if not modifier.show_viewport:
+                continue
+            if modifier.type == "MESH_CACHE" and modifier.filepath:
+                yield bpy.path.abspath(modifier.filepath, library=obj.library)
+            elif modifier.type == "MESH_SEQUENCE_CACHE" and modifier.cache_file and not modifier.cache_file.is_sequence:
+                yield bpy.path.abspath(modifier.cache_file.filepath, library=modifier.cache_file.library)
+
+
+def blocked_scripts() -> Iterator[Finding]:
+    """Where the file that is open has scripts that did not run: drivers leave what was saved, or 0."""
+    bpy.context.evaluated_depsgraph_get()  # drivers are looked at there
+    if not bpy.app.autoexec_fail:
+        return
+    blocked = sorted({driver.expression for driver in _drivers() if not driver.is_valid and driver.type == "SCRIPTED"})
+    if blocked:
+        yield finding("driver_blocked", drivers=blocked)
+    else:
+        yield finding("script_blocked", script=bpy.app.autoexec_fail_message)
+
+
+def _drivers() -> Iterator[bpy.types.Driver]:
+    """Those of all data that can have drivers, but for what is embedded in other data, such as nodes of materials."""
+    for prop in bpy.data.bl_rna.properties:
+        if prop.type == "COLLECTION":
+            for item in getattr(bpy.data, prop.identifier):
+                for curve in getattr(getattr(item, "animation_data", None), "drivers", ()):
+                    yield curve.driver

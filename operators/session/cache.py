@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is remembered of objects while a file is open: in memory only, by session uid, gone with the file.
+
+Blender gives every data-block a uid that lasts as long as it is loaded, through renaming, undo and redo, and that no
+other one gets later. All caches are emptied together, by `handlers`, when a file is loaded and when the add-on is
+unregistered.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Iterator
+from typing import Generic, TypeVar
+from weakref import WeakSet
+
+from bpy.types import ID
+
+Value = TypeVar("Value")
+
+_caches: WeakSet[SessionCache] = WeakSet()
+
+
+class SessionCache(Generic[Value]):
+    """One value for each data-block; iterated over, the values.
+
+    Parameters
+    ----------
+    max_size : int, optional
+        How many values are kept: beyond it, the one not used for longest is forgotten. By default all are kept, for
+        what must not be forgotten, such as that an object was edited.
+    """
+
+    def __init__(self, max_size: int | None = None) -> None:
+        self.max_size = max_size
+        self._values: OrderedDict[int, Value] = OrderedDict()  # by session uid, the last one used last
+        _caches.add(self)
+
+    def get(self, data: ID, default: Value | None = None) -> Value | None:
+        """Return what is remembered of a data-block, or the default.
+
+        Parameters
+        ----------
+        data : bpy.types.ID
+            An object or any other original data-block.
+        default : optional
+            What is returned where nothing is remembered.
+
+        Returns
+        -------
+        object
+            The value, or `default`.
+        """
+        uid = data.session_uid
+        if uid not in self._values:
+            return default
+        self._values.move_to_end(uid)
+        return self._values[uid]
+
+    def __setitem__(self, data: ID, value: Value) -> None:
+        uid = data.session_uid
+        self._values[uid] = value
+        self._values.move_to_end(uid)
+        if self.max_size is not None and len(self._values) > self.max_size:
+            self._values.popitem(last=False)
+
+    def __contains__(self, data: ID) -> bool:
+        return data.session_uid in self._values
+
+    def __iter__(self) -> Iterator[Value]:
+        return iter(tuple(self._values.values()))
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def forget(self, data: ID) -> None:
+        """Forget what is remembered of a data-block, if anything.
+
+        Parameters
+        ----------
+        data : bpy.types.ID
+            An object or any other original data-block.
+        """
+        self._values.pop(data.session_uid, None)
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._values.clear()
+
+
+def clear_all() -> None:
+    """Empty every cache: what they are about is not loaded any more."""
+    for cache in _caches:
+        cache.clear()

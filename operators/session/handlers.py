@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Blender reports while a file is open, heard once, and passed on to all of the session.
+
+These are the add-on's only application handlers. Who wants to know appends a plain function to one of the lists below
+when it is registered, and removes it when it is unregistered. A subscriber never writes data while Blender evaluates:
+that would be reported as the next change. Only before a file is saved may it write, and what it writes is saved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+
+import bpy
+from bpy.app.handlers import persistent
+from bpy.types import Collection, Depsgraph, Object, Scene
+
+from . import cache
+
+
+@dataclass(frozen=True, eq=False)
+class Updates:
+    """What the window's dependency graph has evaluated anew.
+
+    Attributes
+    ----------
+    scene : bpy.types.Scene
+        The scene that was evaluated.
+    depsgraph : bpy.types.Depsgraph
+        The evaluated dependency graph.
+    reshaped, moved : sequence of bpy.types.Object
+        Original objects with new geometry, and those of which only the transform is new.
+    collections : set of bpy.types.Collection
+        Original collections of which something is new.
+    """
+
+    scene: Scene
+    depsgraph: Depsgraph
+    reshaped: Sequence[Object]
+    moved: Sequence[Object]
+    collections: set[Collection]
+
+
+on_update: list[Callable[[Updates], None]] = []
+on_undo: list[Callable[[], None]] = []  # undo and redo: before the update that follows them
+on_load: list[Callable[[], None]] = []  # after all caches were emptied
+on_save: list[Callable[[], None]] = []
+
+_generation = 0
+
+
+def generation() -> int:
+    """Return a number that grows with every change: what was computed under an older one may be wrong.
+
+    Returns
+    -------
+    int
+        How many changes there were since Blender was started.
+    """
+    return _generation
+
+
+def count_change() -> None:
+    """Count a change that Blender does not report, such as of what is noted about an object."""
+    global _generation
+    _generation += 1
+
+
+def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
+    # All of them, in their order, even where one fails: its error is raised when the others were called.
+    with ExitStack() as calls:
+        for subscriber in reversed(subscribers):
+            calls.callback(subscriber, *args)
+
+
+def _updates(scene: Scene, depsgraph: Depsgraph) -> Updates:
+    reshaped: list[Object] = []
+    moved: list[Object] = []
+    collections: set[Collection] = set()
+    for update in depsgraph.updates:
+        data = update.id
+        if isinstance(data, Object):
+            if update.is_updated_geometry:
+                reshaped.append(data.original)
+            elif update.is_updated_transform:
+                moved.append(data.original)
+        elif isinstance(data, Collection) and update.is_updated_geometry:
+            collections.add(data.original)
+    return Updates(scene, depsgraph, reshaped, moved, collections)
+
+
+@persistent
+def _on_update(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
+    count_change()
+    if depsgraph is not None and depsgraph.mode == "VIEWPORT":
+        _call(on_update, _updates(scene, depsgraph))
+
+
+@persistent
+def _on_undo(*_args) -> None:
+    count_change()
+    _call(on_undo)
+
+
+@persistent
+def _on_load(*_args) -> None:
+    count_change()
+    cache.clear_all()
+    _call(on_load)
+
+
+@persistent
+def _on_save(*_args) -> None:
+    _call(on_save)
+
+
+HANDLERS = (
+    ("depsgraph_update_post", _on_update),
+    ("frame_change_post", _on_update),
+    ("undo_post", _on_undo),
+    ("redo_post", _on_undo),
+    ("load_post", _on_load),
+    ("save_pre", _on_save),
+)
+
+
+def register() -> None:
+    """Listen to Blender."""
+    for name, function in HANDLERS:
+        getattr(bpy.app.handlers, name).append(function)
+
+
+def unregister() -> None:
+    """Listen no more, and forget what was remembered."""
+    for name, function in reversed(HANDLERS):
+        functions = getattr(bpy.app.handlers, name)
+        if function in functions:  # scripts and other add-ons may empty these lists
+            functions.remove(function)
+    cache.clear_all()

@@ -1,0 +1,216 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The stages of measuring a solid, each on what the one before hands on, and the steps of a repair."""
+
+import pickle
+from dataclasses import fields, is_dataclass, replace
+
+import numpy as np
+import pytest
+from body_moments.core.moments.moments import Moments
+from body_moments.core.nurbs.solid import PatchIntegrals
+from body_moments.core.solid.judgement import SolidIntegrals, judge
+from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.orientation import orient_components
+from body_moments.core.solid.repair import STEPS, repair_surface
+from body_moments.core.solid.triage import check_surface, integrate_and_prove, prove_closed
+from body_moments.core.solid.weld_open_parts import split_into_triangles
+from body_moments.core.verdict.method import Verdict
+
+from tests.core.bodies import (
+    SIDES,
+    TOP,
+    box,
+    inverted,
+    joined,
+    mesh,
+    moebius,
+    moved,
+    soup,
+    surface,
+    torus,
+    with_flipped,
+    without,
+)
+
+CUBE = box()
+OUTER, INNER = box((-2, -2, -2), (2, 2, 2)), box((-1, -1, -1), (1, 1, 1))
+
+
+def cracked():
+    """A cube whose top has vertices of its own, off by rounding."""
+    top = CUBE[0], CUBE[1][list(TOP)]
+    return joined(without(CUBE, *TOP), moved(top, offset=(1e-8, -1e-8, 1e-8)))
+
+
+def doubled():
+    points, triangles = CUBE
+    return points, np.concatenate([triangles, triangles[3:4]])
+
+
+BROKEN = {
+    "closed": CUBE,
+    "soup": soup(torus()),
+    "cracked": cracked(),
+    "holes": joined(without(CUBE, *TOP), moved(without(CUBE, 0), offset=(5, 0, 0))),
+    "flipped": with_flipped(CUBE, 2),
+    "doubled": doubled(),
+    "nested": joined(OUTER, INNER),
+    "inverted": inverted(CUBE),
+    "one-sided": moebius(),
+    "collapsed": (CUBE[0], np.concatenate([CUBE[1], [[0, 0, 1]]])),
+    "nothing": (CUBE[0][:3], np.array([[0, 0, 1], [1, 2, 2]])),
+}
+
+
+def arrays(value, place=""):
+    """Every array that plain data holds, with its place."""
+    if isinstance(value, np.ndarray):
+        yield place, value
+    elif is_dataclass(value):
+        for field in fields(value):
+            yield from arrays(getattr(value, field.name), place + "." + field.name)
+    elif isinstance(value, tuple):
+        for number, item in enumerate(value):
+            yield from arrays(item, "{}[{}]".format(place, number))
+
+
+def staged(part, dtype=np.float64):
+    """A body as the stages hand it on: checked, given, repaired, oriented."""
+    checked = check_surface(surface(part, dtype))
+    given = integrate_and_prove(checked, False, 1)
+    body = given.proven or repair_surface(checked.surface, checked.tolerance)
+    return checked, given, body, orient_components(checked, given, body, 1)
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_no_step_changes_the_mesh_it_is_given_and_each_keeps_what_was_found_before(name):
+    checked = check_surface(surface(BROKEN[name]))
+    body = split_into_triangles(checked.surface)
+    for step in STEPS:
+        if not len(body.triangles):
+            break
+        before = {place: (array.copy(), array) for place, array in arrays(body)}
+        findings, report = list(body.findings), body.report.as_record()
+        for _, array in before.values():
+            array.flags.writeable = False
+        result = step(body, checked.tolerance)
+        assert all(np.array_equal(kept, now) for kept, now in before.values())
+        assert list(result.findings[: len(findings)]) == findings == list(body.findings)
+        assert body.report.as_record() == report
+        assert len(result.triangles) == len(result.face) == len(result.flipped) == len(result.component)
+        body = result
+    whole = repair_surface(checked.surface, checked.tolerance)
+    assert whole.state is None and whole.findings == body.findings
+    assert whole.report.as_record() == body.report.as_record()
+    np.testing.assert_array_equal(whole.triangles, body.triangles)
+
+
+def after(part, last, skip=()):
+    """The mesh after the named step."""
+    checked = check_surface(surface(part))
+    body = split_into_triangles(checked.surface)
+    for step in STEPS:
+        if step.__name__ not in skip:
+            body = step(body, checked.tolerance)
+        if step.__name__ == last:
+            return body
+    raise AssertionError(last)
+
+
+def test_welding_takes_equal_positions_first_and_near_ones_only_along_what_is_still_open():
+    body = after(soup(CUBE), "weld_equal_positions")
+    assert body.state.open_parts is None and len(np.unique(body.triangles)) == 8
+    assert body.report.welded and body.max_displacement == 0.0 and not body.topology_changed
+    body = after(cracked(), "weld_equal_positions")
+    assert not body.report.welded and len(body.state.open_parts.vertices) == 8
+    body = after(cracked(), "weld_near_positions")
+    assert body.report.welded and body.topology_changed and len(np.unique(body.triangles)) == 8
+    assert body.max_displacement == pytest.approx(3**0.5 * 1e-8, rel=1e-6)
+    checked = check_surface(surface(CUBE))
+    closed = split_into_triangles(checked.surface)
+    assert STEPS[0](closed, 1.0) is closed and STEPS[1](closed, 1.0) is closed
+
+
+def test_without_welding_near_positions_a_crack_is_two_holes():
+    checked = check_surface(surface(cracked()))
+    body = repair_surface(checked.surface, checked.tolerance, weld_near=False)
+    assert not body.report.welded and body.max_displacement == 0.0 and body.report.boundary_edges == 8
+
+
+def test_a_hole_is_capped_by_the_last_steps_and_the_faces_are_turned_after_that():
+    part = with_flipped(without(CUBE, *TOP), 2)
+    body = after(part, "close_gaps")
+    assert len(body.state.uncapped_sides) == 4 == body.report.boundary_edges and not body.caps.any()
+    capped = after(part, "cap_holes")
+    np.testing.assert_allclose(capped.caps, [[1.0, 0.0, 1.0]], rtol=1e-15)
+    assert len(capped.capped_edges) == 4 == np.count_nonzero(capped.face < 0)
+    assert capped.triangles[2].tolist() == part[1][2].tolist() and capped.flipped.tolist().index(True) == 2
+    turned = after(part, "turn_faces")
+    assert turned.triangles[2].tolist() == part[1][2].tolist()[::-1]
+    assert not turned.report.closed and repair_surface(surface(CUBE), 1e-6).report.closed
+
+
+def test_only_what_a_meshs_own_edges_prove_is_left_as_it_is():
+    quads = SIDES.tolist()
+    proven = prove_closed(mesh(CUBE[0], quads))
+    assert proven.number == 1 and proven.report.closed and not len(proven.triangles)
+    assert (
+        prove_closed(mesh(CUBE[0], quads[1:])) is None
+        and prove_closed(mesh(CUBE[0], [quads[0][::-1], *quads[1:]])) is None
+    )
+    two = prove_closed(mesh(np.concatenate([CUBE[0], CUBE[0] + 3.0]), quads + (SIDES + 8).tolist()))
+    assert two.number == 2 and len(two.triangles) == 24 and np.bincount(two.component).tolist() == [12, 12]
+
+
+@pytest.mark.parametrize(
+    "part, turned, against, number",
+    [
+        (CUBE, [False], [False], 1),
+        (inverted(CUBE), [True], [True], 1),
+        (joined(OUTER, inverted(INNER)), [False] * 2, [False] * 2, 2),
+        (inverted(joined(OUTER, inverted(INNER))), [True, True], [True, True], 2),
+    ],
+)
+def test_what_is_inside_out_is_turned_and_its_volume_is_positive(part, turned, against, number):
+    *_, oriented = staged(part)
+    assert oriented.turned.tolist() == turned and oriented.reversed.tolist() == against
+    assert (oriented.comparison is None) == (number == 1)
+    parts = oriented.closed_parts()
+    a, b, c = (parts.points[parts.triangles[:, k]] for k in range(3))
+    volume = np.linalg.det(np.stack([a, b, c], axis=1)).sum() / 6.0
+    assert oriented.volume.total == pytest.approx(volume, rel=1e-14) and volume > 0.0
+
+
+def test_the_verdict_follows_from_what_the_stages_hand_on():
+    checked, given, body, oriented = staged(CUBE)
+    assert judge(checked, given, oriented).method is Verdict.EXACT
+    capped = replace(oriented, mesh=replace(body, caps=np.array([[1.0, 0.0, 0.5]])))
+    result = judge(checked, given, capped)
+    assert result.method is Verdict.CAPPED and result.health.cap_area_share == pytest.approx(0.5 / 6.0, rel=1e-14)
+    turned = replace(oriented, turned=np.ones(1, bool))
+    assert judge(checked, given, turned).method is Verdict.REORIENTED
+    unclosed = replace(oriented, mesh=replace(body, open=np.ones(1, bool)))
+    assert judge(checked, given, unclosed).method is Verdict.OPEN
+    about = oriented.volume.about
+    outside = oriented.volume.about_point(about - [0.6, 0.0, 0.0]).raw  # the center would be outside of the box
+    negative = oriented.volume.raw * np.where(np.arange(20) == 4, -1.0, 1.0)
+    for raw in (outside, negative):
+        impossible = judge(checked, given, replace(oriented, volume=Moments(raw, about)))
+        assert impossible.method is Verdict.OPEN
+        assert [item.code for item in impossible.findings] == ["self_intersecting"]
+    flat = judge(checked, given, replace(oriented, is_solid=False, solid=np.zeros(1, bool)))
+    assert flat.method is Verdict.OPEN and not flat.volume.raw.any() and flat.volume.rounding_error[0] >= 1.0
+    assert [item.code for item in flat.findings] == ["flat_surface"]
+
+
+@pytest.mark.parametrize("name", ["closed", "holes", "nested"])
+def test_results_are_plain_data(name):
+    result = measure_solid(surface(BROKEN[name]))
+    copy = pickle.loads(pickle.dumps(result))
+    assert type(copy.method) is Verdict and copy.method == str(result.method)
+    parts, same = result.parts(), copy.parts()
+    np.testing.assert_array_equal(parts.triangles, same.triangles)
+    np.testing.assert_array_equal(parts.part, same.part)
+    for kind in (SolidIntegrals, PatchIntegrals):
+        assert not [field.name for field in fields(kind) if "Callable" in str(field.type)]

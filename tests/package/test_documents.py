@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the documents name exists: folders, files, and functions, classes and methods written as `path.py:name`."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.package.test_architecture import CORE, OPERATORS
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PLACE = re.compile(r"`((?:core|operators|panels|tests|docs)/[\w/.]*?|__init__\.py)(?::([A-Za-z_][\w.]*))?`")
+
+
+def places(document: Path) -> list[tuple[str, str]]:
+    return PLACE.findall(document.read_text(encoding="utf-8"))
+
+
+def defines(path: Path, name: str) -> bool:
+    """Whether a module defines this function or class, or this method of a class, itself."""
+    body = ast.parse(path.read_text(encoding="utf-8")).body
+    for part in name.split("."):
+        inner = [node.body for node in body if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and node.name == part]
+        if not inner:
+            return False
+        body = inner[-1]
+    return True
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_every_place_that_a_document_names_exists(document):
+    missing = [path for path, _ in places(document) if not (ROOT / path).exists()]
+    assert not missing
+    unknown = [":".join(place) for place in places(document) if place[1] and not defines(ROOT / place[0], place[1])]
+    assert not unknown
+
+
+def test_the_architecture_names_its_functions():
+    named = [place for place in places(ROOT / "docs" / "architecture.md") if place[1]]
+    assert len(named) > 30
+
+
+def test_the_architecture_draws_the_imports_that_are_tested():
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    existing = {path.name for path in (ROOT / "core").iterdir()} | {path.stem for path in (ROOT / "core").iterdir()}
+    rows = [", ".join(package for package in row if package in existing) for row in CORE]
+    rows += [", ".join(row) for row in OPERATORS]
+    drawn = re.search(r"    core  .*?(?=\n\n    panels)", text, re.S).group()
+    lines = [re.sub(r"^    (core|operators)?\s+", "", line) for line in drawn.splitlines() if line.strip()]
+    assert lines == rows
