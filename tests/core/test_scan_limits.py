@@ -113,11 +113,12 @@ def test_small_files_that_ask_for_terabytes_are_refused_at_once(tmp_path):
     packer = gzip.compress(bytes(1 << 24))
     packed = packer * (1 << 8)  # 4 GiB and more in 4 MB
     head = nrrd(VALUES, encoding="gzip", head=False).replace(b"sizes: 3 4 5", b"sizes: 2048 1024 1025")
+    array = written(tmp_path / "a.npz", npz(bomb + bytes(1 << 27)))
     tracemalloc.start()
     try:
         start = time.perf_counter()
         assert refusal(raw).code == "file_exceeds_limit"
-        assert refusal(written(tmp_path / "a.npz", npz(bomb + bytes(1 << 27)))).code == "file_damaged"
+        assert refusal(array).code == "file_damaged"
         assert refusal(written(tmp_path / "deep.npz", npz(*[deep] * 900))).code == "file_damaged"
         assert refusal(written(tmp_path / "a.nrrd", head + packed)).code == "file_exceeds_limit"
         sparse(tmp_path / "a.npy", 1 << 32)
