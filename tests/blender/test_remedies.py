@@ -48,6 +48,7 @@ NODES = {"Grid to Mesh": "GeometryNodeGridToMesh"}
 # What is written with a capital and is no control
 NOUNS = (
     *(
+        "BODY_MOMENTS_LIMITS",  # a variable of the environment
         "Blender",
         "Boolean",
         "CT",
@@ -56,6 +57,7 @@ NOUNS = (
         "FILE",
         "Fourier",
         "NAME",
+        "NUMBER",
         "NIfTI",
         "NRRD",
         "NURBS",
