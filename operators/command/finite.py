@@ -21,7 +21,6 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
-from urllib.parse import unquote_to_bytes
 
 import numpy as np
 from numpy.typing import NDArray
@@ -348,6 +347,12 @@ def _bad_in_accessor(buffers: Buffers, accessor: dict[str, Any]) -> tuple[int, i
     return sum(count for count, _ in bad), min((first for count, first in bad if count), default=0)
 
 
+def unquote(uri: str) -> str:
+    """Replace %20 and the like in a glTF's reference by the characters that they stand for."""
+    data = re.sub(rb"%([0-9a-fA-F]{2})", lambda match: bytes.fromhex(match[1].decode()), uri.encode())
+    return data.decode("utf-8", "surrogateescape")
+
+
 class Buffers:
     """The document of a glTF file, and its buffers, those in other files too."""
 
@@ -388,7 +393,7 @@ class Buffers:
         elif uri.startswith("data:"):
             name, data, start = "data:", base64.b64decode(uri.partition(",")[2]), 0
         else:
-            name = unquote_to_bytes(uri).decode("utf-8", "surrogateescape")
+            name = unquote(uri)
             try:
                 data, start = _mapped(os.path.join(self.folder, name)), 0
             except (OSError, ValueError) as error:  # ValueError: it is empty

@@ -20,6 +20,7 @@ from ...core.scans.limits import Limits
 from ...core.scans.nrrd import data_file, read_header
 from ...core.verdict.finding import MeasureError
 from .files import open_file
+from .finite import unquote
 
 _CRATE = b"PXR-USDC"  # how a binary USD layer begins
 
@@ -83,13 +84,7 @@ def _of_gltf(path: Path) -> Iterator[str]:
         for one in listed if isinstance(listed, list) else ():
             uri = one.get("uri") if isinstance(one, dict) else None
             if isinstance(uri, str) and not uri.startswith("data:"):
-                yield _unquoted(uri)
-
-
-def _unquoted(uri: str) -> str:
-    """With the characters that %20 and the like stand for."""
-    data = re.sub(rb"%([0-9a-fA-F]{2})", lambda match: bytes.fromhex(match[1].decode()), uri.encode())
-    return data.decode("utf-8", "surrogateescape")
+                yield unquote(uri)
 
 
 def _of_obj(path: Path) -> Iterator[str]:
