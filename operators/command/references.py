@@ -81,7 +81,6 @@ def _cache_paths() -> Iterator[str]:
 
 def blocked_scripts() -> Iterator[Finding]:
     """Where the file that is open has scripts that did not run: drivers leave what was saved, or 0."""
-    bpy.context.evaluated_depsgraph_get()  # drivers are looked at there
     if not bpy.app.autoexec_fail:
         return
     blocked = sorted({driver.expression for driver in _drivers() if not driver.is_valid and driver.type == "SCRIPTED"})

@@ -105,6 +105,8 @@ def test_what_is_not_rendered_and_operands_drawn_as_wire_are_left_out_and_listed
     body.modifiers.new("Empty", "BOOLEAN")
     cutter.display_type, joined.display_type, helper.display_type = "WIRE", "BOUNDS", "WIRE"
     blank.hide_render = joined.hide_render = True
+    bpy.ops.object.light_add()
+    bpy.context.object.hide_render = True  # which nobody would measure
     found = document()
     assert names(found) == ["Body", "Helper"] and found["errors"] == []
     operand = sentence("boolean_operand")
@@ -245,6 +247,7 @@ def test_a_driver_or_a_script_that_did_not_run_is_a_finding(tmp_path):
     driver = files.save(tmp_path / "driver.blend")
     assert measured(simple, "--density", "1")["findings"] == []
     assert values(measured(text), "script_blocked") == {"script": "Text 'startup.py'"}
+    assert "driver_blocked" in codes(measured(driver, "--object", files.BOX_NAME))
     entry = measured(driver)
     assert values(entry, "driver_blocked") == {"drivers": ["bpy.data.filepath"]}
     assert sentence("driver_blocked", drivers=["bpy.data.filepath"]) in entry["warnings"]
