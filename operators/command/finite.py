@@ -18,8 +18,10 @@ import re
 import struct
 import zlib
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -30,6 +32,7 @@ from ...core.verdict.finding import FileError, Finding, finding
 MAX_FLOAT32 = 3.4028235677973366e38  # what is as large or larger is infinite in float32
 
 _BLOCK = 1 << 18  # bytes of text at a time, and numbers, so that what is computed of them stays in the cache
+_THREADS = min(4, os.cpu_count() or 1)
 _REACH = 1 << 12  # bytes to either side in which a line is looked for
 _OVERLAP = 64  # bytes that blocks of text share, so that none cuts what makes a number suspicious
 _MALFORMED = (ValueError, KeyError, IndexError, TypeError, AttributeError, RecursionError, struct.error, zlib.error)
@@ -90,32 +93,37 @@ def _suspicious(data: Data, start: int = 0) -> Iterator[int]:
     or many digits, of which there is little in a sound file.
     """
     view = np.frombuffer(data, np.uint8)
-    for begin in range(start, len(view), _BLOCK):
-        text = view[begin : begin + _BLOCK + _OVERLAP]
-        if len(text) < _BLOCK + _OVERLAP:
-            text = np.concatenate([text, np.zeros(_OVERLAP, np.uint8)])
-        places = np.unique(np.concatenate([_words(text), _large(text)]))
-        # At _BLOCK too: there the next block does not see the digit before an exponent.
-        yield from (begin + places[places <= _BLOCK]).tolist()
+    with ThreadPoolExecutor(_THREADS) as threads:
+        for places in threads.map(partial(_suspicious_in_block, view), range(start, len(view), _BLOCK)):
+            yield from places
 
 
-def _words(text: NDArray[np.uint8]) -> NDArray[np.intp]:
-    """Where nan, inf or .#IN, .#QN begin, whatever their case."""
+def _suspicious_in_block(view: NDArray[np.uint8], begin: int) -> list[int]:
+    text = view[begin : begin + _BLOCK + _OVERLAP]
+    if len(text) < _BLOCK + _OVERLAP:
+        text = np.concatenate([text, np.zeros(_OVERLAP, np.uint8)])
     lower = text | 0x20
-    n = lower == ord("n")
-    found = (n[:-2] & n[2:]) & (lower[1:-1] == ord("a"))
-    found |= n[1:-1] & (lower[:-2] == ord("i")) & (lower[2:] == ord("f"))
-    found |= (text[:-2] == ord(".")) & (text[1:-1] == ord("#"))
-    return np.flatnonzero(found)
+    places = np.unique(np.concatenate([_words(text, lower), _large(text, lower)]))
+    # At _BLOCK too: the next block does not see what is before its first byte.
+    return (begin + places[places <= _BLOCK]).tolist()
 
 
-def _large(text: NDArray[np.uint8]) -> NDArray[np.intp]:
+def _words(text: NDArray[np.uint8], lower: NDArray[np.uint8]) -> NDArray[np.intp]:
+    """Where the n of nan or inf is, or the # of 1.#IND and its like."""
+    at = 1 + np.flatnonzero(lower[1:-2] == ord("n"))
+    after = lower[at + 1]
+    nan, inf = at[after == ord("a")], at[after == ord("f")]
+    nan, inf = nan[lower[nan + 2] == ord("n")], inf[lower[inf - 1] == ord("i")]
+    at = 1 + np.flatnonzero(text[1:] == ord("#"))
+    return np.concatenate([nan, inf, at[text[at - 1] == ord(".")]])
+
+
+def _large(text: NDArray[np.uint8], lower: NDArray[np.uint8]) -> NDArray[np.intp]:
     """Where numbers of 1e38 and more may be: those with an exponent of at least 9, or with 31 digits in a row."""
     digit = (text - ord("0")) < 10  # uint8: what is below wraps around
-    exponent = ((text[1:-4] | 0x20) == ord("e")) & (text[2:-3] != ord("-"))
-    exponent &= digit[:-5] | (text[:-5] == ord("."))
-    at = np.flatnonzero(exponent) + 1
-    after = at + 1 + (text[at + 1] == ord("+"))
+    plus = text == ord("+")
+    at = np.flatnonzero((lower[:-4] == ord("e")) & (digit | plus)[1:-3])
+    after = at + 1 + plus[at + 1]
     one, two, three = (digit[after + shift] for shift in range(3))
     small = one & ~two | two & ~three & (text[after] == ord("0")) & (text[after + 1] != ord("9"))
     exponents = at[one & ~small]
