@@ -102,7 +102,7 @@ def _suspicious_in_block(view: NDArray[np.uint8], begin: int) -> list[int]:
     text = view[begin : begin + _BLOCK + _OVERLAP]
     if len(text) < _BLOCK + _OVERLAP:
         text = np.concatenate([text, np.zeros(_OVERLAP, np.uint8)])
-    lower = text | 0x20
+    lower = text | np.uint8(0x20)
     places = np.unique(np.concatenate([_words(text, lower), _large(text, lower)]))
     # At _BLOCK too: the next block does not see what is before its first byte.
     return (begin + places[places <= _BLOCK]).tolist()
