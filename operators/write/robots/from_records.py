@@ -106,7 +106,7 @@ def mesh_files(names: Iterable[str]) -> dict[str, str]:
 
 def _link(record: Mapping[str, Any], file: str) -> Link:
     place = record["link"]
-    inertial = Inertial(
+    inertial = Inertial.with_agreeing_axes(
         record["mass"],
         np.array(record["center_of_mass"]),
         np.array(record["inertia"]),

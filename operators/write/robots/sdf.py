@@ -108,7 +108,6 @@ def _add_axes(element: Element, joint: Joint) -> None:
     for tag, free in zip(("axis", "axis2"), joint.free):
         axis = SubElement(element, tag)
         add_text(axis, "xyz", numbers(free.axis))
-        if free.is_limited:
-            limit = SubElement(axis, "limit")
-            for name, value in (("lower", free.lower), ("upper", free.upper)):
-                add_text(limit, name, number(value))
+        limit = SubElement(axis, "limit")
+        for name, value in (("lower", free.lower), ("upper", free.upper)):
+            add_text(limit, name, number(value))

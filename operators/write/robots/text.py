@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from math import atan2, hypot
+from math import atan2, cos, hypot, sin
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
@@ -50,13 +50,14 @@ def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iter
 
 
 def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
-    """Angles with rotation = Rz(yaw) Ry(pitch) Rx(roll), pitch within a quarter turn; yaw 0 where roll and yaw turn
-    about one axis."""
-    sine, cosine = -rotation[2, 0], hypot(rotation[0, 0], rotation[1, 0])
-    if cosine < 1e-12:
-        return atan2(-rotation[1, 2], rotation[1, 1]), atan2(sine, cosine), 0.0
-    roll, yaw = atan2(rotation[2, 1], rotation[2, 2]), atan2(rotation[1, 0], rotation[0, 0])
-    return roll, atan2(sine, cosine), yaw
+    """Angles with rotation = Rz(yaw) Ry(pitch) Rx(roll), pitch within a quarter turn. The roll is what the yaw leaves,
+    so that they give the rotation back where both turn about all but one axis."""
+    yaw = atan2(rotation[1, 0], rotation[0, 0])
+    pitch = atan2(-rotation[2, 0], hypot(rotation[0, 0], rotation[1, 0]))
+    roll = atan2(
+        sin(yaw) * rotation[0, 2] - cos(yaw) * rotation[1, 2], cos(yaw) * rotation[1, 1] - sin(yaw) * rotation[0, 1]
+    )
+    return roll, pitch, yaw
 
 
 def is_identity(pose: Pose) -> bool:
