@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random bodies as links: boxes and balls, sheared and turned, among them thin plates, rods and all but equal moments."""
+"""Random bodies as links: boxes and balls, sheared and turned; thin plates, rods, all but equal moments."""
 
 import numpy as np
 from body_moments.core.inertia.mass_properties import MassProperties

@@ -88,7 +88,7 @@ def validate(root):
 def check(element, rule):
     attributes, children = rule.get("attributes", {}), rule.get("children", {})
     assert {*element.keys()} <= attributes.keys(), (element.tag, element.keys())
-    assert all(name in element.keys() for name, how in attributes.items() if how == "!"), element.tag
+    assert {name for name, how in attributes.items() if how == "!"} <= {*element.keys()}, element.tag
     if "text" in rule:
         check_text(element, rule["text"])
     else:

@@ -257,9 +257,7 @@ def test_usd_links_stand_where_they_did_and_joints_hold_them_there(chain):
 def test_names_that_a_format_forbids_are_changed_and_none_stands_twice():
     names = ["world", "a::b", "a__b", "<&\"'>", "Würfel", "Würfel ", "1", "_1", "\x00\n", ""]
     inertial = bodies(1).links[0].inertial
-    robot = Robot(
-        "odd --> name", tuple(Link(name, inertial) for name in names), (Joint("world", names[0], names[1]),)
-    )
+    robot = Robot("odd --> name", tuple(Link(name, inertial) for name in names), (Joint("world", names[0], names[1]),))
     model = mujoco.MjModel.from_xml_string(robot_text(robot, "mjcf")[0])
     assert len({model.body(index).name for index in range(model.nbody)}) == len(names) + 1
     assert len(URDF.from_xml_string(urdf.write(robot).encode()).link_map) == len(names) + 1

@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
-from ....core.robots.model import FreeAxis, Inertial, Link, Pose, Robot, Shape
+from ....core.robots.model import FreeAxis, Inertial, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
 from .text import document, number, numbers, roll_pitch_yaw, unique_names, xml_text
 

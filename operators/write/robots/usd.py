@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ....core.numerics.rotations import quaternion
-from ....core.robots.model import Inertial, Joint, Link, Pose, Robot, Shape
+from ....core.robots.model import Inertial, Joint, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
 from .text import MARKER, number, unique_names
 
