@@ -17,6 +17,7 @@ from ...core.density.transfer_function import CT_DENSITIES
 from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import MAX_ORDER
 from .hooks import wall_changed
+from .overlay import BodyMomentsOverlaySettings
 
 TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Blender's own translations
 
@@ -253,6 +254,7 @@ class BodyMomentsMaterialSettings(PropertyGroup):
 class BodyMomentsSceneSettings(PropertyGroup):
     """How the scene's numbers are shown."""
 
+    overlay: PointerProperty(name="Overlay", type=BodyMomentsOverlaySettings)
     frame: EnumProperty(
         name="Frame",
         description="Axes and origin in which the center of mass, the axes and the tensor are shown",
@@ -325,7 +327,12 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
         settings.thickness = options.thickness / shortest_decimal(scene.unit_settings.scale_length)
 
 
-CLASSES = (BodyMomentsObjectSettings, BodyMomentsMaterialSettings, BodyMomentsSceneSettings)
+CLASSES = (
+    BodyMomentsOverlaySettings,
+    BodyMomentsObjectSettings,
+    BodyMomentsMaterialSettings,
+    BodyMomentsSceneSettings,
+)
 
 
 def register() -> None:
