@@ -7,13 +7,18 @@ They show what is stored or cached and compute nothing.
 """
 
 from contextlib import ExitStack
+from importlib import import_module
+
+# Each with CLASSES. A sub-panel comes after the panel that it is a part of.
+MODULES = (
+    *("material_menus", "body"),
+    *("inertia", "density", "apply", "selection", "advanced"),  # sub-panels; their order is `places.ORDER`
+    *("moments", "section", "shape"),  # sub-panels of the advanced one
+)
 
 
-def _classes() -> tuple[type, ...]:
-    from . import body, moments, section, shape
-    from . import material_menus as materials
-
-    return (*materials.CLASSES, *body.CLASSES, *moments.CLASSES, *section.CLASSES, *shape.CLASSES)
+def _classes() -> list[type]:
+    return [cls for name in MODULES for cls in import_module("." + name, __name__).CLASSES]
 
 
 def register() -> None:

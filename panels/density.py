@@ -1,20 +1,60 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rows of a density: given mass, one value, materials, polynomial, attribute, Volume object."""
+"""The sub-panel of the density, and what of it stands beside the answer: given mass, one value, materials, polynomial,
+attribute, Volume object."""
 
 from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
 from ..core.verdict.finding import finding
-from ..operators.session import live
+from ..operators.read.visibility import GEOMETRY_TYPES
 from ..operators.session import walls as wall_slider
 from ..operators.write.translations import CONTEXT
 from . import grid, rows
 from . import material_menus as materials
+from .places import in_both_places
 
 
-def settings_rows(layout: UILayout, context: Context, obj: Object) -> None:  # noqa: C901 a branch for each source of density
+class DensityPanel:
+    """What the object is made of"""
+
+    bl_label = "Density"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None and _has_density(context.object)
+
+    def draw(self, context: Context) -> None:
+        self.layout.use_property_decorate = False
+        _settings(self.layout, context, context.object)
+
+
+def _has_density(obj: Object) -> bool:
+    return obj.type in GEOMETRY_TYPES or obj.instance_collection is not None
+
+
+def material_row(layout: UILayout, context: Context, obj: Object) -> None:
+    """Draw the one row of the density that is changed most: the material, or what stands in its place."""
+    if not _has_density(obj):
+        return
+    settings = obj.body_moments
+    column = layout.column()
+    column.use_property_split = True
+    if obj.type == "VOLUME" and settings.grid_as == "DENSITY":
+        column.prop(settings, "grid")
+    elif settings.mass_from == "MASS":
+        column.prop(settings, "mass", text="Mass (kg)")
+    elif settings.kind == "WIRE":
+        column.prop(settings, "linear_density", text="Density (kg/m)")
+    elif settings.density_from == "VALUE" or obj.type == "VOLUME":
+        _material(column, settings, "Material")
+    else:
+        column.prop(settings, "density_from")
+
+
+def _settings(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
     if obj.override_library is not None:
         rows.message(layout, context, finding("panel_override"))
@@ -33,8 +73,6 @@ def settings_rows(layout: UILayout, context: Context, obj: Object) -> None:  # n
     row.use_property_split = False
     for kind in ("SOLID", "SHELL", "WIRE") if obj.type == "CURVE" or settings.kind == "WIRE" else ("SOLID", "SHELL"):
         row.prop_enum(settings, "kind", kind)
-    if obj.type == "SURFACE":
-        column.operator("object.body_moments_live", icon="REC", depress=live.is_live(obj))
     if settings.kind == "SHELL":
         column.prop(settings, "wall")
         column.prop(settings, "thickness")
@@ -101,7 +139,14 @@ def _labeled_row(column: UILayout, label: str) -> UILayout:
 
 def _uniform_density(column: UILayout, settings, heading: str) -> None:
     """The object's own density, with the table and the user's presets."""
+    _material(column, settings, heading)
+    column.prop(settings, "density", text="Density (kg/m³)")
+
+
+def _material(column: UILayout, settings, heading: str) -> None:
     row = _labeled_row(column, heading)
     row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
-    column.prop(settings, "density", text="Density (kg/m³)")
+
+
+CLASSES = VIEW3D_PT_body_moments_density, OBJECT_PT_body_moments_density = in_both_places(DensityPanel, "density")

@@ -37,6 +37,7 @@ from ..settings import properties as settings
 from ..settings.density import unset_density
 from ..settings.options import MeasureOptions
 from ..write import record
+from ..write.documents import document
 from ..write.properties import store
 from ..write.terminal import tell
 from . import fourier
@@ -149,7 +150,7 @@ class Run:
         for one in errors:
             where = [text for text in (file, one["name"]) if text]
             tell(*where, one["reason"])
-        return record.document(
+        return document(
             objects,
             record.total([one for _, _, one in measured], caveats),
             errors,

@@ -10,7 +10,8 @@ import pytest
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read import measurable
 from body_moments.operators.settings.options import MeasureOptions
-from body_moments.operators.write.record import record, to_json
+from body_moments.operators.write.documents import to_json
+from body_moments.operators.write.record import record
 
 from tests.blender.findings import refused, said
 from tests.blender.objects import add, measured, only

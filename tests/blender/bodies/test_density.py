@@ -14,7 +14,7 @@ from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.session import staleness
 from body_moments.operators.settings.options import MeasureOptions
-from body_moments.operators.write import properties, record, report
+from body_moments.operators.write import documents, properties, record, report
 
 from tests.blender import batch_files
 from tests.blender.bodies.test_measure_object import add, box, measure
@@ -651,9 +651,9 @@ def test_the_record_the_report_and_the_properties_say_where_the_density_came_fro
     found = measure(obj)
     entry = record.record(found)
     assert entry["density_from"] == "materials: Cork 240 kg/m³, Steel 7820 kg/m³"
-    document = record.document([entry], record.total([found]), [], file=None, blender=None)
-    assert json.loads(record.to_json([document]))["total"]["mass"] == pytest.approx(STEEL + CORK)
-    assert "materials: Cork 240 kg/m³, Steel 7820 kg/m³" in record.to_csv([document])
+    document = documents.document([entry], record.total([found]), [], file=None, blender=None)
+    assert json.loads(documents.to_json([document]))["total"]["mass"] == pytest.approx(STEEL + CORK)
+    assert "materials: Cork 240 kg/m³, Steel 7820 kg/m³" in documents.to_csv([document])
     bpy.ops.object.body_moments_measure()
     assert obj["body_density_from"] == entry["density_from"]
     assert obj["body_density"] == pytest.approx((STEEL + CORK) / 2)

@@ -16,6 +16,7 @@ import bpy
 from body_moments.operators import batch
 from body_moments.operators.command import inputs
 from body_moments.operators.command import run as command
+from body_moments.operators.write import documents
 
 from tests.blender import batch_files as files
 from tests.core.scan_files import nrrd
@@ -66,7 +67,7 @@ def foreign():
     yield "array", json.dumps([ours, {"mine": 1}]).encode()
     yield "cut", json.dumps(ours).encode()[:-1]
     yield "csv", b"file,frame,name,mass\n"
-    yield "csv_edited", b"x," + command.record.to_csv([]).encode()
+    yield "csv_edited", b"x," + documents.to_csv([]).encode()
 
 
 @pytest.mark.parametrize("content", [pytest.param(content, id=name) for name, content in foreign()])

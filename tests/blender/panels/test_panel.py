@@ -76,11 +76,17 @@ class Layout:
         self.record.append(("popover", name))
 
 
-def drawn(closed=()):
-    from body_moments.panels.body import VIEW3D_PT_body_moments
+def drawn(closed=(), without=()):
+    """What the main panel and its sub-panels show, in their order, all open. without: names of sub-panels."""
+    from body_moments.panels import body, places
 
     layout = Layout(closed=closed)
-    VIEW3D_PT_body_moments.draw(SimpleNamespace(layout=layout), bpy.context)
+    body.VIEW3D_PT_body_moments.draw(SimpleNamespace(layout=layout), bpy.context)
+    for name in places.ORDER:
+        panel = getattr(bpy.types, "VIEW3D_PT_body_moments_" + name, None)
+        if panel is not None and name not in without and (not hasattr(panel, "poll") or panel.poll(bpy.context)):
+            layout.record.append(("label", panel.bl_label, True))
+            panel.draw(SimpleNamespace(layout=layout), bpy.context)
     return layout.record
 
 
@@ -199,18 +205,21 @@ def test_the_order_is_that_of_cad_dialogs():
     bpy.ops.object.body_moments_measure()
     found = labels(drawn())
     order = [
+        "Body",
         "Exact",
         "Mass",
-        "Density",
         "Volume",
         "Area",
-        "Center of Mass",
+        "Center of Mass (World)",
+        "Inertia",
         "Principal Moments",
         "Principal Axes",
         "Radii of Gyration",
         "Inertia Tensor",
         "Apply to Object",
-        "Total of Selection",
+        "Selection",
+        "Advanced",
+        "Error Bounds",
     ]
     places = [found.index(text) for text in order]
     assert places == sorted(places)
@@ -220,7 +229,7 @@ def test_values_are_shown_with_units_and_copied_with_all_digits():
     obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.2, 0.1))
     bpy.ops.object.body_moments_measure()
     found = measured(obj)
-    record = drawn(closed=("body_moments_totals",))
+    record = drawn(without=("selection",))
     assert "3.15 m³" in labels(record)
     assert float(copied(record, "m³")[0]) == obj["body_volume"]
     assert float(copied(record, "kg")[0]) == obj["body_mass"]
@@ -341,8 +350,8 @@ def test_warnings_are_shown_wrapped_before_the_numbers_and_notes_behind_them_err
     assert not any(label.startswith(("Warnings", "Notes")) for label in labels(drawn()))
     store_findings(obj, *FOUND)
     found = labels(drawn())
-    start, end, behind = found.index("Warnings (2)"), found.index("Mass"), found.index("Notes (1)")
-    assert start < end < behind < found.index("Apply to Object")
+    start, end, behind = found.index("Warnings (2)"), found.index("Material"), found.index("Notes (1)")
+    assert start < end < found.index("Mass") < behind < found.index("Apply to Object")
     assert " ".join(found[start + 1 : end]) == "{} {}".format(FOUND[2], FOUND[1])
     assert end - start > 4  # lines
     assert " ".join(found[behind + 1 :]).startswith(str(FOUND[0]))
@@ -472,7 +481,7 @@ def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
 
 def outdated():
     """The code of the reason that is shown, if any."""
-    text = " ".join(labels(drawn(closed=("body_moments_totals",))))
+    text = " ".join(labels(drawn(without=("selection",))))
     codes = ("settings", "geometry", "transform")
     return [code for code in codes if "Out of date: {}".format(finding("stale_" + code)) in text]
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The total of the selection."""
+"""The sub-panel of the selection: its total."""
 
 from __future__ import annotations
 
@@ -13,15 +13,26 @@ from ..operators.write.translations import localized
 from ..operators.write.units import Units
 from . import rows
 from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
+from .places import in_both_places
 
 
-def totals(layout: UILayout, context: Context, units: Units) -> None:
-    header, body = layout.panel("body_moments_totals", default_closed=True)
-    header.label(text="Total of Selection")
-    if body is None:
-        return
+class SelectionPanel:
+    """The selected objects as one body"""
+
+    bl_label = "Selection"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        if len(context.selected_objects) > 1:
+            layout.operator("object.body_moments_copy_settings", icon="PASTEDOWN")
+        _total(layout, context, Units.of(context.scene.unit_settings))
+
+
+def _total(layout: UILayout, context: Context, units: Units) -> None:
+    layout.label(text="Total of Selection")
     total = results.total(context)
-    column = body.column(align=True)
+    column = layout.column(align=True)
     if not total.count:
         rows.message(column, context, finding("panel_nothing_measured"))
         return
@@ -33,7 +44,7 @@ def totals(layout: UILayout, context: Context, units: Units) -> None:
             rows.sentence(row, context, localized(text).format(truncate_list(names, translate=localized)), icon="ERROR")
     for caveat in total.findings:
         rows.message(column, context, caveat)
-    column = body.column(align=True)
+    column = layout.column(align=True)
     if total.body is not None:
         rows.value(column, units, "Mass", "mass", total.body.mass)
     if total.volume:
@@ -42,10 +53,15 @@ def totals(layout: UILayout, context: Context, units: Units) -> None:
         rows.value(column, units, "Area", "area", total.area)
     if total.body is None:
         return
-    column = body.column(align=True)
+    column = layout.column(align=True)
     rows.heading(column, "Center of Mass (World)", "length", total.body.center)
     rows.values(column, units, AXIS_LABELS, "length", total.body.center, total.body.radii_of_gyration.max())
-    column = body.column(align=True)
+    column = layout.column(align=True)
     moments = total.body.principal.moments
     rows.heading(column, "Principal Moments", "inertia", moments)
     rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
+
+
+CLASSES = VIEW3D_PT_body_moments_selection, OBJECT_PT_body_moments_selection = in_both_places(
+    SelectionPanel, "selection"
+)
