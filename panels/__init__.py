@@ -8,33 +8,54 @@ They show what is stored or cached and compute nothing.
 
 from contextlib import ExitStack
 from importlib import import_module
+from types import ModuleType
 
-# Each with CLASSES. A sub-panel comes after the panel that it is a part of.
+# Each with CLASSES, or with `register`. A sub-panel comes after the panel that it is a part of.
 MODULES = (
     *("material_menus", "body"),
     *("inertia", "density", "apply", "selection", "advanced"),  # sub-panels; their order is `places.ORDER`
     *("moments", "section", "shape"),  # sub-panels of the advanced one
+    *("overlay.popover", "overlay.draw"),
 )
 
 
-def _classes() -> list[type]:
-    return [cls for name in MODULES for cls in import_module("." + name, __name__).CLASSES]
+def _modules() -> list[ModuleType]:
+    return [import_module("." + name, __name__) for name in MODULES]
 
 
 def register() -> None:
-    """Register every class; where one fails, remove the others and let the error rise."""
-    import bpy
-
+    """Register every module; where one fails, remove the others and let the error rise."""
     with ExitStack() as undo:
-        for cls in _classes():
-            bpy.utils.register_class(cls)
-            undo.callback(bpy.utils.unregister_class, cls)
+        for module in _modules():
+            _register(module)
+            undo.callback(_unregister, module)
         undo.pop_all()
 
 
 def unregister() -> None:
     """Remove everything that `register` added, in reverse."""
+    for module in reversed(_modules()):
+        _unregister(module)
+
+
+def _register(module: ModuleType) -> None:
+    if hasattr(module, "register"):
+        module.register()
+        return
     import bpy
 
-    for cls in reversed(_classes()):
+    with ExitStack() as undo:
+        for cls in module.CLASSES:
+            bpy.utils.register_class(cls)
+            undo.callback(bpy.utils.unregister_class, cls)
+        undo.pop_all()
+
+
+def _unregister(module: ModuleType) -> None:
+    if hasattr(module, "unregister"):
+        module.unregister()
+        return
+    import bpy
+
+    for cls in reversed(module.CLASSES):
         bpy.utils.unregister_class(cls)

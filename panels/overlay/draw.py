@@ -151,7 +151,12 @@ def _discs(bodies: Bodies, view: View, with_digits: bool) -> tuple[Batch, ...]:
 def _restored_state() -> Iterator[None]:
     """Put the GPU's state back, whatever happens in here."""
     state = gpu.state
-    blend, depth, mask, width = state.blend_get(), state.depth_test_get(), state.depth_mask_get(), state.line_width_get()
+    blend, depth, mask, width = (
+        state.blend_get(),
+        state.depth_test_get(),
+        state.depth_mask_get(),
+        state.line_width_get(),
+    )
     try:
         state.blend_set("ALPHA")
         state.depth_mask_set(False)

@@ -96,7 +96,10 @@ def _digit(points: Sequence[tuple[float, float]]) -> Shape:
 def _stack(shapes: Sequence[Shape]) -> Shape:
     size = max(len(triangles) for triangles, _ in shapes)
     filled = [
-        (np.pad(triangles, ((0, size - len(triangles)), (0, 0), (0, 0))), np.pad(colors, ((0, size - len(colors)), (0, 0))))
+        (
+            np.pad(triangles, ((0, size - len(triangles)), (0, 0), (0, 0))),
+            np.pad(colors, ((0, size - len(colors)), (0, 0))),
+        )
         for triangles, colors in shapes
     ]
     return np.stack([triangles for triangles, _ in filled]), np.stack([colors for _, colors in filled])

@@ -63,7 +63,9 @@ def disc_triangles(
         offsets, colors = glyphs.digits()
         tips = centers[:, None] + (bodies.axes * bodies.gyration[:, None, :]).transpose(0, 2, 1)[order]
         away = _digit_offsets(view.pixels(centers), view.pixels(tips.reshape(-1, 3)).reshape(-1, 3, 2), scale)
-        placed = view.place(tips.reshape(-1, 3), (scale * offsets + away[:, :, None, None]).reshape(-1, *offsets.shape[1:]))
+        placed = view.place(
+            tips.reshape(-1, 3), (scale * offsets + away[:, :, None, None]).reshape(-1, *offsets.shape[1:])
+        )
         points.append(placed.reshape(len(order), -1, 3))
         tints.append(np.broadcast_to(colors.reshape(-1, 4), (len(order), colors[..., 0].size, 4)))
     joined, tint = np.concatenate(points, axis=1), np.concatenate(tints, axis=1).repeat(3, axis=1)

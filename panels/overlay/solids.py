@@ -30,7 +30,9 @@ def drop_lines(centers: NDArray, gyration: NDArray, floor: float = 0.0) -> NDArr
     dashes = feet[:, None, None] + steps[None, :, :, None] * (centers - feet)[:, None, None]
     ring = np.stack([np.cos(CIRCLE), np.sin(CIRCLE), np.zeros_like(CIRCLE)], axis=1)
     ring = np.stack([ring[:-1], ring[1:]], axis=1)
-    return np.concatenate([dashes, feet[:, None, None] + 0.15 * gyration.max(axis=1)[:, None, None, None] * ring], axis=1)
+    return np.concatenate(
+        [dashes, feet[:, None, None] + 0.15 * gyration.max(axis=1)[:, None, None, None] * ring], axis=1
+    )
 
 
 def _spread(gyration: NDArray) -> NDArray[np.float64]:
