@@ -10,8 +10,11 @@ from contextlib import ExitStack
 from importlib import import_module
 from types import ModuleType
 
-# Each with CLASSES, or with `register`. A sub-panel comes after the panel that it is a part of.
+from ..operators import register_module, unregister_module
+
+# Each with `register` or with CLASSES. A sub-panel comes after the panel that it is a part of.
 MODULES = (
+    "manual",
     *("material_menus", "body"),
     *("inertia", "density", "apply", "selection", "advanced"),  # sub-panels; their order is `places.ORDER`
     *("moments", "section", "shape"),  # sub-panels of the advanced one
@@ -27,35 +30,12 @@ def register() -> None:
     """Register every module; where one fails, remove the others and let the error rise."""
     with ExitStack() as undo:
         for module in _modules():
-            _register(module)
-            undo.callback(_unregister, module)
+            register_module(module)
+            undo.callback(unregister_module, module)
         undo.pop_all()
 
 
 def unregister() -> None:
     """Remove everything that `register` added, in reverse."""
     for module in reversed(_modules()):
-        _unregister(module)
-
-
-def _register(module: ModuleType) -> None:
-    if hasattr(module, "register"):
-        module.register()
-        return
-    import bpy
-
-    with ExitStack() as undo:
-        for cls in module.CLASSES:
-            bpy.utils.register_class(cls)
-            undo.callback(bpy.utils.unregister_class, cls)
-        undo.pop_all()
-
-
-def _unregister(module: ModuleType) -> None:
-    if hasattr(module, "unregister"):
-        module.unregister()
-        return
-    import bpy
-
-    for cls in reversed(module.CLASSES):
-        bpy.utils.unregister_class(cls)
+        unregister_module(module)
