@@ -130,6 +130,16 @@ MESSAGES = {
         "Volumen, Massenmittelpunkt und Trägheit hängen vom Bezugspunkt ab. Innere Flächen löschen und Löcher füllen "
         "oder Art auf Schale setzen.",
     ),
+    "cavities_subtracted": (
+        "{count} Hohlraum wurde abgezogen: eine nach innen gewandte Komponente in einer anderen.",
+        "{count} Hohlräume wurden abgezogen: nach innen gewandte Komponenten in anderen.",
+    ),
+    "cavities_break_through": (
+        "{count} Hohlraum durchbricht seine Wand, um bis zu {share:percent} der Größe; was außerhalb liegt, zählt "
+        "negativ. Den Hohlraum verkleinern oder die Wand verstärken.",
+        "{count} Hohlräume durchbrechen ihre Wände, um bis zu {share:percent} der Größe; was außerhalb liegt, zählt "
+        "negativ. Die Hohlräume verkleinern oder die Wände verstärken.",
+    ),
     "components_nested": (
         "{count} nach außen gewandte Komponente liegt in einer anderen; der gemeinsame Raum zählt doppelt. Hohlräume "
         "umdrehen oder Überlappungen auf Als Vereinigung zählen setzen.",

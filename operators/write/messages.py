@@ -209,6 +209,16 @@ MESSAGES: dict[str, Message] = {
         "center of mass "
         "and inertia depend on the reference point. Delete interior faces and fill holes, or set Kind to Shell."
     ),
+    "cavities_subtracted": _note(
+        "{count} cavity was subtracted: an inward component inside another.",
+        "{count} cavities were subtracted: inward components inside others.",
+    ),
+    "cavities_break_through": _warning(
+        "{count} cavity breaks through its wall, by up to {share:percent} of the size; what lies outside counts as "
+        "negative. Make the cavity smaller or the wall thicker.",
+        "{count} cavities break through their walls, by up to {share:percent} of the size; what lies outside counts as "
+        "negative. Make the cavities smaller or the walls thicker.",
+    ),
     "components_nested": _warning(
         "{count} outward component lies inside another; the shared space counts twice. Flip cavities, or set "
         "Overlaps to "
