@@ -12,7 +12,15 @@ from importlib import import_module
 # Each with CLASSES. A sub-panel comes after the panel that it is a part of.
 MODULES = (
     *("material_menus", "body"),
-    *("inertia", "density", "apply", "selection", "advanced"),  # sub-panels; their order is `places.ORDER`
+    *(
+        "inertia",
+        "density",
+        "given",
+        "apply",
+        "selection",
+        "assembly",
+        "advanced",
+    ),  # sub-panels; their order is `places.ORDER`
     *("moments", "section", "shape"),  # sub-panels of the advanced one
 )
 

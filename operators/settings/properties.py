@@ -16,6 +16,8 @@ from ...core.density.materials import BY_NAME
 from ...core.density.transfer_function import CT_DENSITIES
 from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import MAX_ORDER
+from .given import GIVEN_PROPERTIES, is_point_mass
+from .given_properties import GivenPartProperties
 from .hooks import wall_changed
 
 TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Blender's own translations
@@ -24,6 +26,7 @@ COPIED_PROPERTIES = (
     *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
     *("density_from", "density_polynomial", "density_frame", "density_attribute"),
     *("density_volume", "grid", "grid_as", "values_from", "value_density", "transfer_table", "spline_order"),
+    *GIVEN_PROPERTIES,
 )
 
 
@@ -33,7 +36,7 @@ def _forget_material(settings: PropertyGroup, _context: Context) -> None:
         settings.material = ""
 
 
-class BodyMomentsObjectSettings(PropertyGroup):
+class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
     """What one object is made of."""
 
     kind: EnumProperty(
@@ -302,11 +305,16 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)
-        different = getattr(target, name) != value
+        different = _comparable(getattr(target, name)) != _comparable(value)
         if different or source.is_property_set(name) and not target.is_property_set(name):
             setattr(target, name, value)
         changed = changed or different
     return changed
+
+
+def _comparable(value):
+    """The value; of an array its numbers."""
+    return value[:] if hasattr(value, "foreach_get") else value
 
 
 def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
@@ -314,7 +322,7 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
     for name in ("kind", "overlap"):
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name).upper())
-    if options.density is not None:
+    if options.density is not None and not is_point_mass(settings.id_data):
         settings.mass_from, settings.density_from = "DENSITY", "VALUE"
         setattr(settings, "linear_density" if settings.kind == "WIRE" else "density", options.density)
         if settings.id_data.type == "VOLUME":
