@@ -188,7 +188,7 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
         health=merge_health((measurement.health, 1, measurement.area) for measurement in measured)
         if measured
         else MeshReport(closed=False, components=0),
-        findings=tuple(findings_of(whole)),
+        findings=tuple(findings_of(whole, depsgraph.scene)),
         rotation=rotation,
         location=location,
         error_bound={
@@ -239,7 +239,7 @@ def structure_hash(root: Member) -> str:
     return digest("\n".join(keys).encode())
 
 
-def findings_of(whole: MemberBody) -> Iterator[Finding]:
+def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
     """Yield what is to be said of an assembly: of the whole itself, then of its members by name."""
     yield from whole.findings
     members = list(whole.walk())
@@ -259,7 +259,9 @@ def findings_of(whole: MemberBody) -> Iterator[Finding]:
     if hidden:
         yield finding("members_hidden", count=len(hidden), names=hidden)
     unset = [
-        part.member.name for part in objects if unset_density(part.member.data, part.measured.measurement) is not None
+        part.member.name
+        for part in objects
+        if unset_density(part.member.data, part.measured.measurement, scene) is not None
     ]
     if unset:
         yield finding("members_density_unset", count=len(unset), names=unset)

@@ -177,6 +177,8 @@ class _Walk:
                 return finding("boolean_operand")
             return finding("not_rendered") if obj.hide_render or obj.hide_viewport else None
         reason = self.reasons.get(obj)
+        if reason is None and obj.hide_viewport:
+            return finding("disabled_in_viewports")
         if reason is None or reason.code != "not_rendered" or obj.hide_render:
             return reason
         return hidden_reason(obj, self.depsgraph) or reason

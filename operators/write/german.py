@@ -40,7 +40,6 @@ TEXTS = {
     "Members": "Teile",
     "Given Center": "Vorgegebener Mittelpunkt",
     "Given Inertia": "Vorgegebene Trägheit",
-    "Bill of Masses": "Massenliste",
     # settings
     "Kind": "Art",
     "Solid": "Massiv",
@@ -59,6 +58,17 @@ TEXTS = {
     "Frame Origin": "Ursprung des Bezugssystems",
     "Center": "Mittelpunkt",
     "Center, Normalized": "Mittelpunkt, normiert",
+    # overlay
+    "Mass Properties": "Masseeigenschaften",
+    "All Measured Objects": "Alle gemessenen Objekte",
+    "Drop Line": "Lotlinie",
+    "Equal Inertia": "Gleiche Trägheit",
+    "Box": "Quader",
+    "Ellipsoid": "Ellipsoid",
+    "Sum of Selection": "Summe der Auswahl",
+    "Faults": "Fehler",
+    "Support Polygon": "Standfläche",
+    "Path of Balance Groups": "Bahn der Balancegruppen",
     # numbers and buttons
     "Area": "Fläche",
     "Center of Mass": "Massenmittelpunkt",
@@ -138,6 +148,16 @@ MESSAGES = {
         "Komponenten lassen sich nicht schließen, wo mehr als zwei Flächen an einer Kante liegen: {count} von {total}. "
         "Volumen, Massenmittelpunkt und Trägheit hängen vom Bezugspunkt ab. Innere Flächen löschen und Löcher füllen "
         "oder Art auf Schale setzen.",
+    ),
+    "cavities_subtracted": (
+        "{count} Hohlraum wurde abgezogen: eine nach innen gewandte Komponente in einer anderen.",
+        "{count} Hohlräume wurden abgezogen: nach innen gewandte Komponenten in anderen.",
+    ),
+    "cavities_break_through": (
+        "{count} Hohlraum durchbricht seine Wand, um bis zu {share:percent} der Größe; was außerhalb liegt, zählt "
+        "negativ. Den Hohlraum verkleinern oder die Wand verstärken.",
+        "{count} Hohlräume durchbrechen ihre Wände, um bis zu {share:percent} der Größe; was außerhalb liegt, zählt "
+        "negativ. Die Hohlräume verkleinern oder die Wände verstärken.",
     ),
     "components_nested": (
         "{count} nach außen gewandte Komponente liegt in einer anderen; der gemeinsame Raum zählt doppelt. Hohlräume "

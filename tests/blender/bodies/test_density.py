@@ -162,7 +162,8 @@ def test_mixed_materials_of_instances_that_are_compared_are_named_with_their_obj
     bpy.context.scene.collection.objects.link(empty)
     bpy.context.view_layer.update()
     found = next(one for one in measure(empty).findings if one.code == "mixed_material_component")
-    assert found.values["materials"] == ["Cork", "Steel"] and found.elements == [[0, "Mixed"]]
+    assert found.values["materials"] == ["Cork", "Steel"] and found.elements.tolist() == [0]
+    assert found.values["sources"] == ["Mixed"]
 
 
 def test_the_mean_by_area_is_that_of_the_areas_as_they_are_seen():

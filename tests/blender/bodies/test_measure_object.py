@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.verdict.finding import EditRefusedError
+from body_moments.operators.bodies import mesh
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.settings.options import MeasureOptions
 
@@ -240,15 +241,62 @@ def collection_of(*objects):
     return empty
 
 
-def test_members_of_a_collection_are_compared_as_shells_of_one_mesh_are():
+def test_members_of_a_collection_are_compared_with_each_other():
     unit = box((0, 0, 0), (1, 1, 1))
     apart = measure(collection_of(add(unit), add(unit, location=(3, 0, 0))))
     assert apart.volume == pytest.approx(2.0) and not apart.findings
     overlapping = measure(collection_of(add(unit), add(unit, location=(0.5, 0, 0))))
     assert overlapping.volume == pytest.approx(2.0) and overlapping.health.overlapping_components
     assert said(overlapping) == {"components_overlap": {"count": 2}}
-    outer, inner = add(box((0, 0, 0), (4, 4, 4))), add(box((1, 1, 1), (3, 3, 3), turned=True))
-    assert measure(collection_of(outer, inner)).volume == pytest.approx(56.0)
+
+
+@pytest.mark.parametrize("limit", [0, 200_000])
+@pytest.mark.parametrize("scale", [(1, 1, 1), (-1, 1, 1), (1e-4, 2e-4, 1e-4)])
+def test_a_cavity_is_one_within_its_own_mesh_only(monkeypatch, scale, limit):
+    """Whatever the number of triangles, and as it is where the part inside is outward."""
+    monkeypatch.setattr(mesh, "MAX_COMPARED_TRIANGLES", limit)
+    housing, insert, volume = (
+        box((0, 0, 0), (2, 2, 2)),
+        {"low": (0.5, 0.5, 0.5), "high": (1.5, 1.5, 1.5)},
+        abs(np.prod(scale)),
+    )
+    for turned in (False, True):
+        name = "Turned insert" if turned else "Insert"
+        part = add(box(**insert, turned=turned), name=name, scale=scale)
+        members = (add(housing, name="Housing", scale=scale), part)
+        found = measure(collection_of(*members))
+        assert close(found.volume, 9.0 * volume, rel=1e-6)
+        assert str(found.method) == ("reoriented" if turned else "exact")
+        expected = {"inverted_components": {"count": 1, "total": 1, "sources": [name]}} if turned else {}
+        nested = {"components_nested": {"count": 1}} if limit else {"instance_overlap_unchecked": {"count": 2}}
+        assert said(found) == {**expected, **nested}
+        assert found.health.nested_components == (1 if limit else 0) and not found.health.cavities
+        if limit:
+            (inside,) = [one for one in found.findings if one.code == "components_nested"]
+            assert inside.elements == [[face, name] for face in range(6)]
+    hollow = add(housing, box(**insert, turned=True), name="Hollow", scale=scale)
+    found = measure(hollow)
+    assert close(found.volume, 7.0 * volume, rel=1e-6) and said(found) == {"cavities_subtracted": {"count": 1}}
+
+
+def test_what_stands_in_the_cavity_of_another_object_is_not_nested():
+    hollow = add(box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3), turned=True), name="Hollow")
+    found = measure(collection_of(hollow, add(box((1.5, 1.5, 1.5), (2.5, 2.5, 2.5)), name="Core")))
+    assert close(found.volume, 57.0, rel=1e-12)
+    assert said(found) == {"cavities_subtracted": {"count": 1, "sources": ["Hollow"]}}
+    hollow = add(box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3), turned=True))
+    found = measure(collection_of(hollow, add(box((1.5, 1.5, 1.5), (3.5, 2.5, 2.5)))))
+    assert close(found.volume, 58.0, rel=1e-12)
+    assert said(found)["components_overlap"] == {"count": 2}
+
+
+def test_halves_of_different_objects_are_capped_each():
+    """They closed to one body where their boxes overlapped, and not where they only touched."""
+    half = box((0, 0, 0), (1, 1, 1))
+    for overlap in (0.0, 1e-3):
+        members = add(without(half, 5)), add(without(half, 4), location=(0, 0, 1 - overlap))
+        found = measure(collection_of(*members))
+        assert str(found.method) == "capped" and close(found.volume, 2.0, rel=1e-6)
 
 
 def test_touching_instances_are_not_called_overlapping():
@@ -286,15 +334,17 @@ def test_findings_about_members_of_a_collection_name_them_and_their_own_faces():
     }
     assert str(found.findings[0]).startswith("“Bad”: Flipped face measured as reversed: 2.")
     good, bad = add(unit, name="Fine"), add(with_flipped(unit, 2, 4), name="Worse", location=(0.5, 0, 0))
-    found = measure(collection_of(good, bad))  # as shells of one mesh, as they overlap
+    found = measure(collection_of(good, bad))
     flipped = next(one for one in found.findings if one.code == "flipped_faces")
-    assert flipped.elements == [[2, "Worse"], [4, "Worse"]] and flipped.values == {"count": 2}
-    assert "2 of “Worse”, 4 of “Worse”" in str(flipped)
+    assert flipped.elements.tolist() == [2, 4] and flipped.values == {"count": 2, "sources": ["Worse"]}
+    overlap = next(one for one in found.findings if one.code == "components_overlap")
+    assert overlap.elements[5:7] == [[5, "Fine"], [0, "Worse"]] and "0 of “Fine”, 1 of “Fine”" not in str(overlap)
     parent = add(with_flipped(box((0, 0, 5), (1, 1, 6)), 0), name="Parent")
     child = add(box((0, 0, 0), (0.1, 0.1, 0.1)), name="Child", parent=parent)
     parent.instance_type = "VERTS"
     bpy.context.view_layer.update()
-    assert measure(parent).findings[0].elements == [[0, "Parent"]]
+    assert measure(parent).findings[0].elements.tolist() == [0]
+    assert measure(parent).findings[0].values["sources"] == ["Parent"]
     parent.instance_type = "NONE"
     bpy.context.view_layer.update()
     assert measure(parent).findings[0].elements.tolist() == [0] and not measure(child).findings
@@ -321,8 +371,8 @@ def test_the_caps_share_is_that_of_the_area_of_all_members(overlap):
     found = measure(collection_of(add(large, name="A Large One"), small))
     assert str(found.method) == "capped" and found.health.cap_area_share == pytest.approx(1.0 / 605.0)
     holes = next(one for one in found.findings if one.code.startswith("holes_capped"))
-    edges = [edge for edge, name in holes.elements if name == "Small"] if overlap else holes.elements.tolist()
-    assert {tuple(sorted(edge)) for edge in edges} == {(0, 1), (1, 3), (2, 3), (0, 2)}
+    assert holes.values["sources"] == ["Small"]
+    assert {tuple(sorted(edge)) for edge in holes.elements.tolist()} == {(0, 1), (1, 3), (2, 3), (0, 2)}
 
 
 def test_instances_flattened_by_their_own_scale_are_refused_by_that():

@@ -193,7 +193,9 @@ def test_boxes_in_boxes(parts, volume, moment, method, expected):
     np.testing.assert_allclose(inertia(result.volume), moment, rtol=1e-13)
     assert result.method == method
     assert marked(result.health) == {"closed": True, **expected}
-    assert bool(result.findings) == (method != "exact" or "nested_components" in expected)
+    reported = {"cavities": "cavities_subtracted", "nested_components": "components_nested"}
+    found = [reported[name] for name in expected if name in reported]
+    assert codes(result) == ["inverted_components"] * (method != "exact") + found
 
 
 @pytest.mark.parametrize("spin", [None, 1, 2])
