@@ -64,7 +64,7 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
         if shell:
             raise ReadError("density_volume_of_shell")
         filled = filled_by_volume(body, request)
-        return replace(filled, density_key=density_key(request.obj, ()))
+        return replace(filled, density_key=density_key(request.obj, (), request.scene))
     if density.kind == "polynomial":
         weighed = _by_polynomial(reading, body, density, request.unit, shell, factor, options.threads)
     elif density.kind == "attribute":
@@ -75,7 +75,7 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
         body,
         mass=weighed.mass,
         density_from=weighed.source,
-        density_key=density_key(request.obj, weighed.materials),
+        density_key=density_key(request.obj, weighed.materials, request.scene),
         materials=weighed.materials,
         findings=(*body.findings, *weighed.findings),
     )

@@ -192,7 +192,7 @@ class Run:
         """That nobody has set the density, where that is so."""
         if self.options.density is not None or self.options.mass is not None:
             return
-        unset = unset_density(obj, measurement)
+        unset = unset_density(obj, measurement, bpy.context.scene)
         if unset == "density":
             yield finding("density_defaulted")
         elif unset is not None:
