@@ -14,11 +14,16 @@ from typing import Any
 import bpy
 
 from ...core.measurement import Measurement
-from ..read.links import link_entry
+from ...core.mesh.surface import Surface
+from ...core.numerics.float32 import shortest_decimal
+from ...core.robots.model import Robot
+from ...core.verdict.finding import Finding, finding
+from ..read.links import link_entry, link_surface
 from ..write.documents import ROBOT_FORMATS
 from ..write.messages import sentence
 from ..write.robots.formats import robot_text
 from ..write.robots.from_records import robot_of_document
+from ..write.robots.stl import write_meshes
 from ..write.terminal import tell
 
 
@@ -36,8 +41,27 @@ def complete(
     for entry in document["objects"]:
         if entry["name"] in links:
             entry["link"] = links[entry["name"]]
-    robot, found = robot_of_document(document)
-    text, findings = robot_text(robot, options.format, found, inertial_only=options.inertial_only)
+    robot, findings = robot_of_document(document)
+    text, findings = robot_text(robot, options.format, findings, inertial_only=options.inertial_only)
+    if options.meshes:
+        findings.append(_write_meshes(robot, measured, options))
     for one in findings:
         tell(sentence(one))
     return {**document, "robot": text}
+
+
+def _write_meshes(
+    robot: Robot, measured: Sequence[tuple[str, bpy.types.Object | None, Measurement]], options: Namespace
+) -> Finding:
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    unit = options.unit_scale or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    sources = {label: (obj, one) for label, obj, one in measured if obj is not None}
+
+    def surface(name: str) -> Surface | None:
+        obj, measurement = sources[name]
+        return link_surface(obj, depsgraph, measurement, unit)
+
+    try:
+        return write_meshes(robot, surface, options.output.parent)
+    except OSError as error:
+        return finding("robot_meshes_not_written", error=error.strerror or str(error))
