@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Records of measured objects become the links of a robot.
 
-A record has its numbers along the object's axes (frame "object") and an entry `link`, as `operators/read/links.py` makes
-it: where the object stands, what it hangs on and how it may move. So everything that has a record can be a link.
+A record has its numbers along the object's axes (frame "object") and an entry `link`, as `operators/read/links.py`
+makes it: where the object stands, what it hangs on and how it may move. So whatever has a record can be a link.
 """
 
 from __future__ import annotations
