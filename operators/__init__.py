@@ -38,18 +38,18 @@ def register() -> None:
     """Register every part; where one fails, remove the others and let the error rise."""
     with ExitStack() as undo:
         for part in _parts():
-            _register(part)
-            undo.callback(_unregister, part)
+            register_module(part)
+            undo.callback(unregister_module, part)
         undo.pop_all()
 
 
 def unregister() -> None:
     """Remove everything that `register` added, in reverse."""
     for part in reversed(_parts()):
-        _unregister(part)
+        unregister_module(part)
 
 
-def _register(part: ModuleType) -> None:
+def register_module(part: ModuleType) -> None:
     if hasattr(part, "register"):
         part.register()
         return
@@ -62,7 +62,7 @@ def _register(part: ModuleType) -> None:
         undo.pop_all()
 
 
-def _unregister(part: ModuleType) -> None:
+def unregister_module(part: ModuleType) -> None:
     if hasattr(part, "unregister"):
         part.unregister()
         return

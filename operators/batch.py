@@ -69,7 +69,7 @@ def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
 
     from .command import results
     from .command.run import Run
-    from .write.record import FORMATS
+    from .write.documents import FORMATS
 
     run = Run(options)
     run.measure()

@@ -7,29 +7,35 @@ They show what is stored or cached and compute nothing.
 """
 
 from contextlib import ExitStack
+from importlib import import_module
+from types import ModuleType
+
+from ..operators import register_module, unregister_module
+
+# Each with `register` or with CLASSES. A sub-panel comes after the panel that it is a part of.
+MODULES = (
+    "manual",
+    *("material_menus", "body"),
+    *("inertia", "density", "apply", "selection", "advanced"),  # sub-panels; their order is `places.ORDER`
+    *("moments", "section", "shape"),  # sub-panels of the advanced one
+    *("overlay.popover", "overlay.draw"),
+)
 
 
-def _classes() -> tuple[type, ...]:
-    from . import body, moments, section, shape
-    from . import material_menus as materials
-
-    return (*materials.CLASSES, *body.CLASSES, *moments.CLASSES, *section.CLASSES, *shape.CLASSES)
+def _modules() -> list[ModuleType]:
+    return [import_module("." + name, __name__) for name in MODULES]
 
 
 def register() -> None:
-    """Register every class; where one fails, remove the others and let the error rise."""
-    import bpy
-
+    """Register every module; where one fails, remove the others and let the error rise."""
     with ExitStack() as undo:
-        for cls in _classes():
-            bpy.utils.register_class(cls)
-            undo.callback(bpy.utils.unregister_class, cls)
+        for module in _modules():
+            register_module(module)
+            undo.callback(unregister_module, module)
         undo.pop_all()
 
 
 def unregister() -> None:
     """Remove everything that `register` added, in reverse."""
-    import bpy
-
-    for cls in reversed(_classes()):
-        bpy.utils.unregister_class(cls)
+    for module in reversed(_modules()):
+        unregister_module(module)

@@ -1,20 +1,63 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rows of a density: given mass, one value, materials, polynomial, attribute, Volume object."""
+"""The sub-panel of the density, and what of it stands beside the answer: given mass, one value, materials, polynomial,
+attribute, Volume object."""
 
 from __future__ import annotations
 
-from bpy.types import Context, Object, UILayout
+from bpy.types import Context, Object, Scene, UILayout
 
 from ..core.verdict.finding import finding
-from ..operators.session import live
+from ..operators.read.visibility import GEOMETRY_TYPES
 from ..operators.session import walls as wall_slider
+from ..operators.settings.preferences import default_material
+from ..operators.settings.properties import density_field_name
 from ..operators.write.translations import CONTEXT
+from ..operators.write.units import Units
 from . import grid, rows
 from . import material_menus as materials
+from .places import in_both_places
 
 
-def settings_rows(layout: UILayout, context: Context, obj: Object) -> None:  # noqa: C901 a branch for each source of density
+class DensityPanel:
+    """What the object is made of"""
+
+    bl_label = "Density"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None and _has_density(context.object)
+
+    def draw(self, context: Context) -> None:
+        self.layout.use_property_decorate = False
+        _settings(self.layout, context, context.object)
+
+
+def _has_density(obj: Object) -> bool:
+    return obj.type in GEOMETRY_TYPES or obj.instance_collection is not None
+
+
+def material_row(layout: UILayout, context: Context, obj: Object) -> None:
+    """Draw the one row of the density that is changed most: the material, or what stands in its place."""
+    if not _has_density(obj):
+        return
+    settings = obj.body_moments
+    column = layout.column()
+    column.use_property_split = True
+    if obj.type == "VOLUME" and settings.grid_as == "DENSITY":
+        column.prop(settings, "grid")
+    elif settings.mass_from == "MASS":
+        column.prop(settings, "mass", text="Mass (kg)")
+    elif settings.kind == "WIRE":
+        column.prop(settings, "linear_density", text="Density (kg/m)")
+    elif settings.density_from == "VALUE" or obj.type == "VOLUME":
+        _material(column, context, settings, "Material")
+    else:
+        column.prop(settings, "density_from")
+
+
+def _settings(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
     if obj.override_library is not None:
         rows.message(layout, context, finding("panel_override"))
@@ -27,14 +70,12 @@ def settings_rows(layout: UILayout, context: Context, obj: Object) -> None:  # n
         if settings.mass_from == "MASS":
             column.prop(settings, "mass", text="Mass (kg)")
         else:
-            _uniform_density(column, settings, "Material")
+            _uniform_density(column, context, settings, "Material")
         return
     row = _labeled_row(column, "Kind")
     row.use_property_split = False
     for kind in ("SOLID", "SHELL", "WIRE") if obj.type == "CURVE" or settings.kind == "WIRE" else ("SOLID", "SHELL"):
         row.prop_enum(settings, "kind", kind)
-    if obj.type == "SURFACE":
-        column.operator("object.body_moments_live", icon="REC", depress=live.is_live(obj))
     if settings.kind == "SHELL":
         column.prop(settings, "wall")
         column.prop(settings, "thickness")
@@ -62,7 +103,7 @@ def settings_rows(layout: UILayout, context: Context, obj: Object) -> None:  # n
     elif settings.density_from == "MATERIALS":
         _materials(layout, context, obj)
     else:
-        _uniform_density(column, settings, "Material")
+        _uniform_density(column, context, settings, "Material")
 
 
 def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
@@ -79,15 +120,15 @@ def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
 def _materials(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
     column = layout.column(align=True)
-    column.label(text="Densities (kg/m³)")
+    rows.filled(column, "Densities ({:s})", Units.of(context.scene.unit_settings).unit("density", 0.0)[1])
     shown = {slot.material: None for slot in obj.material_slots if slot.material}
     for material in shown:
-        materials.density_row(column, material, material.name)
+        materials.density_row(column, context.scene, material, material.name)
     if not shown:
         rows.message(column, context, finding("panel_no_material_slots"))
     column = layout.column()
     column.use_property_split = True
-    _uniform_density(column, settings, "Others")
+    _uniform_density(column, context, settings, "Others")
 
 
 def _labeled_row(column: UILayout, label: str) -> UILayout:
@@ -99,9 +140,23 @@ def _labeled_row(column: UILayout, label: str) -> UILayout:
     return split.row(align=True)
 
 
-def _uniform_density(column: UILayout, settings, heading: str) -> None:
+def _uniform_density(column: UILayout, context: Context, settings, heading: str) -> None:
     """The object's own density, with the table and the user's presets."""
+    _material(column, context, settings, heading)
+    column.prop(settings, density_field_name(context.scene))
+
+
+def _material(column: UILayout, context: Context, settings, heading: str) -> None:
     row = _labeled_row(column, heading)
-    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
+    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or _unset_material(settings, context.scene))
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
-    column.prop(settings, "density", text="Density (kg/m³)")
+
+
+def _unset_material(settings, scene: Scene) -> str:
+    """What stands for the material of an object whose density was not taken from the table."""
+    if settings.is_property_set("density"):
+        return "Custom"
+    return default_material(scene) or "Custom"
+
+
+CLASSES = VIEW3D_PT_body_moments_density, OBJECT_PT_body_moments_density = in_both_places(DensityPanel, "density")

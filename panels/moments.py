@@ -4,15 +4,16 @@
 
 from __future__ import annotations
 
-from bpy.types import Context, Panel
+from bpy.types import Context
 
 from ..core.verdict.finding import finding
 from ..operators.session import moments as moments_table
 from . import rows
+from .places import in_both_places
 
 
 class MomentsPanel:
-    """What both places show."""
+    """Moments to a chosen order"""
 
     bl_label = "Moments"
     bl_options = {"DEFAULT_CLOSED"}
@@ -45,24 +46,6 @@ class MomentsPanel:
         layout.operator("object.body_moments_copy_moments", icon="COPYDOWN")
 
 
-class VIEW3D_PT_body_moments_orders(MomentsPanel, Panel):
-    """Moments to a chosen order in the sidebar"""
-
-    bl_idname = "VIEW3D_PT_body_moments_orders"
-    bl_parent_id = "VIEW3D_PT_body_moments"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Moments"
-
-
-class OBJECT_PT_body_moments_orders(MomentsPanel, Panel):
-    """Moments to a chosen order in the object's properties"""
-
-    bl_idname = "OBJECT_PT_body_moments_orders"
-    bl_parent_id = "OBJECT_PT_body_moments"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "object"
-
-
-CLASSES = (VIEW3D_PT_body_moments_orders, OBJECT_PT_body_moments_orders)
+CLASSES = VIEW3D_PT_body_moments_orders, OBJECT_PT_body_moments_orders = in_both_places(
+    MomentsPanel, "orders", parent="advanced"
+)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from math import degrees
 
-from bpy.types import Context, Panel, UILayout
+from bpy.types import Context, UILayout
 
 from ..operators.actions.measure import section as sections
 from ..operators.read.section import SECTION_TYPES
@@ -14,6 +14,7 @@ from ..operators.write import section as record
 from ..operators.write.translations import localized
 from ..operators.write.units import SI_UNITS, Units, number
 from . import rows
+from .places import in_both_places
 
 AXIS_LABELS = ("X", "Y", "Z")
 ABOUT_LABELS = ("x", "y", "1", "2")
@@ -26,7 +27,7 @@ BOUND_LABELS = {
 
 
 class SectionPanel:
-    """What both places show."""
+    """Section properties"""
 
     bl_label = "Section"
     bl_options = {"DEFAULT_CLOSED"}
@@ -139,24 +140,6 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
                 )
 
 
-class VIEW3D_PT_body_moments_section(SectionPanel, Panel):
-    """Section properties in the sidebar"""
-
-    bl_idname = "VIEW3D_PT_body_moments_section"
-    bl_parent_id = "VIEW3D_PT_body_moments"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Moments"
-
-
-class OBJECT_PT_body_moments_section(SectionPanel, Panel):
-    """Section properties in the object's properties"""
-
-    bl_idname = "OBJECT_PT_body_moments_section"
-    bl_parent_id = "OBJECT_PT_body_moments"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "object"
-
-
-CLASSES = (VIEW3D_PT_body_moments_section, OBJECT_PT_body_moments_section)
+CLASSES = VIEW3D_PT_body_moments_section, OBJECT_PT_body_moments_section = in_both_places(
+    SectionPanel, "section", parent="advanced"
+)

@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
-from bpy.types import Context, Object, Panel, UILayout
+from bpy.types import Context, Object, UILayout
 
 from ..core.verdict.finding import finding, truncate
 from ..operators.session import staleness
 from ..operators.write.messages import SIMILARITY
 from ..operators.write.translations import localized
 from . import rows
+from .places import in_both_places
 
 MAX_SHOWN = 12  # elements of a symmetry, and similar shapes
 KINDS = {"AXIS": "{:d}-Fold Axis", "PLANE": "Mirror Plane", "ROUND": "Axis of Revolution"}
@@ -27,7 +28,7 @@ ICONS = {
 
 
 class ShapePanel:
-    """What both places show."""
+    """Symmetry and similar shapes"""
 
     bl_label = "Shape"
     bl_options = {"DEFAULT_CLOSED"}
@@ -104,24 +105,6 @@ def _similar(layout: UILayout, context: Context) -> None:
         cell.label(text="{:s}{:s}, {:.2g}".format(words, size, shape.distance), translate=False)
 
 
-class VIEW3D_PT_body_moments_shape(ShapePanel, Panel):
-    """Symmetry and similar shapes in the sidebar"""
-
-    bl_idname = "VIEW3D_PT_body_moments_shape"
-    bl_parent_id = "VIEW3D_PT_body_moments"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Moments"
-
-
-class OBJECT_PT_body_moments_shape(ShapePanel, Panel):
-    """Symmetry and similar shapes in the object's properties"""
-
-    bl_idname = "OBJECT_PT_body_moments_shape"
-    bl_parent_id = "OBJECT_PT_body_moments"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "object"
-
-
-CLASSES = (VIEW3D_PT_body_moments_shape, OBJECT_PT_body_moments_shape)
+CLASSES = VIEW3D_PT_body_moments_shape, OBJECT_PT_body_moments_shape = in_both_places(
+    ShapePanel, "shape", parent="advanced"
+)

@@ -37,7 +37,9 @@ def method_and_findings(obj: Object) -> tuple[Method | None, Sequence[Finding]]:
 
 
 def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> None:
+    """Draw the object's name, and whether and how it was measured."""
     column = layout.column(align=True)
+    column.label(text=obj.name, icon="OBJECT_DATA", translate=False)
     refusal = results.failure(obj)
     if refusal is not None or not measured:
         text = "Not Measured Again" if measured else "Not Measured"

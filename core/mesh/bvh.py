@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics.arrays import segment_ranges, spread_bits
+from .point_triangle import triangle_distances
 
 RAY_SLOPES = (0.08173, 0.05311)  # the ray is (0.08173, 0.05311, 1)
 TRIANGLES_PER_LEAF = 4  # triangles
@@ -218,6 +219,35 @@ class Bvh:
         sure[place[flat | (np.abs(height) <= tolerance)]] = False
         above = height > 0.0
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
+
+    def distances(self, query_points: NDArray[np.float64], component: NDArray[np.intp]) -> NDArray[np.float64]:
+        """(k,) the distance of each place (about `origin`) from a shell's surface.
+
+        Level by level: what is certainly farther away than the farthest corner of some other box is left out.
+        """
+        nearest = np.full(len(query_points), np.inf)
+        pieces = _batches(np.arange(len(query_points)), self.root[component])
+        while pieces:
+            place, node = pieces.pop()
+            point, low, high = query_points[place], self.low[node], self.high[node]
+            occupied = high[:, 0] >= low[:, 0]
+            with np.errstate(invalid="ignore"):
+                least = np.linalg.norm(np.maximum(np.maximum(low - point, point - high), 0.0), axis=1)
+                most = np.linalg.norm(np.maximum(np.abs(point - low), np.abs(high - point)), axis=1)
+            np.minimum.at(nearest, place[occupied], most[occupied])
+            near = occupied & (least <= nearest[place])
+            place, node = place[near], node[near]
+            child = self.child[node]
+            leaf = child < 0
+            if leaf.any():
+                size = self.last[node[leaf]] - self.first[node[leaf]]
+                triangle = np.repeat(self.first[node[leaf]], size) + segment_ranges(size)
+                at = np.repeat(place[leaf], size)
+                corners = self.corners(triangle).transpose(1, 0, 2)
+                np.minimum.at(nearest, at, triangle_distances(query_points[at], corners))
+            place, child = place[~leaf], child[~leaf]
+            pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
+        return nearest
 
 
 def intersecting_pairs(

@@ -199,7 +199,7 @@ def assess(
         (
             *_orientation_findings(topology, misoriented, verdict.flipped),
             *_closing_findings(topology, verdict.solid, area.total, volume.total, size),
-            *_component_findings(verdict.comparison),
+            *_component_findings(verdict.comparison, size),
             *further,
         ),
         outward,
@@ -342,19 +342,27 @@ def _compare_parts(
             np.concatenate([relations.contained_in, shared[nearer.contained_in][np.isin(inside, crossed)]]),
             relations.intersecting[np.isin(crossed, crossing)],
             relations.undecided_pairs,
+            shared[nearer.mostly_in],
+            nearer.breakthrough,
         )
     return ComponentComparison.from_relations(replace(components, volume=total), relations, solid)
 
 
-def _component_findings(comparison: ComponentComparison | None) -> list[Finding]:
+def _component_findings(comparison: ComponentComparison | None, size: float) -> list[Finding]:
     """About parts in others' material, and parts that go through others."""
     findings: list[Finding] = []
     if comparison is None:
         return findings
-    if comparison.nested.any():
-        findings.append(finding("components_nested", count=int(comparison.nested.sum())))
-    if comparison.intersecting.any():
-        findings.append(finding("components_overlap", count=int(comparison.intersecting.sum())))
+    counts = {
+        "cavities_subtracted": comparison.cavities & ~comparison.breaking,
+        "cavities_break_through": comparison.breaking,
+        "components_nested": comparison.nested,
+        "components_overlap": comparison.intersecting,
+    }
+    for code, which in counts.items():
+        more = {"share": float(comparison.breakthrough / size)} if code == "cavities_break_through" else {}
+        if which.any():
+            findings.append(finding(code, count=int(which.sum()), **more))
     if comparison.undecided_pairs:
         findings.append(finding("overlap_unchecked", count=int(comparison.undecided_pairs)))
     return findings

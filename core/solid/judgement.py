@@ -117,7 +117,7 @@ def judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSoli
     if caps[:2].any():
         findings.append(_cap_finding(checked, oriented, caps, cap_share))
     if oriented.comparison is not None:
-        findings += _component_findings(mesh, oriented.comparison)
+        findings += _component_findings(mesh, oriented.comparison, checked.size)
     if self_intersecting:
         findings.append(finding("self_intersecting"))
     findings += _shape_findings(oriented.is_solid, given.planarity, volume)
@@ -209,10 +209,18 @@ def _cap_finding(checked: CheckedSurface, oriented: OrientedSolid, caps: NDArray
     return finding("holes_capped", edges, count=flat + curved, flat=flat, curved=curved, share=share)
 
 
-def _component_findings(mesh: RepairedMesh, comparison: ComponentComparison) -> list[Finding]:
+def _component_findings(mesh: RepairedMesh, comparison: ComponentComparison, size: float) -> list[Finding]:
     """About components that are in others, go through others, or have no volume."""
     findings, nested, crossing, solid = [], comparison.nested, comparison.intersecting, comparison.solid
+    cavities, breaking = comparison.cavities & ~comparison.breaking, comparison.breaking
     flat = ~solid & ~mesh.open if solid.any() else np.zeros(mesh.number, bool)
+    if cavities.any():
+        findings.append(finding("cavities_subtracted", mesh.faces_of(cavities), count=int(cavities.sum())))
+    if breaking.any():
+        share = float(comparison.breakthrough / size)
+        findings.append(
+            finding("cavities_break_through", mesh.faces_of(breaking), count=int(breaking.sum()), share=share)
+        )
     if nested.any():
         findings.append(finding("components_nested", mesh.faces_of(nested), count=int(nested.sum())))
     if crossing.any():

@@ -9,7 +9,7 @@ are looked for. What touches within the tolerance does not cross.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,10 +18,14 @@ from ..mesh.boxes import overlapping_box_pairs
 from ..mesh.bvh import Bvh, SortedComponents, intersecting_pairs, sort_components
 from ..numerics.arrays import segment_ranges
 
+NO_PAIRS = np.empty((0, 2), np.intp)
+NO_LENGTHS = np.empty(0)
 MAX_COMPONENT_PAIRS = 100_000  # of components
 # points under the skin of a component of few faces that are asked whether it surrounds them twice
 MAX_OVERLAP_SAMPLES = 4096
 SAMPLES_PER_PAIR = 256, 8, 50_000  # points under the skin for one pair: at most, at least; and for all pairs together
+BREAKTHROUGH_TRIANGLES = 4096, 8, 20_000  # along whose edges it is asked how far they reach out: the same
+MAX_STEPS_PER_EDGE = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,11 +40,23 @@ class ComponentRelations:
         Pairs that share a part of their interiors without one containing the other, or that are the same.
     undecided_pairs : int
         Pairs that would have been too much work.
+    mostly_in : (k, 2) int
+        Pairs (inner component, outer component) among the intersecting ones, of opposite orientation, most of whose
+        inner component is in the outer one: what a cavity that breaks through its wall looks like.
+    breakthrough : (k,) float
+        How far these reach out of each other (unit).
     """
 
     contained_in: NDArray[np.intp]
     intersecting: NDArray[np.intp]
     undecided_pairs: int
+    mostly_in: NDArray[np.intp] = field(default_factory=NO_PAIRS.view)
+    breakthrough: NDArray[np.float64] = field(default_factory=NO_LENGTHS.view)
+
+    def containers(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """The inner and the outer component of each pair that is decided as if one contained the other."""
+        inner, outer = np.concatenate([self.contained_in, self.mostly_in]).T
+        return inner, outer
 
 
 def classify_pairs(
@@ -62,9 +78,8 @@ def classify_pairs(
     i, j, skipped = overlapping_box_pairs(
         components.low[chosen], components.high[chosen], tolerance, MAX_COMPONENT_PAIRS
     )
-    none = np.empty((0, 2), np.intp)
     if not len(i):
-        return ComponentRelations(none, none, skipped)
+        return ComponentRelations(NO_PAIRS, NO_PAIRS, skipped)
     i, j = chosen[i], chosen[j]
     size = np.abs(components.volume)
     swap = (size[i] > size[j]) | ((size[i] == size[j]) & (i < j))
@@ -73,17 +88,54 @@ def classify_pairs(
     selected = np.zeros(len(size), bool)
     selected[small] = selected[large] = True
     tree = Bvh(points, components, selected)
-    within, without, unsure = _classify_by_samples(points, components, tree, small, large, tolerance)
+    inside_count, outside_count = _classify_by_samples(points, components, tree, small, large, tolerance)
+    within, without = inside_count > 0, outside_count > 0
     same = within & ~without & (size[large] - size[small] <= 1e-9 * size[large])
     through = (within & without) | same
     open_question = ~through
     pierced, unfinished = intersecting_pairs(tree, small[open_question], large[open_question], tolerance)
     through[open_question] = pierced
-    unsure = unsure.copy()
+    unsure = ~(within | without)
     unsure[open_question] |= unfinished & ~pierced
     inside = within & ~through & ~unsure
     pair = np.stack([small, large], axis=1)
-    return ComponentRelations(pair[inside], pair[through], skipped + int(np.count_nonzero(unsure & ~through)))
+    opposite = components.volume[small] * components.volume[large] < 0.0
+    mostly_in = pair[through & ~same & opposite & (inside_count > outside_count)]
+    return ComponentRelations(
+        pair[inside],
+        pair[through],
+        skipped + int(np.count_nonzero(unsure & ~through)),
+        mostly_in,
+        _breakthrough(components, tree, mostly_in, tolerance),
+    )
+
+
+def _breakthrough(
+    components: SortedComponents, tree: Bvh, pairs: NDArray[np.intp], tolerance: float
+) -> NDArray[np.float64]:
+    """(k,) how far the two components of each pair (inner, outer) reach out of each other: the largest distance of
+    places on edges of the inner one outside the outer one from its surface, and of places on edges of the outer one in
+    the inner one. At least the tolerance, by which they are known to pass through each other."""
+    depth = np.full(len(pairs), tolerance)
+    if not len(pairs):
+        return depth
+    most, least, together = BREAKTHROUGH_TRIANGLES
+    share = max(together // len(pairs), least)
+    for (of, other), within in ((pairs.T, False), (pairs.T[::-1], True)):
+        size = components.start[of + 1] - components.start[of]
+        number = np.minimum(size, min(share, most))
+        pair = np.repeat(np.arange(len(pairs)), number)
+        triangle = components.start[of][pair] + segment_ranges(number) * size[pair] // number[pair]
+        corners = [tree.vertex_columns[:, vertex].T for vertex in components.triangles[triangle].T]
+        steps = int(np.clip(together // len(pair), 1, MAX_STEPS_PER_EDGE))  # few triangles may be long
+        place = np.concatenate(
+            [corners[i] + k / steps * (corners[i - 1] - corners[i]) for i in range(3) for k in range(steps)]
+        )
+        pair = np.tile(pair, 3 * steps)
+        winding, sure = tree.winding_numbers(place, other[pair], 0.0)
+        reaches = np.flatnonzero(sure & ((winding != 0) == within))
+        np.maximum.at(depth, pair[reaches], tree.distances(place[reaches], other[pair[reaches]]))
+    return depth
 
 
 def surfaces_intersect(
@@ -130,7 +182,8 @@ def orient_nested_components(
     """Decide which components to turn, and which are then outward ones in the material of others, or cavities.
 
     From the outermost inward: an inward component that no material surrounds is inside out. It is turned, and so is
-    what it contains where that was consistent with it (a hollow body turned inside out as a whole).
+    what it contains where that was consistent with it (a hollow body turned inside out as a whole). A cavity that
+    breaks through its wall is one still.
 
     Parameters
     ----------
@@ -147,7 +200,7 @@ def orient_nested_components(
     number = len(candidates)
     given = np.where(candidates, np.sign(components.volume), 0.0)
     sign = given.copy()
-    inner, outer = relations.contained_in.T
+    inner, outer = relations.containers()
     depth = np.bincount(inner, minlength=number)
     parent = _innermost_container(relations, number)
     order = np.argsort(depth[inner], kind="stable")
@@ -182,7 +235,7 @@ def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDA
 
 def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[np.intp]:
     """(number,) the innermost component around each, -1 for none."""
-    inner, outer = relations.contained_in.T
+    inner, outer = relations.containers()
     depth = np.bincount(inner, minlength=number)
     parent = np.full(number, -1)
     order = np.argsort(depth[outer], kind="stable")
@@ -192,9 +245,9 @@ def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[
 
 def _classify_by_samples(
     points: NDArray, components: SortedComponents, tree: Bvh, small: NDArray, large: NDArray, tolerance: float
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
-    """For each pair: whether some point under the skin of the smaller component is inside the larger one, whether some
-    is outside, and whether neither could be decided."""
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """For each pair: how many points under the skin of the smaller component are inside the larger one, and how many
+    are outside, of those that could be decided."""
     most, least, together = SAMPLES_PER_PAIR
     number = np.clip(together // len(small), least, most)
     pair = np.repeat(np.arange(len(small)), number)
@@ -206,10 +259,8 @@ def _classify_by_samples(
     keep = self_sure & (self_winding != 0)
     place, pair = place[keep], pair[keep]
     winding, sure = tree.winding_numbers(place, large[pair], tolerance)
-    within, without = np.zeros((2, len(small)), bool)
-    within[pair[sure & (winding != 0)]] = True
-    without[pair[sure & (winding == 0)]] = True
-    return within, without, ~(within | without)
+    pair, inside = pair[sure], winding[sure] != 0
+    return np.bincount(pair[inside], minlength=len(small)), np.bincount(pair[~inside], minlength=len(small))
 
 
 def _interior_samples(

@@ -32,7 +32,11 @@ class ComponentComparison:
         Those with a volume.
     nested, cavities, intersecting : (c,) bool
         Outward ones in the material of others; inward ones in the material of others; and those that share a part of
-        their interiors with another one, or are a copy of it.
+        their interiors with another one, or are a copy of it, but for cavities that break through.
+    breaking : (c,) bool
+        The cavities that break through the wall of the component they are in.
+    breakthrough : float
+        How far they do at most (unit).
     host : (c,) int
         As `ClosedParts.host_part`.
     undecided_pairs : int
@@ -44,6 +48,8 @@ class ComponentComparison:
     nested: NDArray[np.bool_]
     cavities: NDArray[np.bool_]
     intersecting: NDArray[np.bool_]
+    breaking: NDArray[np.bool_]
+    breakthrough: float
     host: NDArray[np.intp]
     undecided_pairs: int
 
@@ -53,10 +59,22 @@ class ComponentComparison:
     ) -> ComponentComparison:
         """Decide which components to turn, from how the solid ones lie to each other."""
         flipped, nested, cavities = orient_nested_components(components, relations, solid)
-        intersecting = np.zeros(len(solid), bool)
-        intersecting[relations.intersecting] = True
-        host = cavity_host(relations, cavities)
-        return cls(flipped, solid, nested, cavities, intersecting, host, relations.undecided_pairs)
+        intersecting, breaking = np.zeros((2, len(solid)), bool)
+        through = cavities[relations.mostly_in[:, 0]] & ~cavities[relations.mostly_in[:, 1]]
+        breaking[relations.mostly_in[through, 0]] = True
+        keys = [pairs @ [len(solid), 1] for pairs in (relations.intersecting, relations.mostly_in[through])]
+        intersecting[relations.intersecting[~np.isin(*keys)]] = True
+        return cls(
+            flipped,
+            solid,
+            nested,
+            cavities,
+            intersecting,
+            breaking,
+            float(relations.breakthrough[through].max(initial=0.0)),
+            cavity_host(relations, cavities),
+            relations.undecided_pairs,
+        )
 
     def counts(self) -> dict[str, int]:
         """The entries of `MeshReport` that it tells."""

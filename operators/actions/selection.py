@@ -13,14 +13,16 @@ from bpy.types import Context, Object, Operator
 from ...core.verdict.finding import Finding, finding
 from ..read import measurable
 from ..scene.transforms import ancestors
+from ..settings.preferences import copy_defaults
 from ..write import reports
 from .modal import progress
 
 
 def selected_measurable(context: Context) -> list[Object]:
     """The selected objects that could be measured, parents before children. Works in background
-    too.
+    too. A scene that is used for the first time gets its defaults.
     """
+    copy_defaults(context.scene)
     objects = [obj for obj in context.view_layer.objects.selected if measurable(obj)]
     return sorted(objects, key=lambda obj: sum(1 for _ in ancestors(obj)))
 

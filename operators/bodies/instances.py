@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import fields, replace
 
 import numpy as np
@@ -16,6 +16,8 @@ from ...core.moments.affine_maps import are_similarities, distinct_linear_parts,
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Moments
 from ...core.polyhedron.sheared_areas import area_of_images
+from ...core.solid.judgement import SolidIntegrals
+from ...core.solid.places import PlaceComparison
 from ...core.verdict.finding import Finding, finding
 from ...core.verdict.health import DefectiveElements, MeshReport
 from ..read import Reading
@@ -59,24 +61,29 @@ def _identity(result: Finding) -> tuple[Finding, object]:
     return result, elements.tobytes() if isinstance(elements, np.ndarray) else repr(elements)
 
 
-def with_sources(reading: Reading, result: Finding) -> Finding:
-    """A finding about `reading.join_surfaces()`: its faces, and edges as pairs of vertices, become [face, source] in
-    the numbers of the surfaces that they are instances of, each once."""
-    elements = np.asarray(result.elements)
-    if not elements.size:
-        return result
-    of_edges = elements.ndim == 2
-    places = np.repeat(np.arange(len(reading.parts)), [len(part.matrices) for part in reading.parts])
-    surfaces = [part.surface for part in reading.parts]
-    sizes = [len(one.points) if of_edges else int(one.all_triangles()[1].max(initial=-1)) + 1 for one in surfaces]
-    ends = np.cumsum(np.array(sizes)[places])
-    starts = ends - np.array(sizes)[places]
-    at = np.searchsorted(ends, elements[:, 0] if of_edges else elements, side="right")
-    local = elements - (starts[at, None] if of_edges else starts[at])
-    each = np.unique(np.column_stack([places[at], local]), axis=0)
-    names = np.array([part.source_object_name or reading.name for part in reading.parts], object)[each[:, 0]]
-    numbers = each[:, 1:] if of_edges else each[:, 1]
-    return replace(result, elements=list(map(list, zip(numbers.tolist(), names.tolist()))))
+def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison) -> list[Finding]:
+    """What is reported of places that have something in common: faces as [face, source], each once."""
+    findings = []
+    for code, components in (("components_nested", comparison.nested), ("components_overlap", comparison.overlapping)):
+        if len(components):
+            elements = []
+            for which in np.unique(components[:, 0]):
+                parts, name = solids[which].parts(), reading.parts[which].source_object_name or reading.name
+                of_these = np.isin(parts.part, components[components[:, 0] == which, 1]) & (parts.face >= 0)
+                elements += [[face, name] for face in np.unique(parts.face[of_these]).tolist()]
+            findings.append(finding(code, elements, count=len(components)))
+    if comparison.undecided_pairs:
+        findings.append(finding("overlap_unchecked", count=comparison.undecided_pairs))
+    return findings
+
+
+def with_overlaps(health: MeshReport, comparison: PlaceComparison) -> MeshReport:
+    """The health with the components that are in others, or overlap others, in another place."""
+    return replace(
+        health,
+        nested_components=health.nested_components + len(comparison.nested),
+        overlapping_components=health.overlapping_components + len(comparison.overlapping),
+    )
 
 
 def instances_overlap(reading: Reading) -> bool:

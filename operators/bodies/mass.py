@@ -29,7 +29,7 @@ from ..read.reading import said_of, to_si
 from ..settings.density import DensityField, material_density
 from ..settings.digest import density_key
 from .body import MAX_MASS_MOMENT, MeshBody
-from .instances import area_of_instances, findings_by_part, with_sources
+from .instances import area_of_instances, findings_by_part
 from .measurement import extent
 from .polynomial_mass import polynomial_mass_result
 from .request import Request
@@ -65,7 +65,7 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
         if shell:
             raise ReadError("density_volume_of_shell")
         filled = filled_by_volume(body, request)
-        return replace(filled, density_key=density_key(request.obj, ()))
+        return replace(filled, density_key=density_key(request.obj, (), request.scene))
     if density.kind == "polynomial":
         weighed = _by_polynomial(reading, body, density, request.unit, shell, factor, options.threads)
     elif density.kind == "attribute":
@@ -76,7 +76,7 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
         body,
         mass=weighed.mass,
         density_from=weighed.source,
-        density_key=density_key(request.obj, weighed.materials),
+        density_key=density_key(request.obj, weighed.materials, request.scene),
         materials=weighed.materials,
         findings=(*body.findings, *weighed.findings),
     )
@@ -122,16 +122,12 @@ def _by_material(
         for i, values in enumerate(face_densities.values):
             parts.extend(_sheet_moments(reading, i, values, unit, threads))
     else:
-        for i, ((solid, matrices), (values, names)) in enumerate(zip(body.solids, face_densities.for_solids(body))):
+        for i, ((solid, matrices), (values, names)) in enumerate(zip(body.solids, face_densities.with_names())):
             weighed, findings, by_area = _solid_moments(solid, matrices, values, names)
             parts += weighed
             by_part.append((reading.parts[i].source_object_name, findings))
             mixed = mixed or by_area
-    if is_joined(reading, body):
-        findings = [with_sources(reading, result) for _, found in by_part for result in found]
-    else:
-        findings = findings_by_part(by_part, reading.name)
-    findings = [*face_densities.missing_note(), *findings]
+    findings = [*face_densities.missing_note(), *findings_by_part(by_part, reading.name)]
     health = body.health
     if not shell and health.nested_components + health.overlapping_components and face_densities.has_several:
         findings.append(finding("overlapping_densities"))
@@ -197,27 +193,11 @@ class _FaceDensities:
             parts.append(finding("density_mixed_by_area"))
         return finding("density_from_materials", materials=[part.as_record() for part in parts])
 
-    def for_solids(self, body: MeshBody) -> Iterator[tuple[NDArray, NDArray]]:
-        """The densities and the material's names of the faces of each measured surface; of one that joins all places,
-        those of each place in turn."""
-        names = [
-            np.array([*(material.name if material else "" for material in slots), ""], object)[faces]
-            for faces, slots in self.slots
-        ]
-        if not is_joined(self.reading, body):
-            yield from zip(self.values, names)
-            return
-        blocks, row_names = [], []
-        for part, values, own in zip(self.reading.parts, self.values, names):
-            used = part.surface.all_triangles()[1].max() + 1
-            blocks += [values[:used]] * len(part.matrices)
-            row_names += [own[:used]] * len(part.matrices)
-        yield np.concatenate(blocks), np.concatenate(row_names)
-
-
-def is_joined(reading: Reading, body: MeshBody) -> bool:
-    """Whether the body was measured as one surface though it stands in several places."""
-    return sum(len(matrices) for _, matrices in body.solids) != reading.instance_count
+    def with_names(self) -> Iterator[tuple[NDArray, NDArray]]:
+        """The densities and the materials' names of the faces of each part."""
+        for values, (faces, slots) in zip(self.values, self.slots):
+            names = np.array([*(material.name if material else "" for material in slots), ""], object)
+            yield values, names[faces]
 
 
 def _solid_moments(

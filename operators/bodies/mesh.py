@@ -16,8 +16,9 @@ from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Moments, sum_moments
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals, measure_solid
+from ...core.solid.places import compare_places
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.verdict.health import DefectiveElements, MeshReport
+from ...core.verdict.health import MeshReport
 from ...core.verdict.method import Method, Verdict, least_trusted
 from ..read import Part, Reading, shows_flat_region
 from ..read.reading import to_si
@@ -29,9 +30,10 @@ from .instances import (
     instances_overlap,
     merge_health,
     not_compared,
+    overlap_findings,
     singular_instances_message,
     singular_reason,
-    with_sources,
+    with_overlaps,
 )
 from .mass import weigh
 from .request import Request
@@ -39,7 +41,7 @@ from .wall import find_walls
 
 MEASURED_AS = frozenset({"solid", "shell"})
 
-MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared with each other as shells of one mesh
+MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared with each other
 DRAWN_CODES = ("surface_drawn_as_polygons", "curves_drawn_as_polygons")
 
 
@@ -89,10 +91,6 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
     volumes, areas, healths, verdicts, findings, by_part, parts = [], [], [], [], [], [], []
     drawn = _drawn(reading) if reading.findings else set()
     alone = reading.instance_count == 1
-    if not shell and not alone and instances_overlap(reading):
-        if sum(triangle_count(part.surface) * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
-            return _joined_body(reading, unit, threads)
-        findings.append(not_compared(reading))
     for part in reading.parts:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
         matrices = to_si(part.matrices, unit)
@@ -120,13 +118,21 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
         parts.append((solid, matrices))
     if any([found for _, found in by_part]):
         findings += findings_by_part(by_part, reading.name)
+    health = healths[0][0] if alone else merge_health(healths)
+    if not shell and not alone and instances_overlap(reading):
+        if sum(triangle_count(part.surface) * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
+            comparison = compare_places(parts)
+            findings += overlap_findings(reading, [solid for solid, _ in parts], comparison)
+            health = with_overlaps(health, comparison)
+        else:
+            findings.append(not_compared(reading))
     of_solids = [verdict for verdict in verdicts if verdict]
     if of_solids and len(of_solids) < len(verdicts):
         findings.append(finding("flat_instance_sources", count=verdicts.count(None), total=len(verdicts)))
     return MeshBody(
         sum_moments(volumes),
         sum_moments(areas),
-        healths[0][0] if alone else merge_health(healths),
+        health,
         Method(of_solids[0] if len(of_solids) == 1 else least_trusted(of_solids)),
         tuple(findings),
         face_count=sum(
@@ -153,28 +159,6 @@ def _area(threads: int) -> Callable[[Surface], Moments]:
         return polyhedron_moments(surface, area_order=3, threads=threads)[1]
 
     return measured
-
-
-def _joined_body(reading: Reading, unit: float, threads: int) -> MeshBody:
-    """All parts where they stand as one surface, so that they are compared as the shells of one mesh are."""
-    surface = reading.join()
-    solid = measure_solid(surface, threads=threads)
-    scale = np.diag([unit, unit, unit, 1.0])
-    health = replace(
-        solid.health, volume_spread=solid.health.volume_spread * unit**3, defective_elements=DefectiveElements()
-    )
-    findings = _of_drawn(solid.findings, reading.parts, _drawn(reading))
-    return _single_surface_body(
-        solid.volume.transform(scale),
-        solid.area.transform(scale),
-        health,
-        Verdict(solid.method),
-        [with_sources(reading, result) for result in findings],
-        solid,
-        scale,
-        surface,
-        threads,
-    )
 
 
 def _single_surface_body(

@@ -72,8 +72,7 @@ def polynomial_mass_result(
 
 def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float) -> Iterator[_Piece]:
     """What encloses the body, as it was repaired."""
-    together = len(body.solids) == 1 and len(body.solids[0][1]) == 1 and reading.instance_count > 1
-    if body.method.verdict == Verdict.UNION or (together and in_world):
+    if body.method.verdict == Verdict.UNION:
         if reading.instance_count > 1 and not in_world:
             raise ReadError("density_of_united_instances")
         solid, matrices = body.solids[0]
@@ -82,36 +81,10 @@ def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float)
             solid.repaired_surface, matrices, matrices if in_world else _to_local(place) @ matrices, solid.volume.about
         )
         return
-    if together:
-        yield from _pieces_by_instance(reading, body, unit)
-        return
     for solid, matrices in body.solids:
         yield _Piece(
             solid.repaired_surface, matrices, matrices if in_world else local_coordinates(matrices), solid.volume.about
         )
-
-
-def _pieces_by_instance(reading: Reading, body: MeshBody, unit: float) -> Iterator[_Piece]:
-    """The triangles of a body that was measured as one, by the place that they came from; caps go with their part."""
-    solid, scale = body.solids[0]
-    parts = solid.parts()
-    matrices = [matrix for part in reading.parts for matrix in part.matrices]
-    counts = [int(part.surface.all_triangles()[1].max()) + 1 for part in reading.parts for _ in part.matrices]
-    ends = np.cumsum(counts)
-    instance = np.searchsorted(ends, parts.face, side="right")
-    of_mesh = parts.face >= 0
-    of_part = np.zeros(parts.number, np.intp)
-    of_part[parts.part[of_mesh]] = instance[of_mesh]
-    instance = np.where(of_mesh, instance, of_part[parts.part])
-    for i, matrix in enumerate(matrices):
-        in_instance = instance == i
-        if in_instance.any():
-            yield _Piece(
-                Surface(parts.points, parts.triangles[in_instance], displacement=solid.repaired_surface.displacement),
-                scale,
-                _to_local(to_si(matrix[None], unit)) @ scale,
-                solid.volume.about,
-            )
 
 
 def _to_local(matrices: NDArray) -> NDArray[np.float64]:

@@ -19,7 +19,7 @@ from ...core.density.spline_tables import MAX_ORDER as MAX_SPLINE_ORDER
 from ...core.polyhedron import MAX_ORDER
 from ...core.verdict.finding import MeasureError, finding
 from ..settings.limits import scan_limits
-from ..write.record import FORMATS, FRAMES
+from ..write.documents import FORMATS, FRAMES
 from . import fourier, inputs, output, results
 from .parser import Parser
 

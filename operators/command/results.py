@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ...core.verdict.finding import finding
-from ..write.record import SCHEMA, to_csv
+from ..write.documents import SCHEMA, to_csv
 from ..write.spectrum import ARRAYS
 
 _HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document

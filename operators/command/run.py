@@ -37,6 +37,7 @@ from ..settings import properties as settings
 from ..settings.density import unset_density
 from ..settings.options import MeasureOptions
 from ..write import record
+from ..write.documents import document
 from ..write.properties import store
 from ..write.terminal import tell
 from . import fourier
@@ -149,7 +150,7 @@ class Run:
         for one in errors:
             where = [text for text in (file, one["name"]) if text]
             tell(*where, one["reason"])
-        return record.document(
+        return document(
             objects,
             record.total([one for _, _, one in measured], caveats),
             errors,
@@ -191,7 +192,7 @@ class Run:
         """That nobody has set the density, where that is so."""
         if self.options.density is not None or self.options.mass is not None:
             return
-        unset = unset_density(obj, measurement)
+        unset = unset_density(obj, measurement, bpy.context.scene)
         if unset == "density":
             yield finding("density_defaulted")
         elif unset is not None:

@@ -17,6 +17,7 @@ import numpy as np
 
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import ReadError
+from ..settings.density import object_density
 from ..settings.digest import density_key
 from .mesh import mesh_surface
 from .visibility import evaluated_geometry
@@ -47,16 +48,16 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     """A digest of the settings that the numbers of this object depend on."""
     settings = obj.body_moments
     unit = shortest_decimal(scene.unit_settings.scale_length)
-    given = settings.linear_density if settings.kind == "WIRE" else settings.density
+    given = shortest_decimal(settings.linear_density) if settings.kind == "WIRE" else object_density(settings, scene)
     return effective_hash(
         "SOLID" if obj.type == "VOLUME" else settings.kind,
-        shortest_decimal(given) if settings.mass_from == "DENSITY" else None,
+        given if settings.mass_from == "DENSITY" else None,
         shortest_decimal(settings.mass) if settings.mass_from == "MASS" else None,
         shortest_decimal(settings.thickness) * unit,
         settings.overlap,
         unit,
         settings.wall,
-        density_key(obj, str(obj.get("body_materials", "")).splitlines()),
+        density_key(obj, str(obj.get("body_materials", "")).splitlines(), scene),
     )
 
 

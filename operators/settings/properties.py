@@ -9,14 +9,19 @@ property by scale_length³, while a weighed part weighs the same whatever a scen
 
 import bpy
 import numpy as np
-from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
+from ...core.density.density_units import DENSITY_UNITS, density_unit
 from ...core.density.materials import BY_NAME
 from ...core.density.transfer_function import CT_DENSITIES
 from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import MAX_ORDER
+from .density import object_density
 from .hooks import wall_changed
+from .overlay import BodyMomentsOverlaySettings
+from .preferences import CLASSES as PREFERENCES
+from .preferences import SceneDefaults
 
 TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Blender's own translations
 
@@ -31,6 +36,27 @@ def _forget_material(settings: PropertyGroup, _context: Context) -> None:
     material = BY_NAME.get(settings.material)
     if settings.material and (material is None or np.float32(material.density) != np.float32(settings.density)):
         settings.material = ""
+
+
+def _density_in(unit: str, description: str):
+    """The density of an object or a material in a unit, for fields of a panel."""
+    factor, name = DENSITY_UNITS[unit]
+    return FloatProperty(
+        name="Density ({:s})".format(name),
+        description="{:s}, in {:s}".format(description, name),
+        get=lambda settings: _shown_density(settings) / factor,
+        set=lambda settings, value: setattr(settings, "density", value * factor),
+        min=0.0,
+        soft_max=25000.0 / factor,
+        precision=3 if factor < 100.0 else 4,
+        options=set(),
+    )
+
+
+def _shown_density(settings: PropertyGroup) -> float:
+    if isinstance(settings.id_data, Object):
+        return object_density(settings, bpy.context.scene)
+    return settings.density
 
 
 class BodyMomentsObjectSettings(PropertyGroup):
@@ -110,7 +136,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     density: FloatProperty(
         name="Density",
-        description="Density in kg/m³, independent of the scene units. Type lb/ft³ as 170*16.0185",
+        description="Density in kg/m³, independent of the scene units",
         default=1000.0,
         min=0.0,
         soft_min=0.01,
@@ -119,6 +145,10 @@ class BodyMomentsObjectSettings(PropertyGroup):
         precision=3,
         update=_forget_material,
     )
+    density_kg_m3: _density_in("KG_M3", "Density")
+    density_g_cm3: _density_in("G_CM3", "Density")
+    density_lb_in3: _density_in("LB_IN3", "Density")
+    density_lb_ft3: _density_in("LB_FT3", "Density")
     linear_density: FloatProperty(
         name="Linear Density",
         description="Mass per length of the wire in kg/m, independent of the scene units",
@@ -244,23 +274,29 @@ class BodyMomentsMaterialSettings(PropertyGroup):
         precision=3,
         update=_forget_material,
     )
+    density_kg_m3: _density_in("KG_M3", "Density, 0 for that of the object,")
+    density_g_cm3: _density_in("G_CM3", "Density, 0 for that of the object,")
+    density_lb_in3: _density_in("LB_IN3", "Density, 0 for that of the object,")
+    density_lb_ft3: _density_in("LB_FT3", "Density, 0 for that of the object,")
     material: StringProperty(
         name="Material",
         description="Entry of the material table that the density was taken from",
     )
 
 
-class BodyMomentsSceneSettings(PropertyGroup):
-    """How the scene's numbers are shown."""
+class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
+    """How the scene's numbers are shown, and what its objects start with."""
 
-    frame: EnumProperty(
-        name="Frame",
-        description="Axes and origin in which the center of mass, the axes and the tensor are shown",
-        items=(
-            ("WORLD", "World", "World axes and origin"),
-            ("OBJECT", "Object", "Location and rotation of the object, with unit scale"),
-        ),
-        default="WORLD",
+    overlay: PointerProperty(name="Overlay", type=BodyMomentsOverlaySettings)
+    has_defaults: BoolProperty(
+        name="Has Defaults",
+        description="The add-on's preferences were copied into this scene",
+        options={"HIDDEN"},
+    )
+    units_answered: BoolProperty(
+        name="Units Answered",
+        description="Whether a unit of this scene is a millimeter has been answered",
+        options={"HIDDEN"},
     )
     moments_order: IntProperty(
         name="Order",
@@ -297,6 +333,12 @@ class BodyMomentsSceneSettings(PropertyGroup):
     )
 
 
+def density_field_name(scene: Scene) -> str:
+    """The property of an object's or a material's settings that shows its density in the unit that a scene is set
+    to."""
+    return "density_" + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
+
+
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
     """Copy every setting; whether anything was different. What is set in the source is set in the target."""
     changed = False
@@ -325,7 +367,13 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
         settings.thickness = options.thickness / shortest_decimal(scene.unit_settings.scale_length)
 
 
-CLASSES = (BodyMomentsObjectSettings, BodyMomentsMaterialSettings, BodyMomentsSceneSettings)
+CLASSES = (
+    *PREFERENCES,
+    BodyMomentsOverlaySettings,
+    BodyMomentsObjectSettings,
+    BodyMomentsMaterialSettings,
+    BodyMomentsSceneSettings,
+)
 
 
 def register() -> None:

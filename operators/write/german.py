@@ -50,6 +50,17 @@ TEXTS = {
     "Frame Origin": "Ursprung des Bezugssystems",
     "Center": "Mittelpunkt",
     "Center, Normalized": "Mittelpunkt, normiert",
+    # overlay
+    "Mass Properties": "Masseeigenschaften",
+    "All Measured Objects": "Alle gemessenen Objekte",
+    "Drop Line": "Lotlinie",
+    "Equal Inertia": "Gleiche Trägheit",
+    "Box": "Quader",
+    "Ellipsoid": "Ellipsoid",
+    "Sum of Selection": "Summe der Auswahl",
+    "Faults": "Fehler",
+    "Support Polygon": "Standfläche",
+    "Path of Balance Groups": "Bahn der Balancegruppen",
     # numbers and buttons
     "Area": "Fläche",
     "Center of Mass": "Massenmittelpunkt",
@@ -59,7 +70,12 @@ TEXTS = {
     "Inertia Tensor": "Trägheitstensor",
     "Error Bounds": "Fehlerschranken",
     "Apply to Object": "Auf Objekt anwenden",
-    "Analysis": "Analyse",
+    "Inertia": "Trägheit",
+    "Selection": "Auswahl",
+    "Advanced": "Erweitert",
+    "Body Moments": "Körpermomente",
+    "Center of Mass (World)": "Massenmittelpunkt (Welt)",
+    "Center of Mass (Object)": "Massenmittelpunkt (Objekt)",
     "Total of Selection": "Summe der Auswahl",
     "1 Object": "1 Objekt",
     "{:d} Objects": "{:d} Objekte",
@@ -124,6 +140,16 @@ MESSAGES = {
         "Komponenten lassen sich nicht schließen, wo mehr als zwei Flächen an einer Kante liegen: {count} von {total}. "
         "Volumen, Massenmittelpunkt und Trägheit hängen vom Bezugspunkt ab. Innere Flächen löschen und Löcher füllen "
         "oder Art auf Schale setzen.",
+    ),
+    "cavities_subtracted": (
+        "{count} Hohlraum wurde abgezogen: eine nach innen gewandte Komponente in einer anderen.",
+        "{count} Hohlräume wurden abgezogen: nach innen gewandte Komponenten in anderen.",
+    ),
+    "cavities_break_through": (
+        "{count} Hohlraum durchbricht seine Wand, um bis zu {share:percent} der Größe; was außerhalb liegt, zählt "
+        "negativ. Den Hohlraum verkleinern oder die Wand verstärken.",
+        "{count} Hohlräume durchbrechen ihre Wände, um bis zu {share:percent} der Größe; was außerhalb liegt, zählt "
+        "negativ. Die Hohlräume verkleinern oder die Wände verstärken.",
     ),
     "components_nested": (
         "{count} nach außen gewandte Komponente liegt in einer anderen; der gemeinsame Raum zählt doppelt. Hohlräume "

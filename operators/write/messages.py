@@ -209,6 +209,16 @@ MESSAGES: dict[str, Message] = {
         "center of mass "
         "and inertia depend on the reference point. Delete interior faces and fill holes, or set Kind to Shell."
     ),
+    "cavities_subtracted": _note(
+        "{count} cavity was subtracted: an inward component inside another.",
+        "{count} cavities were subtracted: inward components inside others.",
+    ),
+    "cavities_break_through": _warning(
+        "{count} cavity breaks through its wall, by up to {share:percent} of the size; what lies outside counts as "
+        "negative. Make the cavity smaller or the wall thicker.",
+        "{count} cavities break through their walls, by up to {share:percent} of the size; what lies outside counts as "
+        "negative. Make the cavities smaller or the walls thicker.",
+    ),
     "components_nested": _warning(
         "{count} outward component lies inside another; the shared space counts twice. Flip cavities, or set "
         "Overlaps to "
@@ -1395,6 +1405,38 @@ MESSAGES: dict[str, Message] = {
     "panel_nothing_measured": _note("No selected object is measured"),
     "panel_nothing_to_compare": _note("Nothing to compare with"),
     "panel_material_default": _note("None: the object's density is used"),
+    # ------------------------------------------------------------------ Robots: what a format cannot say
+    "robot_links_left_out": _warning(
+        "{count} object without mass is no link: {links}.", "{count} objects without mass are no links: {links}."
+    ),
+    "robot_without_links": _error("There is no link. Measure objects with mass."),
+    "robot_one_file": _error("A robot is one file. Name one FILE for this format, not {count}."),
+    "robot_base_added": _note(
+        "{count} objects have no parent. They are fixed to an added link without mass, {name}. Parent them to one of "
+        "them to avoid it."
+    ),
+    "robot_ellipsoid_as_box": _note(
+        "URDF has no ellipsoid. The box of equal mass and inertia stands in its place: {links}."
+    ),
+    "urdf_effort_unknown": _note(
+        "Set effort and velocity of the joint to its motor's. They are placeholders: {joints}.",
+        "Set effort and velocity of {count} joints to those of their motors. They are placeholders: {joints}.",
+    ),
+    "sdf_limits_lost": _warning(
+        "SDF knows no limits of a joint about several axes. It moves freely: {joints}.",
+        "SDF knows no limits of joints about several axes. {count} move freely: {joints}.",
+    ),
+    "mjcf_inertia_too_small": _warning(
+        "MuJoCo refuses a moving body with a mass or principal moment below {limit:g} kg or kg·m²: {links}, with "
+        "{least:.3g}. Set boundmass and boundinertia of the compiler, fix it to its parent, or model in larger units.",
+        "MuJoCo refuses moving bodies with a mass or principal moment below {limit:g} kg or kg·m²: {count} of them, "
+        "{links}, down to {least:.3g}. Set boundmass and boundinertia of the compiler, fix them to their parents, or "
+        "model in larger units.",
+    ),
+    "usd_inertia_too_small": _warning(
+        "The inertia of {links} is too small for the single precision of PhysicsMassAPI. Read newton:inertia, or use "
+        "a stage in smaller units."
+    ),
 }
 
 # What an enum says in a panel or a report: method → headline, explanation. Not findings.

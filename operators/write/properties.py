@@ -24,8 +24,9 @@ from ...core.measurement import UNIFORM_DENSITIES, Measurement
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
 from ...core.verdict.method import Method, Source, Verdict
+from .documents import TENSOR
 from .messages import of_severity, sentence
-from .record import TENSOR, plain
+from .record import plain
 
 DESCRIPTIONS = {
     "body_mass": "Mass in kg",

@@ -21,8 +21,9 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Verdict
 from . import properties
+from .documents import TENSOR, document
 from .messages import HEALTH, METHODS, method_key
-from .record import TENSOR, described, document, plain
+from .record import described, plain
 from .terminal import visible
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}

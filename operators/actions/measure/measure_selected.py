@@ -15,6 +15,7 @@ from ...bodies.measure_object import Measured, measure_body
 from ...session import results
 from ...session.staleness import mark_up_to_date
 from ...settings.density import unset_density
+from ...settings.preferences import copy_defaults
 from ...write import reports
 from ...write.messages import of_severity
 from ..modal import ModalSteps, redraw
@@ -47,6 +48,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
 
     def _begin(self, context: bpy.types.Context) -> int:
         """Start with the selected objects, in edit mode those being edited; how many there are."""
+        copy_defaults(context.scene)
         objects = list(context.selected_objects)
         self._results: list[tuple[bpy.types.Object, Measured]] = []
         self._refusals: list[tuple[bpy.types.Object, Finding]] = []
@@ -96,7 +98,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
 
 def _with_default_density(obj: bpy.types.Object, measured: Measured) -> Measured:
     """With a note where nobody has set the density."""
-    unset = unset_density(obj, measured.measurement)
+    unset = unset_density(obj, measured.measurement, bpy.context.scene)
     if unset is None:
         return measured
     kept = finding("density_default_kept") if unset == "density" else finding("linear_density_default_kept")

@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every panel is in two places: the 3D Viewport's sidebar, and the object's properties, where it stays open beside
+other settings.
+
+To add a sub-panel: a class with `bl_label`, `draw` and, where needed, `poll`, made into panels by `in_both_places`, in
+a module that `panels/__init__.py` names. Sub-panels of the main panel stand in the order of `ORDER`.
+"""
+
+from __future__ import annotations
+
+from bpy.types import Panel
+
+ORDER = ("inertia", "density", "apply", "stability", "selection", "advanced")  # of CAD's mass property dialogs
+ROOT = "body_moments"
+
+
+def in_both_places(contents: type, name: str = "", parent: str | None = None) -> tuple[type[Panel], type[Panel]]:
+    """Make the panels that show these contents.
+
+    Parameters
+    ----------
+    contents : type
+        A class with `bl_label`, `draw(self, context)` and, where needed, `poll`, `bl_options` and `draw_header_preset`.
+    name : str
+        Of the sub-panel, part of its identifier; "" for the main panel.
+    parent : str, optional
+        The name of the panel that it is a part of, by default the main one.
+
+    Returns
+    -------
+    tuple of two types
+        The panel of the sidebar, ``VIEW3D_PT_body_moments_NAME``, and that of the object's properties,
+        ``OBJECT_PT_body_moments_NAME``.
+    """
+    return (
+        _panel(
+            "VIEW3D_PT_", contents, name, parent, bl_space_type="VIEW_3D", bl_region_type="UI", bl_category="Moments"
+        ),
+        _panel(
+            "OBJECT_PT_",
+            contents,
+            name,
+            parent,
+            bl_space_type="PROPERTIES",
+            bl_region_type="WINDOW",
+            bl_context="object",
+            **({} if name else {"bl_options": {"DEFAULT_CLOSED"}}),
+        ),
+    )
+
+
+def _panel(prefix: str, contents: type, name: str, parent: str | None, **place: object) -> type[Panel]:
+    idname = _idname(prefix, name)
+    attributes = {"__doc__": contents.__doc__, "__module__": contents.__module__, "bl_idname": idname, **place}
+    if name:
+        attributes["bl_parent_id"] = _idname(prefix, parent or "")
+    if name in ORDER:
+        attributes["bl_order"] = ORDER.index(name)
+    return type(idname, (contents, Panel), attributes)
+
+
+def _idname(prefix: str, name: str) -> str:
+    return prefix + "_".join(filter(None, (ROOT, name)))

@@ -1,0 +1,330 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fourier transforms of objects: on the command line and by the operator."""
+
+import numpy as np
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.core.fourier import instances as fourier_body
+from body_moments.operators import batch
+from body_moments.operators.bodies.fourier import object_transform
+from body_moments.operators.command import fourier as command
+from body_moments.operators.settings.options import MeasureOptions
+
+from tests.blender import batch_files as files
+from tests.blender import objects
+from tests.blender.batch_files import document, measured, run
+from tests.blender.findings import refused, said
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+SIZE, CENTER = np.array([1.0, 2.0, 3.0]), np.array(files.CENTER)
+Q = np.random.default_rng(3).normal(size=(30, 3)) * np.logspace(-9, 1.5, 30)[:, None]
+
+
+def box_spectrum(q, size=SIZE, center=CENTER):
+    return np.prod(size * np.sinc(q * size / (2 * np.pi)), axis=1) * np.exp(-1j * (q @ center))
+
+
+@pytest.fixture
+def wave_vectors(tmp_path):
+    path = tmp_path / "q.npy"
+    np.save(path, Q)
+    return path
+
+
+def transform(obj, q=Q, options=None, **more):
+    bpy.context.view_layer.update()
+    found = object_transform(obj, bpy.context.evaluated_depsgraph_get(), options or MeasureOptions(), q, **more)
+    for _ in found.steps():
+        pass
+    return found.result()
+
+
+def test_the_command_writes_wave_vectors_as_given_and_the_transform(tmp_path, wave_vectors):
+    files.add_box()
+    out = tmp_path / "out.npz"
+    entry = measured("--fourier", out, "--q", wave_vectors)
+    assert entry["volume"] == pytest.approx(6.0)
+    with np.load(out) as found:
+        assert np.array_equal(found["q"], Q)
+        assert found["F"].dtype == np.complex128
+        assert np.abs(found["F"] - box_spectrum(Q)).max() <= 1e-13
+        assert (found["error"] <= 1e-12).all() and found["input"] < 1e-4
+        assert (str(found["method"]), str(found["frame"])) == ("exact", "world")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out.npz", "q.npy"]
+
+
+def test_the_command_writes_a_grid(tmp_path):
+    files.add_box()
+    out = tmp_path / "out"  # the name is taken as it is
+    measured("--fourier", out, "--grid", 6, "--qmax", 4.5, "--kind", "solid")
+    with np.load(out) as found:
+        axis = np.arange(-3, 3) * 1.5
+        assert np.array_equal(np.unique(found["q"]), axis) and found["q"].shape == (216, 3)
+        assert np.abs(found["F"] - box_spectrum(found["q"])).max() <= 1e-13
+
+
+def test_the_object_frame_has_the_location_and_the_rotation_but_unit_scale(tmp_path, wave_vectors):
+    box = files.add_box(center=(0, 0, 0))
+    box.location, box.rotation_euler, box.scale = (5, 6, 7), (0.3, -0.2, 1.1), (2, 1, 0.5)
+    out = tmp_path / "out.npz"
+    measured("--fourier", out, "--q", wave_vectors, "--frame", "object")
+    with np.load(out) as found:
+        assert str(found["frame"]) == "object"
+        assert np.abs(found["F"] - box_spectrum(Q, SIZE * [2, 1, 0.5], np.zeros(3))).max() <= 1e-4
+
+
+def test_the_units_of_the_scene_count(scene, tmp_path, wave_vectors):
+    files.add_box(center=(0, 0, 0))
+    scene.unit_settings.scale_length = 0.01
+    measured("--fourier", tmp_path / "out.npz", "--q", wave_vectors)
+    with np.load(tmp_path / "out.npz") as found:
+        assert np.abs(found["F"] - box_spectrum(Q, SIZE / 100, np.zeros(3))).max() <= 1e-18
+
+
+def test_a_shell_is_its_area_times_its_thickness():
+    box = files.add_box(center=(0, 0, 0))
+    found, _ = transform(box, np.zeros((1, 3)), MeasureOptions(kind="shell", thickness=0.25))
+    assert close(found.values[0], 22.0 * 0.25, rel=1e-14)
+    found, _ = transform(box, np.zeros((1, 3)), area=True)
+    assert close(found.values[0], 22.0, rel=1e-14)
+    with refused("no_thickness"):
+        transform(box, options=MeasureOptions(kind="shell", thickness=0.0))
+
+
+def test_a_wall_of_real_thickness_is_refused_with_the_remedy():
+    box = files.add_box(center=(0, 0, 0))
+    thick = MeasureOptions(kind="shell", thickness=0.1, wall="inward")
+    with refused("fourier_of_wall", box.name):
+        transform(box, options=thick)
+    assert close(transform(box, np.zeros((1, 3)), thick, area=True)[0].values[0], 22.0, rel=1e-14)
+
+
+def test_of_a_nurbs_surface_it_is_said_that_the_display_mesh_is_transformed():
+    bpy.ops.surface.primitive_nurbs_surface_torus_add()
+    found, findings = transform(bpy.context.object, np.zeros((1, 3)), MeasureOptions(overlap="signed"))
+    assert found.values[0].real > 0.0 and "fourier_of_display_mesh" in said(findings)
+
+
+def test_it_is_said_of_an_instance_and_of_a_flat_curve_as_well():
+    bpy.ops.surface.primitive_nurbs_surface_torus_add()
+    torus = bpy.context.object
+    group = bpy.data.collections.new("Group")
+    group.objects.link(torus)
+    bpy.context.collection.objects.unlink(torus)
+    bpy.ops.object.collection_instance_add(collection="Group")
+    assert "fourier_of_display_mesh" in said(transform(bpy.context.object, np.zeros((1, 3)))[1])
+    bpy.ops.curve.primitive_bezier_circle_add()
+    circle = bpy.context.object
+    circle.data.dimensions, circle.data.fill_mode, circle.body_moments.kind = "2D", "BOTH", "SHELL"
+    assert "fourier_of_display_mesh" in said(transform(circle, np.zeros((1, 3)))[1])
+
+
+def test_a_wire_is_refused_with_the_remedy():
+    box = files.add_box()
+    with refused("fourier_of_wire"):
+        transform(box, options=MeasureOptions(kind="wire"))
+
+
+def test_it_is_said_that_a_varying_density_plays_no_part():
+    box = files.add_box()
+    assert not transform(box)[1]
+    box.body_moments.density_from = "POLYNOMIAL"
+    assert said(transform(box)[1]) == {"fourier_of_uniform_density": {}}
+
+
+def test_flipped_faces_are_turned_and_holes_capped_as_they_are_for_the_mass():
+    box = files.add_box()
+    box.data.polygons[2].flip()
+    found, findings = transform(box)
+    assert np.abs(found.values - box_spectrum(Q)).max() <= 1e-13
+    assert said(findings) == {"flipped_faces": {"count": 1}}
+    mesh = bpy.data.meshes.new("Open")
+    corners = [vertex.co[:] for vertex in box.data.vertices]
+    sides = [polygon.vertices[:] for polygon in box.data.polygons]
+    mesh.from_pydata(corners, [], sides[:4])  # without the two across z
+    found, findings = transform(objects.add(mesh, location=files.CENTER))
+    assert np.abs(found.values - box_spectrum(Q)).max() <= 1e-13
+    assert said(findings)["holes_capped"]["count"] == 2
+
+
+def test_what_cannot_be_closed_is_refused_with_the_remedy():
+    mesh = bpy.data.meshes.new("Fins")
+    mesh.from_pydata([(0, 0, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, -1, 0)], [], [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
+    obj = objects.add(mesh)
+    with refused("fourier_of_open_surface"):
+        transform(obj)
+    found, _ = transform(obj, np.zeros((1, 3)), area=True)
+    assert found.values[0] == pytest.approx(0.5 + 0.5 + 2**0.5 / 2, rel=1e-12)
+
+
+def test_overlapping_shells_count_twice_or_are_united():
+    box = files.add_box(center=(0, 0, 0), size=(1, 1, 1))
+    other = files.add_box("Other", center=(0.5, 0, 0), size=(1, 1, 1))
+    objects.only(box, other)
+    bpy.ops.object.join()
+    twice = box_spectrum(Q, np.ones(3), np.zeros(3)) + box_spectrum(Q, np.ones(3), np.array([0.5, 0, 0]))
+    found, findings = transform(bpy.context.object)
+    assert np.abs(found.values - twice).max() <= 1e-13 and said(findings) == {"components_overlap": {"count": 2}}
+    found, findings = transform(bpy.context.object, options=MeasureOptions(overlap="union"))
+    once = box_spectrum(Q, np.array([1.5, 1, 1]), np.array([0.25, 0, 0]))
+    assert np.abs(found.values - once).max() <= 1e-5 and "union_by_boolean" in said(findings)
+
+
+def test_instances_are_phases_and_maps():
+    box = files.add_box(center=(0, 0, 0))
+    collection = bpy.data.collections.new("Parts")
+    collection.objects.link(box)
+    empty = objects.add(None, "Instancer", location=(1, 2, 3), scale=(2, 1, -0.5))
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    found, _ = transform(empty)
+    true = box_spectrum(Q, SIZE * [2, 1, 0.5], np.array([1.0, 2, 3]))
+    assert np.abs(found.values - true).max() <= 1e-12
+
+
+def test_a_large_grid_is_approximate_and_says_so(monkeypatch, tmp_path):
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
+    monkeypatch.setattr(fourier_body, "MAX_CLOSED_FORM_PAIRS", 0.0)
+    entry = measured("--fourier", tmp_path / "out.npz", "--grid", 24, "--qmax", 12)
+    assert [one["values"] for one in entry["findings"] if one["code"] == "fourier_approximate"] == [{"share": 1e-7}]
+    with np.load(tmp_path / "out.npz") as found:
+        assert str(found["method"]) == "approximate" and (found["error"] <= 1e-6).all()
+
+
+def test_one_object_is_needed_and_a_refusal_is_an_error(tmp_path, wave_vectors):
+    files.add_box("a")
+    files.add_box("b")
+    out = tmp_path / "out.npz"
+    found = document("--fourier", out, "--q", wave_vectors)
+    assert len(found["objects"]) == 2 and "--object" in found["errors"][0]["reason"] and not out.exists()
+    assert measured("--fourier", out, "--q", wave_vectors, "--object", "b")["name"] == "b" and out.exists()
+    out.unlink()
+    mesh = bpy.data.meshes.new("Plane")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    objects.add(mesh, "Flat")
+    line = run("--fourier", out, "--q", wave_vectors, "--object", "Flat")
+    assert line.errors == 1 and line.internal_errors == 0 and not out.exists()
+
+
+def test_a_file_that_cannot_be_written_is_an_error(tmp_path, wave_vectors, monkeypatch):
+    files.add_box()
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.replace", full)
+    found = document("--fourier", tmp_path / "out.npz", "--q", wave_vectors)
+    assert "No space left" in found["errors"][0]["reason"]
+    assert [path.name for path in tmp_path.iterdir()] == ["q.npy"]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--q", "Q"],
+        ["--grid", "8"],
+        ["--qmax", "1"],
+        ["--fourier", "OUT"],
+        ["--fourier", "OUT", "--grid", "8"],
+        ["--fourier", "OUT", "--qmax", "8"],
+        ["--fourier", "OUT", "--q", "Q", "--grid", "8", "--qmax", "1"],
+        ["--fourier", "OUT", "--q", "Q", "--qmax", "1"],
+        ["--fourier", "OUT", "--grid", "1", "--qmax", "1"],
+        ["--fourier", "OUT", "--grid", "x", "--qmax", "1"],
+        ["--fourier", "OUT", "--grid", str(command.MAX_GRID + 1), "--qmax", "1"],
+        ["--fourier", "OUT", "--grid", "8", "--qmax", "0"],
+        ["--fourier", "OUT", "--grid", "8", "--qmax", "inf"],
+        ["--fourier", "OUT", "--q", "none.npy"],
+        ["--fourier", "OUT", "--q", "TEXT"],
+        ["--fourier", "OUT", "--q", "FLAT"],
+        ["--fourier", "OUT", "--q", "NAN"],
+        ["--fourier", "OUT", "--q", "OBJECTS"],
+        ["--fourier", "OUT", "--q", "NPZ"],
+        ["--fourier", "Q", "--q", "Q"],
+        ["--fourier", "OUT", "--q", "Q", "--output", "OUT"],
+        ["--fourier", "no/such/folder/out.npz", "--q", "Q"],
+        ["--fourier", ".", "--q", "Q"],
+        ["--fourier", "OUT", "--q", "Q", "--object", "a", "--object", "b"],
+        ["--fourier", "OUT", "--q", "Q", "a.stl", "b.stl"],
+    ],
+    ids=" ".join,
+)
+def test_wrong_usage_ends_with_2_and_writes_nothing(words, tmp_path, capsys):
+    np.save(tmp_path / "Q", Q)
+    np.save(tmp_path / "FLAT", Q[:, :2])
+    np.save(tmp_path / "NAN", Q * np.nan)
+    np.save(tmp_path / "OBJECTS", np.array([None]), allow_pickle=True)
+    np.savez(tmp_path / "NPZ", q=Q)
+    (tmp_path / "TEXT.npy").write_text("1 2 3")
+    (tmp_path / "NPZ.npz").rename(tmp_path / "NPZ.npy")
+    before = sorted(path.name for path in tmp_path.iterdir())
+    names = {name: str(tmp_path / "{}.npy".format(name)) for name in ("Q", "FLAT", "NAN", "OBJECTS", "NPZ", "TEXT")}
+    names["OUT"] = str(tmp_path / "out.npz")
+    with pytest.raises(SystemExit) as ended:
+        from body_moments.operators.command import arguments
+
+        arguments.parse(["measure", *(names.get(word, word) for word in words)])
+    assert ended.value.code == batch.WRONG_USAGE
+    assert "error: " in capsys.readouterr().err
+    assert sorted(path.name for path in tmp_path.iterdir()) == before
+
+
+def test_the_operator_writes_the_file_and_an_image(tmp_path):
+    box = objects.add(objects.mesh_body(), location=(1, 2, 3))
+    selected, mode = bpy.context.selected_objects, bpy.context.mode
+    path = tmp_path / "body.npz"
+    result = bpy.ops.object.body_moments_fourier(filepath=str(path.with_suffix("")), count=12)
+    assert result == {"FINISHED"}
+    expected, _ = transform(box, lambda size: fourier_body.FrequencyGrid(12, np.pi / size * 6))
+    with np.load(path) as found:
+        assert np.array_equal(found["q"], expected.q)
+        assert np.array_equal(found["F"], expected.values)
+        assert found["q"].max() == pytest.approx(np.pi / 3.5 * 5, rel=1e-6)
+        values = np.abs(found["F"]).reshape(12, 12, 12)
+    image = bpy.data.images["Fourier Transform of Body"]
+    assert tuple(image.size) == (3 * 12 + 4, 12) and image.packed_file
+    pixels = np.empty(40 * 12 * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    gray = pixels.reshape(12, 40, 4)[..., 0]
+    assert gray[6, 6] == gray[6, 14 + 6] == gray[6, 28 + 6] == 1.0  # F(0) = V is the largest
+    for found, slice_ in ((gray[:, :12], values[:, :, 6]), (gray[:, 14:26], values[:, 6]), (gray[:, 28:], values[6])):
+        assert np.abs(found.T - (1 + np.log10(slice_ / values.max()).clip(-6, 0) / 6)).max() <= 1 / 255
+    assert (bpy.context.selected_objects, bpy.context.mode) == (selected, mode)
+
+
+def test_another_run_takes_the_same_image_and_leaves_a_users_own(tmp_path):
+    objects.add(objects.mesh_body())
+    mine = bpy.data.images.new("Fourier Transform of Body", 4, 4)
+    for count in (6, 8, 9):
+        bpy.ops.object.body_moments_fourier(filepath=str(tmp_path / "a.npz"), count=count, largest=2.5, frame="OBJECT")
+    assert tuple(mine.size) == (4, 4)
+    names = [image.name for image in bpy.data.images if image.name.startswith("Fourier")]
+    assert len(names) == 2
+    with np.load(tmp_path / "a.npz") as found:
+        assert found["q"].max() == 2.5 and str(found["frame"]) == "object"
+
+
+def test_the_operator_refuses_with_a_reason(tmp_path):
+    mesh = bpy.data.meshes.new("Plane")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    objects.add(mesh, "Flat")
+    path = tmp_path / "a.npz"
+    with pytest.raises(RuntimeError, match="Flat: .*open"):
+        bpy.ops.object.body_moments_fourier(filepath=str(path), count=6)
+    assert not path.exists() and not bpy.data.images
+    assert bpy.ops.object.body_moments_fourier(filepath=str(path), count=6, of="AREA") == {"FINISHED"}
+    with pytest.raises(RuntimeError, match="does not exist"):
+        bpy.ops.object.body_moments_fourier(filepath=str(tmp_path / "no" / "a.npz"), count=6, of="AREA")
+    bpy.context.view_layer.objects.active = None
+    with pytest.raises(RuntimeError, match="Make an object"):
+        bpy.ops.object.body_moments_fourier(filepath=str(path))
+
+
+def test_an_archive_in_place_of_an_array_is_refused(tmp_path):
+    np.savez(tmp_path / "q.npz", a=Q, b=Q)
+    with refused("wave_vectors_archive"):
+        command._read_wave_vectors(tmp_path / "q.npz")

@@ -1,0 +1,298 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curve objects: wires, and the flat regions that closed ones bound, from control points."""
+
+import json
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.read import measurable
+from body_moments.operators.settings.options import MeasureOptions
+from body_moments.operators.write.documents import to_json
+from body_moments.operators.write.record import record
+
+from tests.blender.findings import refused, said
+from tests.blender.objects import add, measured, only
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def bezier_area(obj):
+    """The area of four cubic quarters by Green's theorem, with the handles' length k: 4 (1/2 + 3k/5 - 3k²/20)."""
+    point = obj.data.splines[0].bezier_points[0]
+    k = (point.handle_left - point.co).length
+    return 4.0 * (0.5 + 0.6 * k - 0.15 * k * k)
+
+
+def circle(kind="nurbs"):
+    getattr(bpy.ops.curve, "primitive_{:s}_circle_add".format(kind))()
+    return bpy.context.object
+
+
+def poly(points, cyclic=False):
+    data = bpy.data.curves.new("Poly", "CURVE")
+    data.dimensions = "3D"
+    spline = data.splines.new("POLY")
+    spline.points.add(len(points) - 1)
+    spline.points.foreach_set("co", np.c_[np.asarray(points, float), np.ones(len(points))].ravel())
+    spline.use_cyclic_u = cyclic
+    return add(data, "Poly")
+
+
+def test_a_circle_is_a_wire_of_its_length():
+    obj = circle()
+    obj.body_moments.kind, obj.body_moments.linear_density = "WIRE", 2.5
+    wire = measured(obj)
+    assert str(wire.method) == "wire" and wire.volume == 0.0 and wire.area == 0.0
+    assert wire.length == pytest.approx(2.0 * np.pi, rel=1e-8)
+    assert wire.mass_properties.mass == pytest.approx(5.0 * np.pi, rel=1e-8)
+    assert np.allclose(wire.mass_properties.principal.moments, np.array([2.5, 2.5, 5.0]) * np.pi, rtol=1e-7)
+    obj.scale = (2.0, 2.0, 2.0)
+    assert measured(obj).length == pytest.approx(4.0 * np.pi, rel=1e-8)
+    obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.0
+    assert measured(obj).mass_properties.mass == pytest.approx(3.0)
+
+
+def test_an_ellipse_is_not_a_scaled_length():
+    obj = circle()
+    obj.body_moments.kind, obj.scale = "WIRE", (2.0, 1.0, 1.0)
+    t = (np.arange(100_000) + 0.5) * (2.0 * np.pi / 100_000)
+    exact = np.sqrt(4.0 * np.sin(t) ** 2 + np.cos(t) ** 2).mean() * 2.0 * np.pi
+    assert measured(obj).length == pytest.approx(exact, rel=1e-8)
+
+
+def test_straight_splines_are_rods():
+    obj = poly([(0, 0, 0), (3, 0, 0), (3, 4, 0)])
+    obj.body_moments.kind = "WIRE"
+    rods = measured(obj)
+    assert rods.length == pytest.approx(7.0)
+    assert np.allclose(rods.mass_properties.center, [(1.5 * 3 + 3 * 4) / 7, 8 / 7, 0])
+    obj.data.splines[0].use_cyclic_u = True
+    assert measured(obj).length == pytest.approx(12.0)
+
+
+@pytest.mark.parametrize("dimensions", ["2D", "3D"])
+def test_the_region_of_a_bezier_circle_is_that_of_its_curve(dimensions):
+    obj = circle("bezier")
+    obj.data.dimensions = dimensions
+    if dimensions == "2D":
+        obj.data.fill_mode = "BOTH"
+    obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
+    disc = measured(obj)
+    assert str(disc.method) == "NURBS shell"
+    assert disc.area == pytest.approx(bezier_area(obj), rel=1e-6)
+    assert disc.area / np.pi == pytest.approx(1.000191785, rel=1e-8)
+    assert ("curve_not_filled" in said(disc)) == (dimensions == "3D")
+    assert disc.mass_properties.inertia[0, 1] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("far", [1e4, 1e6])
+def test_the_region_of_an_object_far_away_is_the_same(far):
+    obj = circle("bezier")
+    obj.body_moments.kind = "SHELL"
+    near = measured(obj).area
+    obj.location = (far, far, 0.0)
+    assert measured(obj).area == pytest.approx(near, rel=1e-9)
+
+
+def test_moments_of_higher_order_of_a_region_are_exact_too():
+    obj = circle()
+    obj.body_moments.kind = "SHELL"
+    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=6))
+    assert found.area_moments.about_point(np.zeros(3))[6, 0, 0] == pytest.approx(5.0 * np.pi / 64.0, rel=1e-7)
+
+
+def test_moments_of_a_region_beyond_the_range_of_numbers_are_refused():
+    obj = circle()
+    obj.body_moments.kind, obj.scale = "SHELL", (1e12, 1e12, 1e12)
+    with refused("moments_overflow", order=30):
+        measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=30))
+
+
+def test_a_ring_has_its_hole():
+    obj = circle()
+    obj.data.dimensions, obj.data.fill_mode = "2D", "BOTH"
+    inner = circle()
+    inner.scale = (0.5, 0.5, 0.5)
+    bpy.ops.object.transform_apply(scale=True)
+    only(obj, inner)
+    bpy.ops.object.join()
+    obj.body_moments.kind = "SHELL"
+    ring = measured(obj)
+    assert ring.area == pytest.approx(0.75 * np.pi, rel=1e-7)
+    assert str(ring.method) == "NURBS shell"
+
+
+def test_what_bounds_no_region_is_measured_by_its_fill_or_refused():
+    crossing = poly([(0, 0, 0), (2, 0, 0), (0, 1, 0), (2, 1, 0)], cyclic=True)
+    crossing.body_moments.kind = "SHELL"
+    with refused("curves_cross"):
+        measured(crossing)
+    crossing.data.dimensions, crossing.data.fill_mode = "2D", "BOTH"
+    found = measured(crossing)
+    assert str(found.method) == "shell" and found.area > 0.0  # whatever Blender fills
+    assert said(found)["curve_fill_measured"]["cause"]["code"] == "curves_cross"
+
+
+def test_hooks_and_keys_bend_a_wire_with_a_bevel_and_without():
+    obj = circle("bezier")
+    obj.body_moments.kind = "WIRE"
+    plain = measured(obj).length
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Large")
+    for point in key.data:
+        point.co, point.handle_left, point.handle_right = (
+            3.0 * np.array(value) for value in (point.co, point.handle_left, point.handle_right)
+        )
+    key.value = 0.5
+    hook = add(None, "Hook", select=False)
+    modifier = obj.modifiers.new("Hook", "HOOK")
+    modifier.object = hook
+    modifier.vertex_indices_set(list(range(12)))
+    hook.scale = (1.5, 1.5, 1.5)
+    assert measured(obj).length == pytest.approx(3.0 * plain, rel=1e-6)
+    obj.data.bevel_depth = 0.1
+    assert measured(obj).length == pytest.approx(3.0 * plain, rel=1e-6)
+
+
+def with_nodes(obj, kind, **values):
+    """A geometry node of that kind as its modifier."""
+    group = bpy.data.node_groups.new("Nodes", "GeometryNodeTree")
+    for way in ("INPUT", "OUTPUT"):
+        group.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    node = group.nodes.new(kind)
+    for name, value in values.items():
+        if hasattr(node, name):
+            setattr(node, name, value)
+        else:
+            next(socket for socket in node.inputs if socket.name == name and socket.enabled).default_value = value
+    group.links.new(group.nodes.new("NodeGroupInput").outputs[0], node.inputs[0])
+    group.links.new(node.outputs[0], group.nodes.new("NodeGroupOutput").inputs[0])
+    obj.modifiers.new("Nodes", "NODES").node_group = group
+
+
+@pytest.mark.parametrize(
+    "kind, node, values, length",
+    [
+        ("bezier", "GeometryNodeSetSplineCyclic", {"Cyclic": False}, 0.75 * 6.2837897149),
+        ("nurbs", "GeometryNodeSetSplineCyclic", {"Cyclic": False}, 1.5 * np.pi),
+        ("bezier", "GeometryNodeCurveSplineType", {"spline_type": "POLY"}, 4.0 * np.sqrt(2.0)),
+        ("nurbs", "GeometryNodeCurveSplineType", {"spline_type": "POLY"}, 8.0),
+        ("bezier", "GeometryNodeTrimCurve", {"End": 0.5}, 6.2837897149 / 2.0),
+        ("bezier", "GeometryNodeResampleCurve", {"Count": 4}, 4.0 * np.sqrt(2.0)),
+    ],
+)
+def test_a_wire_is_the_curve_that_nodes_make_of_it(kind, node, values, length):
+    """Also where they leave the number of its points as it is."""
+    obj = circle(kind)
+    obj.body_moments.kind = "WIRE"
+    with_nodes(obj, node, **values)
+    wire = measured(obj)
+    assert wire.length == pytest.approx(length, rel=1e-5) and not wire.findings
+
+
+@pytest.mark.parametrize("kind", ["bezier", "nurbs"])
+def test_a_wire_through_its_points_is_as_long_as_what_blender_shows(kind):
+    obj = circle(kind)
+    obj.body_moments.kind = "WIRE"
+    with_nodes(obj, "GeometryNodeCurveSplineType", spline_type="CATMULL_ROM")
+    obj.data.resolution_u = 100
+    wire = measured(obj)
+    mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    points = np.array([vertex.co for vertex in mesh.vertices], np.float64)
+    ends = np.array([edge.vertices for edge in mesh.edges])
+    assert wire.length == pytest.approx(np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1).sum(), rel=1e-4)
+
+
+@pytest.mark.parametrize("bevel", [0.0, 0.1])
+def test_a_spline_with_knots_of_its_own_is_refused(bevel, tmp_path):
+    """Blender's OBJ importer makes such ones, and no interface tells them."""
+    path = tmp_path / "curve.obj"
+    path.write_text(
+        "v 0 0 0\nv 1 2 0\nv 3 2 0\nv 4 0 0\nv 5 -1 0\ncstype bspline\ndeg 3\ncurv 0 1 1 2 3 4 5\n"
+        "parm u 0 0 0 0 0.1 1 1 1 1\nend\n"
+    )
+    bpy.ops.wm.obj_import(filepath=str(path))
+    (obj,) = bpy.context.selected_objects
+    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", bevel
+    spline = obj.data.splines[0]
+    if spline.calc_length(resolution=64) > 7.1:  # else this Blender gave it knots that are known
+        with refused("unknown_knots"):
+            measured(obj)
+        spline.use_endpoint_u = False
+        spline.use_endpoint_u = True
+    assert measured(obj).length == pytest.approx(spline.calc_length(resolution=200), rel=1e-5)
+
+
+def test_a_wire_whose_bevel_leaves_some_of_it_bare_is_measured_whole_and_says_so():
+    obj = circle()
+    obj.body_moments.kind, obj.data.bevel_depth, obj.data.bevel_factor_end = "WIRE", 0.1, 0.5
+    found = measured(obj)
+    assert found.length == pytest.approx(2.0 * np.pi, rel=1e-7)
+    assert said(found) == {"bevel_range_ignored": {}}
+
+
+def test_a_wire_is_stored_recorded_and_cleared():
+    obj = circle()
+    obj.body_moments.kind = "WIRE"
+    assert measurable(obj)
+    bpy.ops.object.body_moments_measure()
+    assert obj["body_length"] == pytest.approx(2.0 * np.pi, rel=1e-8) and obj["body_density"] == 0.0
+    entry = record(measured(obj), order=2)
+    assert entry["linear_density"] == pytest.approx(1.0) and entry["density"] is None
+    assert entry["moments"]["length"]["2,0,0"] == pytest.approx(np.pi, rel=1e-7)
+    json.loads(to_json([entry]))
+    obj.data.dimensions, obj.body_moments.kind = "2D", "SHELL"
+    bpy.ops.object.body_moments_measure()
+    assert "body_length" not in obj and obj["body_method"] == "NURBS shell"
+    bpy.ops.object.body_moments_clear()
+    assert not any(key.startswith("body_") and not key.startswith("body_moments") for key in tuple(obj.keys()))
+
+
+def test_a_plain_line_is_still_refused_as_a_solid_and_a_mesh_as_a_wire():
+    obj = circle()
+    assert not measurable(obj)
+    with refused("lines_only_curve"):
+        measured(obj)
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.object
+    cube.body_moments.kind = "WIRE"
+    with refused("only_curves_are_wires"):
+        measured(cube)
+
+
+def test_a_flat_region_takes_the_density_that_is_not_one_value_and_says_what_was_measured():
+    obj = circle("bezier")
+    obj.data.dimensions, obj.data.fill_mode = "2D", "BOTH"
+    settings = obj.body_moments
+    settings.kind, settings.thickness = "SHELL", 0.5
+    settings.density_from, settings.density_polynomial = "POLYNOMIAL", "200 + 100*x"
+    found = measured(obj)
+    assert found.density_from.code == "density_from_polynomial"
+    assert found.mass_properties.mass == pytest.approx(100.0 * np.pi, rel=5e-3)  # Blender's polygon is smaller
+    assert found.mass_properties.center[0] == pytest.approx(0.125, rel=5e-3)
+    assert "curve_fill_for_density" in said(found)
+
+
+@pytest.mark.parametrize("source", ["POLYNOMIAL", "MATERIALS"])
+def test_a_wire_has_its_linear_density_and_is_up_to_date_whatever_its_density_comes_from(source):
+    from body_moments.operators.session import staleness
+
+    obj = circle()
+    obj.body_moments.kind, obj.body_moments.density_from = "WIRE", source
+    obj.select_set(True)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+
+
+def test_a_hook_on_a_flattened_wire_is_refused():
+    obj = circle("bezier")
+    obj.body_moments.kind, obj.data.dimensions, obj.scale = "WIRE", "3D", (1.0, 1.0, 0.0)
+    modifier = obj.modifiers.new("Hook", "HOOK")
+    modifier.object = add(None, "Target", select=False)
+    modifier.vertex_indices_set([0, 1, 2])
+    obj.data.bevel_depth = 0.1  # else its geometry set has the curve
+    with refused("scale_zero_axis", obj.name):
+        measured(obj)

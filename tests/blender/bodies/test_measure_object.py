@@ -1,0 +1,572 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From an object to its numbers: closed forms through every transform, kind, unit and overlap, and nothing touched."""
+
+import json
+from fractions import Fraction
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.verdict.finding import EditRefusedError
+from body_moments.operators.bodies import mesh
+from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.settings.options import MeasureOptions
+
+from tests.blender.findings import refused, said
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+CUBE = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+
+
+def corners(low, high):
+    return [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+
+
+def box(low=(0, 0, 0), high=(1, 2, 3), name="Box", turned=False):
+    return {"points": corners(low, high), "faces": [face[::-1] for face in CUBE] if turned else CUBE, "name": name}
+
+
+def add(*shells, name="Box", **transform):
+    points, faces = [], []
+    for shell in shells:
+        faces += [tuple(i + len(points) for i in face) for face in shell["faces"]]
+        points += shell["points"]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(points, [], faces)
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    for key, value in transform.items():
+        setattr(obj, key, value)
+    bpy.context.view_layer.update()
+    return obj
+
+
+def measure(obj, **options):
+    return measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(**options))
+
+
+def world(obj):
+    return np.array(obj.matrix_world, np.float64)
+
+
+TRANSFORMS = {
+    "plain": {},
+    "moved": {"location": (100, -200, 300)},
+    "turned": {"rotation_euler": (0.3, 0.5, -1.0)},
+    "uneven": {"scale": (2, 0.5, 3), "rotation_euler": (0.1, 0.2, 0.3)},
+    "mirrored": {"scale": (-1, 1, 1), "location": (1, 2, 3)},
+    "tiny": {"scale": (1e-6, 1e-6, 1e-6)},
+    "huge": {"scale": (1e6, 1e6, 1e6)},
+}
+
+
+@pytest.mark.parametrize("name", TRANSFORMS)
+def test_a_box_is_exact_through_every_transform(name):
+    """The truth is the affine law on the box's exact moments with the matrix that Blender holds."""
+    obj = add(box(), **TRANSFORMS[name])
+    matrix = world(obj)
+    linear, volume = matrix[:3, :3], 6.0 * abs(np.linalg.det(matrix[:3, :3]))
+    second = linear @ np.diag([1 / 12, 4 / 12, 9 / 12]) @ linear.T * volume * 1000.0
+    found = measure(obj)
+    body = found.mass_properties
+    assert str(found.method) == "exact" and not found.findings
+    assert close(found.volume, volume, rel=1e-13)
+    assert abs(found.volume - volume) <= found.error_bound["volume"] + 1e-15 * volume
+    center = linear @ (0.5, 1.0, 1.5) + matrix[:3, 3]
+    assert np.allclose(body.center, center, rtol=0, atol=1e-13 * np.abs(center).max())
+    inertia = np.trace(second) * np.eye(3) - second
+    assert np.allclose(body.inertia, inertia, rtol=0, atol=1e-13 * np.trace(second))
+    axes = body.principal.axes
+    assert np.linalg.det(axes) == pytest.approx(1.0, abs=1e-12)
+    assert np.allclose(axes.T @ inertia @ axes, np.diag(body.principal.moments), atol=1e-12 * np.trace(second))
+    faces = linear @ np.diag([1, 2, 3])
+    area = 2 * sum(np.linalg.norm(np.cross(faces[:, i], faces[:, (i + 1) % 3])) for i in range(3))
+    assert abs(found.area - area) <= found.error_bound["area"] + found.error_bound["input"]["area"]
+
+
+def test_shear_from_a_parent_is_measured():
+    parent = add(box(), name="Parent", scale=(3, 1, 1))
+    child = add(box((0, 0, 0), (1, 1, 1)), name="Child", rotation_euler=(0, 0, 0.7))
+    child.parent = parent
+    bpy.context.view_layer.update()
+    linear = world(child)[:3, :3]
+    assert abs(linear.T @ linear - np.diag(np.diag(linear.T @ linear))).max() > 0.1  # it is sheared
+    found = measure(child)
+    assert close(found.volume, abs(np.linalg.det(linear)), rel=1e-13)
+    sides = [np.linalg.norm(np.cross(linear[:, i], linear[:, (i + 1) % 3])) for i in range(3)]
+    assert found.area == pytest.approx(2 * sum(sides), rel=1e-6)
+
+
+def test_the_object_frame_has_unit_scale():
+    obj = add(box(), scale=(2, 2, 2), location=(5, 6, 7), rotation_euler=(0, 0, np.pi / 2))
+    local = measure(obj).in_object_frame()
+    assert np.allclose(local.center, (1, 2, 3), atol=1e-6)
+    assert np.allclose(np.diag(local.inertia), np.array([52, 40, 20]) / 12 * 48 * 1000, rtol=1e-6)
+
+
+@pytest.mark.parametrize("unit", [0.001, 0.3048, 1.0, 1000.0])
+def test_numbers_are_si_at_every_unit_scale(unit):
+    bpy.context.scene.unit_settings.scale_length = unit
+    found = measure(add(box()), density=2.0)
+    body = found.mass_properties
+    assert close(found.volume, 6 * unit**3, rel=1e-13)
+    assert close(found.area, 22 * unit**2, rel=1e-12)
+    assert close(body.center, np.array([0.5, 1, 1.5]) * unit, rel=1e-13)
+    assert close(np.diag(body.inertia), np.array([13, 10, 5]) * unit**5, rel=1e-12)
+
+
+def test_a_given_mass_makes_the_density_follow():
+    found = measure(add(box()), mass=12.0)
+    assert found.density == pytest.approx(2.0) and found.mass_properties.mass == pytest.approx(12.0)
+
+
+def test_a_shell_has_the_mass_of_its_sheet():
+    found = measure(add(box((0, 0, 0), (1, 1, 1))), kind="shell", thickness=0.01, density=1000.0)
+    assert str(found.method) == "shell" and not found.findings
+    assert found.mass_properties.mass == pytest.approx(60.0, rel=1e-13)
+    # a hollow cube of side s has I = 5/18 m s²
+    assert close(np.diag(found.mass_properties.inertia), 60.0 * 5 / 18, rel=1e-12)
+
+
+def test_an_unevenly_scaled_shell_is_measured_as_it_lies():
+    even = measure(add(box((0, 0, 0), (1, 2, 3))), kind="shell", thickness=0.01)
+    uneven = measure(add(box((0, 0, 0), (1, 1, 1)), scale=(1, 2, 3)), kind="shell", thickness=0.01)
+    assert uneven.area == pytest.approx(even.area, rel=1e-12)
+    assert np.allclose(uneven.mass_properties.inertia, even.mass_properties.inertia, rtol=1e-12, atol=1e-12)
+
+
+def test_a_flat_sheet_is_a_shell_and_no_solid():
+    sheet = add({"points": [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], "faces": [(0, 1, 2, 3)]})
+    with refused("no_volume", "Box"):
+        measure(sheet)
+    found = measure(sheet, kind="shell", thickness=0.001, density=1000.0).mass_properties
+    assert close(np.diag(found.inertia), np.array([1, 1, 2]) / 12, rel=1e-12)
+
+
+def test_overlapping_shells_are_summed_with_a_warning_or_united():
+    obj = add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)))
+    signed, united = measure(obj), measure(obj, overlap="union")
+    assert signed.volume == pytest.approx(2.0) and signed.health.overlapping_components
+    assert said(signed) == {"components_overlap": {"count": 2}} and "union_by_boolean" in said(united)
+    assert str(united.method) == "union" and united.volume == pytest.approx(1.5, rel=1e-6)
+    assert np.allclose(np.diag(united.mass_properties.inertia), np.array([0.25, 0.40625, 0.40625]) * 1000, rtol=1e-5)
+    assert united.health.overlapping_components  # the input's
+
+
+def test_a_nested_shell_counts_twice_or_not_at_all_and_a_cavity_subtracts():
+    outer, inner = box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3))
+    nested = add(outer, inner)
+    assert measure(nested).volume == pytest.approx(72.0) and said(measure(nested)) == {
+        "components_nested": {"count": 1}
+    }
+    assert measure(nested, overlap="union").volume == pytest.approx(64.0, rel=1e-6)
+    hollow = measure(add(outer, box((1, 1, 1), (3, 3, 3), turned=True)))
+    assert hollow.volume == pytest.approx(56.0) and str(hollow.method) == "exact"
+    assert np.allclose(np.diag(hollow.mass_properties.inertia), 165.33333333333334 * 1000, rtol=1e-12)
+
+
+def test_the_union_leaves_nothing_behind():
+    obj = add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)))
+    kinds = ("objects", "meshes", "scenes", "collections")
+    before = [len(getattr(bpy.data, kind)) for kind in kinds]
+    measure(obj, overlap="union")
+    assert [len(getattr(bpy.data, kind)) for kind in kinds] == before
+
+
+def test_a_brick_modelled_a_kilometre_away_is_right_to_what_its_coordinates_allow():
+    """The truth of the stored coordinates in rationals; the 5 cm that were meant lie within the input bound."""
+    obj = add(box((1000.0, 1000.0, 0.0), (1000.05, 1000.05, 0.05)))
+    found = measure(obj)
+    points = np.array([vertex.co[:] for vertex in obj.data.vertices])
+    low, high = points.min(axis=0), points.max(axis=0)
+    stored = [Fraction(float(h)) - Fraction(float(a)) for a, h in zip(low, high)]
+    assert close(found.volume, float(stored[0] * stored[1] * stored[2]), rel=1e-13)
+    assert 1e-13 < abs(found.volume - 0.05**3) < found.error_bound["input"]["volume"] < 0.1 * 0.05**3
+
+
+def test_measuring_changes_nothing():
+    obj = add(box())
+    obj.modifiers.new("", "SUBSURF")
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+    points = np.array([vertex.co[:] for vertex in obj.data.vertices])
+    kinds = ("objects", "meshes", "scenes", "collections", "node_groups")
+    before = [len(getattr(bpy.data, kind)) for kind in kinds]
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    assert np.array_equal(points, [vertex.co[:] for vertex in obj.data.vertices])
+    assert [len(getattr(bpy.data, kind)) for kind in kinds] == before
+    assert obj.select_get() and bpy.context.object == obj and obj.mode == "OBJECT"
+
+
+def test_zero_scale_is_refused_with_the_remedy_and_zero_density_too():
+    flat = add(box(), scale=(1, 1, 0))
+    with refused("zero_scale"):
+        measure(flat)
+    weightless = add(box())
+    weightless.body_moments.density = 0.0
+    with refused("zero_density"):
+        measure(weightless)
+
+
+def test_the_report_counts_what_could_not_be_measured_and_keeps_the_rest():
+    good, bad = add(box(), name="Good"), add({"points": [(0, 0, 0)], "faces": []}, name="Bad")
+    for obj in (good, bad):
+        obj.select_set(True)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    assert "body_mass" in good and "body_mass" not in bad
+
+
+def test_principal_frames_of_copies_turn_with_the_copies():
+    l_prism = (box((0, 0, 0), (3, 1, 1)), box((0, 1, 0), (1, 4, 1)), box((0, 0, 1), (1, 1, 2.5)))
+    first = measure(add(*l_prism))
+    second = measure(add(*l_prism, rotation_euler=(1.0, 2.0, 3.0), location=(7, 8, 9)))
+    turn = second.rotation
+    assert np.allclose(turn.T @ second.mass_properties.principal.axes, first.mass_properties.principal.axes, atol=1e-5)
+    assert np.allclose(second.in_object_frame().inertia, first.in_object_frame().inertia, rtol=1e-5, atol=1e-2)
+
+
+def collection_of(*objects):
+    """An empty that shows a collection with these objects."""
+    members = bpy.data.collections.new("Members")
+    for obj in objects:
+        bpy.context.scene.collection.objects.unlink(obj)
+        members.objects.link(obj)
+    empty = bpy.data.objects.new("Instancer", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", members
+    bpy.context.scene.collection.objects.link(empty)
+    bpy.context.view_layer.update()
+    return empty
+
+
+def test_members_of_a_collection_are_compared_with_each_other():
+    unit = box((0, 0, 0), (1, 1, 1))
+    apart = measure(collection_of(add(unit), add(unit, location=(3, 0, 0))))
+    assert apart.volume == pytest.approx(2.0) and not apart.findings
+    overlapping = measure(collection_of(add(unit), add(unit, location=(0.5, 0, 0))))
+    assert overlapping.volume == pytest.approx(2.0) and overlapping.health.overlapping_components
+    assert said(overlapping) == {"components_overlap": {"count": 2}}
+
+
+@pytest.mark.parametrize("limit", [0, 200_000])
+@pytest.mark.parametrize("scale", [(1, 1, 1), (-1, 1, 1), (1e-4, 2e-4, 1e-4)])
+def test_a_cavity_is_one_within_its_own_mesh_only(monkeypatch, scale, limit):
+    """Whatever the number of triangles, and as it is where the part inside is outward."""
+    monkeypatch.setattr(mesh, "MAX_COMPARED_TRIANGLES", limit)
+    housing, insert, volume = (
+        box((0, 0, 0), (2, 2, 2)),
+        {"low": (0.5, 0.5, 0.5), "high": (1.5, 1.5, 1.5)},
+        abs(np.prod(scale)),
+    )
+    for turned in (False, True):
+        name = "Turned insert" if turned else "Insert"
+        part = add(box(**insert, turned=turned), name=name, scale=scale)
+        members = (add(housing, name="Housing", scale=scale), part)
+        found = measure(collection_of(*members))
+        assert close(found.volume, 9.0 * volume, rel=1e-6)
+        assert str(found.method) == ("reoriented" if turned else "exact")
+        expected = {"inverted_components": {"count": 1, "total": 1, "sources": [name]}} if turned else {}
+        nested = {"components_nested": {"count": 1}} if limit else {"instance_overlap_unchecked": {"count": 2}}
+        assert said(found) == {**expected, **nested}
+        assert found.health.nested_components == (1 if limit else 0) and not found.health.cavities
+        if limit:
+            (inside,) = [one for one in found.findings if one.code == "components_nested"]
+            assert inside.elements == [[face, name] for face in range(6)]
+    hollow = add(housing, box(**insert, turned=True), name="Hollow", scale=scale)
+    found = measure(hollow)
+    assert close(found.volume, 7.0 * volume, rel=1e-6) and said(found) == {"cavities_subtracted": {"count": 1}}
+
+
+def test_what_stands_in_the_cavity_of_another_object_is_not_nested():
+    hollow = add(box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3), turned=True), name="Hollow")
+    found = measure(collection_of(hollow, add(box((1.5, 1.5, 1.5), (2.5, 2.5, 2.5)), name="Core")))
+    assert close(found.volume, 57.0, rel=1e-12)
+    assert said(found) == {"cavities_subtracted": {"count": 1, "sources": ["Hollow"]}}
+    hollow = add(box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3), turned=True))
+    found = measure(collection_of(hollow, add(box((1.5, 1.5, 1.5), (3.5, 2.5, 2.5)))))
+    assert close(found.volume, 58.0, rel=1e-12)
+    assert said(found)["components_overlap"] == {"count": 2}
+
+
+def test_halves_of_different_objects_are_capped_each():
+    """They closed to one body where their boxes overlapped, and not where they only touched."""
+    half = box((0, 0, 0), (1, 1, 1))
+    for overlap in (0.0, 1e-3):
+        members = add(without(half, 5)), add(without(half, 4), location=(0, 0, 1 - overlap))
+        found = measure(collection_of(*members))
+        assert str(found.method) == "capped" and close(found.volume, 2.0, rel=1e-6)
+
+
+def test_touching_instances_are_not_called_overlapping():
+    unit = box((0, 0, 0), (1, 1, 1))
+    found = measure(collection_of(*(add(unit, location=(i, 0, 0)) for i in range(5))))
+    assert found.volume == pytest.approx(5.0) and not found.findings
+
+
+def test_the_ground_that_instances_stand_on_adds_no_volume_and_takes_none():
+    ground = {"points": [(x, y, 0) for x in (-9, 9) for y in (-9, 9)], "faces": [(0, 2, 3, 1)]}
+    boxes = [add(box((0, 0, 1), (1, 1, 2)), location=(i, 0, 0)) for i in (0, 3)]
+    found = measure(collection_of(add(ground), *boxes))
+    assert str(found.method) == "exact" and found.volume == pytest.approx(2.0)
+    assert found.area == pytest.approx(18.0**2 + 12.0)
+    assert said(found)["flat_instance_sources"] == {"count": 1, "total": 3} and not found.health.closed
+
+
+def without(shell, *faces):
+    return {**shell, "faces": [face for i, face in enumerate(shell["faces"]) if i not in faces]}
+
+
+def with_flipped(shell, *faces):
+    return {**shell, "faces": [face[::-1] if i in faces else face for i, face in enumerate(shell["faces"])]}
+
+
+def test_findings_about_members_of_a_collection_name_them_and_their_own_faces():
+    unit = box((0, 0, 0), (1, 1, 1))
+    good, bad = add(unit, name="Good"), add(with_flipped(without(unit, 5), 2), name="Bad", location=(3, 0, 0))
+    found = measure(collection_of(good, bad))
+    assert str(found.method) == "capped" and found.volume == pytest.approx(2.0)
+    share = pytest.approx(0.2)
+    assert said(found) == {
+        "flipped_faces": {"count": 1, "sources": ["Bad"]},
+        "holes_capped": {"count": 1, "flat": 1, "curved": 0, "share": share, "sources": ["Bad"]},
+    }
+    assert str(found.findings[0]).startswith("“Bad”: Flipped face measured as reversed: 2.")
+    good, bad = add(unit, name="Fine"), add(with_flipped(unit, 2, 4), name="Worse", location=(0.5, 0, 0))
+    found = measure(collection_of(good, bad))
+    flipped = next(one for one in found.findings if one.code == "flipped_faces")
+    assert flipped.elements.tolist() == [2, 4] and flipped.values == {"count": 2, "sources": ["Worse"]}
+    overlap = next(one for one in found.findings if one.code == "components_overlap")
+    assert overlap.elements[5:7] == [[5, "Fine"], [0, "Worse"]] and "0 of “Fine”, 1 of “Fine”" not in str(overlap)
+    parent = add(with_flipped(box((0, 0, 5), (1, 1, 6)), 0), name="Parent")
+    child = add(box((0, 0, 0), (0.1, 0.1, 0.1)), name="Child", parent=parent)
+    parent.instance_type = "VERTS"
+    bpy.context.view_layer.update()
+    assert measure(parent).findings[0].elements.tolist() == [0]
+    assert measure(parent).findings[0].values["sources"] == ["Parent"]
+    parent.instance_type = "NONE"
+    bpy.context.view_layer.update()
+    assert measure(parent).findings[0].elements.tolist() == [0] and not measure(child).findings
+    inverted = add(box((0, 0, 0), (1, 1, 1), turned=True), name="Inverted")
+    assert said(measure(collection_of(inverted))) == {
+        "inverted_components": {"count": 1, "total": 1, "sources": ["Inverted"]}
+    }
+
+
+def test_what_several_members_have_in_common_is_said_once_with_their_names():
+    open_box = without(box((0, 0, 0), (1, 1, 1)), 0)
+    found = measure(
+        collection_of(*(add(open_box, name="Open {:02d}".format(i), location=(3 * i, 0, 0)) for i in range(12)))
+    )
+    names = ["Open {:02d}".format(i) for i in range(12)]
+    assert said(found)["holes_capped"]["sources"] == names and len(found.findings) == 1
+    assert str(found.findings[0]).startswith(", ".join(map("“{:s}”".format, names[:8])) + ", and 4 more: Holes capped")
+
+
+@pytest.mark.parametrize("overlap", [False, True])
+def test_the_caps_share_is_that_of_the_area_of_all_members(overlap):
+    small, large = without(box((0, 0, 0), (1, 1, 1)), 0), box((0, 0, 0), (10, 10, 10))
+    small = add(small, name="Small", location=(9.5 if overlap else 20, 0, 0))
+    found = measure(collection_of(add(large, name="A Large One"), small))
+    assert str(found.method) == "capped" and found.health.cap_area_share == pytest.approx(1.0 / 605.0)
+    holes = next(one for one in found.findings if one.code.startswith("holes_capped"))
+    assert holes.values["sources"] == ["Small"]
+    assert {tuple(sorted(edge)) for edge in holes.elements.tolist()} == {(0, 1), (1, 3), (2, 3), (0, 2)}
+
+
+def test_instances_flattened_by_their_own_scale_are_refused_by_that():
+    member = add(box(), scale=(0, 1, 1))
+    with refused("all_instances_zero_scale"):
+        measure(collection_of(member))
+    with refused("zero_scale"):
+        measure(add(box(), scale=(0, 1, 1)))
+
+
+def test_faces_without_area_are_not_sent_from_solid_to_shell():
+    line = {"points": [(0, 0, 0), (1, 0, 0), (2, 0, 0)], "faces": [(0, 1, 2)]}
+    for kind in ("solid", "shell"):
+        with refused("no_face_area"):
+            measure(add(line), kind=kind)
+
+
+def test_what_encloses_nothing_is_refused_by_that_when_it_is_to_be_united():
+    sheet = {"points": [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], "faces": [(0, 1, 2, 3)]}
+    with refused("no_volume"):
+        measure(add(sheet), overlap="union")
+
+
+def test_a_body_that_intersects_itself_into_negative_inertia_is_refused():
+    outline = [(1, -1), (1, 1), (-0.04, -0.04), (-10, -0.04), (-10, 0.04), (-0.04, 0.04)]
+    points = [(x, y, z) for z in (0, 1) for x, y in outline] + [(0.3, 0, 0), (0.3, 0, 1)]
+    n = len(outline)
+    faces = [(i, (i + 1) % n, (i + 1) % n + n, i + n) for i in range(n)]
+    faces += [face for i in range(n) for face in (((i + 1) % n, i, 2 * n), (i + n, (i + 1) % n + n, 2 * n + 1))]
+    with refused("negative_inertia"):
+        measure(add({"points": points, "faces": faces}))
+
+
+def test_a_thin_plate_keeps_its_axes_apart():
+    """What float32 leaves of its thickness says nothing of the moments in its plane."""
+    turn = (0.3, 0.5, 0.7)
+    found = measure(add(box((0, 0, 0), (1, 2, 1e-5)), rotation_euler=turn)).mass_properties
+    assert found.principal.symmetry == "asymmetric"
+    axes = found.principal.axes
+    assert np.allclose(axes.T @ found.inertia @ axes, np.diag(found.principal.moments), atol=1e-9 * found.inertia.max())
+
+
+def test_bounds_are_never_nan_and_an_unevenly_scaled_shell_has_them():
+    far = measure(add(box((2e6, 4e6, 4e6), (2e6 + 1, 4e6 + 1, 4e6 + 1))))
+    assert not np.isnan([far.error_bound["input"][name] for name in far.error_bound["input"] if name != "input"]).any()
+    uneven = measure(add(box((1 / 3,) * 3, (4 / 3,) * 3), scale=(1, 2, 3)), kind="shell", thickness=0.01)
+    assert abs(uneven.area - 22.0) < uneven.error_bound["input"]["area"] < 1e-4
+    assert uneven.error_bound["input"]["inertia"] > 0.0
+
+
+def test_the_bound_of_a_union_covers_blenders_rounding():
+    obj = add(box((0, 0, 0), (1, 1, 1)), rotation_euler=(0.3, 0.5, 0.7))
+    found = measure(obj, overlap="union")
+    assert abs(found.volume - abs(np.linalg.det(world(obj)[:3, :3]))) < found.error_bound["input"]["volume"] < 1e-5
+
+
+def test_a_unit_scale_is_used_in_double_precision():
+    foot = 0.3048006096012192
+    assert close(measure(add(box()), unit_scale=foot).volume, 6 * foot**3, rel=1e-13)
+    assert close(measure(add(box()), unit_scale=1e-10).volume, 6e-30, rel=1e-13)
+
+
+def test_out_of_date_names_what_has_changed():
+    from body_moments.operators.session import staleness
+
+    scene, obj = bpy.context.scene, add(box())
+    obj.select_set(True)
+    bpy.ops.object.body_moments_measure()
+
+    def reason():
+        bpy.context.view_layer.update()
+        return staleness.stale_reason(obj, scene)
+
+    assert reason() is None
+    obj.body_moments.density = 500.0
+    assert reason() == "stale_settings"
+    obj.body_moments.density = 1000.0
+    assert reason() is None
+    obj.location.x = 1.0
+    assert reason() == "stale_transform"
+    obj.location.x = 0.0
+    assert reason() is None
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    assert reason() == "stale_geometry"
+
+
+def test_an_inside_out_or_open_body_is_repaired_before_it_is_united():
+    assert measure(add(box(turned=True)), overlap="union").volume == pytest.approx(6.0, rel=1e-6)
+    open_box = box((0, 0, 0), (1, 1, 1))
+    open_box["faces"] = open_box["faces"][:-1]
+    found = measure(add(open_box), overlap="union")
+    assert found.volume == pytest.approx(1.0, rel=1e-6) and "holes_capped_before_union" in said(found)
+
+
+def test_a_tiny_union_is_as_right_as_a_large_one():
+    obj = add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)), scale=(1e-6, 1e-6, 1e-6))
+    assert close(measure(obj, overlap="union").volume, 1.5e-18, rel=1e-6)
+
+
+def test_a_library_override_is_refused_because_it_would_lose_its_results(tmp_path):
+    add(box(), name="Part")
+    library = tmp_path / "library.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(library))
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
+        wanted.objects = ["Part"]
+    bpy.context.scene.collection.objects.link(wanted.objects[0])
+    override = wanted.objects[0].override_create(remap_local_usages=True)
+    bpy.context.view_layer.update()
+    from body_moments.operators.write import properties
+
+    with pytest.raises(EditRefusedError) as caught:
+        properties.store(override, measure(override))
+    assert caught.value.finding.code == "override_results"
+    assert not properties.is_stored(override)
+
+
+@pytest.mark.parametrize("bevel", [0.0, 0.01])
+def test_every_letter_is_closed(bevel):
+    text = bpy.data.curves.new("Text", "FONT")
+    text.extrude, text.bevel_depth = 0.1, bevel
+    text.body = "ABCDEFGHIJKLMNOPQRSTUVWXYZ\nabcdefghijlmnopqrstuvwxyz\n0123456789&@%é"  # k's bevels overlap
+    obj = bpy.data.objects.new("Text", text)
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.update()
+    found = measure(obj)
+    assert str(found.method) == "exact" and found.health.closed
+    if not bevel:
+        mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+        front = sum(face.area for face in mesh.polygons if face.center.z > 0.0999)
+        assert found.volume == pytest.approx(0.2 * front, rel=1e-6)
+
+
+def test_what_nodes_made_is_named_by_the_object_that_has_them():
+    from tests.blender.read_bodies import join, node, nodes
+
+    host = add(with_flipped(box((0, 0, 0), (1, 1, 1)), 2), name="Host", location=(9, 0, 0))
+
+    def build(tree, source):
+        flipped = node(tree, "GeometryNodeFlipFaces", {}, Mesh=node(tree, "GeometryNodeMeshCube").outputs[0]).outputs[0]
+        moved = node(tree, "GeometryNodeTransform", {"Translation": (5, 0, 0)}, Geometry=flipped).outputs[0]
+        instance = node(tree, "GeometryNodeGeometryToInstance", {}, Geometry=moved).outputs[0]
+        return join(tree, source, instance)
+
+    nodes(host, build)
+    found = said(measure(collection_of(host, add(box(), name="Good", location=(-9, 0, 0)))))
+    assert found["flipped_faces"]["sources"] == found["inverted_components"]["sources"] == ["Host"]
+
+
+def test_equal_findings_about_different_faces_stay_apart():
+    unit = box((0, 0, 0), (1, 1, 1))
+    bad, worse = (add(with_flipped(unit, i), name="Bad", location=(3 * i, 0, 0)) for i in (2, 4))
+    found = measure(collection_of(bad, worse))
+    assert [one.elements.tolist() for one in found.findings] == [[2], [4]]
+    assert [one.values["sources"] for one in found.findings] == [["Bad"], ["Bad.001"]]
+
+
+def test_how_drawn_polygons_are_cut_is_a_note_and_how_those_of_a_mesh_are_is_not():
+    bpy.ops.curve.primitive_bezier_circle_add()
+    ring = bpy.context.object
+    ring.data.bevel_depth = 0.3
+    point = ring.data.splines[0].bezier_points[0]
+    point.radius, point.tilt = 3.0, 1.5
+    bent = box()
+    bent["points"] = [(x, y, z + 0.5 * x * y) for x, y, z in bent["points"]]
+    mesh = add(bent, name="Bent", location=(9, 0, 0))
+    assert said(measure(ring)).keys() == {"curves_drawn_as_polygons", "non_planar_faces_of_display_mesh"}
+    assert said(measure(mesh)).keys() == {"non_planar_faces"}
+    both = said(measure(collection_of(ring, mesh)))
+    assert both["non_planar_faces_of_display_mesh"]["sources"] == [ring.name]
+    assert both["non_planar_faces"]["sources"] == ["Bent"]
+
+
+def test_a_small_cap_before_uniting_is_a_note():
+    points = [(x, y, z) for z in (0, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    points += [(1e-3 * x, 1e-3 * y, 1) for x, y, _ in points[:4]]
+    turns = [(i, (i + 1) % 4) for i in range(4)]
+    faces = [(3, 2, 1, 0), *((a + k, b + k, b + k + 4, a + k + 4) for a, b in turns for k in (0, 4))]
+    found = said(measure(add({"points": points, "faces": faces}), overlap="union"))
+    assert found["holes_capped_before_union_slightly"] == {"share": pytest.approx(2.5e-7, rel=1e-3)}
+
+
+def test_a_density_that_nobody_set_is_a_note_in_the_window():
+    part = add(box())
+    part.select_set(True)
+    for density, codes in ((None, ["density_default_kept"]), (1000.0, [])):
+        if density is not None:
+            part.body_moments.density = density
+        assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+        assert [one["code"] for one in json.loads(part["body_findings"])] == codes
+        assert part["body_warnings"] == ""
+    bpy.ops.curve.primitive_bezier_circle_add()
+    wire = bpy.context.object
+    wire.body_moments.kind = "WIRE"
+    bpy.ops.object.body_moments_measure()
+    assert [one["code"] for one in json.loads(wire["body_findings"])] == ["linear_density_default_kept"]

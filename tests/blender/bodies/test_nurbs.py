@@ -1,0 +1,517 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surface objects: Blender's evaluation reproduced, and bodies measured from their control points."""
+
+from itertools import product
+
+import body_moments
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.nurbs.blender_knots import blender_space, display_parameters, display_table
+from body_moments.core.nurbs.patch import Patch
+from body_moments.core.verdict.method import Method, Source, Verdict
+from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.session import handlers, live
+from body_moments.operators.settings.options import MeasureOptions
+from body_moments.operators.write.record import record
+
+from tests.blender.findings import refused, said
+from tests.blender.objects import add, measured, only, place
+from tests.blender.spline_bodies import set_points, surface
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+BALL = 4.0 * np.pi / 3.0
+STORED = 1.0 - 1.95e-7  # what the rounding of the primitive's control points and weights leaves of a ball
+
+
+def primitive(name):
+    getattr(bpy.ops.surface, "primitive_nurbs_surface_{:s}_add".format(name))()
+    return bpy.context.object
+
+
+def shown(obj):
+    """(n, 3) the vertices of its display mesh."""
+    mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    return np.array([vertex.co for vertex in mesh.vertices], np.float64).reshape(-1, 3)
+
+
+def spaces_of(spline):
+    return (
+        blender_space(
+            spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v, spline.use_endpoint_v
+        ),
+        blender_space(
+            spline.point_count_u, spline.order_u, spline.use_cyclic_u, spline.use_bezier_u, spline.use_endpoint_u
+        ),
+    )
+
+
+FLAGS = list(product((False, True), repeat=3))
+
+
+@pytest.mark.parametrize("along_u", FLAGS)
+def test_the_display_mesh_is_reproduced_for_all_flags_orders_and_weights(along_u):
+    """Every flag of u with every flag of v; the orders 2 to 6 in turn; invalid ones show nothing, as predicted."""
+    rng = np.random.default_rng(FLAGS.index(along_u))
+    valid = 0
+    for number, along_v in enumerate(FLAGS * 4):
+        count_u, count_v = rng.integers(3, 11, 2)
+        orders = [int(rng.integers(2, min(6, count) + 1)) for count in (count_u, count_v)]
+        points = rng.uniform(-1.0, 1.0, (count_v, count_u, 3)).astype(np.float32)
+        weights = rng.uniform(0.3, 2.0, points.shape[:2]).astype(np.float32) if number % 2 else None
+        cyclic, bezier, endpoint = zip(along_u, along_v)
+        obj = surface(
+            points,
+            weights,
+            orders=orders,
+            cyclic=cyclic,
+            bezier=bezier,
+            endpoint=endpoint,
+            resolution=rng.integers(1, 5, 2).tolist(),
+        )
+        (spline,) = obj.data.splines
+        assert [spline.order_u, spline.order_v] == orders
+        vertices, spaces = shown(obj), spaces_of(spline)
+        if None in spaces:
+            assert not len(vertices)
+        else:
+            valid += 1
+            tables = [
+                display_table(space, display_parameters(space, resolution))
+                for space, resolution in zip(spaces, (spline.resolution_v, spline.resolution_u))
+            ]
+            found = Patch(spaces, points, weights).apply_weights(*tables).swapaxes(0, 1).reshape(-1, 3)
+            assert np.abs(found - vertices).max() <= 2e-6
+        bpy.data.objects.remove(obj)
+    assert valid >= 5
+
+
+def test_the_sphere_is_measured_as_the_ball_that_it_is():
+    ball = measured(primitive("sphere"))
+    assert str(ball.method) == "NURBS exact" and not ball.findings
+    assert abs(ball.volume / (BALL * STORED) - 1.0) <= 1e-8
+    assert ball.display_volume / BALL < 0.988  # and its polygons 1.3 % too small
+    assert abs(ball.volume - BALL) <= ball.error_bound["volume"] + ball.error_bound["input"]["volume"]
+    assert abs(ball.area / (4.0 * np.pi) - 1.0) <= 1e-6
+    entry = record(ball)
+    assert entry["display_mesh"]["difference"] == pytest.approx(ball.display_volume - ball.volume)
+
+
+def test_torus_and_capped_cylinder():
+    torus = measured(primitive("torus"))
+    assert str(torus.method) == "NURBS exact"
+    assert abs(torus.volume / (2.0 * np.pi**2 * 0.75 * 0.0625 * (1.0 - 1.9e-7)) - 1.0) <= 1e-8
+    tube = measured(primitive("cylinder"))
+    assert str(tube.method) == "NURBS capped" and said(tube)["flat_patch_holes_capped"]["count"] == 2
+    assert abs(tube.volume / (2.0 * np.pi) - 1.0) <= 1e-8
+
+
+def test_an_open_patch_is_labelled():
+    patch = measured(primitive("surface"))
+    assert str(patch.method) == "NURBS capped" and said(patch)["curved_patch_holes_capped"]["count"] == 1
+    assert not patch.health.closed
+
+
+@pytest.mark.parametrize("name", ["sphere", "torus", "cylinder"])
+def test_an_uneven_mirrored_transform_maps_the_body(name):
+    obj = primitive(name)
+    plain = measured(obj)
+    obj.location, obj.rotation_euler, obj.scale = (5.0, -2.0, 8.0), (0.3, -1.0, 2.0), (1.0, 2.0, -0.5)
+    moved = measured(obj)
+    expected = plain.volume_moments.transform(place(obj)).about_point(moved.volume_moments.about)
+    assert moved.method == plain.method and said(moved).keys() == said(plain).keys()
+    assert np.abs(moved.volume_moments.raw - expected.raw).max() <= 1e-12 * expected.total
+    assert moved.area != pytest.approx(plain.area, rel=1e-2)
+    with_mesh = obj.copy()
+    bpy.context.scene.collection.objects.link(with_mesh)
+    with_mesh.modifiers.new("Triangulate", "TRIANGULATE")
+    obj.data.splines[0].resolution_u = obj.data.splines[0].resolution_v = 24
+    assert measured(with_mesh).area == pytest.approx(moved.area, rel=3e-3)
+
+
+def test_the_scenes_unit_counts():
+    obj = primitive("sphere")
+    plain = measured(obj).volume
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    assert close(measured(obj).volume, 1e-6 * plain, rel=1e-12)
+
+
+def test_a_body_whose_directions_are_exchanged_is_turned_and_said():
+    obj = primitive("sphere")
+    plain = measured(obj).volume
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.curve.select_all(action="SELECT")
+    bpy.ops.curve.switch_direction()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    found = measured(obj)
+    assert str(found.method) == "NURBS reoriented" and "inverted_patch_components" in said(found)
+    assert found.volume == pytest.approx(plain, rel=1e-12)
+
+
+def test_a_shell_is_thin_or_has_real_walls():
+    obj = primitive("sphere")
+    obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.1
+    thin = measured(obj)
+    assert str(thin.method) == "NURBS shell" and thin.volume == pytest.approx(0.4 * np.pi, rel=1e-6)
+    for wall, low, high in (("INWARD", 0.9, 1.0), ("OUTWARD", 1.0, 1.1), ("CENTERED", 0.95, 1.05)):
+        obj.body_moments.wall = wall
+        found = measured(obj)
+        assert str(found.method) == "NURBS shell"
+        assert found.volume == pytest.approx(BALL * (high**3 - low**3), rel=1e-6)
+        inertia = 2.0 / 3.0 * 1000.0 * 4.0 * np.pi / 5.0 * (high**5 - low**5)
+        assert np.allclose(found.mass_properties.principal.moments, inertia, rtol=1e-6)
+    obj.body_moments.thickness = 3.0
+    with refused("wall_thicker_than_curvature"):
+        measured(obj)
+
+
+def test_moments_of_higher_order_of_a_thin_shell():
+    obj = primitive("sphere")
+    obj.body_moments.kind = "SHELL"
+    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=4))
+    assert found.area_moments.about_point(np.zeros(3))[4, 0, 0] == pytest.approx(4.0 * np.pi / 5.0, rel=2e-6)
+
+
+def test_a_wall_follows_the_scale_of_the_surface_but_keeps_its_thickness():
+    obj = primitive("sphere")
+    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
+    obj.scale = (2.0, 2.0, -2.0)
+    assert measured(obj).volume == pytest.approx(BALL * (8.0 - 1.9**3), rel=1e-6)
+
+
+@pytest.mark.parametrize("source", ["POLYNOMIAL", "MATERIALS"])
+@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
+def test_a_density_that_varies_needs_polygons_and_says_so(kind, source):
+    obj = primitive("sphere")
+    obj.body_moments.kind = kind
+    obj.body_moments.density_from, obj.body_moments.density_polynomial = source, "1000 + z"
+    found = measured(obj)
+    assert not str(found.method).startswith("NURBS") and "display_mesh_for_density" in said(found)
+
+
+def test_moments_of_higher_order_are_exact_too():
+    obj = primitive("sphere")
+    options = MeasureOptions(order=6, surface=True)
+    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), options)
+    sixth = found.volume_moments.about_point(np.zeros(3))[6, 0, 0]
+    assert sixth == pytest.approx(4.0 * np.pi / 63.0, rel=2e-6)
+    assert found.area_moments.about_point(np.zeros(3))[0, 4, 0] == pytest.approx(4.0 * np.pi / 5.0, rel=2e-6)
+
+
+def test_shape_keys_move_the_surface():
+    obj = primitive("sphere")
+    plain = measured(obj).volume
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Large")
+    for point in key.data:
+        point.co = 2.0 * point.co
+    for frame, value in ((1, 0.0), (11, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    for frame in (1, 6, 11):
+        bpy.context.scene.frame_set(frame)
+        found = measured(obj)
+        assert str(found.method) == "NURBS exact" and not found.findings
+        assert found.volume == pytest.approx(plain * (1.0 + key.value) ** 3, rel=1e-6)
+    assert found.volume == pytest.approx(8.0 * plain, rel=1e-12)
+
+
+def test_a_muted_key_and_one_alone_are_what_is_shown():
+    obj = primitive("sphere")
+    plain = measured(obj).volume
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Large")
+    for point in key.data:
+        point.co = 2.0 * point.co
+    key.value, key.mute = 1.0, True
+    assert measured(obj).volume == pytest.approx(plain, rel=1e-12)
+    key.mute = False
+    obj.active_shape_key_index, obj.show_only_shape_key = 1, True
+    assert measured(obj).volume == pytest.approx(8.0 * plain, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "falloff", ["NONE", "SMOOTH", "SHARP", "ROOT", "LINEAR", "SPHERE", "CONSTANT", "INVERSE_SQUARE", "CURVE"]
+)
+def test_hooks_move_the_surface(falloff):
+    obj = primitive("sphere")
+    obj.scale = (1.0, 1.0, 2.0)
+    bpy.context.view_layer.update()
+    hook = add(None, "Hook", select=False)
+    modifier = obj.modifiers.new("Hook", "HOOK")
+    modifier.object, modifier.strength = hook, 0.8
+    modifier.vertex_indices_set(list(range(8, 40)))
+    modifier.falloff_type, modifier.falloff_radius = falloff, 1.6
+    before = measured(obj).volume
+    hook.location, hook.rotation_euler, hook.scale = (0.2, 0.1, 0.5), (0.1, 0.2, 0.3), (1.3, 1.0, 0.9)
+    found = measured(obj)
+    assert str(found.method).startswith("NURBS") and abs(found.volume / before - 1.0) > 1e-3
+    assert ("control_points_recovered" in said(found)) == (falloff == "CURVE")
+    obj.data.splines[0].resolution_u = obj.data.splines[0].resolution_v = 32
+    fine = measured(obj)
+    assert fine.display_volume == pytest.approx(found.volume, rel=2e-3)
+    assert fine.volume == pytest.approx(found.volume, rel=1e-5)
+
+
+def test_other_modifiers_on_the_splines_are_recovered_from_the_display_mesh():
+    obj = primitive("torus")
+    obj.data.splines[0].resolution_u = obj.data.splines[0].resolution_v = 6
+    plain = measured(obj)
+    cast = obj.modifiers.new("Cast", "CAST")
+    cast.use_apply_on_spline, cast.factor = True, 0.3
+    found = measured(obj)
+    assert str(found.method) == "NURBS exact" and "control_points_recovered" in said(found)
+    assert abs(found.volume / plain.volume - 1.0) > 1e-2
+    obj.data.splines[0].resolution_u = obj.data.splines[0].resolution_v = 40
+    fine = measured(obj)
+    assert fine.display_volume == pytest.approx(found.volume, rel=2e-3)
+    assert fine.volume == pytest.approx(found.volume, rel=2e-5)
+
+
+def test_modifiers_that_work_on_the_mesh_are_measured_so_and_named():
+    obj = primitive("sphere")
+    obj.modifiers.new("Thick", "SOLIDIFY")
+    found = measured(obj)
+    assert not str(found.method).startswith("NURBS") and found.display_volume is None
+    assert said(found)["display_mesh_for_modifiers"] == {"modifiers": ["Thick"]}
+
+
+def test_an_edit_in_edit_mode_is_read():
+    obj = primitive("sphere")
+    bpy.ops.object.mode_set(mode="EDIT")
+    for point in obj.data.splines[0].points:
+        point.co = (*(2.0 * value for value in point.co[:3]), point.co[3])
+    obj.data.update_tag()
+    assert measured(obj).volume == pytest.approx(8.0 * BALL * STORED, rel=1e-8)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_splines_that_show_nothing_are_left_out_and_said():
+    obj = primitive("sphere")
+    obj.data.splines.new("NURBS").points.add(4)
+    found = measured(obj)
+    assert str(found.method) in {"NURBS exact", "exact"}
+    assert found.findings
+
+
+def loaf():
+    """A cube of six patches of different resolution in one object."""
+
+    def side(u, v, origin, count):
+        s, t = np.meshgrid(np.linspace(0, 1, count[0]), np.linspace(0, 1, count[1]), indexing="ij")
+        return s[..., None] * v + t[..., None] * u + origin
+
+    x, y, z = np.eye(3)
+    corner = np.array([3.0, 1.0, -2.0])
+    sides = [
+        side(x, y, corner, (3, 4)),
+        side(x, y, corner + z, (4, 3)),
+        side(y, z, corner, (3, 3)),
+        side(y, z, corner + x, (5, 4)),
+        side(z, x, corner, (3, 3)),
+        side(z, x, corner + y, (4, 4)),
+    ]
+    objects = [surface(points, orders=(2, 3)) for points in sides]
+    only(*objects)
+    bpy.ops.object.join()
+    return bpy.context.object
+
+
+def test_surfaces_that_show_none_are_refused_with_what_to_do():
+    circle = primitive("circle")
+    with refused("lines_only_surface", "SurfCircle"):
+        measured(circle)
+    sheet = primitive("surface")
+    sheet.data.splines[0].use_bezier_u = True
+    with refused("splines_without_surface", "SurfPatch"):
+        measured(sheet)
+    sheet.data.splines[0].use_bezier_u = False
+    assert measured(sheet).volume > 0.0
+
+
+def test_patches_with_a_seam_between_them_are_one_body():
+    found = measured(loaf())
+    assert str(found.method) == "NURBS reoriented" and found.health.components == 1
+    assert found.volume == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_wall_over_creases_says_what_it_is():
+    obj = loaf()
+    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
+    found = measured(obj)
+    assert found.volume == pytest.approx(0.6, rel=1e-5)  # 1 - 0.8³ if it were mitred
+    assert said(found)["wall_creases"]["angle"] == pytest.approx(90.0)
+    smooth = primitive("torus")
+    smooth.body_moments.kind, smooth.body_moments.wall, smooth.body_moments.thickness = "SHELL", "INWARD", 0.1
+    assert not measured(smooth).findings
+
+
+def test_instances_of_a_surface_are_measured_as_it_is():
+    ball = primitive("sphere")
+    collection = bpy.data.collections.new("Balls")
+    collection.objects.link(ball)
+    bpy.context.scene.collection.children.link(collection)
+    empties = []
+    for scale in ((1.0, 1.0, 1.0), (2.0, 3.0, -1.0)):
+        empty = bpy.data.objects.new("Instance", None)
+        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+        empty.location, empty.scale = (10.0, 0.0, 0.0), scale
+        bpy.context.scene.collection.objects.link(empty)
+        empties.append(empty)
+    one, other = measured(empties[0]), measured(empties[1])
+    assert str(one.method) == str(other.method) == "NURBS exact"
+    assert one.volume == pytest.approx(BALL * STORED, rel=1e-8)
+    assert other.volume == pytest.approx(6.0 * BALL * STORED, rel=1e-8)
+
+
+def test_a_union_needs_polygons_and_says_so():
+    obj = primitive("sphere")
+    assert measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(overlap="union")).method == Method(
+        Verdict.EXACT, Source.NURBS
+    )
+    other = primitive("sphere")
+    other.location.x = 1.0
+    only(obj, other)
+    bpy.ops.object.join()
+    both = measured(bpy.context.object)
+    assert both.health.overlapping_components == 2 and said(both)["components_overlap"] == {"count": 2}
+    bpy.context.object.body_moments.overlap = "UNION"
+    united = measured(bpy.context.object)
+    assert str(united.method) == "union" and "union_of_display_mesh" in said(united)
+    assert united.volume < 0.9 * both.volume
+
+
+def test_weights_of_zero_leave_the_display_mesh():
+    obj = primitive("sphere")
+    obj.data.splines[0].points[17].co[3] = 0.0
+    obj.data.update_tag()
+    found = measured(obj)
+    assert not str(found.method).startswith("NURBS") and said(found)["display_mesh_for_weights"] == {"count": 1}
+
+
+def test_weights_of_zero_that_show_no_number_are_named():
+    obj = primitive("sphere")
+    obj.data.splines[0].points[10].co[3] = 0.0
+    obj.data.update_tag()
+    with refused("non_positive_weights", "SurfSphere"):
+        measured(obj)
+
+
+def test_numbers_follow_an_edit_while_live_is_on():
+    obj = primitive("torus")
+    bpy.ops.object.body_moments_measure()
+    stored = obj["body_volume"]
+    assert live.current_numbers(obj) is None
+    bpy.ops.object.body_moments_live()
+    assert close(live.current_numbers(obj).measurement.volume, stored, rel=1e-12)
+    rng = np.random.default_rng(0)
+    points = np.array([point.co[:3] for point in obj.data.splines[0].points])
+    weights = np.array([point.co[3] for point in obj.data.splines[0].points])
+    for _ in range(3):
+        points[rng.integers(64)] += rng.uniform(-0.1, 0.1, 3)
+        set_points(obj.data.splines[0], points[None], weights)
+        bpy.context.view_layer.update()
+        assert live.is_pending(obj)
+        found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
+        now = measured(obj)
+        assert str(found.method) == str(now.method) == "NURBS exact"
+        assert close(found.volume, now.volume, rel=1e-12)
+        assert np.allclose(found.mass_properties.inertia, now.mass_properties.inertia, rtol=1e-11, atol=1e-9)
+    assert obj["body_volume"] == stored  # shown, never stored
+    bpy.ops.object.body_moments_live()
+    assert live.current_numbers(obj) is None
+
+
+def test_live_numbers_follow_hooks_keys_transforms_and_frames():
+    obj = primitive("sphere")
+    hook = add(None, "Hook", select=False)
+    modifier = obj.modifiers.new("Hook", "HOOK")
+    modifier.object = hook
+    modifier.vertex_indices_set(list(range(40)))
+    for frame, height in ((1, 1.0), (11, 3.0)):
+        hook.scale.z = height
+        hook.keyframe_insert("scale", frame=frame)
+    only(obj)
+    bpy.ops.object.body_moments_live()
+    for frame in (1, 6, 11):
+        bpy.context.scene.frame_set(frame)
+        assert live.is_pending(obj)
+        found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
+        assert found.volume == pytest.approx(BALL * STORED * hook.scale.z, rel=1e-8)
+    obj.scale = (1.0, 2.0, -1.0)
+    bpy.context.view_layer.update()
+    found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
+    assert found.volume == pytest.approx(measured(obj).volume, rel=1e-12)
+    bpy.ops.object.body_moments_live()
+
+
+def test_live_numbers_follow_what_was_renamed_and_the_linked_one_of_two_with_one_name(tmp_path):
+    path, own = str(tmp_path / "library.blend"), primitive("sphere")
+    bpy.data.libraries.write(path, {own})
+    with bpy.data.libraries.load(path, link=True) as (_, found):
+        found.objects = [own.name]
+    (linked,) = found.objects
+    bpy.context.scene.collection.objects.link(linked)
+    assert linked.name == own.name
+    for obj in (own, linked):
+        only(obj)
+        bpy.ops.object.body_moments_live()
+    for obj in (own, linked):
+        obj.scale.z = 2.0
+    bpy.context.view_layer.update()
+    own.name = "Renamed"
+    live._tick()
+    for obj in (own, linked):
+        assert live.current_numbers(obj).measurement.volume == pytest.approx(2.0 * BALL * STORED, rel=1e-8)
+
+
+def test_live_numbers_of_other_settings_are_out_of_date():
+    obj, scene = primitive("sphere"), bpy.context.scene
+    bpy.ops.object.body_moments_live()
+    for data, name, value in (
+        (obj.body_moments, "kind", "SHELL"),
+        (obj.body_moments, "density", 2500.0),
+        (scene.unit_settings, "scale_length", 0.5),
+    ):
+        setattr(data, name, value)
+        assert live.is_stale(obj, scene)
+        live.update(obj, bpy.context.evaluated_depsgraph_get())
+        assert not live.is_stale(obj, scene)
+    bpy.ops.object.body_moments_live()
+
+
+def test_live_numbers_follow_undo_and_stop_at_a_file_and_when_unregistered(tmp_path):
+    obj = primitive("sphere")
+    bpy.ops.object.body_moments_live()
+    bpy.ops.ed.undo_push(message="Before")
+    obj.data.splines[0].points[10].co.x = 3.0
+    obj.data.update_tag()
+    bpy.context.view_layer.update()
+    bpy.ops.ed.undo_push(message="After")
+    live._followed.get(obj).is_pending = False
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    obj = bpy.context.object
+    assert live.is_live(obj) and live.is_pending(obj)
+    path = str(tmp_path / "live.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert not live.is_live(bpy.context.object) and not len(live._followed)
+    bpy.ops.object.body_moments_live()
+    body_moments.unregister()
+    body_moments.register()
+    assert not live.is_live(bpy.context.object) and not len(live._followed)
+    assert bpy.app.handlers.depsgraph_update_post.count(handlers._on_update) == 1
+    assert handlers.on_update.count(live._note_updates) == 1
+
+
+def test_a_hook_under_a_flattened_object_leaves_the_display_mesh():
+    obj = primitive("sphere")
+    obj.scale, obj.body_moments.kind = (1.0, 1.0, 0.0), "SHELL"
+    modifier = obj.modifiers.new("Hook", "HOOK")
+    modifier.object = add(None, "Target", select=False)
+    modifier.vertex_indices_set(list(range(8)))
+    assert str(measured(obj).method) == "shell"

@@ -1,0 +1,229 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh filled with the density of a Volume object, and what operators do with Volume objects."""
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.verdict.finding import finding
+from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.session import staleness
+from body_moments.operators.settings.options import MeasureOptions
+from body_moments.operators.write import properties
+
+from tests.blender.findings import refused, said
+from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object
+from tests.blender.objects import strip_mesh
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def measure(obj, **options):
+    bpy.context.view_layer.update()
+    return measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(**options))
+
+
+def cube(**transform):
+    """Two to a side, around its origin."""
+    bpy.ops.mesh.primitive_cube_add()
+    obj = bpy.context.object
+    for key, value in transform.items():
+        setattr(obj, key, value)
+    return obj
+
+
+def cloud(tmp_path, values, **transform):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values))
+    for key, value in transform.items():
+        setattr(obj, key, value)
+    return obj
+
+
+@pytest.mark.parametrize("mirror", [1.0, -1.0])
+def test_a_box_around_whole_voxels_weighs_them(tmp_path, mirror):
+    values = np.random.default_rng(0).integers(0, 9, (6, 6, 6)).astype(np.float32)
+    volume = cloud(tmp_path, values, scale=(mirror, 1, 1))
+    # voxels 1 and 2 along x, 2 to 3 along y, 3 to 4 along z; their centers are at whole numbers
+    box = cube(location=(1.5 * mirror, 2.5, 3.5))
+    box.body_moments.density_from = "VOLUME"
+    box.body_moments.density_volume = volume
+    found = measure(box)
+    part = values[1:3, 2:4, 3:5].astype(float)
+    assert str(found.method) == "grid exact"
+    assert found.mass_properties.mass == pytest.approx(part.sum(), rel=1e-12)
+    index = np.stack(np.meshgrid([1, 2], [2, 3], [3, 4], indexing="ij"), axis=-1)
+    center = (part[..., None] * index).sum(axis=(0, 1, 2)) / part.sum() * [mirror, 1, 1]
+    assert found.mass_properties.center == pytest.approx(center, rel=1e-12)
+    assert found.volume == pytest.approx(8.0)
+    assert found.density == pytest.approx(part.mean(), rel=1e-12)
+    assert said(found).keys() == {"grid_density_of"}
+    assert found.density_from == finding("density_from_grid_of", grid="density", object=volume.name)
+
+
+def test_a_uniform_grid_is_a_plain_density_wherever_both_stand(tmp_path):
+    volume = cloud(
+        tmp_path,
+        np.full((40, 40, 40), 3.0, np.float32),
+        location=(-5, -6, -7),
+        rotation_euler=(0.1, 0.2, 0.3),
+        scale=(0.5, 0.75, 0.6),
+    )
+    volume.body_moments.value_density = 2.0
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, location=(3, 3, 3))
+    ball = bpy.context.object
+    ball.scale = (2, 1, 3)
+    plain = measure(ball, density=6.0)
+    ball.body_moments.density_from = "VOLUME"
+    ball.body_moments.density_volume = volume
+    found = measure(ball)
+    assert found.mass_properties.mass == pytest.approx(plain.mass_properties.mass, rel=1e-11)
+    assert np.abs(found.mass_properties.inertia - plain.mass_properties.inertia).max() <= 1e-9 * np.trace(
+        plain.mass_properties.inertia
+    )
+    assert 0.0 < found.error_bound["inertia"] < 1e-6
+
+
+def test_what_is_outside_of_the_grid_is_empty_and_said(tmp_path):
+    volume = cloud(tmp_path, np.ones((4, 4, 4), np.float32))
+    box = cube(location=(-0.5, 1.5, 1.5))
+    box.body_moments.density_from = "VOLUME"
+    box.body_moments.density_volume = volume
+    found = measure(box)
+    assert found.mass_properties.mass == pytest.approx(4.0, rel=1e-12)
+    assert said(found)["outside_grid"] == {"share": pytest.approx(0.5)}
+    box.location.x = 0.5 - 5e-5
+    assert close(said(measure(box))["outside_grid_slightly"]["share"], 2.5e-5, rel=1e-2)
+    box.location.x = -0.5
+    assert measure(box, mass=3.0).mass_properties.mass == pytest.approx(3.0)
+    assert measure(box, density=2.0).mass_properties.mass == pytest.approx(16.0)
+    assert str(measure(box, density=2.0).method) == "exact"
+    box.location = (50, 0, 0)
+    with refused("density_grid_elsewhere", box.name, object=volume.name, grid="density"):
+        measure(box)
+    volume.scale = (0, 1, 1)
+    with refused("density_grid_empty", box.name):
+        measure(box)
+
+
+def test_a_source_that_cannot_be_read_says_whose(tmp_path):
+    box = cube()
+    box.body_moments.density_from = "VOLUME"
+    box.body_moments.density_volume = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
+    cause = finding("volume_without_grids").as_record()
+    with refused("density_volume_unreadable", "Cube", object="Empty", cause=cause):
+        measure(box)
+
+
+def test_stored_numbers_know_when_the_grid_moves(tmp_path):
+    volume = cloud(tmp_path, np.ones((4, 4, 4), np.float32))
+    box = cube(location=(1.5, 1.5, 1.5))
+    box.body_moments.density_from = "VOLUME"
+    box.body_moments.density_volume = volume
+    properties.store(box, measure(box))
+    staleness.mark_up_to_date(bpy.context, [box])
+    assert staleness.stale_reason(box, bpy.context.scene) is None
+    volume.body_moments.value_density = 5.0
+    assert staleness.stale_reason(box, bpy.context.scene) == "stale_settings"
+    volume.body_moments.value_density = 1.0
+    assert staleness.stale_reason(box, bpy.context.scene) is None
+    volume.location.x = 1.0
+    bpy.context.view_layer.update()
+    assert staleness.stale_reason(box, bpy.context.scene) == "stale_settings"
+
+
+def test_stored_numbers_know_when_the_voxels_change(tmp_path):
+    fog = mesh_to_volume(cube())
+    box = cube()
+    box.body_moments.density_from = "VOLUME"
+    box.body_moments.density_volume = fog
+    plain = cube(location=(9, 0, 0))
+    for obj in (box, plain):
+        properties.store(obj, measure(obj))
+    staleness.mark_up_to_date(bpy.context, [box, plain])
+    assert staleness.stale_reason(box, bpy.context.scene) is None
+    fog.body_moments.value_density = 5.0  # a setting is no change of voxels
+    bpy.context.view_layer.update()
+    fog.body_moments.value_density = 1.0
+    bpy.context.view_layer.update()
+    assert staleness.stale_reason(box, bpy.context.scene) is None
+    fog.modifiers[0].density = 3.0
+    bpy.context.view_layer.update()
+    assert staleness.stale_reason(box, bpy.context.scene) == "stale_geometry"
+    assert staleness.stale_reason(plain, bpy.context.scene) is None
+    properties.store(box, measure(box))
+    staleness.mark_up_to_date(bpy.context, [box])
+    assert staleness.stale_reason(box, bpy.context.scene) is None
+
+
+def chosen(tmp_path):
+    values = np.random.default_rng(0).random((6, 7, 18)).astype(np.float32)
+    obj = cloud(tmp_path, values, location=(1, 2, 3), rotation_euler=(0.1, 0.5, 0.2))
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+    bpy.context.view_layer.update()
+    return obj
+
+
+def test_the_button_stores_a_clouds_numbers_and_they_stay_fresh(tmp_path):
+    obj = chosen(tmp_path)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    found = measure(obj)
+    assert obj["body_mass"] == found.mass_properties.mass
+    assert obj["body_method"] == "grid exact"
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    obj.body_moments.density = 5.0  # not what a grid weighs by
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    obj.body_moments.value_density = 5.0
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+
+
+def test_snapping_of_a_cloud(tmp_path):
+    obj = chosen(tmp_path)
+    center = measure(obj).mass_properties.center
+    assert bpy.ops.object.body_moments_add_empty() == {"FINISHED"}
+    empty = next(one for one in bpy.context.scene.objects if one.type == "EMPTY")
+    assert np.allclose(empty.matrix_world.translation, center, atol=1e-5)
+    assert bpy.ops.object.body_moments_create_orientation() == {"FINISHED"}
+    assert bpy.ops.view3d.body_moments_cursor_to_center() == {"FINISHED"}
+    assert np.allclose(bpy.context.scene.cursor.location, center, atol=1e-5)
+    assert bpy.ops.object.body_moments_align_to_world() == {"FINISHED"}
+    body = measure(obj).mass_properties
+    assert np.abs(body.inertia - np.diag(np.diag(body.inertia))).max() <= 1e-6 * np.trace(body.inertia)
+    assert body.center == pytest.approx(center, abs=1e-5)
+    matrix = obj.matrix_world.copy()
+    for operator in (bpy.ops.object.body_moments_origin_to_center, bpy.ops.object.body_moments_axes_to_principal):
+        assert operator() == {"CANCELLED"}
+    assert obj.matrix_world == matrix
+
+
+def test_settings_are_copied_and_survive_a_file(tmp_path):
+    obj = chosen(tmp_path)
+    obj.body_moments.values_from, obj.body_moments.spline_order = "TABLE", 4
+    box = cube()
+    box.body_moments.density_from = "VOLUME"
+    box.body_moments.density_volume = obj
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
+    assert bpy.data.objects["Cube"].body_moments.density_volume == bpy.data.objects["Cloud"]
+    assert bpy.data.objects["Cloud"].body_moments.spline_order == 4
+
+
+def test_what_is_found_about_the_source_names_it(tmp_path):
+    volume = cloud(tmp_path, np.ones((4, 4, 4), np.float32))
+    box = cube(location=(1.5, 1.5, 1.5))
+    box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
+    volume.hide_set(True)
+    assert said(measure(box))["hidden_object_measured"]["sources"] == [volume.name]
+
+
+def test_a_source_with_refused_values_is_named_and_an_open_surface_is_the_objects_own(tmp_path):
+    volume = cloud(tmp_path, np.full((4, 4, 4), -1.0, np.float32))
+    box = cube(location=(1.5, 1.5, 1.5))
+    box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
+    cause = finding("values_negative", density=-1.0).as_record()
+    with refused("density_volume_unreadable", box.name, object=volume.name, cause=cause):
+        measure(box)
+    box.data = strip_mesh()
+    with refused("open_surface_of_grid", box.name):
+        measure(box)

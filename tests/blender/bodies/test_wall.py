@@ -1,0 +1,425 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shells of real thickness: the setting, what is found, and the thickness as a slider."""
+
+import json
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.bodies.mesh import mesh_body as polygon_body
+from body_moments.operators.bodies.wall import find_walls
+from body_moments.operators.read import read_object
+from body_moments.operators.session import staleness
+from body_moments.operators.session import walls as wall_slider
+from body_moments.operators.settings.options import MeasureOptions
+from body_moments.operators.write import properties
+from mathutils import Euler, Matrix
+
+from tests.blender.batch_files import document
+from tests.blender.findings import refused, said
+from tests.blender.objects import add, measured, mesh_body, only
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def box(size=(1.0, 1.0, 1.0), wall="INWARD", thickness=0.125, **more):
+    x, y, z = size
+    obj = add(mesh_body("Box", ((0, 0, 0), (x, 0, 0), (x, y, 0), (0, y, 0)), z), "Box", **more)
+    settings = obj.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", wall, thickness
+    return obj
+
+
+def shell_volume(size, low, high):
+    return np.prod(np.add(size, 2 * high)) - np.prod(np.subtract(size, 2 * low))
+
+
+def test_a_cube_is_the_cube_less_the_cube_inside():
+    obj = box()
+    found = measured(obj)
+    assert str(found.method) == "shell" and found.kind == "shell" and found.thickness == 0.125
+    assert abs(found.volume - (1 - 0.75**3)) < 1e-14
+    assert abs(found.mass_properties.mass - 1000 * (1 - 0.75**3)) < 1e-11
+    inertia = 1000 * (1 - 0.75**5) / 6
+    assert np.abs(found.mass_properties.inertia - inertia * np.eye(3)).max() < 1e-10
+    assert np.abs(found.mass_properties.center - 0.5).max() < 1e-14
+    assert found.area == 6.0
+    assert said(found) == {"wall_measured": {"thickness": 0.125, "side": "inward"}}
+    assert 0.0 < found.error_bound["volume"] < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("wall", "low", "high"), [("INWARD", 0.1, 0.0), ("OUTWARD", 0.0, 0.1), ("CENTERED", 0.05, 0.05)]
+)
+@pytest.mark.parametrize("mirror", [1.0, -1.0])
+def test_thickness_is_a_length_in_the_world_whatever_the_scale(wall, low, high, mirror):
+    obj = box(wall=wall, thickness=0.1, location=(30, -20, 10), rotation=(0.3, 0.5, 0.7), scale=(2 * mirror, 3, 4))
+    found = measured(obj)
+    assert abs(found.volume / shell_volume((2, 3, 4), low, high) - 1.0) < 1e-6
+
+
+def test_a_sheared_object_is_offset_where_it_stands():
+    parent = bpy.data.objects.new("Parent", None)
+    bpy.context.scene.collection.objects.link(parent)
+    parent.scale = (1, 1, 3)
+    obj = box(thickness=0.0625)
+    obj.parent, obj.rotation_euler = parent, (0.6, 0.0, 0.0)
+    bpy.context.view_layer.update()
+    found = measured(obj)
+    a, b, c = np.array(obj.matrix_world, float)[:3, :3].T
+    volume, t = abs(np.linalg.det([a, b, c])), 0.0625
+    heights = [volume / np.linalg.norm(np.cross(u, v)) for u, v in ((b, c), (c, a), (a, b))]
+    truth = volume * (1 - np.prod([1 - 2 * t / height for height in heights]))
+    assert abs(found.volume / truth - 1.0) < 1e-6
+
+
+def test_thickness_follows_the_scenes_unit():
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    found = measured(box(thickness=0.125))
+    assert close(found.thickness, 0.00125, rel=1e-12)
+    assert close(found.volume, 1e-6 * (1 - 0.75**3), rel=1e-12)
+
+
+def test_a_given_mass_is_spread_over_the_material():
+    obj = box()
+    obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.0
+    found = measured(obj)
+    assert abs(found.mass_properties.mass - 3.0) < 1e-13
+    assert abs(found.density - 3.0 / (1 - 0.75**3)) < 1e-12
+
+
+def test_thin_stays_area_times_thickness():
+    found = measured(box(wall="THIN"))
+    assert close(found.volume, 0.75, rel=1e-15)
+    assert not found.findings
+
+
+def test_an_open_sheet_is_a_plate():
+    mesh = bpy.data.meshes.new("Sheet")
+    mesh.from_pydata([(0, 0, 0), (2, 0, 0), (2, 3, 0), (0, 3, 0)], [], [(0, 1, 2, 3)])
+    obj = add(mesh)
+    settings = obj.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.5
+    found = measured(obj)
+    assert abs(found.volume - 3.0) < 1e-14
+    assert np.abs(found.mass_properties.center - (1.0, 1.5, 0.25)).max() < 1e-14
+
+
+def test_what_folds_over_is_refused_with_the_largest_that_works():
+    obj = box((1, 2, 0.5), thickness=0.3)
+    with pytest.raises(MeasureError) as refusal:
+        measured(obj)
+    values = refusal.value.finding.values
+    assert refusal.value.finding.code == "wall_folds" and 0.249 < values["largest"] < 0.25
+    assert values["thickness"] == pytest.approx(0.3) and len(values["point"]) == 3
+    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(thickness=values["largest"]))
+    assert 0.99 < found.volume < 1.0
+
+
+def test_a_flipped_face_is_turned_before_and_said():
+    obj = box()
+    obj.data.polygons[0].flip()
+    obj.data.update()
+    found = measured(obj)
+    assert abs(found.volume - (1 - 0.75**3)) < 1e-14
+    assert "wall_faces_reversed" in said(found)
+
+
+def test_an_open_surface_whose_faces_disagree_is_refused():
+    mesh = bpy.data.meshes.new("Sheet")
+    mesh.from_pydata(
+        [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0), (2, 1, 0)], [], [(0, 1, 2, 3), (1, 2, 5, 4)]
+    )
+    obj = add(mesh)
+    obj.body_moments.kind, obj.body_moments.wall = "SHELL", "INWARD"
+    with refused("wall_inconsistent_faces", count=1):
+        measured(obj)
+
+
+def test_a_slit_folds_over_before_its_walls_meet():
+    points = ((0, 0, 0), (3, 0, 0), (3, 2, 0), (2, 2, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0))
+    obj = add(mesh_body("U", points, 1.0))
+    settings = obj.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.25
+    assert "walls_overlap" not in said(measured(obj))
+    settings.wall, settings.thickness = "INWARD", 0.25
+    assert "walls_overlap" not in said(measured(obj))
+    points = ((0, 0, 0), (4, 0, 0), (4, 1, 0), (1, 1, 0), (1, 1.2, 0), (4, 1.2, 0), (4, 3, 0), (0, 3, 0))
+    slit = add(mesh_body("Slit", points, 1.0), "Slit")
+    settings = slit.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.09
+    assert "walls_overlap" not in said(measured(slit))
+    settings.thickness = 0.15
+    with refused("wall_folds", side="outward"):  # the slit's own end folds first
+        measured(slit)
+
+
+def test_two_parts_whose_walls_meet_say_so():
+    one = mesh_body("Pair")
+    import bmesh
+
+    work = bmesh.new()
+    bmesh.ops.create_cube(work, size=1.0)
+    bmesh.ops.create_cube(work, size=1.0, matrix=Matrix.Translation((1.25, 0.1, 0.2)))
+    work.to_mesh(one)
+    work.free()
+    obj = add(one)
+    settings = obj.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.1
+    assert "walls_overlap" not in said(measured(obj))
+    settings.thickness = 0.2
+    assert "walls_overlap" in said(measured(obj))
+
+
+def test_walls_of_instances_that_may_meet_say_that_nobody_looked():
+    one = box(wall="OUTWARD", thickness=0.1)
+    inside = bpy.data.collections.new("Inside")
+    bpy.context.scene.collection.objects.unlink(one)
+    other = bpy.data.objects.new("Other", one.data)
+    for obj in (one, other):
+        inside.objects.link(obj)
+    shown = bpy.data.objects.new("Shown", None)
+    shown.instance_type, shown.instance_collection = "COLLECTION", inside
+    bpy.context.scene.collection.objects.link(shown)
+    settings = shown.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.1
+    for place, expected in ((1.25, False), (1.2, False), (1.15, True)):
+        other.location.x = place
+        assert ("instance_walls_unchecked" in said(measured(shown))) == expected
+    settings.wall = "INWARD"
+    assert "instance_walls_unchecked" not in said(measured(shown))
+
+
+def test_instances_have_walls_of_one_thickness():
+    part = box(thickness=0.125)
+    collection = bpy.data.collections.new("Parts")
+    bpy.context.scene.collection.children.link(collection)
+    bpy.context.scene.collection.objects.unlink(part)
+    collection.objects.link(part)
+    holder = add(None, "Holder", location=(5, 0, 0), scale=(2, 2, 2))
+    holder.instance_type, holder.instance_collection = "COLLECTION", collection
+    settings = holder.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "INWARD", 0.125
+    found = measured(holder)
+    assert abs(found.volume - shell_volume((2, 2, 2), 0.125, 0)) < 1e-13
+    assert np.abs(found.mass_properties.center - (6, 1, 1)).max() < 1e-13
+
+
+def test_instances_turned_every_way_share_one_wall():
+    part = box((1.0, 2.0, 0.5), thickness=0.125)
+    collection = bpy.data.collections.new("Parts")
+    collection.objects.link(part)
+    holder = add(None, "Holder")
+    inner = bpy.data.collections.new("All")
+    for k in range(5):
+        one = bpy.data.objects.new("Place", None)
+        one.instance_type, one.instance_collection = "COLLECTION", collection
+        one.location, one.rotation_euler, one.scale = (5 * k, 0, 0), (k, 2 * k, 3), (1 + k % 2, 1 + k % 2, 1 + k % 2)
+        inner.objects.link(one)
+    holder.instance_type, holder.instance_collection = "COLLECTION", inner
+    bpy.context.view_layer.update()
+    settings = holder.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.125
+    truth = 3 * shell_volume((1, 2, 0.5), 0, 0.125) + 2 * shell_volume((2, 4, 1), 0, 0.125)
+    assert measured(holder).volume == pytest.approx(truth, rel=1e-6)
+
+
+def test_an_open_cup_says_that_its_faces_tell_what_is_inward():
+    obj = box()
+    import bmesh
+
+    work = bmesh.new()
+    work.from_mesh(obj.data)
+    work.faces.ensure_lookup_table()
+    bmesh.ops.delete(work, geom=[face for face in work.faces if face.normal.z > 0.5], context="FACES_ONLY")
+    work.to_mesh(obj.data)
+    work.free()
+    found = measured(obj)
+    assert abs(found.volume - (1 - 0.75**2 * 0.875)) < 1e-14  # the rim stays in the plane of the top
+    assert "wall_unoriented" in said(found) and "wall_unoriented" not in said(measured(box()))
+
+
+def test_the_command_line_uses_the_objects_wall_and_its_own_thickness():
+    box()
+    found = document("--thickness", "0.25", "--order", "2")["objects"][0]
+    assert close(found["volume"], 1 - 0.5**3, rel=1e-13)
+    assert found["method"] == "shell" and found["thickness"] == 0.25
+    assert close(found["moments"]["volume"]["0,0,0"], 1 - 0.5**3, rel=1e-13)
+    assert "wall_measured" in [entry["code"] for entry in found["findings"]]
+    surface = document("--surface-moments", "--order", "2")["objects"][0]
+    assert close(surface["moments"]["surface"]["0,0,0"], 6.0, rel=1e-13)
+
+
+# The slider
+
+
+def stored(obj):
+    return properties.from_numbers(properties.numbers(obj))
+
+
+def press(obj):
+    only(obj)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+
+
+def test_a_new_thickness_is_stored_at_once_and_is_what_measuring_gives():
+    obj = box(location=(3, 4, 5), rotation=(0.1, 0.2, 0.3), scale=(1, 2, 3))
+    press(obj)
+    for thickness in (0.0625, 0.2, 0.3125):
+        obj.body_moments.thickness = thickness
+        kept = properties.numbers(obj)
+        assert staleness.stale_reason(obj, bpy.context.scene) is None
+        bpy.context.view_layer.update()
+        assert staleness.stale_reason(obj, bpy.context.scene) is None
+        press(obj)
+        for one, other in zip(kept, properties.numbers(obj)):
+            assert np.abs(np.array(one) - other).max() <= 1e-13 * max(1.0, np.abs(other).max())
+
+
+def test_another_side_is_stored_at_once_too():
+    obj = box()
+    press(obj)
+    obj.body_moments.wall = "OUTWARD"
+    assert abs(stored(obj).volume - (1.25**3 - 1)) < 1e-13
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    obj.body_moments.wall = "THIN"
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+
+
+@pytest.mark.parametrize("change", ["edited", "turned"])
+def test_what_was_changed_since_is_not_stored_as_if_it_were_measured(change):
+    obj = box()
+    press(obj)
+    if change == "edited":
+        obj.data.vertices[0].co.x -= 1.0
+        obj.data.update()
+    else:
+        obj.rotation_euler = Euler((0.1, 0.0, 0.0))
+    bpy.context.view_layer.update()
+    before = properties.numbers(obj)
+    obj.body_moments.thickness = 0.2
+    assert properties.numbers(obj) == before
+    assert staleness.stale_reason(obj, bpy.context.scene)
+
+
+def test_a_thickness_that_folds_leaves_the_numbers_and_says_how_thick_it_may_be():
+    obj = box()
+    press(obj)
+    before = properties.numbers(obj)
+    assert wall_slider.max_thickness(obj) == pytest.approx(0.5) and not wall_slider.is_too_thick(obj)
+    obj.body_moments.thickness = 0.75
+    assert properties.numbers(obj) == before and wall_slider.is_too_thick(obj)
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    obj.body_moments.thickness = 0.25
+    assert abs(stored(obj).volume - (1 - 0.5**3)) < 1e-13
+
+
+def test_the_slider_says_that_it_did_not_look_for_walls_that_meet():
+    obj = box()
+    press(obj)
+    assert not obj["body_warnings"]
+    obj.body_moments.thickness = 0.2
+    found = {entry["code"]: entry["values"] for entry in json.loads(obj["body_findings"])}
+    assert found == {"wall_measured": {"thickness": 0.2, "side": "inward"}, "wall_overlap_unchecked": {}}
+    assert obj["body_warnings"] == str(finding("wall_overlap_unchecked"))
+
+
+def test_after_loading_a_file_the_slider_waits_for_measure(tmp_path):
+    obj = box()
+    press(obj)
+    path = str(tmp_path / "wall.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects["Box"]
+    assert obj.body_moments.wall == "INWARD" and staleness.stale_reason(obj, bpy.context.scene) is None
+    obj.body_moments.thickness = 0.2
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    press(obj)
+    assert abs(stored(obj).volume - (1 - 0.6**3)) < 1e-6
+
+
+def test_an_edit_after_the_slider_is_noticed():
+    obj = box()
+    press(obj)
+    obj.body_moments.thickness = 0.2
+    bpy.context.view_layer.update()
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    obj.update_tag(refresh={"DATA"})
+    bpy.context.view_layer.update()
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_geometry"
+
+
+@pytest.mark.parametrize("size", [(1.0, 2.0, 0.5), (0.3, 0.3, 4.0)])
+def test_the_wall_of_a_box_is_what_blenders_solidify_makes(size):
+    obj = box(size, thickness=0.0625)
+    wall = measured(obj)
+    modifier = obj.modifiers.new("Solidify", "SOLIDIFY")
+    modifier.thickness, modifier.offset, modifier.use_even_offset = 0.0625, -1.0, True
+    bpy.context.view_layer.update()
+    solid = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(kind="solid"))
+    assert solid.health.cavities == 1
+    assert wall.volume == pytest.approx(solid.volume, rel=1e-5)
+    bodies = [one.mass_properties.inertia for one in (wall, solid)]
+    assert np.abs(bodies[0] - bodies[1]).max() < 1e-5 * bodies[0].max()
+
+
+def test_a_head_with_sharp_folds_has_a_thin_wall():
+    bpy.ops.mesh.primitive_monkey_add()
+    obj = bpy.context.object
+    settings = obj.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "INWARD", 0.01
+    found = measured(obj)
+    assert 0.5 < found.volume / (0.01 * found.area) < 1.0
+    assert said(found)["wall_thickness_varies"]["minimum"] < 0.99
+    settings.thickness = 0.1
+    with refused("wall_folds"):
+        measured(obj)
+
+
+@pytest.mark.parametrize("scale", [1.0, 3.0])
+@pytest.mark.parametrize("size, code", [(0.8, "wall_thickness_varies"), (2e-3, "wall_thickness_varies_slightly")])
+def test_a_small_corner_of_more_than_three_planes_is_a_note(size, code, scale):
+    """A cube with a skew pyramid on its top."""
+    square = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) / 2.0
+    points = [(x, y, z) for z in (0.0, 1.0) for x, y in square] + [(size * x, size * y, 1.0) for x, y in square]
+    points.append((0.45 * size, 0.1 * size, 1.0 + size))
+    turns = [(i, (i + 1) % 4) for i in range(4)]
+    faces = [(3, 2, 1, 0), *((a, b, b + 4, a + 4) for a, b in turns)]
+    faces += [(a + 4, b + 4, b + 8, a + 8) for a, b in turns] + [(a + 8, b + 8, 12) for a, b in turns]
+    mesh = bpy.data.meshes.new("Skew")
+    mesh.from_pydata(points, [], faces)
+    obj = add(mesh, scale=(scale, scale, scale))
+    settings = obj.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.05 * size
+    found = said(measured(obj))
+    assert found.keys() == {"wall_measured", code} and found[code]["minimum"] < 0.99
+
+
+def test_just_below_the_largest_thickness_there_is_a_wall_and_from_it_on_none():
+    """The comparison rounds as the wall does: what is not refused is measured."""
+    walls = find_walls(*body_of(box((1, 2, 0.3), thickness=0.01)), "inward")
+    refusals = 0
+    for scale in np.random.default_rng(1).uniform(0.1, 10.0, 300):
+        scaled = replace(walls, pieces=tuple(replace(piece, scale=scale) for piece in walls.pieces))
+        for thickness in (
+            np.nextafter(scaled.max_thickness, 0.0),
+            scaled.max_thickness,
+            np.nextafter(scaled.max_thickness, np.inf),
+        ):
+            try:
+                assert scaled.body(float(thickness), check_overlap=False).wall.total > 0.0
+            except MeasureError as error:
+                refusals += error.finding.code == "wall_folds"
+    assert 300 <= refusals < 900
+
+
+def body_of(obj):
+    bpy.context.view_layer.update()
+    reading = read_object(obj, bpy.context.evaluated_depsgraph_get())
+    return reading, polygon_body(reading, 1.0, shell=True, union=False, threads=1)

@@ -1,0 +1,192 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--pose, --signature, and `similar` over what they wrote."""
+
+import json
+import os
+
+import numpy as np
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.core.shape.library import read_library
+from body_moments.operators import batch
+
+from tests.blender.batch_files import add_box, codes, document, sentence
+from tests.blender.objects import add, mesh_body, strip_mesh
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def corners(obj):
+    points = np.array([vertex.co for vertex in obj.data.vertices], float)
+    matrix = np.array(obj.matrix_world, float)
+    return points @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def shape_file(tmp_path, *flags):
+    path = tmp_path / "library.jsonl"
+    channel = os.open(os.devnull, os.O_WRONLY)
+    code = batch.main(["measure", "--signature", "--format", "jsonl", "--output", str(path), *flags], channel=channel)
+    os.close(channel)
+    return path, code
+
+
+def ask(tmp_path, *words):
+    path = tmp_path / "answer.txt"
+    with open(path, "wb") as file:
+        code = batch.main(["similar", *map(str, words)], channel=file.fileno())
+    return code, path.read_text(encoding="utf-8")
+
+
+def test_copies_have_one_pose_and_the_matrix_lays_them_on_each_other():
+    a = add(mesh_body(), "A", location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
+    b = add(mesh_body(), "B", location=(-5, 2, 8), rotation=(1.3, 2.4, -0.5))
+    poses = [entry["pose"] for entry in document("--pose")["objects"]]
+    assert all(pose["unique"] and pose["symmetry"] == "Cs" for pose in poses)
+    laid = [
+        corners(obj) @ np.array(pose["matrix"])[:3, :3].T + np.array(pose["matrix"])[:3, 3]
+        for obj, pose in zip((a, b), poses)
+    ]
+    assert np.abs(laid[0] - laid[1]).max() < 2e-6  # float32 matrices
+    assert np.linalg.det(np.array(poses[0]["matrix"])) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("frame", ["world", "object"])
+def test_the_pose_is_of_the_world_and_agrees_with_the_principal_axes(frame):
+    add_box()
+    entry = document("--pose", "--frame", frame)["objects"][0]
+    assert entry["pose"]["symmetry"] == "D2h" and entry["pose"]["unique"] is False
+    matrix = np.array(entry["pose"]["matrix"])
+    assert np.allclose(matrix @ [10, 20, 30, 1], [0, 0, 0, 1], atol=1e-5)
+    if frame == "world":
+        assert np.allclose(matrix[:3, :3].T, entry["principal_axes"], atol=1e-12)
+
+
+def test_a_pose_is_a_row_of_columns_in_csv(tmp_path):
+    add_box()
+    path = tmp_path / "out.csv"
+    with open(os.devnull, "wb") as sink:
+        assert (
+            batch.main(
+                ["measure", "--pose", "--signature", "--format", "csv", "--output", str(path)], channel=sink.fileno()
+            )
+            == 0
+        )
+    header, row = path.read_text(encoding="utf-8").splitlines()[:2]
+    assert "pose_matrix_14" in header and "pose_symmetry" in header and "D2h" in row
+
+
+def test_an_open_surface_is_measured_but_has_no_pose():
+    add(strip_mesh(), "Open")
+    (entry,) = document("--pose", "--signature")["objects"]
+    assert entry["method"] == "open" and entry["pose"] is None and entry["signature"] is None
+    assert "shape_of_open_surface" in codes(entry)
+
+
+def test_similar_tells_copies_mirror_images_and_sizes(tmp_path):
+    add(mesh_body(), "Part", location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
+    add(mesh_body(), "Copy", location=(-5, 2, 8), rotation=(1.3, 2.4, -0.5))
+    # An L is its own mirror image across its plane: a hand needs a third direction.
+    for name, scale in (("Hand", (1, 1, 1)), ("Other hand", (-1, 1, 1)), ("Big hand", (2, 2, 2))):
+        mesh = bpy.data.meshes.new(name)
+        mesh.from_pydata(
+            [(0, 0, 0), (1, 0.2, 0), (0.3, 2, 0.1), (0.2, 0.4, 3)], [], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        )
+        add(mesh, name, location=(4, 5, 6), rotation=(1, 0, 2), scale=scale)
+    add_box("Box")
+    path, code = shape_file(tmp_path)
+    assert code == 0
+    code, text = ask(tmp_path, path, "--to", "Hand")
+    assert code == 0
+    rows = {
+        line.split()[-1] if "Other" not in line and "Big" not in line else " ".join(line.split()[-2:]): line
+        for line in text.splitlines()[1:]
+    }
+    assert " mirror image " in rows["Other hand"] and " scaled copy " in rows["Big hand"]
+    assert "different" in rows["Box"]
+    order = [line.split()[-1] for line in text.splitlines()[1:]]
+    assert order[-1] in ("Box", "Copy", "Part")  # what is merely turned over or enlarged is nearer than other shapes
+    code, text = ask(tmp_path, path, "--to", "Hand", "--any-hand", "--any-size")
+    assert sum(float(line.split()[0]) < 1e-5 for line in text.splitlines()[1:]) == 2
+    code, text = ask(tmp_path, path, "--to", "Part", "--count", 1)
+    assert text.splitlines()[1].split()[-1] == "Copy" and " copy " in text and len(text.splitlines()) == 2
+
+
+def test_the_library_is_what_was_written(tmp_path):
+    add_box("Box")
+    path, _ = shape_file(tmp_path)
+    (entry,), faults = read_library(path)
+    assert entry.name == "Box" and not faults
+    record = json.loads(path.read_text(encoding="utf-8"))["objects"][0]["signature"]
+    assert set(record) >= {"invariants", "zernike", "chirality"} and len(record["zernike"]) == 121
+
+
+def test_a_name_may_hold_any_character(tmp_path):
+    for name in ("Box", "a\u2028b", "c\x85d", "e\nf", 'g"h'):
+        add_box(name)
+    path, _ = shape_file(tmp_path)
+    assert {entry.name for entry in read_library(path)[0]} == {obj.name for obj in bpy.context.scene.objects}
+
+
+def test_bodies_of_any_size_have_the_same_signature():
+    for k, size in enumerate((1.0, 1e-16, 1e16)):
+        add(mesh_body(), str(k)).scale = (size, size, size)
+    first, *others = (entry["signature"] for entry in document("--signature")["objects"])
+    for found, size in zip(others, (1e-16, 1e16)):
+        assert close(found["size"], first["size"] * size, rel=1e-6)  # a float32 scale
+        for name in ("invariants", "zernike", "fourier", "chirality"):
+            # degree 20 of Zernike's magnifies the rounding of moments by some 1e5
+            assert np.allclose(found[name], first[name], rtol=1e-12, atol=1e-10)
+
+
+def test_a_wrong_question_is_wrong_usage(tmp_path, capsys):
+    add_box("Box")
+    path, _ = shape_file(tmp_path)
+    assert ask(tmp_path, path, "--to", "Nobody")[0] == 2
+    assert ask(tmp_path, tmp_path / "none.jsonl", "--to", "Box")[0] == 2
+    assert ask(tmp_path, path)[0] == 2
+    assert ask(tmp_path, path, path, "--to", "Box")[0] == 2
+    text = tmp_path / "text.jsonl"
+    text.write_text("no json\n", encoding="utf-8")
+    assert ask(tmp_path, text, "--to", "Box")[0] == 2
+    assert ask(tmp_path, "--help")[0] == 0
+    printed = capsys.readouterr().err
+    assert sentence("name_not_in_library", name="Nobody") in printed and "Several bodies" in printed
+    assert "--format jsonl" in printed
+
+
+def test_records_without_a_signature_are_named(tmp_path, capsys):
+    add_box("Box")
+    path = tmp_path / "plain.jsonl"
+    with open(os.devnull, "wb") as sink:
+        batch.main(["measure", "--format", "jsonl", "--output", str(path)], channel=sink.fileno())
+    good, _ = shape_file(tmp_path)
+    code, _ = ask(tmp_path, good, path, "--to", "Box")
+    assert code == 1 and "--signature" in capsys.readouterr().err
+
+
+def test_a_nurbs_surface_has_the_signature_of_its_display_mesh_and_a_wire_has_none():
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add(location=(1, 2, 3))
+    ball = document("--pose", "--signature")["objects"][0]
+    assert ball["method"].startswith("NURBS") and ball["pose"]["unique"] is False and ball["signature"]
+    assert "signature_of_display_mesh" in codes(ball)
+    bpy.ops.curve.primitive_nurbs_path_add()
+    wire = bpy.context.object
+    wire.body_moments.kind = "WIRE"
+    entry = document("--pose", "--object", wire.name)["objects"][0]
+    assert entry["method"] == "wire" and entry["pose"] is None
+
+
+def test_what_has_no_shape_is_not_asked_to_be_measured_with_what_it_was(tmp_path, capsys):
+    add_box("Box")
+    path, _ = shape_file(tmp_path)
+    library = json.loads(path.read_text(encoding="utf-8"))
+    library["objects"].append({"name": "Cloud", "signature": None})
+    path.write_text(json.dumps(library) + "\n", encoding="utf-8")
+    assert ask(tmp_path, path, "--to", "Box")[0] == 1
+    assert sentence("record_without_shape", name="Cloud") in capsys.readouterr().err
+    assert ask(tmp_path, tmp_path / "none.jsonl", "--to", "Box")[0] == 2
+    assert "none.jsonl cannot be read: No such file or directory." in capsys.readouterr().err

@@ -1,0 +1,266 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An error that nobody foresaw ends the work on one object of many, is reported as what it is, and leaves nothing half
+done."""
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("bpy")
+import body_moments
+import bpy
+from body_moments.operators import batch
+from body_moments.operators.actions.measure import section as measure_section
+from body_moments.operators.actions.measure.measure_selected import OBJECT_OT_body_moments_measure
+from body_moments.operators.actions.snap import empty
+from body_moments.operators.bodies import measure_object as measure
+from body_moments.operators.bodies import request
+from body_moments.operators.scene import reframe
+from body_moments.operators.session import live, results
+from body_moments.operators.write import properties, section
+
+from tests.blender import batch_files as files
+from tests.blender.actions.measure.test_stepwise import finished, pressed
+from tests.blender.objects import add, mesh_body, only, place
+
+pytestmark = pytest.mark.usefixtures("registered", "scene")
+
+ERRORS = [TypeError("planted"), RecursionError("planted"), NotImplementedError("planted")]
+OPERATORS = {
+    "measure": lambda: bpy.ops.object.body_moments_measure(),
+    "faults": lambda: bpy.ops.object.body_moments_select_faults(),
+    "section": lambda: bpy.ops.object.body_moments_measure_section(),
+    "origin": lambda: bpy.ops.object.body_moments_origin_to_center(),
+    "axes": lambda: bpy.ops.object.body_moments_axes_to_principal(),
+    "align": lambda: bpy.ops.object.body_moments_align_to_world(),
+    "match": lambda: bpy.ops.object.body_moments_match_pose(),
+    "empty": lambda: bpy.ops.object.body_moments_add_empty(),
+    "cursor": lambda: bpy.ops.view3d.body_moments_cursor_to_center(),
+    "rigid body": lambda: bpy.ops.object.body_moments_set_rigid_body_mass(add=True),
+    "symmetry": lambda: bpy.ops.object.body_moments_find_symmetry(),
+    "similar": lambda: bpy.ops.object.body_moments_find_similar(),
+}
+
+
+@pytest.fixture(autouse=True)
+def in_steps(monkeypatch):
+    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 0)
+
+
+def three(flat=False):
+    """Three selected objects, the first active, each turned in another way."""
+    bodies = []
+    for place_, name in enumerate("abc"):
+        mesh = mesh_body()
+        if flat:
+            mesh.clear_geometry()
+            mesh.from_pydata([(0, 0, 0), (2, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+        bodies.append(add(mesh, name, (5.0 * place_, 0, 0), (0.1 * place_ + 0.1, 0.2, 0.3)))
+    only(*bodies)
+    return bodies
+
+
+def plant(monkeypatch, error, *names, module=request, function="read_object"):
+    """The error, wherever one of these objects is read."""
+    real = getattr(module, function)
+
+    def failing(obj, *args, **options):
+        if obj.name in names:
+            raise error
+        return real(obj, *args, **options)
+
+    monkeypatch.setattr(module, function, failing)
+
+
+def state(obj):
+    """All that an operator may change of an object."""
+    kept = {
+        key: repr(getattr(obj[key], "to_list", lambda key=key: obj[key])())
+        for key in properties.DESCRIPTIONS
+        if key in obj
+    }
+    points = [tuple(vertex.co) for vertex in obj.data.vertices]
+    found = section.fingerprint(obj), obj.is_property_set("body_moments_symmetry")
+    return kept, found, place(obj).tolist(), points, obj.rigid_body, obj.parent
+
+
+@pytest.mark.parametrize("error", ERRORS, ids=lambda error: type(error).__name__)
+@pytest.mark.parametrize("name", OPERATORS)
+def test_the_error_of_one_object_ends_no_other(name, error, monkeypatch, reported, capfd):
+    bodies = three(flat=name == "section")
+    before = [state(body) for body in bodies]
+    if name == "section":
+        plant(monkeypatch, error, "b", module=measure_section, function="section_of")
+    else:
+        plant(monkeypatch, error, "b")
+    assert OPERATORS[name]() == {"FINISHED"}
+    out, err = capfd.readouterr()
+    assert {finding.values["object"] for finding in reported if finding.code == "failure"} == {"b"}
+    cause = reported.values("internal_error")
+    assert (cause["type"], cause["error"]) == (type(error).__name__, "planted")
+    assert "b: Internal error: {type}: planted ({where}). Please report it.".format(**cause) in out
+    file, _, line = cause["where"].partition(":")  # what has called the planted function
+    assert (Path(body_moments.__file__).parent / file).is_file() and int(line) > 0 and file.startswith("operators/")
+    assert "Traceback" in err and "in failing" in err
+    after = [state(body) for body in bodies]
+    assert after[1] == before[1]
+    if name not in {"cursor", "similar", "empty"}:
+        assert after[2] != before[2] and (name == "match" or after[0] != before[0])
+    if name == "empty":
+        assert {one[empty.OBJECT_KEY].name for one in bpy.data.objects if empty.OBJECT_KEY in one} == {"a", "c"}
+
+
+def test_measure_keeps_the_error_for_the_panel_and_stores_the_others(monkeypatch):
+    bodies = three()
+    with monkeypatch.context() as planted:
+        plant(planted, TypeError("several\nlines. "), "a", "b")
+        operator, window = pressed(OBJECT_OT_body_moments_measure)
+        assert finished(operator, window) == {"FINISHED"}
+    first, second, third = [results.failure(body) for body in bodies]
+    assert third is None and first == second and first.code == "internal_error"
+    assert first.values["error"] == "several lines"
+    assert [properties.is_stored(body) for body in bodies] == [False, False, True]
+    ((kind, text),) = operator.reports
+    assert kind == "WARNING" and text.startswith("Measured 1 of 3 objects. a: Internal error: TypeError")
+    assert finished(*pressed(OBJECT_OT_body_moments_measure)) == {"FINISHED"}
+    assert not any(results.failure(body) for body in bodies)
+
+
+def test_an_interrupt_ends_all_and_stores_nothing(monkeypatch):
+    bodies = three()
+    plant(monkeypatch, KeyboardInterrupt(), "b")
+    with pytest.raises(KeyboardInterrupt):
+        finished(*pressed(OBJECT_OT_body_moments_measure))
+    assert not any(properties.is_stored(body) for body in bodies)
+
+
+def unwritable(monkeypatch, *names):
+    """Measurements of these objects of which Blender takes a part only: what comes before the fingerprint."""
+    real = measure.measure_body
+
+    def damaged(obj, *args):
+        measured = real(obj, *args)
+        if obj.name not in names:
+            return measured
+        return replace(measured, measurement=replace(measured.measurement, fingerprint=object()))
+
+    monkeypatch.setattr(measure, "measure_body", damaged)
+    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.measure_body", damaged)
+
+
+@pytest.mark.parametrize("stored", [False, True])
+def test_what_cannot_be_written_whole_is_not_written(stored, monkeypatch):
+    bodies = three()
+    if stored:
+        bpy.ops.object.body_moments_measure()
+    for body in bodies:
+        body.body_moments.density = 500.0
+    before = state(bodies[1])
+    unwritable(monkeypatch, "b")
+    operator, window = pressed(OBJECT_OT_body_moments_measure)
+    assert finished(operator, window) == {"FINISHED"}
+    assert "b: Internal error: TypeError" in operator.reports[0][1]
+    assert state(bodies[1]) == before
+    assert [bodies[i]["body_density"] for i in (0, 2)] == [500.0, 500.0]
+
+
+def test_live_goes_on_with_the_others(monkeypatch):
+    spheres = []
+    for name in "ab":
+        bpy.ops.surface.primitive_nurbs_surface_sphere_add()
+        spheres.append(bpy.context.object)
+        spheres[-1].name = name
+        bpy.ops.object.body_moments_live()
+    before = live.current_numbers(spheres[1]).measurement.volume
+    for sphere in spheres:
+        sphere.scale.x = 2.0
+    bpy.context.view_layer.update()
+    with monkeypatch.context() as planted:
+        plant(planted, TypeError("planted"), "a", module=live, function="read_patches")
+        live._tick()
+    assert live.current_numbers(spheres[0]).refusal.code == "internal_error"
+    assert live.current_numbers(spheres[1]).measurement.volume == pytest.approx(2.0 * before, rel=1e-6)
+    assert [live._followed.get(sphere).tracked is None for sphere in spheres] == [True, False]
+    live._followed.get(spheres[0]).is_pending = True
+    live._tick()
+    assert live.current_numbers(spheres[0]).measurement.volume == pytest.approx(2.0 * before, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["align", "match", "origin", "axes"])
+def test_what_had_been_moved_when_the_error_came_is_put_back(name, monkeypatch):
+    bodies = three()
+    before = state(bodies[1])
+    real, seen = reframe.shape, []
+
+    def failing(obj, *args):
+        seen.append(obj.name)
+        if obj.name == "b" and seen.count("b") % 2 == 0:  # looked at again, to see whether its shape is the same
+            raise TypeError("planted")
+        return real(obj, *args)
+
+    monkeypatch.setattr(reframe, "shape", failing)
+    assert OPERATORS[name]() == {"FINISHED"}
+    assert seen.count("b") >= 2 and state(bodies[1]) == before
+
+
+@pytest.mark.parametrize("there", [False, True])
+def test_an_empty_that_failed_on_its_way_is_as_it_was(there, monkeypatch):
+    bodies = three()
+    if there:
+        bpy.ops.object.body_moments_add_empty()
+        for body in bodies:
+            body.data.vertices[0].co.x -= 1.0
+            body.data.update()
+    bpy.context.view_layer.update()
+    empties = {one[empty.OBJECT_KEY].name: one for one in bpy.data.objects if empty.OBJECT_KEY in one}
+    before = {name: place(one).tolist() for name, one in empties.items()}
+    real, seen = empty._is_there, []
+
+    def failing(one, body):
+        seen.append(body.obj.name)
+        if body.obj.name == "b" and seen.count("b") == 2:
+            raise TypeError("planted")
+        return real(one, body)
+
+    monkeypatch.setattr(empty, "_is_there", failing)
+    assert bpy.ops.object.body_moments_add_empty() == {"FINISHED"}
+    found = {one[empty.OBJECT_KEY].name: place(one).tolist() for one in bpy.data.objects if empty.OBJECT_KEY in one}
+    assert seen.count("b") == 2 and found.get("b") == before.get("b")
+    assert found["a"] != before.get("a") and found["c"] != before.get("c")
+
+
+def test_the_command_line_goes_on_tells_it_and_exits_with_70(tmp_path, monkeypatch, capfd):
+    three()
+    path = files.save(tmp_path / "part.blend")
+    result = tmp_path / "result.json"
+    plant(monkeypatch, RecursionError("planted"), "b")
+    line = files.run(path)
+    (found,) = line.documents
+    assert [one["name"] for one in found["objects"]] == ["a", "c"]
+    (error,) = found["errors"]
+    assert error["name"] == "b" and error["reason"].startswith("Internal error: RecursionError: planted (operators/")
+    assert "Traceback" in capfd.readouterr().err
+    with open(os.devnull, "w") as nowhere:
+        assert batch.main(["measure", path, "--output", str(result)], channel=nowhere.fileno()) == 70
+    assert result.read_text().count("Internal error") == 1
+
+
+def test_the_command_line_writes_the_others_into_the_file(tmp_path, monkeypatch):
+    three()
+    path = files.save(tmp_path / "part.blend")
+    with monkeypatch.context() as planted:
+        unwritable(planted, "b")
+        planted.setattr(
+            "body_moments.operators.command.run.measure_object", lambda *args: measure.measure_body(*args).measurement
+        )
+        line = files.run(path, "--density", "500", "--write")
+    assert line.internal_errors == 1
+    ((error,),) = [document["errors"] for document in line.documents]
+    assert error["name"] == "b" and error["reason"].startswith("Internal error: TypeError")
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert [properties.is_stored(bpy.data.objects[name]) for name in "abc"] == [True, False, True]
+    assert not any(key in bpy.data.objects["b"] for key in properties.DESCRIPTIONS)
+    assert [bpy.data.objects[name].body_moments.density for name in "abc"] == [500.0, 1000.0, 500.0]

@@ -1,0 +1,264 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel of moments: computed by a button, shown to order 4, copied whole."""
+
+import csv
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.verdict.finding import MeasureError, finding
+
+from tests.blender import batch_files as files
+from tests.blender.command.test_options import box_moment
+from tests.blender.panels.test_panel import Layout, copied, labels
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+@pytest.fixture
+def box():
+    """1 x 2 x 3, about (1, 2, 3), turned by a quarter about z."""
+    obj = files.add_box(center=(0, 0, 0), size=(1, 2, 3))
+    obj.location, obj.rotation_euler.z = (1, 2, 3), np.pi / 2
+    bpy.context.view_layer.objects.active = obj
+    bpy.context.view_layer.update()
+    return obj
+
+
+def settings(**values):
+    for name, value in values.items():
+        setattr(bpy.context.scene.body_moments, name, value)
+
+
+def drawn():
+    from body_moments.panels.moments import VIEW3D_PT_body_moments_orders as panel
+
+    layout = Layout()
+    panel.draw(SimpleNamespace(layout=layout), bpy.context)
+    return layout.record
+
+
+def compute(order=4):
+    settings(moments_order=order)
+    assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
+
+
+def rows():
+    from body_moments.operators.session import moments as moments_table
+
+    group = bpy.context.scene.body_moments
+    text = moments_table.as_csv(
+        moments_table.computed_moments(bpy.context.object), group.moments_of, group.moments_about, group.frame
+    )
+    comment, *lines = text.splitlines()
+    assert comment.startswith("# ")
+    return {
+        tuple(int(row[axis]) for axis in "pqr"): tuple(float(row[key]) for key in ("moment", "rounding", "float32"))
+        for row in csv.DictReader(lines)
+    }
+
+
+def assert_box(found, size, center, tolerance=3e-7):
+    """The rotation is stored in single precision."""
+    for powers, (value, *_) in found.items():
+        exact = box_moment(powers, center, size)
+        scale = np.prod([(abs(c) + s / 2) ** n for c, s, n in zip(center, size, powers)]) * 6.0
+        assert value == pytest.approx(exact, abs=tolerance * sum(powers) * scale + 1e-12)
+
+
+def test_nothing_is_shown_before_the_button_is_pressed(box):
+    record = drawn()
+    assert ("operator", "object.body_moments_compute_moments") in [entry[:2] for entry in record]
+    assert not copied(record, "m³")
+    with pytest.raises(RuntimeError, match=str(finding("poll_compute_moments"))):
+        bpy.ops.object.body_moments_copy_moments()
+
+
+def test_the_table_shows_orders_up_to_four_and_says_where_the_others_are(box):
+    compute(6)
+    record = drawn()
+    assert float(copied(record, "m³")[0]) == pytest.approx(6.0, rel=1e-12)
+    assert len(copied(record, "m⁵")) == 6 and len(copied(record, "m⁷")) == 15 and not copied(record, "m⁸")
+    shown = labels(record)
+    assert "x²" in shown and "xyz" in shown and str(finding("panel_orders_copied", first=5, last=6)) in " ".join(shown)
+    compute(4)
+    assert "only in the copy" not in " ".join(labels(drawn()))
+
+
+def test_frame_point_and_weight_change_without_computing_again(box):
+    compute(6)
+    assert_box(rows(), (2, 1, 3), (1, 2, 3))
+    settings(moments_about="CENTER")
+    assert_box(rows(), (2, 1, 3), (0, 0, 0))
+    settings(frame="OBJECT")
+    assert_box(rows(), (1, 2, 3), (0, 0, 0))
+    settings(moments_about="ORIGIN", moments_of="SURFACE")
+    surface = rows()
+    assert surface[0, 0, 0][0] == pytest.approx(22.0, rel=1e-6)
+    assert surface[0, 0, 2][0] == pytest.approx(2 * 2 * 2.25 + (2 * 2 + 2 * 1) * 27 / 12, rel=1e-6)
+    settings(moments_about="NORMALIZED", moments_of="VOLUME")
+    assert rows()[0, 0, 0][0] == pytest.approx(1.0, rel=1e-12)
+    assert rows()[0, 0, 2][0] == pytest.approx(6.0 * 9.0 / 12.0 / 6.0 ** (5 / 3), rel=1e-6)
+    assert labels(drawn()).count("Order 2") == 1  # without a unit
+
+
+def test_every_row_of_the_copy_has_its_bounds(box):
+    compute(10)
+    found = rows()
+    assert len(found) == 286
+    assert all(0.0 < rounding < 1e-6 * 4.0 ** sum(powers) for powers, (_, rounding, _) in found.items())
+    assert found[0, 0, 0][2] > 1e-8  # float32 coordinates
+
+
+def test_the_copy_goes_to_the_clipboard_and_is_reported_in_background(box):
+    compute(2)
+    assert bpy.ops.object.body_moments_copy_moments() == {"FINISHED"}
+
+
+def test_what_was_computed_is_called_out_of_date_when_the_object_changes(box):
+    from body_moments.operators.session import moments as moments_table
+
+    def reason():
+        bpy.context.view_layer.update()
+        return moments_table.stale_reason(box, bpy.context.scene)
+
+    compute()
+    assert reason() is None
+    box.location.x += 1.0
+    assert reason() == "stale_transform"
+    compute()
+    box.body_moments.overlap = "UNION"
+    assert reason() == "stale_settings"
+    compute()
+    assert reason() is None
+    box.data.vertices[0].co.x += 0.5
+    box.data.update()
+    assert reason() == "stale_geometry"
+    assert str(finding("stale_geometry")) in " ".join(labels(drawn()))
+    compute()
+    assert reason() is None
+
+
+def test_computing_leaves_the_object_and_the_undo_stack_alone(box):
+    from body_moments.operators.actions.measure.moments import CLASSES
+
+    compute()
+    assert "body_volume" not in box and "body_fingerprint" not in box
+    assert all("UNDO" not in cls.bl_options for cls in CLASSES)
+
+
+def test_a_shell_shows_its_thin_volume(box):
+    box.body_moments.kind, box.body_moments.thickness = "SHELL", 0.01
+    compute(5)
+    assert rows()[0, 0, 0][0] == pytest.approx(0.22, rel=1e-6)
+    settings(moments_about="NORMALIZED")
+    of_volume = {powers: value for powers, (value, *_) in rows().items()}
+    settings(moments_of="SURFACE")
+    of_area = {powers: value for powers, (value, *_) in rows().items()}
+    for powers, value in of_volume.items():  # μ / V^(1 + n/3) of V = 0.22, μ / A^(1 + n/2) of A = 22
+        n = sum(powers)
+        scale = 0.01 * 22.0 ** (1 + n / 2) / 0.22 ** (1 + n / 3)
+        assert value == pytest.approx(of_area[powers] * scale, rel=1e-6, abs=1e-9 * scale)
+    settings(moments_about="ORIGIN")
+    assert rows()[0, 0, 0][0] == pytest.approx(22.0, rel=1e-6)
+
+
+def test_an_object_without_a_surface_is_refused_with_the_reason():
+    bpy.context.view_layer.objects.active = None
+    empty = bpy.data.objects.new("Empty", None)
+    bpy.context.scene.collection.objects.link(empty)
+    bpy.context.view_layer.objects.active = empty
+    with pytest.raises(RuntimeError, match=str(finding("poll_active_measurable"))):
+        bpy.ops.object.body_moments_compute_moments()
+
+
+def test_a_wire_is_refused_with_the_reason(reported):
+    curve = bpy.data.curves.new("Wire", "CURVE")
+    curve.dimensions = "3D"
+    curve.splines.new("POLY").points.add(1)
+    curve.splines[0].points[1].co = (1.0, 0.0, 0.0, 1.0)
+    obj = bpy.data.objects.new("Wire", curve)
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    obj.body_moments.kind = "WIRE"
+    assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
+    assert reported.codes == ["wire_without_moments"]
+
+
+def test_a_wall_s_moments_end_at_order_three(box, reported):
+    box.body_moments.kind, box.body_moments.wall, box.body_moments.thickness = "SHELL", "INWARD", 0.01
+    settings(moments_order=4)
+    assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
+    assert reported.values("wall_order") == {"order": 3}
+
+
+def test_only_the_last_objects_are_kept(box, monkeypatch):
+    from body_moments.operators.session import moments as moments_table
+
+    monkeypatch.setattr(moments_table._computed, "max_size", 2)
+    others = [files.add_box(center=(5 * i, 0, 0)) for i in range(3)]
+    for obj in others:
+        bpy.context.view_layer.objects.active = obj
+        compute(1)
+    assert [moments_table.computed_moments(obj) is not None for obj in others] == [False, True, True]
+
+
+def test_a_script_gets_the_moments_of_an_object_as_the_readme_says(box):
+    from body_moments.operators.bodies.measure_object import measure_object
+    from body_moments.operators.settings.options import MeasureOptions
+
+    options = MeasureOptions(order=12, surface=True)
+    one = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get(), options)
+    central = one.volume_moments.about_center()
+    assert central.order == one.area_moments.order == 12
+    assert central[4, 4, 4] == pytest.approx(box_moment((4, 4, 4), (0, 0, 0), (2, 1, 3)), rel=1e-5)
+    own = one.volume_moments.in_frame(one.rotation, one.location)
+    assert close(own[4, 4, 4], box_moment((4, 4, 4), (0, 0, 0), (1, 2, 3)), rel=1e-12)
+    plain = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get())
+    assert plain.volume_moments.order == 3 and plain.area_moments.order == 0  # nothing that nobody asked for
+
+
+def test_what_was_decided_is_reported_in_whole_sentences(box, capfd):
+    box.body_moments.kind, box.body_moments.wall, box.body_moments.thickness = "SHELL", "INWARD", 0.125
+    compute(3)
+    out = capfd.readouterr().out
+    assert "Computed 20 moments of {:s}. The wall was measured".format(box.name) in out and ".." not in out
+
+
+def test_moments_beyond_the_range_of_numbers_are_refused_not_shown(box, reported):
+    box.scale = (1e12, 1e12, 1e12)
+    bpy.context.view_layer.update()
+    settings(moments_order=30)
+    assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
+    assert reported.values("moments_overflow") == {"order": 30}
+    box.scale, box.location = (1, 1, 1), (1e15, 0, 0)
+    bpy.context.view_layer.update()
+    compute(30)
+    settings(moments_of="VOLUME", moments_about="ORIGIN", frame="WORLD")
+    with pytest.raises(MeasureError) as refusal:
+        rows()
+    assert refusal.value.finding == finding("moments_overflow_at_origin", order=30)
+    settings(moments_about="CENTER")
+    assert np.isfinite(list(rows().values())).all()
+
+
+def test_moments_of_what_undo_took_back_are_out_of_date(box):
+    from body_moments.operators.session import moments as moments_table
+
+    bpy.ops.ed.undo_push(message="As it was")
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.transform.resize(value=(2, 2, 2))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.ed.undo_push(message="Twice as large")
+    size, name = bpy.context.object.dimensions.x, bpy.context.object.name
+    compute(2)
+    while bpy.data.objects[name].dimensions.x > 0.75 * size:
+        assert bpy.ops.ed.undo() == {"FINISHED"}
+    obj = bpy.data.objects[name]
+    bpy.context.view_layer.update()
+    assert moments_table.computed_moments(obj).volume.total == pytest.approx(48.0)
+    assert moments_table.stale_reason(obj, bpy.context.scene) == "stale_geometry"

@@ -1,0 +1,486 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers that no longer hold are reported as out of date, whatever made them so, and others are not."""
+
+import pytest
+
+pytest.importorskip("bpy")
+import bmesh
+import body_moments
+import bpy
+from body_moments.operators.read import fingerprint, instances
+from body_moments.operators.session import handlers, staleness
+
+from tests.blender.objects import add, mesh_body, only
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def update():
+    bpy.context.view_layer.update()
+
+
+def reason(obj):
+    return staleness.stale_reason(obj, bpy.context.scene)
+
+
+def measure(*objects):
+    update()
+    only(*objects)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    update()
+    assert [reason(obj) for obj in objects] == [None] * len(objects)
+
+
+def edit(obj):
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    update()
+
+
+def link(obj, *collections):
+    for collection in collections or (bpy.context.scene.collection,):
+        collection.objects.link(obj)
+    return obj
+
+
+def instancer(name, member):
+    """An empty that shows a collection with the member in it."""
+    collection = bpy.data.collections.new(name)
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(member)
+    empty = link(bpy.data.objects.new(name, None))
+    empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", collection, (0, 20, 0)
+    return empty
+
+
+@pytest.mark.parametrize("comparable", [True, False])
+def test_numbers_that_undo_brings_back_are_not_those_of_a_later_edit(comparable, monkeypatch):
+    obj = add(mesh_body())
+    if not comparable:
+        monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
+    bpy.ops.ed.undo_push(message="Start")
+    measure(obj)
+    bpy.ops.ed.undo_push(message="Measured")
+    edit(obj)
+    bpy.ops.ed.undo_push(message="Edited")
+    first = obj["body_volume"]
+    measure(obj)
+    bpy.ops.ed.undo_push(message="Measured Again")
+    assert obj["body_volume"] != first
+    bpy.ops.ed.undo()
+    update()
+    obj = bpy.data.objects["Body"]
+    assert obj["body_volume"] == first and reason(obj) == "stale_geometry"
+    bpy.ops.ed.redo()
+    update()
+    obj = bpy.data.objects["Body"]
+    assert obj["body_volume"] != first and reason(obj) is None
+    measure(obj)
+
+
+def test_an_edit_in_a_file_that_was_opened_after_undo_is_one(tmp_path, monkeypatch):
+    monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
+    measure(add(mesh_body()))
+    path = str(tmp_path / "body.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    handlers._on_undo()
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects["Body"]
+    assert reason(obj) is None
+    edit(obj)
+    assert reason(obj) == "stale_geometry"
+
+
+def evaluated_anew(obj):
+    only(obj)
+    bpy.ops.object.duplicate()
+    yield obj, bpy.context.object
+    only(obj)
+    bpy.ops.object.duplicate(linked=True)
+    yield obj, bpy.context.object
+    obj.hide_set(True)
+    update()
+    obj.hide_set(False)
+    yield (obj,)
+    obj.data.materials.append(bpy.data.materials.new("Paint"))
+    yield (obj,)
+    only(obj)
+    bpy.ops.object.shade_smooth()
+    yield (obj,)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    yield (obj,)
+    obj.vertex_groups.new(name="Group").add([0], 1.0, "REPLACE")
+    yield (obj,)
+
+
+def test_what_blender_evaluates_again_and_shows_as_before_is_up_to_date():
+    obj = add(mesh_body())
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    bpy.ops.object.body_moments_find_symmetry()
+    measure(obj)
+    for objects in evaluated_anew(obj):
+        update()
+        assert [reason(one) for one in objects] == [None] * len(objects)
+        assert [staleness.symmetry_stale_reason(one) for one in objects] == [None] * len(objects)
+        if len(objects) == 2:
+            edit(objects[1]) if objects[1].data != obj.data else bpy.data.objects.remove(objects[1])
+    assert reason(bpy.data.objects["Body.001"]) == "stale_geometry"
+
+
+def test_a_setting_of_one_object_leaves_another_with_its_mesh_up_to_date():
+    one = add(mesh_body())
+    other = add(one.data, "Other")
+    measure(one, other)
+    one.body_moments.density = 500.0
+    update()
+    assert (reason(one), reason(other)) == ("stale_settings", None)
+
+
+def test_an_edit_that_is_taken_back_is_none():
+    obj = add(mesh_body())
+    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels = 1
+    measure(obj)
+    bpy.ops.ed.undo_push(message="Measured")
+    edit(obj)
+    bpy.ops.ed.undo_push(message="Edited")
+    assert reason(obj) == "stale_geometry"
+    bpy.ops.ed.undo()
+    update()
+    obj = bpy.data.objects["Body"]
+    assert reason(obj) is None
+    bpy.ops.ed.redo()
+    update()
+    obj = bpy.data.objects["Body"]
+    assert reason(obj) == "stale_geometry"
+    obj.data.vertices[0].co.x += 1.0
+    obj.data.update()
+    update()
+    assert reason(obj) is None
+    for level, code in ((2, "stale_geometry"), (1, None)):
+        obj.modifiers[0].levels = level
+        update()
+        assert reason(obj) == code
+
+
+def grown_by_nodes(obj):
+    tree = bpy.data.node_groups.new("Twice", "GeometryNodeTree")
+    for side in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
+    start, end = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    twice = tree.nodes.new("GeometryNodeTransform")
+    twice.inputs["Scale"].default_value = (2.0, 2.0, 2.0)
+    tree.links.new(start.outputs[0], twice.inputs[0])
+    tree.links.new(twice.outputs[0], end.inputs[0])
+    obj.modifiers.new("Twice", "NODES").node_group = tree
+
+
+def made_large(obj):
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+
+
+def edited_in_edit_mode(obj):
+    only(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    edited_vertices(obj)
+
+
+def edited_vertices(obj):
+    mesh = bmesh.from_edit_mesh(obj.data)
+    mesh.verts.ensure_lookup_table()
+    mesh.verts[0].co.x -= 1.0
+    bmesh.update_edit_mesh(obj.data)
+
+
+@pytest.mark.parametrize("change", [grown_by_nodes, made_large, edited_in_edit_mode])
+def test_an_edit_that_redo_brings_back_is_noticed_where_it_cannot_be_compared(change, monkeypatch):
+    obj = add(mesh_body())
+    monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", len(obj.data.polygons))
+    measure(obj)
+    bpy.ops.ed.undo_push(message="Measured")
+    change(obj)
+    update()
+    bpy.ops.ed.undo_push(message="Changed")
+    for step, code in (("undo", None), ("redo", "stale_geometry")):
+        assert getattr(bpy.ops.ed, step)() == {"FINISHED"}
+        update()
+        assert reason(bpy.data.objects["Body"]) == code
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_undo_in_edit_mode_brings_no_numbers_back_and_is_an_edit():
+    obj = add(mesh_body())
+    only(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.ed.undo_push(message="Edit Mode")
+    edited_vertices(obj)
+    bpy.ops.ed.undo_push(message="Edited")
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    update()
+    assert reason(obj) is None
+    bpy.ops.ed.undo()
+    update()
+    obj = bpy.data.objects["Body"]
+    assert bpy.context.mode == "EDIT_MESH" and reason(obj) == "stale_geometry"
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_no_mesh_is_made_to_compare_one_that_is_edited_by_way_of_another_object(monkeypatch):
+    obj = add(mesh_body())
+    other = add(obj.data, "Other", (9, 0, 0))
+    measure(obj, other)
+    monkeypatch.setattr(instances, "from_edit_mesh", lambda *_args: pytest.fail("It made a mesh."))
+    edited_in_edit_mode(obj)
+    update()
+    assert reason(obj) == reason(other) == "stale_geometry"
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_the_symmetry_of_an_object_that_got_other_axes_is_out_of_date():
+    obj = add(mesh_body())
+    only(obj)
+    assert bpy.ops.object.body_moments_find_symmetry() == {"FINISHED"}
+    assert bpy.ops.object.body_moments_origin_to_center() == {"FINISHED"}
+    assert staleness.symmetry_stale_reason(obj) is None
+    assert bpy.ops.object.body_moments_axes_to_principal() == {"FINISHED"}
+    assert staleness.symmetry_stale_reason(obj) is not None
+    assert bpy.ops.object.body_moments_find_symmetry() == {"FINISHED"}
+    assert staleness.symmetry_stale_reason(obj) is None
+
+
+@pytest.mark.parametrize("source", ["MATERIALS", "ATTRIBUTE"])
+def test_a_density_that_lies_on_the_mesh_counts_as_its_geometry(source):
+    obj = add(mesh_body())
+    obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
+    obj.body_moments.density_from, obj.body_moments.density_attribute = source, "rho"
+    obj.data.attributes.new("rho", "FLOAT", "POINT").data.foreach_set("value", [1.0] * len(obj.data.vertices))
+    for density in (1000.0, 2000.0):
+        material = bpy.data.materials.new("Of {:g}".format(density))
+        material.body_moments.density = density
+        obj.data.materials.append(material)
+    measure(obj)
+    obj.data.polygons[0].material_index = 1
+    obj.data.attributes["rho"].data[0].value = 2.0
+    obj.data.update()
+    update()
+    assert reason(obj) == "stale_geometry"
+
+
+def test_numbers_of_before_an_edit_are_out_of_date_when_the_add_on_is_enabled_again():
+    obj, other = add(mesh_body()), add(mesh_body(), "Other")
+    measure(obj, other)
+    edit(obj)
+    bpy.ops.object.body_moments_find_symmetry()
+    edit(other)
+    body_moments.unregister()
+    body_moments.register()
+    assert (reason(obj), reason(other)) == ("stale_geometry",) * 2
+    assert staleness.symmetry_stale_reason(other) == "stale_geometry"
+
+
+def test_measuring_does_not_make_the_symmetry_of_another_shape_hold_again():
+    obj = add(mesh_body())
+    measure(obj)
+    bpy.ops.object.body_moments_find_symmetry()
+    assert staleness.symmetry_stale_reason(obj) is None
+    edit(obj)
+    measure(obj)
+    assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
+    bpy.ops.object.body_moments_find_symmetry()
+    assert staleness.symmetry_stale_reason(obj) is None and reason(obj) is None
+
+
+def test_a_symmetry_found_again_after_an_edit_and_back_holds():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_find_symmetry()
+    kept = obj.data.vertices[0].co.x
+    edit(obj)
+    obj.data.vertices[0].co.x = kept
+    obj.data.update()
+    update()
+    bpy.ops.object.body_moments_find_symmetry()
+    assert staleness.symmetry_stale_reason(obj) is None
+
+
+@pytest.mark.parametrize("nested", [False, True])
+def test_an_instancer_is_out_of_date_when_what_it_shows_changes(nested):
+    member, other = add(mesh_body(), "Member"), add(mesh_body(), "Other")
+    shown = instancer("Instancer", member)
+    outer = instancer("Outer", shown) if nested else shown
+    measure(outer, other)
+    other.location.x += 1.0
+    update()
+    assert reason(outer) is None and reason(other) == "stale_transform"
+    for change in (
+        lambda: edit(member),
+        lambda: setattr(member, "location", (5, 0, 0)),
+        lambda: shown.instance_collection.objects.link(other),
+        lambda: shown.instance_collection.objects.unlink(other),
+    ):
+        measure(outer)
+        change()
+        update()
+        assert reason(outer) == "stale_geometry"
+
+
+def test_measuring_a_member_leaves_its_instancer_and_what_it_cuts_up_to_date():
+    member, cut = add(mesh_body(), "Member"), add(mesh_body(), "Cut", location=(0.5, 0.5, 0.1))
+    cut.modifiers.new("Boolean", "BOOLEAN").object = member
+    shown = instancer("Instancer", member)
+    measure(shown, cut)
+    measure(member)
+    assert reason(shown) is None and reason(cut) is None
+    bpy.ops.object.body_moments_clear()
+    update()
+    assert reason(shown) is None and reason(cut) is None
+
+
+@pytest.mark.parametrize("kind", ["VERTS", "FACES"])
+def test_an_object_that_shows_its_children_is_out_of_date_when_one_changes(kind):
+    parent, child = add(mesh_body(), "Parent"), add(mesh_body(), "Child", scale=(0.1, 0.1, 0.1))
+    child.parent, parent.instance_type = parent, kind
+    for change in (lambda: edit(child), lambda: setattr(child, "scale", (0.2, 0.1, 0.1))):
+        measure(parent)
+        change()
+        update()
+        assert reason(parent) == "stale_geometry"
+
+
+def test_an_emitter_is_out_of_date_when_its_particles_object_changes():
+    emitter, seed = add(mesh_body(), "Emitter"), add(mesh_body(), "Seed")
+    emitter.modifiers.new("Particles", "PARTICLE_SYSTEM")
+    settings = emitter.particle_systems[0].settings
+    settings.type, settings.render_type, settings.count, settings.instance_object = "HAIR", "OBJECT", 3, seed
+    measure(emitter)
+    edit(seed)
+    assert reason(emitter) == "stale_geometry"
+
+
+def test_balancing_a_mesh_makes_the_numbers_of_all_that_show_it_out_of_date():
+    obj = add(mesh_body())
+    group = obj.vertex_groups.new(name="Top")
+    group.add(list(range(6, 12)), 1.0, "ADD")
+    twin, shown = link(bpy.data.objects.new("Twin", obj.data)), instancer("Instancer", obj)
+    twin.location.x = 9.0
+    measure(obj, twin, shown)
+    bpy.context.scene.cursor.location = (1.2, 0.9, 0.0)
+    only(obj)
+    assert bpy.ops.object.body_moments_sculpt_balance() == {"FINISHED"}
+    update()
+    assert [reason(one) for one in (obj, twin, shown)] == [None, "stale_geometry", "stale_geometry"]
+    measure(obj, twin, shown)
+    bpy.context.scene.cursor.location = (100.0, 0.0, 0.0)
+    only(obj)
+    assert bpy.ops.object.body_moments_sculpt_balance(limit=1e-6) == {"CANCELLED"}
+    update()
+    assert [reason(one) for one in (obj, twin, shown)] == [None] * 3
+
+
+def test_drivers_follow_what_is_stored():
+    obj, other = add(mesh_body()), link(bpy.data.objects.new("Pointer", None))
+    for owner, path in ((other, "location"), (obj, "delta_location")):
+        driver = owner.driver_add(path, 2).driver
+        variable = driver.variables.new()
+        variable.targets[0].id, variable.targets[0].data_path = obj, '["body_volume"]'
+        driver.expression = variable.name
+    obj["body_volume"] = 0.0
+    update()
+    only(obj)
+    bpy.ops.object.body_moments_measure()
+    update()
+    volume = obj["body_volume"]
+    assert volume > 0.0 and other.location.z == pytest.approx(volume) == obj.delta_location.z
+
+
+def test_storing_evaluates_no_modifier_again():
+    obj = add(mesh_body())
+    obj.modifiers.new("Subdivision", "SUBSURF")
+    update()
+    seen = []
+
+    def note(_scene, depsgraph):
+        seen.extend(one.id.name for one in depsgraph.updates if one.is_updated_geometry)
+
+    bpy.app.handlers.depsgraph_update_post.append(note)
+    try:
+        measure(obj)
+        bpy.ops.object.body_moments_clear()
+        update()
+    finally:
+        bpy.app.handlers.depsgraph_update_post.remove(note)
+    assert seen == []
+
+
+@pytest.mark.parametrize("mark", ["", "v1:a:b", "v0:a:b:c", 5])
+def test_numbers_of_which_nothing_is_known_are_not_up_to_date(mark):
+    obj = add(mesh_body())
+    assert reason(obj) is None
+    measure(obj)
+    obj["body_fingerprint"] = mark
+    assert reason(obj) == "stale_fingerprint"
+    del obj["body_fingerprint"]
+    assert reason(obj) == "stale_fingerprint"
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("body_mass", float("nan")),
+        ("body_volume", float("inf")),
+        ("body_inertia", [float("nan")] * 6),
+        ("body_method", " "),
+        ("body_method", ""),
+        ("body_error_bound", [float("inf")] * 8),
+    ],
+)
+def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
+    from body_moments.core.verdict.finding import finding
+    from body_moments.operators.write import report
+
+    from tests.blender.panels.test_panel import drawn
+
+    good, obj = add(mesh_body(), "Good"), add(mesh_body())
+    measure(obj, good)
+    obj[key] = value
+    update()
+    drawn()
+    text = report.report_text(bpy.context, [obj, good])
+    assert (str(finding("no_stored_results")) in text) == (key in ("body_mass", "body_volume", "body_inertia"))
+
+
+def test_the_symmetry_and_the_moments_of_an_instancer_are_out_of_date_too():
+    from body_moments.operators.session import moments as moments_table
+
+    member = add(mesh_body(), "Member")
+    shown = instancer("Instancer", member)
+    update()
+    only(shown)
+    bpy.ops.object.body_moments_find_symmetry()
+    assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
+    assert (staleness.symmetry_stale_reason(shown), moments_table.stale_reason(shown, bpy.context.scene)) == (
+        None,
+        None,
+    )
+    edit(member)
+    assert staleness.symmetry_stale_reason(shown) == "stale_geometry"
+    assert moments_table.stale_reason(shown, bpy.context.scene) == "stale_geometry"
+
+
+def test_becoming_a_rigid_body_is_no_change_of_the_shape():
+    obj, other = add(mesh_body()), add(mesh_body(), "Other")
+    measure(obj, other)
+    for density in (1000.0, 500.0):
+        other.body_moments.density = density
+        measure(other)
+        only(obj, other)
+        assert bpy.ops.object.body_moments_set_rigid_body_mass(add=True) == {"FINISHED"}
+        update()
+        assert (reason(obj), reason(other)) == (None, None)
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    assert bpy.ops.object.body_moments_set_rigid_body_mass() == {"FINISHED"}
+    update()
+    assert (reason(obj), reason(other)) == ("stale_geometry", None)

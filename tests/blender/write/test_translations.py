@@ -1,0 +1,105 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Translation: what is shown is looked up before it is filled, and what is stored is English.
+
+The bpy module has no languages of its own, so a dictionary stands for Blender's look-up here; tests/window has the real
+one.
+"""
+
+import ast
+import json
+import string
+from pathlib import Path
+from types import SimpleNamespace
+
+import bpy
+import pytest
+from body_moments.operators.write import messages, translations
+
+from tests.blender.objects import add, mesh_body
+from tests.blender.panels.test_panel import drawn, labels
+
+ROOT = Path(__file__).resolve().parent.parent.parent.parent
+
+
+def constants(*folders, without=None):
+    """The strings in the source of some folders, without one file."""
+    paths = {path for folder in folders for path in (ROOT / folder).rglob("*.py")} - {without}
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in paths]
+    nodes = [node for tree in trees for node in ast.walk(tree)]
+    return {node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)}
+
+
+def placeholders(text):
+    """Names and formats of what is filled in."""
+    return sorted(field[1:4] for field in string.Formatter().parse(text) if field[1] is not None)
+
+
+@pytest.mark.parametrize("locale", translations.LANGUAGES)
+def test_a_translation_has_the_placeholders_of_the_english_text(locale):
+    language = translations.LANGUAGES[locale]
+    assert len(language.MESSAGES) >= 30
+    for code, translated in language.MESSAGES.items():
+        entry = messages.MESSAGES[code]
+        english = [text for text in (entry.text, entry.plural) if text]
+        assert len(english) == len(translated), code
+        for before, after in zip(english, translated):
+            assert placeholders(before) == placeholders(after), code
+            assert before.endswith(".") == after.endswith("."), code
+    for before, after in language.TEXTS.items():
+        assert placeholders(before) == placeholders(after), before
+
+
+@pytest.mark.parametrize("locale", translations.LANGUAGES)
+def test_every_text_that_is_translated_is_one_of_the_source(locale):
+    language = translations.LANGUAGES[locale]
+    assert {*language.TEXTS} <= constants("core", "operators", "panels", without=Path(language.__file__))
+
+
+def test_blender_gets_every_text_under_every_context_in_which_it_looks():
+    german = translations.dictionary()["de_DE"]
+    assert german["*", "Principal Axes"] == german["Operator", "Principal Axes"] == "Hauptträgheitsachsen"
+    contexts = {context for context, _ in german}
+    for group in bpy.types.PropertyGroup.__subclasses__():
+        if group.__name__.startswith("BodyMoments"):
+            assert {prop.translation_context for prop in group.bl_rna.properties} <= contexts
+    assert german["*", messages.MESSAGES["t_junctions"].plural].startswith("{count} Spalte")
+
+
+@pytest.fixture
+def german(monkeypatch):
+    """Look-ups as a German Blender answers them, by our dictionary alone."""
+    texts = translations.dictionary()["de_DE"]
+    look_up = SimpleNamespace(pgettext_iface=lambda text, context="*": texts.get((context, text), text))
+    monkeypatch.setattr(translations, "bpy", SimpleNamespace(app=SimpleNamespace(translations=look_up)))
+
+
+@pytest.mark.usefixtures("scene", "german")
+def test_the_panel_speaks_german_and_what_is_stored_english():
+    closed, mesh = mesh_body(), bpy.data.meshes.new("Open")
+    faces = [tuple(face.vertices) for face in closed.polygons]
+    mesh.from_pydata([vertex.co for vertex in closed.vertices], [], faces[1:])
+    obj = add(mesh)
+    obj.body_moments.material = "Copper"
+    bpy.ops.object.body_moments_measure()
+    shown = " ".join(labels(drawn()))
+    assert "Mit Deckeln" in shown and "Die Oberfläche ist offen; ihre Löcher wurden geschlossen" in shown
+    assert "Warnungen (1) Löcher geschlossen: 1 (1 eben" in shown and "Holes" not in shown
+    assert obj["body_method"] == "capped" and obj["body_warnings"].startswith("Holes capped: 1")
+    assert json.loads(obj["body_findings"])[0]["code"] == "holes_capped"
+    obj.location.x = 3.0
+    bpy.context.view_layer.update()
+    assert "Veraltet: Transformation geändert" in " ".join(labels(drawn()))
+
+
+@pytest.mark.usefixtures("scene")
+def test_names_and_numbers_are_drawn_as_they_are(monkeypatch):
+    """“Cube” and “Mass” are words of Blender's own: an object of that name keeps it in every language."""
+    obj = add(mesh_body(), "Mass")
+    bpy.ops.object.body_moments_measure()
+    material = bpy.data.materials.new("Volume")
+    obj.data.materials.append(material)
+    obj.body_moments.density_from = "MATERIALS"
+    record = drawn(closed=("body_moments_tensor",))  # whose labels are letters, put together
+    assert ("label", "Volume", False) in record and ("label", "Volume", True) in record
+    assert {entry[1] for entry in record if entry[0] == "label" and entry[2]} <= constants("panels")

@@ -1,0 +1,319 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Edges, the proof of closedness, connected parts and orientation, against plain Python."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from body_moments.core.mesh.edges import (
+    closed_side_faces,
+    consistent_orientation,
+    edges_from_mesh,
+    find_edges,
+    group_components,
+)
+from body_moments.core.mesh.surface import Surface, flipped_quads
+from body_moments.core.mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups
+from body_moments.core.numerics.arrays import first_occurrence
+from body_moments.core.numerics.graph import connected_components
+from body_moments.core.solid.measure_solid import measure_solid
+
+from tests.core.bodies import CORNERS, SIDES, box, joined, mesh, moebius, ring, soup, sphere, welded
+from tests.core.polyhedron.test_third_order import grid_torus
+
+
+def union_find(count, a, b):
+    parent = list(range(count))
+
+    def root(i):
+        while parent[i] != i:
+            i = parent[i]
+        return i
+
+    for i, j in zip(a, b):
+        i, j = sorted((root(i), root(j)))
+        parent[j] = i
+    return np.array([root(i) for i in range(count)])
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_components_are_those_of_union_find_in_the_order_of_their_first_nodes(seed):
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 200))
+    a, b = rng.integers(0, count, size=(2, int(rng.integers(0, 2 * count))))
+    label, number = connected_components(count, a, b)
+    roots = union_find(count, a, b)
+    expected = np.unique(roots, return_inverse=True)[1]
+    np.testing.assert_array_equal(label, expected)
+    assert number == len(np.unique(roots))
+
+
+def test_a_long_shuffled_path_is_one_component():
+    nodes = np.random.default_rng(1).permutation(100_000)
+    label, number = connected_components(len(nodes), nodes[:-1], nodes[1:])
+    assert number == 1 and not label.any()
+
+
+def star(center, leaves):
+    return np.full(len(leaves), center), leaves
+
+
+def clique(nodes):
+    one, other = np.triu_indices(len(nodes), 1)
+    return nodes[one], nodes[other]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_stars_paths_and_cliques_however_numbered_have_the_components_of_union_find(seed):
+    rng = np.random.default_rng(seed)
+    nodes = [rng.permutation(3000)[:1500], np.arange(3000)][seed % 2]  # the hub in the middle, or after all its leaves
+    links = [
+        star(nodes[999], nodes[:999]),
+        (nodes[999:1150], nodes[1000:1151]),
+        clique(nodes[1200:1240]),
+        star(nodes[1241], nodes[1242:1500]),
+    ]
+    a, b = np.concatenate(links, axis=1)
+    mixed = rng.permutation(len(a))
+    label, number = connected_components(3000, a[mixed], b[mixed])
+    _, expected = np.unique(union_find(3000, a, b), return_inverse=True)
+    assert number == expected.max() + 1 and label.tolist() == expected.tolist()
+
+
+def test_a_hub_after_all_its_leaves_takes_no_longer_than_one_before_them():
+    """Where each round joined one leaf more, this would take hours."""
+    leaves = np.arange(1_000_000)
+    label, number = connected_components(len(leaves) + 1, *star(len(leaves), leaves))
+    assert number == 1 and not label.any()
+
+
+@pytest.mark.parametrize("copies", [2, 1100, 20_000])
+def test_copies_of_one_face_are_one_component(copies):
+    found = measure_solid(Surface(CORNERS, quads=np.repeat(SIDES[:1], copies, axis=0)), shell=True)
+    assert found.health.components == 1
+
+
+def test_first_equal_finds_the_first_of_equal_rows_even_where_all_hashes_could_collide():
+    rng = np.random.default_rng(2)
+    for high in (1, 3, 1000):
+        rows = rng.integers(0, high, size=(2, 2000))
+        seen, expected = {}, []
+        for k, row in enumerate(rows.T):
+            expected.append(seen.setdefault(tuple(row), k))
+        np.testing.assert_array_equal(first_occurrence(*rows), expected)
+    assert len(first_occurrence(rows[0, :0])) == 0
+
+
+def test_edges_are_those_that_a_dictionary_finds():
+    triangles = joined(sphere(2), box())[1]
+    edges = find_edges(triangles)
+    found = {}
+    for t, triangle in enumerate(triangles):
+        for i in range(3):
+            a, b = triangle[i], triangle[(i + 1) % 3]
+            found.setdefault((min(a, b), max(a, b)), []).append(3 * t + i)
+    assert len(edges.count) == len(found)
+    for sides in found.values():
+        edge = edges.of_side[sides[0]]
+        assert edges.first[edge] == sides[0] and edges.count[edge] == len(sides)
+        assert all(edges.of_side[side] == edge for side in sides)
+    assert not edges.signed_use_count(np.zeros(len(triangles), bool)).any()
+    one, other = edges.manifold_side_pairs()
+    assert sorted(map(tuple, np.stack([one, other], axis=1))) == sorted(map(tuple, found.values()))
+
+
+def mixed_mesh():
+    """A cube whose top is a fan of four triangles and whose bottom and front are pentagons that share a bent edge."""
+    points = np.concatenate([CORNERS, [[0.5, 0.5, 1.0], [0.5, 0.0, 0.0]]])
+    faces = [
+        [0, 2, 3, 1, 9],
+        [2, 6, 7, 3],
+        [0, 9, 1, 5, 4],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [4, 5, 8],
+        [5, 7, 8],
+        [7, 6, 8],
+        [6, 4, 8],
+    ]
+    return points, faces
+
+
+@pytest.mark.parametrize(
+    "points, faces",
+    [
+        (CORNERS, SIDES.tolist()),
+        mixed_mesh(),
+        (ring(20, 10)[0], ring(20, 10)[1].tolist()),
+        (sphere(2)[0], sphere(2)[1].tolist()),
+    ],
+)
+def test_a_closed_mesh_is_proven_closed_by_its_own_corners(points, faces):
+    surface = mesh(points, faces)
+    sides = closed_side_faces(surface)
+    edges = dict.fromkeys(tuple(sorted((face[i - 1], face[i]))) for face in faces for i in (*range(1, len(face)), 0))
+    assert sides.shape == (2, len(edges))  # in the order in which the faces come to them, as in the mesh
+    for edge, pair in zip(edges, sides.T):
+        expected = {k for k, face in enumerate(faces) for i in range(len(face)) if {face[i], face[i - 1]} == set(edge)}
+        assert set(pair) == expected
+
+
+def test_one_hole_or_one_flipped_face_or_one_copy_spoils_the_proof():
+    points, faces = mixed_mesh()
+    for k in range(len(faces)):
+        assert closed_side_faces(mesh(points, faces[:k] + faces[k + 1 :])) is None
+        assert closed_side_faces(mesh(points, faces[:k] + [faces[k][::-1]] + faces[k + 1 :])) is None
+        assert closed_side_faces(mesh(points, faces + [faces[k]])) is None
+
+
+def test_loose_edges_do_not_spoil_the_proof():
+    surface = mesh(*mixed_mesh())
+    edges = surface.corner_edges
+    loose = replace(surface, corner_edges=edges + (edges > 3) + (edges > 7))  # those between have no faces
+    np.testing.assert_array_equal(closed_side_faces(loose), closed_side_faces(surface))
+
+
+def test_without_corners_or_with_foreign_ones_nothing_is_proven():
+    surface = mesh(*mixed_mesh())
+    assert closed_side_faces(replace(surface, corner_edges=None)) is None
+    fewer = replace(surface, triangles=surface.triangles[:-1], triangle_faces=surface.triangle_faces[:-1])
+    assert closed_side_faces(fewer) is None
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_orientation_turns_the_faces_that_were_flipped(seed):
+    rng = np.random.default_rng(seed)
+    triangles = sphere(3)[1]
+    flipped = rng.random(len(triangles)) < rng.uniform(0.0, 0.45)
+    triangles = np.where(flipped[:, None], triangles[:, ::-1], triangles)
+    edges = find_edges(triangles)
+    one, other = edges.manifold_side_pairs()
+    against = edges.upward[one] == edges.upward[other]
+    turned, twisted = consistent_orientation(len(triangles), one // 3, other // 3, against, np.ones(len(triangles)))
+    np.testing.assert_array_equal(turned, flipped)
+    assert not twisted.any()
+
+
+def test_a_moebius_strip_and_a_klein_bottle_have_no_orientation_and_a_torus_beside_them_has():
+    points, quads = ring(30, 12, twist=True)
+    klein = points, quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    tube = ring(20, 10)[0], ring(20, 10)[1][:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    for strip in (moebius(), klein):
+        triangles = joined(strip, tube)[1]
+        edges = find_edges(triangles)
+        one, other = edges.manifold_side_pairs()
+        against = edges.upward[one] == edges.upward[other]
+        assert against.any()
+        turned, twisted = consistent_orientation(len(triangles), one // 3, other // 3, against, np.ones(len(triangles)))
+        assert twisted[: len(strip[1])].all() and not twisted[len(strip[1]) :].any()
+        assert not turned.any()
+
+
+def parts_of(triangles):
+    edges = find_edges(triangles)
+    one, other = edges.manifold_side_pairs()
+    return edges, *connected_components(len(triangles), one // 3, other // 3)
+
+
+def test_boxes_that_share_an_edge_are_two_shells_and_boxes_with_a_common_wall_are_one():
+    edge = welded(joined(box(), box((1, 1, 0), (2, 2, 1))))[1]
+    edges, part, number = parts_of(edge)
+    shell, shell_number = group_components(edges, part, number, np.zeros(len(edges.count), bool))
+    assert shell_number == 2
+    wall = welded(joined(box(), box((1, 0, 0), (2, 1, 1))))[1]
+    wall = wall[np.unique(np.sort(wall, axis=1), axis=0, return_index=True)[1]]
+    edges, part, number = parts_of(wall)
+    assert number == 3
+    shell, shell_number = group_components(edges, part, number, np.zeros(len(edges.count), bool))
+    assert shell_number == 1
+
+
+def test_equal_positions_are_welded_and_minus_zero_is_zero():
+    points = soup(sphere(2))[0]
+    points[points == 0.0] *= np.where(np.arange(np.count_nonzero(points == 0.0)) % 2, 1.0, -1.0)
+    first = first_at_equal_position(points)
+    assert len(np.unique(first)) == 66
+    np.testing.assert_array_equal(points[first], points)
+    assert np.all(first <= np.arange(len(points)))
+
+
+def test_positions_within_the_tolerance_are_welded_wherever_the_grid_cuts():
+    rng = np.random.default_rng(3)
+    base = rng.uniform(-1, 1, size=(400, 3))
+    step = rng.normal(size=base.shape)
+    step *= 0.99e-6 / np.linalg.norm(step, axis=1)[:, None]
+    points = np.concatenate([base, base + step])
+    first = first_at_near_position(points, np.full(800, 1e-6))
+    np.testing.assert_array_equal(first, np.tile(np.arange(400), 2))
+    apart = np.concatenate([base, base + 10 * step])
+    np.testing.assert_array_equal(first_at_near_position(apart, np.full(800, 1e-6)), np.arange(800))
+
+
+def test_faces_on_the_same_vertices_share_a_group_however_they_are_cut_and_turned():
+    triangles = np.array(
+        [
+            [0, 1, 2],
+            [0, 2, 3],  # face 0, a quad
+            [3, 1, 0],
+            [3, 2, 1],  # face 1, the same reversed and cut the other way
+            [0, 1, 2],
+            [2, 0, 1],
+            [2, 3, 4],
+        ]
+    )
+    faces = np.array([0, 0, 1, 1, 2, 3, 4])
+    np.testing.assert_array_equal(same_vertices_groups(triangles, faces), [0, 0, 0, 0, 2, 2, 4])
+
+
+@pytest.mark.parametrize("type_", [np.int8, np.int16, np.int32, np.uint32, np.uint64])
+def test_edges_that_no_mesh_has_prove_nothing_and_those_of_every_type_do(type_):
+    points, quads = grid_torus(8, 6)
+    corners = quads.ravel()
+    ends = np.sort(np.stack([corners, np.roll(quads, -1, axis=1).ravel()], axis=1), axis=1)
+    edges = np.unique(ends, axis=0, return_inverse=True)[1].ravel().astype(type_)
+    surface = Surface(points, quads=quads, corner_vertices=corners, corner_edges=edges)
+    assert closed_side_faces(surface) is not None
+    assert closed_side_faces(replace(surface, corner_edges=edges - edges.max() - type_(1))) is None
+
+
+def opened(rng, cut):
+    """A crumpled ring of quads with holes, a share `cut` of its faces as two triangles, as a reader makes it."""
+    points, quads = ring(14, 9)
+    faces = [tuple(face) for face in quads.tolist() if rng.random() > 0.1]
+    halves = [[quad] if rng.random() >= cut else [quad[:3], (*quad[2:], quad[0])] for quad in faces]
+    return mesh(points + rng.normal(0.0, 0.1, points.shape), [face for pair in halves for face in pair])
+
+
+@pytest.mark.parametrize("cut", [0.0, 0.4, 1.0])
+def test_edges_that_a_mesh_names_are_those_that_are_found(cut):
+    surface = opened(np.random.default_rng(11), cut)
+    flipped = flipped_quads(surface.points, surface.quads)
+    assert cut == 1.0 or 0 < flipped.sum() < len(flipped)
+    if cut in (0.0, 1.0):  # one kind alone, as a reader makes it
+        surface = replace(surface, triangle_faces=None, quad_faces=None)
+    triangles = surface.all_triangles()[0]
+    named, found = edges_from_mesh(surface, triangles), find_edges(triangles)
+    assert len(found.boundary_sides()) > 10
+    for key in ("of_side", "upward", "first", "count"):
+        np.testing.assert_array_equal(getattr(named, key), getattr(found, key))
+
+
+def test_names_of_edges_that_do_not_fit_the_vertices_are_not_used():
+    surface = opened(np.random.default_rng(3), 0.5)
+    triangles, edges = surface.all_triangles()[0], surface.corner_edges
+    inner = np.flatnonzero(np.bincount(edges) == 2)[0]
+    twice = edges.copy()
+    twice[np.flatnonzero(edges == inner)[0]] = edges.max() + 1  # one edge by two names
+    wrong = [np.roll(edges, 1), edges * 0, edges - 1, twice, edges[:-1], edges.astype(np.uint64) - np.uint64(1)]
+    for other in wrong:
+        assert edges_from_mesh(replace(surface, corner_edges=other), triangles) is None
+    assert edges_from_mesh(replace(surface, corner_edges=edges.astype(np.uint64)), triangles) is not None
+    prism = mesh(*polygons())
+    assert edges_from_mesh(prism, prism.all_triangles()[0]) is None
+
+
+def polygons():
+    """A prism over a pentagon, without one of its sides."""
+    points = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (2, 0), (3, 1), (1, 2), (0, 1))]
+    return points, [(4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *((i, i + 1, i + 6, i + 5) for i in range(4))]

@@ -1,0 +1,231 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Section properties against the closed forms of engineers' tables, in planes of any position."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core.plane.polygon import OutlineDefects, find_defects, orient_loops
+from body_moments.core.plane.section import Plane, fit_plane, measure_section
+
+from tests.close import close
+from tests.core import bodies, rational
+from tests.core.findings import refused
+from tests.core.plane.test_polygon import rectangle, shape
+
+LEVEL = Plane(np.zeros(3), np.eye(3), 0.0, "X")
+
+
+def lifted(points):
+    return np.column_stack([points, np.zeros(len(points))])
+
+
+def measured(*outlines, offset=(0.0, 0.0)):
+    points, loops = shape(*outlines)
+    points = points + offset
+    assert find_defects(points, orient_loops(points, loops)) == OutlineDefects(0, False, False)
+    return measure_section(LEVEL, lifted(points), orient_loops(points, loops))
+
+
+def i_beam(b=0.1, h=0.2, web=0.0056, flange=0.0085):
+    """An I section without fillets, its centroid at the origin."""
+    w, t, x, y = web / 2, h / 2 - flange, b / 2, h / 2
+    return [(-x, -y), (x, -y), (x, -t), (w, -t), (w, t), (x, t), (x, y), (-x, y), (-x, t), (-w, t), (-w, -t), (-x, -t)]
+
+
+OFFSETS = [(0.0, 0.0), (3.0, -7.0), (1e4, 2e4)]
+
+
+def near(value, truth, offset=(0.0, 0.0), size=1.0):
+    """Coordinates that were rounded when they were moved away are exact for another body."""
+    return close(value, truth, rel=1e-14 + 1e-15 * max(map(abs, offset)) / size)
+
+
+@pytest.mark.parametrize("offset", OFFSETS)
+def test_a_rectangle(offset):
+    section = measured(rectangle(0, 0, 3, 8), offset=offset)
+    assert near(section.area, 24) and near(section.perimeter, 22)
+    assert close(section.centroid, np.add((1.5, 4), offset), rel=1e-14)
+    assert near(section.second[0], 3 * 8**3 / 12, offset) and near(section.second[1], 8 * 3**3 / 12, offset)
+    assert abs(section.second[2]) <= section.rounding_error["second"]
+    assert close(section.principal, (128, 18), rel=1e-14) and section.angle == 0.0
+    assert near(section.polar, 146, offset)
+    assert close(section.radii, [8 / 12**0.5, 3 / 12**0.5] * 2, rel=1e-13)
+    assert section.moduli == pytest.approx([32, 12, 32, 12], rel=1e-12)
+    assert (section.outlines, section.holes) == (1, 0)
+
+
+@pytest.mark.parametrize("offset", OFFSETS)
+def test_a_rectangle_with_a_hole_that_is_off_its_center(offset):
+    section = measured(rectangle(0, 0, 6, 10), rectangle(1, 1, 2, 3), offset=offset)
+    area, x, y = 54.0, (60 * 3 - 6 * 2) / 54, (60 * 5 - 6 * 2.5) / 54
+    truth = (
+        6 * 10**3 / 12 + 60 * (5 - y) ** 2 - 2 * 3**3 / 12 - 6 * (2.5 - y) ** 2,
+        10 * 6**3 / 12 + 60 * (3 - x) ** 2 - 3 * 2**3 / 12 - 6 * (2 - x) ** 2,
+        60 * (3 - x) * (5 - y) - 6 * (2 - x) * (2.5 - y),
+    )
+    assert near(section.area, area) and (section.outlines, section.holes) == (1, 1)
+    assert close(section.centroid, np.add((x, y), offset), rel=1e-14)
+    assert section.second == pytest.approx(truth, rel=1e-13 + 1e-15 * max(map(abs, offset)))
+    mean, radius = (truth[0] + truth[1]) / 2, math.hypot((truth[0] - truth[1]) / 2, truth[2])
+    assert section.principal == pytest.approx((mean + radius, mean - radius), rel=1e-12)
+    assert math.tan(2 * section.angle) == pytest.approx(-2 * truth[2] / (truth[0] - truth[1]), rel=1e-9)
+
+
+def test_an_i_beam_has_the_values_of_its_table():
+    b, h, web, flange = 0.1, 0.2, 0.0056, 0.0085
+    section = measured(i_beam())
+    inner = h - 2 * flange
+    assert near(section.area, 2 * b * flange + inner * web)
+    assert close(section.second[0], (b * h**3 - (b - web) * inner**3) / 12, rel=1e-13)
+    assert close(section.second[1], (2 * flange * b**3 + inner * web**3) / 12, rel=1e-13)
+    assert close(section.moduli[0], section.second[0] / 0.1, rel=1e-14)
+    assert close(section.moduli[1], section.second[1] / 0.05, rel=1e-14)
+    assert np.abs(section.centroid).max() < 1e-16 and section.angle == 0.0
+
+
+def test_an_equal_angle_has_its_strong_axis_at_minus_45_degrees():
+    a, t = 0.1, 0.01
+    section = measured([(0, 0), (a, 0), (a, t), (t, t), (t, a), (0, a)])
+    area = t * (2 * a - t)
+    center = (a * a + a * t - t * t) / (2 * (2 * a - t))
+    assert near(section.area, area)
+    assert close(section.centroid, (center, center), rel=1e-13)
+    legs = [(a, t, a / 2, t / 2), (t, a - t, t / 2, (a + t) / 2)]
+    second = sum(w * h**3 / 12 + w * h * (y - center) ** 2 for w, h, _, y in legs)
+    product = sum(w * h * (x - center) * (y - center) for w, h, x, y in legs)
+    assert close(section.second, (second, second, product), rel=1e-12)
+    # I_xy is negative, so axis 1, about which the second moment is largest, is at +45°: the angle's line of symmetry
+    assert product < 0.0 and section.angle == pytest.approx(math.pi / 4, abs=1e-12)
+    assert close(section.principal, (second - product, second + product), rel=1e-12)
+
+
+def test_a_triangle_and_its_section_modulus_is_that_of_the_farther_corner():
+    b, h = 3.0, 2.0
+    section = measured([(0, 0), (b, 0), (0, h)])
+    assert near(section.area, b * h / 2) and close(section.centroid, (b / 3, h / 3), rel=1e-14)
+    assert close(section.second, (b * h**3 / 36, h * b**3 / 36, -(b * b) * h * h / 72), rel=1e-13)
+    assert close(section.moduli[:2], (b * h**2 / 24, h * b**2 / 24), rel=1e-13)
+
+
+def test_a_polygon_tends_to_the_circle_with_the_square_of_its_corners():
+    errors = []
+    for n in (50, 100):
+        angle = 2 * np.pi * np.arange(n) / n
+        section = measured(np.stack([np.cos(angle), np.sin(angle)], axis=1) * 0.5)
+        assert section.axes_undetermined and section.angle == 0.0
+        truth = {"area": math.pi / 4, "polar": math.pi / 32, "perimeter": math.pi}
+        errors.append([1.0 - getattr(section, name) / value for name, value in truth.items()])
+    assert np.array(errors[0]) / errors[1] == pytest.approx([4.0] * 3, rel=0.01)
+
+
+def test_separate_regions_are_one_section():
+    section = measured(rectangle(0, 0, 2, 2), rectangle(0, 10, 2, 2))
+    assert (section.outlines, section.holes) == (2, 0)
+    assert section.second[0] == pytest.approx(2 * (16 / 12 + 4 * 25), rel=1e-14)
+
+
+@pytest.mark.parametrize("angle", [-80, -45, -10, 0, 30, 60, 89, 90])
+def test_the_strong_axis_turns_with_the_section_and_never_flips(angle):
+    turn = np.radians(angle)
+    matrix = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    section = measured(np.array(i_beam()) @ matrix.T)
+    assert math.degrees(section.angle) == pytest.approx(angle, abs=1e-9)
+    assert close(section.principal, measured(i_beam()).principal, rel=1e-12)
+
+
+@pytest.mark.parametrize("size", [1e-6, 1e4])
+@pytest.mark.parametrize("offset", OFFSETS)
+def test_bounds_hold_against_rationals(size, offset):
+    points, loops = shape(np.array(i_beam()) @ np.array([[0.9, 0.2], [-0.4, 1.3]]).T * size)
+    points = points + np.array(offset) * size
+    edges = orient_loops(points, loops)
+    section = measure_section(LEVEL, lifted(points), edges)
+    exactly = rational.fractions(points)
+    area, *first = (rational.enclosed(exactly, edges.tolist(), row) for row in ((0, 0), (1, 0), (0, 1)))
+    center = [value / area for value in first]
+    central = [tuple(x - c for x, c in zip(p, center)) for p in exactly]
+    second = [rational.enclosed(central, edges.tolist(), row) for row in ((0, 2), (2, 0), (1, 1))]
+    assert abs(Fraction(section.area) - area) <= Fraction(section.rounding_error["area"])
+    drift = math.hypot(*(float(Fraction(c) - t) for c, t in zip(section.centroid, center)))
+    assert drift <= section.rounding_error["centroid"]
+    for value, truth in zip(section.second, second):
+        assert abs(Fraction(value) - truth) <= Fraction(section.rounding_error["second"])
+    assert section.rounding_error["area"] < 1e-10 * section.area * max(1.0, max(map(abs, offset)))
+
+
+def test_float32_coordinates_move_a_section_by_no_more_than_is_told():
+    rng = np.random.default_rng(0)
+    points, loops = shape(np.array(i_beam()) + 3.0)
+    edges = orient_loops(points, loops)
+    step = 1e-7
+    section = measure_section(LEVEL, lifted(points), edges, error=step)
+    for _ in range(50):
+        moved = measure_section(LEVEL, lifted(points + rng.choice([-step, step], size=points.shape)), edges)
+        assert abs(moved.area - section.area) <= section.input_error["area"]
+        assert np.hypot(*(moved.centroid - section.centroid)) <= section.input_error["centroid"]
+        assert np.abs(moved.second - section.second).max() <= section.input_error["second"]
+        assert abs(moved.perimeter - section.perimeter) <= section.input_error["perimeter"]
+
+
+@pytest.mark.parametrize("error", [0.0, 0.05, 0.2, 1.0])
+def test_wide_bounds_do_not_make_every_axis_of_an_angle_a_principal_one(error):
+    """I_1 was told with the distance of the corner from another axis, where float32 might have moved much."""
+    points, loops = shape([(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)])
+    section = measure_section(LEVEL, lifted(points), orient_loops(points, loops), error=error)
+    assert not section.axes_undetermined
+    assert math.tan(2.0 * section.angle) == pytest.approx(1.5 / -2.0) and section.angle > 0.0
+    across = (points - section.centroid) @ [-math.sin(section.angle), math.cos(section.angle)]
+    assert section.moduli[2] == pytest.approx(section.principal[0] / np.abs(across).max())
+
+
+SQUARE = (lifted(np.array(rectangle(0, 0, 1, 1), float)), np.array([[0, 1, 2], [0, 2, 3]]))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_section_in_any_plane_has_the_properties_that_it_has_flat(seed):
+    rotation, offset = bodies.rotation(seed), np.array([5.0, -3.0, 8.0])
+    flat, loops = shape(i_beam())
+    edges = orient_loops(flat, loops)
+    points = lifted(flat) @ rotation.T + offset
+    triangles = np.array([[0, 1, 2], [0, 2, 11], [6, 7, 8], [5, 6, 8]])
+    plane = fit_plane(points, triangles, rotation, offset)
+    assert plane.x_axis_name == "X" and np.abs(plane.axes - rotation).max() < 1e-13
+    assert np.linalg.det(plane.axes) == pytest.approx(1.0, abs=1e-14)
+    section = measure_section(plane, points, edges)
+    truth = measured(i_beam())
+    assert close(section.area, truth.area, rel=1e-12)
+    assert close(section.second[:2], truth.second[:2], rel=1e-12)
+    assert section.center == pytest.approx(offset, abs=1e-14)
+
+
+def test_the_plane_faces_as_most_of_its_faces_do_and_keeps_near_the_preferred_axes():
+    points, triangles = SQUARE
+    assert fit_plane(points, triangles, np.eye(3), np.zeros(3)).axes[:, 2] == pytest.approx([0, 0, 1])
+    down = fit_plane(points, triangles[:, ::-1], np.eye(3), np.zeros(3))
+    assert down.axes == pytest.approx(np.diag([1.0, -1.0, -1.0])) and down.x_axis_name == "X"
+    upright = fit_plane(points[:, [2, 0, 1]], triangles, np.eye(3), np.array([9.0, 1.0, 1.0]))  # in the plane of y, z
+    assert upright.x_axis_name == "Y" and upright.axes[:, 0] == pytest.approx([0, 1, 0])
+    assert upright.origin == pytest.approx([0, 1, 1])
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_points_off_the_plane_are_refused_by_their_share_of_the_size(size):
+    points, triangles = SQUARE
+    bent = points.copy()
+    bent[2, 2] = 2e-6
+    assert fit_plane(bent * size, triangles, np.eye(3), np.zeros(3)).out_of_plane > 0.0
+    bent[2, 2] = 1e-3
+    with refused("section_not_flat"):
+        fit_plane(bent * size, triangles, np.eye(3), np.zeros(3))
+    assert fit_plane(bent * size, triangles, np.eye(3), np.zeros(3), error=1e-3 * size).out_of_plane > 0.0
+
+
+def test_what_has_no_area_is_refused():
+    points = np.array([[0.0, 0, 0], [1, 1, 0], [2, 2, 0]])
+    with refused("section_no_area"):
+        fit_plane(points, np.array([[0, 1, 2]]), np.eye(3), np.zeros(3))
+    with refused("section_encloses_nothing"):
+        measure_section(LEVEL, points, np.array([[0, 1], [1, 0]]))

@@ -1,0 +1,350 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments of any order against rational arithmetic, which has no tolerance: the numbers' own bounds, and the promised
+share of the absolute moment. Small blocks make small meshes take the path of large ones."""
+
+import tracemalloc
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import monomial_count, monomials
+from body_moments.core.polyhedron import any_order as recursion
+from body_moments.core.polyhedron import any_order_kernel as levels
+from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.polyhedron import third_order as polyhedron
+
+from tests.core import exact
+from tests.core.findings import refused
+from tests.core.polyhedron.test_third_order import PLACES, SHAPES, SIZES, grid_torus
+
+
+@pytest.fixture(params=["one block", "many blocks"])
+def path(request, monkeypatch):
+    if request.param == "many blocks":
+        monkeypatch.setattr(recursion, "MIN_FACES_PER_BLOCK", 16)
+        monkeypatch.setattr(recursion, "SCRATCH_NUMBERS", 0)
+        monkeypatch.setattr(recursion, "BLOCKS_PER_TASK", 2)
+        monkeypatch.setattr(levels, "FACES_PER_CHUNK", 4)
+        monkeypatch.setattr(levels, "SLICES_PER_ROW", 2)
+
+
+def octahedron(level=2, noise=0.0, seed=0):
+    """A star-shaped body whose triangles cross no coordinate plane, its box centred on the origin."""
+    points = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, -1, 0), (0, 0, -1)]
+    faces = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
+    for _ in range(level):
+        halves, finer = {}, []
+        for a, b, c in faces:
+            middles = []
+            for edge in ((a, b), (b, c), (c, a)):
+                key = tuple(sorted(edge))
+                if key not in halves:
+                    halves[key] = len(points)
+                    points.append(tuple((x + y) / 2 for x, y in zip(points[edge[0]], points[edge[1]])))
+                middles.append(halves[key])
+            ab, bc, ca = middles
+            finer += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+        faces = finer
+    points = np.array(points, float)
+    points[6:] *= 1.0 + noise * np.random.default_rng(seed).uniform(-1.0, 1.0, (len(points) - 6, 3))
+    return points, np.array(faces)
+
+
+def assert_within(moments, truth, error=None):
+    error = moments.rounding_error if error is None else error
+    for value, bound, right, monomial in zip(moments.raw, error, truth, monomials(moments.order).tolist(), strict=True):
+        assert abs(Fraction(float(value)) - right) <= Fraction(float(bound)), monomial
+
+
+def share(moments, truth, absolute):
+    """The largest error as a share of the absolute moment."""
+    return max(
+        float(abs(Fraction(float(value)) - right) / scale)
+        for value, right, scale in zip(moments.raw, truth, absolute, strict=True)
+    )
+
+
+def test_all_1771_moments_to_order_20_are_right_to_2e_15_of_the_absolute_moment():
+    points, triangles = octahedron(2, noise=0.3)
+    volume, _ = polyhedron_moments(Surface(points, triangles), 20)
+    assert len(volume.raw) == 1771 and not volume.about.any()
+    truth = exact.volume_moments(points, triangles, order=20)
+    assert share(volume, truth, exact.volume_moments(points, triangles, order=20, absolute=True)) < 2e-15
+    assert_within(volume, truth)
+
+
+def test_a_body_10000_diameters_away_is_right_about_its_own_centre():
+    points, triangles = octahedron(2, noise=0.3)
+    points = points + 20000.0 * np.array([1.0, -1.0, 0.5])
+    volume, area = polyhedron_moments(Surface(points, triangles), 20, area_order=20)
+    truth = exact.volume_moments(points, triangles, volume.about, order=20)
+    absolute = exact.volume_moments(points, triangles, volume.about, order=20, absolute=True)
+    assert share(volume, truth, absolute) < 1e-14
+    assert_within(volume, truth)
+    assert_within(area, exact.area_moments(points, triangles, volume.about, order=20))
+
+
+@pytest.mark.parametrize("order", [4, 11])
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_bounds_hold_for_random_meshes(path, shape, place, seed, order):
+    rng = np.random.default_rng([seed, len(shape), len(place), order])
+    size = {**SIZES, "extreme": 1e-12}[list(SIZES)[seed]]
+    turn = np.linalg.qr(rng.standard_normal((3, 3)))[0] if seed % 2 else np.eye(3)
+    count = int(rng.integers(4, 14))
+    points = (rng.standard_normal((count, 3)) * SHAPES[shape]) @ turn + PLACES[place] * rng.standard_normal(3)
+    points *= size
+    if seed == 3:
+        points = points.astype(np.float32)
+    triangles = rng.integers(0, count, (int(rng.integers(1, 60)), 3))
+    volume, area = polyhedron_moments(Surface(points, triangles), order, area_order=order)
+    assert_within(volume, exact.volume_moments(points, triangles, volume.about, order))
+    assert_within(area, exact.area_moments(points, triangles, area.about, order=order))
+
+
+@pytest.mark.parametrize("order", [6, 20])
+def test_the_bounds_are_not_vacuous(order):
+    points, quads = grid_torus(100, 60)
+    volume, area = polyhedron_moments(Surface(points, quads=quads), order, area_order=order)
+    degree = monomials(order).sum(axis=1)
+    reach = 1.4**degree
+    assert (volume.rounding_error <= 1e-12 * volume.total * reach).all()
+    assert (area.rounding_error <= 1e-12 * area.total * reach).all()
+    even = (monomials(order) % 2 == 0).all(axis=1)  # whose moments do not cancel, and mostly lie far inside the box
+    assert (volume.rounding_error[even] <= 1e-11 * volume.raw[even]).all()
+    assert (area.rounding_error[even] <= 1e-11 * area.raw[even]).all()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
+    rng = np.random.default_rng(seed)
+    points, quads = grid_torus(7, 5, noise=0.03, seed=seed)
+    points = (points * 10.0 ** rng.uniform(-3, 2) + 10.0 ** rng.uniform(-2, 3)).astype(np.float32)
+    surface = Surface(points, Surface(points, quads=quads).all_triangles()[0])
+    volume, area = polyhedron_moments(surface, 8, area_order=8)
+    moved = points.astype(float) + surface.coordinate_error * rng.choice([-1.0, 1.0], points.shape)
+    assert_within(
+        volume,
+        exact.volume_moments(moved, surface.triangles, volume.about, 8),
+        volume.rounding_error + volume.input_error,
+    )
+    assert_within(
+        area, exact.area_moments(moved, surface.triangles, area.about, order=8), area.rounding_error + area.input_error
+    )
+    step = np.linalg.norm(surface.coordinate_error)
+    assert volume.input_error[0] < 1.5 * step * area.total
+    assert not polyhedron_moments(Surface(points.astype(float), surface.triangles), 8)[0].input_error.any()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_quads_are_cut_where_blender_cuts_them(path, seed):
+    rng = np.random.default_rng(seed)
+    points, quads = grid_torus(8, 6, noise=0.1, seed=seed)
+    points = points.astype(np.float32) if seed % 2 else points
+    quads[rng.random(len(quads)) < 0.5] = np.roll(quads, 1, axis=1)[0]  # also some that are folded or doubled
+    surface = Surface(points, np.array([[0, 1, 2]]), quads)
+    volume, area = polyhedron_moments(surface, 5, area_order=5)
+    triangles = surface.all_triangles()[0]
+    assert_within(volume, exact.volume_moments(points, triangles, volume.about, 5))
+    assert_within(area, exact.area_moments(points, triangles, area.about, order=5))
+
+
+@pytest.mark.parametrize("order", range(6))
+def test_low_orders_are_those_of_the_fast_kernel_and_agree_with_the_recursion(order):
+    points, quads = grid_torus(12, 8, noise=0.05)
+    surface = Surface(points, quads=quads)
+    volume, area = polyhedron_moments(surface, order, area_order=order)
+    assert volume.order == area.order == order and volume.measure == "volume" and area.measure == "area"
+    high, surface_high = polyhedron_moments(surface, 8, area_order=8)
+    assert np.array_equal(volume.about, high.about)
+    for low, more in ((volume, high), (area, surface_high)):
+        more = more.truncate(order)
+        assert (np.abs(low.raw - more.raw) <= low.rounding_error + more.rounding_error).all()
+    if order <= 3:
+        assert np.array_equal(volume.raw, polyhedron_moments(surface)[0].truncate(order).raw)
+    assert polyhedron_moments(surface, order)[1] is None
+
+
+@pytest.mark.parametrize("order, area_order", [(5, 2), (5, 0), (2, 5), (3, 1), (1, 3), (3, 0), (0, 0)])
+def test_the_area_has_an_order_of_its_own(order, area_order):
+    points, quads = grid_torus(12, 8, noise=0.05)
+    surface = Surface(points, quads=quads)
+    volume, area = polyhedron_moments(surface, order, area_order=area_order)
+    assert (volume.order, area.order) == (order, area_order)
+    triangles = surface.all_triangles()[0]
+    assert_within(volume, exact.volume_moments(points, triangles, volume.about, order))
+    assert_within(area, exact.area_moments(points, triangles, area.about, order=area_order))
+
+
+def test_of_large_meshes_the_third_order_is_exact_on_request_alone(monkeypatch):
+    monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_EXACT_THIRD", 0)
+    monkeypatch.setattr(polyhedron, "MAX_SMALL_TRIANGLES", 0)
+    points, quads = grid_torus(12, 8, noise=0.05)
+    surface = Surface(points, quads=quads)
+    rough, fine = (polyhedron_moments(surface, exact=on)[0] for on in (False, True))
+    assert fine.rounding_error[10:].max() < 1e-12 and rough.rounding_error[10:].min() > 1e-4
+    monkeypatch.setattr(polyhedron, "SCRATCH_BYTES", (0, 20_000))  # blocks are as long as what is asked for allows
+    second = [polyhedron_moments(surface, 2, exact=on)[0] for on in (False, True)]
+    assert second[0].rounding_error.max() < 1e-12 and np.array_equal(second[0].rounding_error, second[1].rounding_error)
+
+
+@pytest.mark.parametrize("order", [2, 6])
+def test_pieces_make_the_whole(path, order):
+    points, quads = grid_torus(12, 8, noise=0.05)
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    pieces = [points[triangles[:50]], Surface(points, triangles[50:90]), points[triangles[90:]].astype(np.float64)]
+    volume, area = polyhedron_moments(pieces, order, area_order=order)
+    whole = polyhedron_moments(Surface(points, triangles), order, area_order=order)
+    assert np.array_equal(volume.about, whole[0].about)
+    for made, right in zip((volume, area), whole):
+        assert (np.abs(made.raw - right.raw) <= made.rounding_error + right.rounding_error).all()
+    about = np.array([0.25, 0.0, -0.5])
+    streamed = polyhedron_moments(iter(pieces), order, area_order=order, about=about, reach=2.0)
+    assert np.array_equal(streamed[0].about, about)
+    assert_within(streamed[0], exact.volume_moments(points, triangles, about, order))
+    pieces.insert(0, np.zeros((0, 3, 3)))
+    blind = polyhedron_moments(iter(pieces), order, area_order=order)  # about the middle of the first that has faces
+    assert np.abs(blind[0].about - whole[0].about).max() > 0.01
+    assert_within(blind[0], exact.volume_moments(points, triangles, blind[0].about, order))
+    assert_within(blind[1], exact.area_moments(points, triangles, blind[1].about, order=order))
+    back = blind[0].about_point(whole[0].about)
+    assert (np.abs(back.raw - whole[0].raw) <= back.rounding_error + whole[0].rounding_error).all()
+
+
+@pytest.mark.parametrize("order", [2, 6])
+def test_coordinates_of_the_other_byte_order_are_those_that_they_are(order):
+    """Some files have them; what storing them as float32 has moved is told of them too."""
+    points, quads = grid_torus()
+    points = points.astype(np.float32)
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    right = polyhedron_moments(Surface(points, triangles), order, area_order=order)
+    turned = points.astype(points.dtype.newbyteorder())
+    bodies = Surface(turned, triangles), Surface.from_triangles(turned, triangles), [turned[triangles]]
+    for body in bodies[:2]:
+        for made, known in zip(polyhedron_moments(body, order, area_order=order), right):
+            assert np.array_equal(made.raw, known.raw) and np.array_equal(made.input_error, known.input_error)
+    assert polyhedron_moments(bodies[2], order)[0].input_error.min() > 0.0
+
+
+@pytest.mark.parametrize("order", [3, 9])
+def test_threads_change_nothing(path, order):
+    points, quads = grid_torus(20, 12, noise=0.05)
+    points = points.astype(np.float32)
+    triangles = Surface(points, quads=quads).all_triangles()[0].copy()
+    triangles[-1] = np.roll(triangles[-1], 1)  # so that the last two are no halves of a quad as the others are
+    for surface in (Surface(points, quads=quads), Surface(points, triangles)):
+        for threads in (2, 3):
+            one, more = (polyhedron_moments(surface, order, area_order=order, threads=k) for k in (1, threads))
+            for a, b in zip(one, more):
+                for key in ("raw", "rounding_error", "input_error"):
+                    np.testing.assert_array_equal(getattr(a, key), getattr(b, key))
+
+
+@pytest.mark.parametrize("order", [3, 5])
+def test_progress_counts_faces_up_to_the_last(path, order):
+    points, quads = grid_torus(20, 12)
+    surface = Surface(points, quads=quads)
+    for whole in (surface, Surface(points, surface.all_triangles()[0])):
+        told = []
+        polyhedron_moments(whole, order, progress=told.append)
+        assert told == sorted(told) and told[-1] == len(whole.quads) + len(whole.triangles)
+
+
+@pytest.mark.parametrize("exponent", [-30, 20])
+def test_moments_scale_exactly_with_powers_of_two(exponent):
+    points, quads = grid_torus(noise=0.05)
+    plain = polyhedron_moments(Surface(points, quads=quads), 12)[0]
+    scaled = polyhedron_moments(Surface(np.ldexp(points, exponent), quads=quads), 12)[0]
+    assert np.array_equal(scaled.raw, np.ldexp(plain.raw, exponent * (monomials(12).sum(axis=1) + 3)))
+
+
+def test_mirroring_the_body_changes_the_signs_of_odd_moments_only():
+    points, quads = grid_torus(noise=0.05)
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    about = np.zeros(3)
+    plain = polyhedron_moments(Surface(points, triangles), 9, about=about)[0]
+    mirrored = polyhedron_moments(Surface(points * [-1.0, 1.0, 1.0], triangles[:, ::-1]), 9, about=about)[0]
+    assert np.abs(mirrored.raw - plain.raw * (-1.0) ** monomials(9)[:, 0]).max() < 1e-14 * np.abs(plain.raw).max()
+
+
+def test_nothing_has_moments_of_zero():
+    for order in (2, 5):
+        for nothing in (Surface(np.zeros((0, 3))), [], iter(())):
+            volume, area = polyhedron_moments(nothing, order, area_order=order)
+            assert not volume.raw.any() and len(area.raw) == monomial_count(order)
+        for moments in polyhedron_moments([], order, area_order=order, about=(1.0, 2.0, 3.0)):
+            assert np.array_equal(moments.about, (1.0, 2.0, 3.0))
+
+
+@pytest.mark.parametrize("order", [2, 5])
+def test_what_cannot_be_measured_is_refused(order):
+    points, quads = grid_torus()
+    with pytest.raises(ValueError, match="vertex"):
+        polyhedron_moments(Surface(points, quads=quads + 1), order)
+    with pytest.raises(ValueError, match="finite"):
+        polyhedron_moments(Surface(np.where(points > 1.0, np.nan, points), quads=quads), order)
+    for wrong in (np.zeros((4, 3)), np.zeros((4, 3, 3), complex)):
+        with pytest.raises(ValueError, match="corners"):
+            polyhedron_moments([wrong], order)
+    for about in ((0.0, 1.0), (0.0, np.nan, 0.0)):
+        with pytest.raises(ValueError, match="about"):
+            polyhedron_moments(Surface(points, quads=quads), order, about=about)
+    for wrong in (-1, 2.5, 2.0, "3", None):
+        with pytest.raises(ValueError, match="order"):
+            polyhedron_moments(Surface(points, quads=quads), wrong)
+    with pytest.raises(ValueError, match="order"):
+        polyhedron_moments(Surface(points, quads=quads), order, area_order=-1)
+
+
+def test_what_leaves_the_range_of_numbers_is_refused():
+    points, quads = grid_torus()
+    with refused("moments_overflow", order=20):
+        polyhedron_moments(Surface(points * 1e20, quads=quads), 20)
+    triangles = points[quads[:, :3]]
+    with pytest.raises(ValueError, match="reach"):
+        polyhedron_moments(iter([triangles[:1] * 1e-30, triangles]), 20)
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_leaves_it_at_low_orders_is_refused_too_and_what_stays_is_told():
+    points, quads = grid_torus()
+    triangles = points[quads[:, :3]] * 1e60
+    whole = polyhedron_moments(iter([triangles, triangles]), 1)[0]
+    assert whole.total == pytest.approx(2e180 * polyhedron_moments([points[quads[:, :3]]], 1)[0].total, rel=1e-12)
+    for order in (3, 4):
+        with refused("moments_overflow", order=order):
+            polyhedron_moments(iter([triangles, triangles]), order)
+        with refused("moments_overflow", order=order):
+            polyhedron_moments(Surface(points * 1e60, quads=quads), order)
+
+
+def test_a_stream_is_never_in_memory_as_a_whole():
+    """A torus of 250,000 triangles, made in strips; as arrays it would take 18 MB."""
+    n, m, strip = 500, 250, 25
+
+    def strips():
+        for start in range(0, n, strip):
+            points, quads = grid_torus_strip(n, m, start, strip)
+            yield Surface(points, quads=quads)
+
+    tracemalloc.start()
+    volume, _ = polyhedron_moments(strips(), 4, about=np.zeros(3), reach=1.4)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 12e6  # one block's scratch is most of it
+    assert volume.total == pytest.approx(2 * np.pi**2 * 0.4**2, rel=2e-4)
+    assert volume[0, 0, 2] == pytest.approx(np.pi**2 / 2 * 0.4**4, rel=4e-4)
+
+
+def grid_torus_strip(n, m, start, count):
+    """Some of the rings of quads of `grid_torus(n, m)`."""
+    u, v = np.meshgrid(
+        (start + np.arange(count + 1)) % n * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij"
+    )
+    points = np.stack([(1 + 0.4 * np.cos(v)) * np.cos(u), (1 + 0.4 * np.cos(v)) * np.sin(u), 0.4 * np.sin(v)], axis=-1)
+    i, j = np.meshgrid(np.arange(count), np.arange(m), indexing="ij")
+    corners = [(i, j), (i + 1, j), (i + 1, (j + 1) % m), (i, (j + 1) % m)]
+    return points.reshape(-1, 3), np.stack([(a * m + b).ravel() for a, b in corners], axis=1)

@@ -1,0 +1,855 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The verdict and the measures that follow from it, on bodies whose true answers are known in closed form."""
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core.mesh import bvh as shell_tree
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.polyhedron import third_order as polyhedron
+from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.verdict.finding import Finding, MeasureError
+
+from tests.close import close
+from tests.core.bodies import (
+    CORNERS,
+    SIDES,
+    TOP,
+    box,
+    grid,
+    inertia,
+    inverted,
+    joined,
+    mesh,
+    moebius,
+    moved,
+    ring,
+    rotation,
+    soup,
+    sphere,
+    split,
+    surface,
+    torus,
+    volume,
+    welded,
+    with_flipped,
+    without,
+)
+from tests.core.exact import volume_moments
+from tests.core.findings import codes, only, refused
+from tests.core.polyhedron.test_third_order import grid_torus
+
+CUBE = box()
+FAR_CUBE = box((1, 1, 1), (2, 2, 2))  # no face's plane contains the origin
+OUTER, INNER = box((-2, -2, -2), (2, 2, 2)), box((-1, -1, -1), (1, 1, 1))
+
+
+def verdict(part, dtype=np.float64, **options):
+    return measure_solid(surface(part, dtype), **options)
+
+
+def check_unit_cube(result, centre, method):
+    assert result.method == method
+    assert close(result.volume.total, 1.0, rel=2e-15)
+    np.testing.assert_allclose(result.volume.center, centre, rtol=1e-15)
+    np.testing.assert_allclose(inertia(result.volume), 1.0 / 6.0, rtol=5e-15)
+
+
+def marked(health):
+    """The entries that are not zero, without the faults."""
+    return {key: value for key, value in health.as_record().items() if value and key != "flipped_faces"}
+
+
+def test_a_sound_cube_needs_no_word():
+    result = verdict(CUBE)
+    check_unit_cube(result, [0.5] * 3, "exact")
+    assert not result.findings and marked(result.health) == {"closed": True, "components": 1}
+
+
+@pytest.mark.parametrize("spin", [None, 1])
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_a_cube_without_its_top_is_capped_flat_wherever_it_stands(spin, dtype):
+    part = moved(without(CUBE, *TOP), None if spin is None else rotation(spin), (10, 20, 30))
+    result = verdict(part, dtype)
+    assert result.method == "capped" and not result.health.closed
+    tolerance = 1e-14 if spin is None or dtype == np.float64 else 1e-5
+    assert close(result.volume.total, 1.0, rel=tolerance)
+    np.testing.assert_allclose(inertia(result.volume), 1.0 / 6.0, rtol=10 * tolerance)
+    assert result.area.total == pytest.approx(5.0, rel=1e-6)
+    assert result.health.boundary_edges == 4
+    assert result.health.cap_area_share == pytest.approx(0.2, rel=1e-5)
+    finding = only(result)
+    share = finding.values["share"]
+    assert finding == Finding("holes_capped", {"count": 1, "flat": 1, "curved": 0, "share": share})
+    assert share == pytest.approx(0.2, rel=1e-5)
+    top = {tuple(sorted(edge)) for edge in ((4, 5), (5, 7), (7, 6), (6, 4))}
+    assert set(map(tuple, result.health.defective_elements.boundary_edges.tolist())) == top
+    assert set(map(tuple, finding.elements.tolist())) == top
+
+
+def test_an_inverted_cube_is_turned():
+    result = verdict(inverted(CUBE))
+    check_unit_cube(result, [0.5] * 3, "reoriented")
+    assert result.health.inverted_components == 1 and not len(result.health.defective_elements.flipped_faces)
+    assert only(result) == Finding("inverted_components", {"count": 1, "total": 1})
+
+
+@pytest.mark.parametrize("face", range(12))
+def test_a_flipped_triangle_is_named_and_turned(face):
+    result = verdict(with_flipped(FAR_CUBE, face))
+    check_unit_cube(result, [1.5] * 3, "reoriented")
+    assert (
+        result.health.defective_elements.flipped_faces.tolist() == [face] == result.health.as_record()["flipped_faces"]
+    )
+    assert result.health.closed and result.health.inconsistent_edges == 3
+    assert only(result) == Finding("flipped_faces", {"count": 1}) and only(result).elements.tolist() == [face]
+
+
+def test_of_a_mostly_inverted_cube_the_faces_that_point_in_are_named():
+    result = verdict(with_flipped(FAR_CUBE, *range(2, 12)))
+    check_unit_cube(result, [1.5] * 3, "reoriented")
+    assert (
+        result.health.defective_elements.flipped_faces.tolist() == list(range(2, 12))
+        and result.health.inverted_components == 0
+    )
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+def test_a_doubled_triangle_counts_once(turn):
+    points, triangles = FAR_CUBE
+    result = verdict((points, np.concatenate([triangles, triangles[2:3, ::turn]])))
+    check_unit_cube(result, [1.5] * 3, "exact")
+    assert result.health.duplicate_faces == 1 and result.health.defective_elements.duplicate_faces.tolist() == [12]
+    assert result.health.non_manifold_edges == 3 == len(result.health.defective_elements.non_manifold_edges)
+    finding = only(result)
+    assert finding == Finding("duplicate_faces_ignored", {"count": 1}) and finding.elements.tolist() == [12]
+    assert close(result.area.total, 6.5, rel=1e-15)  # of the faces as they are
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+def test_doubled_triangles_of_an_unwelded_cube_are_welded_to_it_and_count_once(turn):
+    points, triangles = soup(FAR_CUBE)
+    result = verdict((points, np.concatenate([triangles, triangles[[2, 7], ::turn]])))
+    check_unit_cube(result, [1.5] * 3, "exact")
+    assert result.health.components == 1 and result.health.welded
+    assert result.health.defective_elements.duplicate_faces.tolist() == [12, 13]
+
+
+@pytest.mark.parametrize("layers", [(1, -1), (-1, 1), (1, 1, -1), (1, -1, -1, 1)])
+@pytest.mark.parametrize("apart", [False, True])
+def test_a_two_sided_body_is_the_body_and_does_not_cancel_itself(layers, apart):
+    points, triangles = CUBE
+    doubled = points, np.concatenate([triangles[:, ::way] for way in layers])
+    result = verdict(soup(doubled) if apart else doubled)
+    assert close(result.volume.total, 1.0, rel=1e-15)
+    assert result.method == ("exact" if layers[0] > 0 else "reoriented")
+    assert result.health.duplicate_faces == 12 * (len(layers) - 1) and codes(result)[0] == "duplicate_faces_ignored"
+    assert verdict((points, np.concatenate([triangles[:10], triangles[:10, ::-1]]))).method == "open"
+
+
+def test_a_doubled_region_counts_once_also_where_its_quads_are_cut_differently():
+    faces = [*SIDES.tolist(), [7, 6, 4, 5], [1, 3, 7, 5]]
+    result = measure_solid(mesh(FAR_CUBE[0], faces))
+    check_unit_cube(result, [1.5] * 3, "exact")
+    assert result.health.defective_elements.duplicate_faces.tolist() == [6, 7]
+    assert result.health.non_manifold_edges == 7 == len(result.health.defective_elements.non_manifold_edges)
+
+
+@pytest.mark.parametrize(
+    "parts, volume, moment, method, expected",
+    [
+        ([OUTER, inverted(INNER)], 56.0, 496.0 / 3.0, "exact", {"components": 2, "cavities": 1}),
+        ([OUTER, INNER], 72.0, 176.0, "exact", {"components": 2, "nested_components": 1}),
+        (
+            [inverted(OUTER), INNER],
+            56.0,
+            496.0 / 3.0,
+            "reoriented",
+            {"components": 2, "cavities": 1, "inverted_components": 2},
+        ),
+        (
+            [inverted(OUTER), inverted(INNER)],
+            56.0,
+            496.0 / 3.0,
+            "reoriented",
+            {"components": 2, "cavities": 1, "inverted_components": 1},
+        ),
+        (
+            [box((-4, -4, -4), (4, 4, 4)), inverted(OUTER), INNER],
+            456.0,
+            8.0**5 / 6.0 - 496.0 / 3.0,
+            "exact",
+            {"components": 3, "cavities": 1},
+        ),
+    ],
+)
+def test_boxes_in_boxes(parts, volume, moment, method, expected):
+    result = verdict(joined(*parts))
+    assert close(result.volume.total, volume, rel=1e-14)
+    np.testing.assert_allclose(inertia(result.volume), moment, rtol=1e-13)
+    assert result.method == method
+    assert marked(result.health) == {"closed": True, **expected}
+    reported = {"cavities": "cavities_subtracted", "nested_components": "components_nested"}
+    found = [reported[name] for name in expected if name in reported]
+    assert codes(result) == ["inverted_components"] * (method != "exact") + found
+
+
+@pytest.mark.parametrize("spin", [None, 1, 2])
+@pytest.mark.parametrize(
+    "parts, volume, overlapping",
+    [
+        ([CUBE, box((0.5, 0, 0), (1.5, 1, 1))], 2.0, 2),
+        ([box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -0.9), (1, 3, 0.9))], 45.6, 2),
+        ([CUBE, CUBE], 2.0, 2),
+        ([CUBE, CUBE, box((5, 5, 5), (6, 6, 6))], 3.0, 2),
+        ([CUBE, box((1, 0, 0), (2, 1, 1))], 2.0, 0),
+        ([CUBE, box((1, 1, 0), (2, 2, 1))], 2.0, 0),
+    ],
+)
+def test_overlap_counts_twice_and_is_said_and_touching_is_not_overlap(parts, volume, overlapping, spin):
+    part = joined(*parts) if spin is None else moved(joined(*parts), rotation(spin), (7, 8, 9))
+    result = verdict(part, np.float32)
+    assert result.method == "exact"
+    assert result.volume.total == pytest.approx(volume, rel=1e-5)
+    assert result.health.overlapping_components == overlapping
+    if overlapping:
+        finding = only(result)
+        assert finding == Finding("components_overlap", {"count": 2}) and finding.elements.tolist() == list(range(24))
+    else:
+        assert not result.findings
+
+
+def test_boxes_welded_along_a_face_or_an_edge_are_closed():
+    wall = verdict(welded(joined(CUBE, box((1, 0, 0), (2, 1, 1)))))
+    assert close(wall.volume.total, 2.0, rel=1e-15)
+    assert wall.method == "exact" and not wall.findings and wall.health.closed
+    assert wall.health.non_manifold_edges == 5
+    edge = joined(CUBE, box((1, 1, 0), (2, 2, 1)))
+    for part, method in ((edge, "exact"), (joined(CUBE, inverted(box((1, 1, 0), (2, 2, 1)))), "reoriented")):
+        result = verdict(welded(part))
+        assert close(result.volume.total, 2.0, rel=1e-15) and result.method == method
+        assert result.health.components == 2 and result.health.non_manifold_edges == 1 and result.health.closed
+
+
+def test_an_inner_wall_makes_a_box_open():
+    points, triangles = welded(joined(CUBE, box((1, 0, 0), (2, 1, 1))))
+    triangles = triangles[np.sort(np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1])]
+    result = verdict((points, triangles))
+    assert result.method == "open" and not result.health.closed
+    assert result.health.non_manifold_edges == 4 and only(result) == Finding(
+        "non_manifold_components", {"count": 1, "total": 1}
+    )
+
+
+def test_a_fin_on_an_edge_adds_nothing():
+    points, triangles = FAR_CUBE
+    points = np.concatenate([points, [[3.0, 0.5, 0.5]]])
+    result = verdict((points, np.concatenate([triangles, [[0, 1, 8]]])))
+    check_unit_cube(result, [1.5] * 3, "exact")
+    assert result.health.non_manifold_edges == 1 and not result.health.closed
+    assert only(result) == Finding("flat_components", {"count": 1, "total": 2})
+
+
+def klein():
+    points, quads = ring(40, 20, twist=True)
+    return points, split(quads)
+
+
+@pytest.mark.parametrize("part", [moebius(), klein()])
+def test_a_one_sided_surface_is_open(part):
+    result = verdict(part)
+    assert result.method == "open" and not result.health.closed
+    assert only(result) == Finding("one_sided_components", {"count": 1, "total": 1})
+    beside = verdict(joined(part, box((5, 5, 5), (6, 6, 6))))
+    assert beside.method == "open" and beside.findings[0].values == {"count": 1, "total": 2}
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize(
+    "part",
+    [
+        grid(20),
+        moved(grid(20), rotation(3), (5, 6, 7)),
+        joined(grid(3), moved(grid(3), None, (0, 0, 1))),
+        (grid(9)[0], np.concatenate([grid(9)[1], grid(9)[1][:, ::-1]])),
+        (np.zeros((3, 3)), np.array([[0, 1, 2]])),
+        (CUBE[0], CUBE[1][:1]),
+        (np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0, 1, 1]])),
+    ],
+)
+def test_what_is_flat_encloses_nothing(part, dtype):
+    result = verdict(part, dtype)
+    assert result.method == "open" and not result.volume.raw.any()
+    assert codes(result)[-1] == "flat_surface"
+
+
+@pytest.mark.parametrize("spin", [None, 5])
+def test_a_tube_is_capped_at_both_ends(spin):
+    n = 32
+    angle = np.arange(n) * 2 * np.pi / n
+    circle = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    quads = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    part = moved((np.concatenate([circle, circle + [0, 0, 3]]), split(quads)), spin and rotation(spin), (0, 50, 0))
+    result = verdict(part)
+    end = n / 2 * np.sin(2 * np.pi / n)
+    assert result.method == "capped"
+    assert close(result.volume.total, 3 * end, rel=1e-13)
+    assert close(result.health.cap_area_share, 2 * end / result.area.total, rel=1e-12)
+    values = only(result).values
+    assert (values["count"], values["flat"], values["curved"]) == (2, 2, 0)
+    assert len(only(result).elements) == 2 * n
+
+
+def test_a_bowl_is_closed_with_its_own_rim_and_a_curved_hole_with_a_cone():
+    points, triangles = sphere(3)
+    lower = np.flatnonzero(points[triangles][:, :, 2].mean(axis=1) < 0)
+    result = verdict((points, triangles[lower]))
+    assert result.method == "capped" and only(result).values["flat"] == 1
+    assert close(result.volume.total, volume((points, triangles)) / 2.0, rel=1e-13)
+    # A triangular prism's side with one corner bent out: the cone to the loop's centroid.
+    bent = CORNERS.copy()
+    bent[7] = [1, 1, 1.5]
+    result = verdict((bent, without(CUBE, *TOP)[1]))
+    rim = bent[[4, 5, 7, 6]]
+    length = np.linalg.norm(np.roll(rim, -1, axis=0) - rim, axis=1)
+    apex = ((rim + np.roll(rim, -1, axis=0)) / 2 * length[:, None]).sum(axis=0) / length.sum()
+    cone = [[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]]
+    expected = volume((np.concatenate([bent, [apex]]), np.concatenate([without(CUBE, *TOP)[1], cone])))
+    assert result.findings[0].values["curved"] == 1
+    assert close(result.volume.total, expected, rel=1e-14)
+
+
+def test_a_hole_that_is_not_convex_has_its_true_share_of_the_area():
+    points, triangles = moved(grid(4), None, (0, 0, 1))
+    sides = without(CUBE, *TOP)
+    columns = {
+        2 * (4 * i + j) + k
+        for i in range(1, 4)
+        for j in range(1, 4)
+        for k in (0, 1)
+        if (i, j) in ((1, 1), (1, 2), (2, 1))
+    }
+    top = points, np.delete(triangles, sorted(columns), axis=0)
+    result = verdict(joined(sides, top))
+    check_unit_cube(result, [0.5] * 3, "capped")
+    assert close(result.health.cap_area_share, 3 / 16 / (6 - 3 / 16), rel=1e-12)
+
+
+def test_two_holes_that_meet_in_a_vertex_are_capped():
+    points, triangles = moved(grid(4), None, (0, 0, 1))
+    holes = [2 * (4 * i + i) + k for i in (1, 2) for k in (0, 1)]
+    result = verdict(joined(without(CUBE, *TOP), (points, np.delete(triangles, holes, axis=0))))
+    check_unit_cube(result, [0.5] * 3, "capped")
+    assert close(result.health.cap_area_share, 2 / 16 / (6 - 2 / 16), rel=1e-12)
+
+
+@pytest.mark.parametrize("spin, dtype, rel", [(None, np.float64, 1e-14), (7, np.float64, 1e-13), (7, np.float32, 1e-6)])
+@pytest.mark.parametrize("flip", [False, True])
+def test_a_box_with_one_side_subdivided_is_closed_in_space(spin, dtype, rel, flip):
+    top = moved(grid(5), None, (0, 0, 1))
+    part = joined(without(CUBE, *TOP), inverted(top) if flip else top)
+    result = verdict(moved(part, spin and rotation(spin), (3, 4, 5)), dtype)
+    assert close(result.volume.total, 1.0, rel=rel)
+    np.testing.assert_allclose(inertia(result.volume), 1.0 / 6.0, rtol=100 * rel)
+    assert result.health.closed and result.health.boundary_edges == 0 and result.health.components == 1
+    assert result.method == ("reoriented" if flip else "exact")
+    assert result.findings[0] == Finding("t_junctions", {"count": 4})
+    assert result.health.defective_elements.flipped_faces.tolist() == (list(range(10, 60)) if flip else [])
+
+
+def test_the_sides_of_a_box_may_all_be_cut_differently():
+    """Each side is a grid of its own: along every edge two rows of vertices meet that have only the ends in common."""
+    turns = [
+        np.eye(3),
+        [[1, 0, 0], [0, -1, 0], [0, 0, -1]],
+        [[0, 0, 1], [1, 0, 0], [0, 1, 0]],
+        [[0, 0, -1], [0, 1, 0], [1, 0, 0]],
+        [[1, 0, 0], [0, 0, -1], [0, 1, 0]],
+        [[1, 0, 0], [0, 0, 1], [0, -1, 0]],
+    ]
+    centred = [moved(moved(grid(n), None, (-0.5, -0.5, 0.5)), turn) for n, turn in zip((2, 3, 5, 7, 4, 1), turns)]
+    result = verdict(joined(*centred))
+    assert result.method == "exact" and result.health.closed
+    assert close(result.volume.total, 1.0, rel=1e-14)
+
+
+def test_triangle_soup_in_float32_far_from_the_origin_is_welded_and_closed():
+    part = moved(torus(60, 30), rotation(2), (1000, -2000, 500))
+    apart = soup(part)
+    result = verdict(apart, np.float32)
+    assert result.method == "exact" and not result.findings
+    assert result.health.welded and result.health.closed and result.health.components == 1
+    points = part[0].astype(np.float32)
+    assert result.volume.total == pytest.approx(volume((points, part[1])), rel=1e-12)
+
+
+def test_positions_that_differ_by_rounding_are_welded_along_open_edges_only():
+    part = soup(moved(sphere(3), None, (3, 4, 5)))
+    noise = np.random.default_rng(5).uniform(-1, 1, size=part[0].shape) * 3e-7
+    result = verdict((part[0] + noise, part[1]))
+    assert result.method == "exact" and result.health.closed and result.health.welded
+    assert codes(result)[0] == "vertices_welded_slightly" and 0.0 < result.findings[0].values["share"] < 1e-6
+    assert result.volume.total == pytest.approx(volume(sphere(3)), rel=1e-6)
+
+
+def test_a_small_open_part_is_not_welded_away():
+    small = moved(without(CUBE, *TOP), 1e-5 * np.eye(3))
+    result = verdict(joined(small, box((10, 10, 10), (11, 11, 11))))
+    assert result.method == "capped" and result.health.components == 2
+    assert close(result.volume.total, 1.0 + 1e-15, rel=1e-15)
+    small = verdict(joined(moved(without(sphere(2), 0), 1e-6 * np.eye(3)), box((10, 10, 10), (10.1, 10.1, 10.1))))
+    assert small.health.boundary_edges == 3
+
+
+@pytest.mark.parametrize("scale", [2.0**-100, 1e-9, 1e-3, 1e5, 2.0**100])
+@pytest.mark.parametrize(
+    "part",
+    [
+        without(CUBE, *TOP),
+        with_flipped(FAR_CUBE, 2),
+        joined(OUTER, INNER),
+        joined(OUTER, inverted(INNER)),
+        moebius(),
+        grid(3),
+        joined(without(CUBE, *TOP), moved(grid(3), None, (0, 0, 1))),
+        soup(torus()),
+    ],
+)
+def test_the_verdict_does_not_depend_on_the_size(part, scale):
+    for dtype in (np.float32, np.float64):
+        plain, scaled = verdict(part, dtype), verdict((part[0] * scale, part[1]), dtype)
+        assert scaled.method == plain.method and codes(scaled) == codes(plain)
+        assert close(scaled.volume.total, plain.volume.total * scale**3, rel=1e-6)
+        before, after = (replace(result.health, cap_area_share=0).as_record() for result in (plain, scaled))
+        assert before == after
+
+
+@pytest.mark.parametrize(
+    "points, faces, spread",
+    [
+        (CORNERS, SIDES.tolist(), 0.0),
+        (CORNERS + np.array([[0, 0, 0.5 * (k == 7)] for k in range(8)]), SIDES.tolist(), 0.5 / 6.0),
+    ],
+)
+def test_the_spread_is_what_the_choice_of_diagonals_can_change(points, faces, spread):
+    result = measure_solid(mesh(points, faces))
+    assert close(result.health.volume_spread, spread, rel=1e-14)
+    assert result.health.non_planar_faces == (1 if spread else 0)
+    low, high = 1 + 0.5 / 6, 1 + 0.5 / 3
+    assert not spread or min(abs(result.volume.total - low), abs(result.volume.total - high)) < 1e-14
+    assert codes(result) == ["non_planar_faces"] * bool(spread)
+
+
+def prism(heights):
+    n = len(heights)
+    angle = np.arange(n) * 2 * np.pi / n
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    points = np.concatenate([np.c_[circle, np.zeros(n)], np.c_[circle, heights]])
+    sides = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    return points, [list(range(n))[::-1], list(range(n, 2 * n)), *sides]
+
+
+def test_polygons_have_a_spread_too():
+    assert measure_solid(mesh(*prism([1.0] * 6))).health.volume_spread == 0.0
+    raised = measure_solid(mesh(*prism([1, 1, 1, 1.3, 1, 1])))
+    assert raised.health.non_planar_faces == 1
+    # The raised corner is in two of the tetrahedra between the fans, over the triangles 0, 1, 2 and 0, 1, 4.
+    assert close(raised.health.volume_spread, 0.3 * (np.sqrt(3) / 4 + np.sqrt(3) / 2) / 3, rel=1e-14)
+    far = mesh(moved(CUBE, rotation(1), (300, 200, 100))[0], SIDES.tolist(), np.float32)
+    assert measure_solid(far).health.non_planar_faces == 0  # what float32 bends is not bent
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_the_meshs_own_corners_lead_to_the_same_result_as_its_triangles(dtype):
+    points, quads = ring(30, 20)
+    twice = np.concatenate([quads, quads[:, ::-1] + len(points)])
+    points = np.concatenate([points, points + [5, 0, 0]])
+    quick = measure_solid(mesh(points, twice.tolist(), dtype))
+    slow = measure_solid(replace(mesh(points, twice.tolist(), dtype), corner_edges=None))
+    assert quick.method == slow.method == "reoriented" and quick.findings == slow.findings
+    assert quick.health.as_record() == slow.health.as_record()
+    np.testing.assert_allclose(quick.volume.raw, slow.volume.raw, rtol=1e-11, atol=1e-12)
+    upright = measure_solid(mesh(points, np.concatenate([quads, quads + len(points) // 2]).tolist(), dtype))
+    assert close(quick.volume.total, upright.volume.total, rel=1e-13)  # turned quads keep their diagonals
+
+
+@pytest.mark.parametrize("flipped", [0, 1])
+def test_threads_change_nothing(flipped, monkeypatch):
+    monkeypatch.setattr(polyhedron, "MIN_TRIANGLES_PER_THREAD", 64)
+    monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_PER_BLOCK", 256)
+    points, quads = ring(40, 30)
+    quads[:flipped] = quads[:flipped, ::-1]
+    points[::5] *= 1.01
+    results = [measure_solid(mesh(points, quads.tolist(), np.float32), shell=True, threads=k) for k in (1, 2, 3)]
+    for other in results[1:]:
+        assert other.health.as_record() == results[0].health.as_record() and other.findings == results[0].findings
+        for key in ("raw", "rounding_error", "input_error"):
+            for of in ("volume", "area"):
+                np.testing.assert_array_equal(getattr(getattr(other, of), key), getattr(getattr(results[0], of), key))
+
+
+def test_loose_vertices_and_edges_change_nothing():
+    points, quads = ring(12, 8)
+    plain = mesh(points, quads.tolist())
+    result = measure_solid(plain)
+    loose = replace(
+        plain,
+        points=np.concatenate([[[1e6, np.nan, np.inf]], points, [[-1e5, 0, 0]]]),
+        quads=plain.quads + 1,
+        corner_vertices=plain.corner_vertices + 1,
+        corner_edges=plain.corner_edges + 1,
+    )
+    other = measure_solid(loose)
+    np.testing.assert_array_equal(other.volume.raw, result.volume.raw)
+    assert other.health.as_record() == result.health.as_record() and not other.findings
+    hole = replace(loose, quads=loose.quads[1:], quad_faces=None, corner_edges=None)
+    rim = measure_solid(hole).health.defective_elements.boundary_edges
+    assert {tuple(edge) for edge in rim.tolist()} == {
+        tuple(sorted(edge)) for edge in zip(loose.quads[0].tolist(), np.roll(loose.quads[0], -1).tolist())
+    }
+
+
+@pytest.mark.parametrize(
+    "part", [CUBE, without(CUBE, *TOP), with_flipped(CUBE, 2), joined(OUTER, INNER), soup(torus())]
+)
+def test_the_surface_is_only_read(part):
+    for order in "CF":
+        given = Surface(np.array(part[0], np.float32, order=order), np.array(part[1], order=order))
+        points, triangles = given.points.copy(), given.triangles.copy()
+        measure_solid(given, threads=2)
+        np.testing.assert_array_equal(given.points, points)
+        np.testing.assert_array_equal(given.triangles, triangles)
+
+
+def test_what_cannot_be_measured_is_refused_with_a_remedy():
+    with refused("no_faces"):
+        measure_solid(Surface(np.zeros((3, 3))))
+    for bad in (np.nan, np.inf):
+        points = CORNERS.copy()
+        points[5, 1] = bad
+        with pytest.raises(MeasureError) as caught:
+            verdict((points, CUBE[1]))
+        finding = caught.value.finding
+        assert finding == Finding("non_finite_vertices", {"count": 1, "total": 8}) and finding.elements.tolist() == [5]
+    with refused("invalid_faces"):
+        verdict((CORNERS[:7], CUBE[1]))
+    with refused("object_too_large"):
+        verdict((CORNERS * 1e60, CUBE[1]))
+
+
+def test_a_shell_has_moments_of_its_area_to_third_order_without_the_caps():
+    result = verdict(without(CUBE, *TOP), shell=True)
+    assert result.area.order == 3 and result.area.measure == "area"
+    np.testing.assert_allclose(result.area.center, [0.5, 0.5, 0.4], rtol=1e-14)
+    assert verdict(CUBE).area.order == 0
+
+
+def test_pairs_that_were_not_compared_are_said(monkeypatch):
+    monkeypatch.setattr(shell_tree, "MAX_BOX_PAIRS", 10)
+    result = verdict(joined(sphere(3), moved(sphere(3), 0.9 * np.eye(3))))
+    assert result.findings[-1] == Finding("overlap_unchecked", {"count": 1})
+
+
+def test_the_record_is_plain_and_the_faults_are_integers():
+    result = verdict(joined(without(CUBE, *TOP), with_flipped(box((3, 3, 3), (4, 4, 4)), 3), grid(2)))
+    for finding in result.findings:
+        assert json.loads(json.dumps(finding.as_record(), allow_nan=False)) == finding.as_record()
+        assert np.issubdtype(np.asarray(finding.elements).dtype, np.integer)
+    record = result.health.as_record()
+    assert json.loads(json.dumps(record, allow_nan=False)) == record
+    assert {type(value) for value in record.values()} == {bool, int, float, list}
+    for name, value in vars(result.health.defective_elements).items():
+        assert np.issubdtype(value.dtype, np.integer) and value.ndim == (2 if name.endswith("edges") else 1)
+
+
+def broken(seed):
+    """A convex body, broken in a few ways: (points, triangles), its true volume, and what was done."""
+    rng = np.random.default_rng(seed)
+    points, triangles = sphere(int(rng.integers(0, 4))) if rng.random() < 0.7 else CUBE
+    points = (points * rng.uniform(0.3, 2, 3)) @ rotation(seed).T * 10.0 ** rng.integers(-6, 6)
+    size = np.linalg.norm(np.ptp(points, axis=0))
+    points = points + rng.normal(size=3) * 10 ** rng.uniform(-2, 2) * size
+    points = points.astype(np.float32 if rng.random() < 0.7 else np.float64)
+    whole, true = (points, triangles), volume((points, triangles))
+    done = set(
+        rng.choice(
+            [
+                "holes",
+                "flips",
+                "copies",
+                "turned copies",
+                "no area",
+                "loose",
+                "fin",
+                "soup",
+                "random faces",
+                "part",
+                "inverted",
+            ],
+            size=rng.integers(1, 4),
+            replace=False,
+        ).tolist()
+    )
+    count = len(triangles)
+    if "holes" in done:
+        triangles = np.delete(triangles, rng.integers(0, count, size=rng.integers(1, count // 20 + 2)), axis=0)
+    if "flips" in done:
+        triangles = with_flipped((points, triangles), *rng.integers(0, len(triangles), size=count // 6 + 1))[1]
+    for name, turn in (("copies", 1), ("turned copies", -1)):
+        if name in done:
+            again = triangles[rng.integers(0, len(triangles), size=rng.integers(1, 4))]
+            triangles = np.concatenate([triangles, again[:, ::turn]])
+    if "no area" in done:
+        ends = rng.integers(0, len(points), size=(3, 2))
+        triangles = np.concatenate([triangles, ends[:, [0, 1, 0]]])
+    if "fin" in done:
+        points = np.concatenate([points, 2 * points[triangles[:1, 0]] - points.mean(axis=0)]).astype(points.dtype)
+        triangles = np.concatenate([triangles, [[*triangles[0, :2], len(points) - 1]]])
+    if "loose" in done:
+        points = np.concatenate([points, points[:1] + np.array([[1e3 * size, 0, 0]], points.dtype)])
+    if "soup" in done:
+        points, triangles = soup((points, triangles))
+    if "random faces" in done:
+        triangles = np.concatenate([triangles, rng.integers(0, len(points), size=(rng.integers(1, 10), 3))])
+    if "part" in done:
+        other = (whole[0] + np.array([3 * size, 0, 0], points.dtype)).astype(points.dtype), whole[1]
+        points, triangles = joined((points, triangles), other)
+        true += volume(other)
+    if "inverted" in done:
+        triangles = triangles[:, ::-1]
+    return (points, triangles[rng.permutation(len(triangles))]), true, done
+
+
+@pytest.mark.parametrize("block", range(20))
+def test_a_thousand_broken_meshes_give_no_exception_no_nan_and_no_wrong_volume_without_a_label(block):
+    for seed in range(50 * block, 50 * block + 50):
+        (points, triangles), true, done = broken(seed)
+        result = measure_solid(Surface(points, triangles))
+        assert np.isfinite(result.volume.raw).all() and np.isfinite(result.volume.rounding_error).all(), seed
+        assert result.volume.total >= 0.0, seed
+        json.dumps(result.health.as_record(), allow_nan=False)
+        # Closing rounding gaps may move a vertex by a millionth of the size.
+        allowed = 1e-5 * true + result.volume.input_error[0] + result.volume.rounding_error[0]
+        wrong = abs(result.volume.total - true) > allowed
+        if result.method == "exact" and not result.findings:
+            assert not wrong, (seed, done)
+        if not done & {"holes", "random faces"} and result.method != "open":
+            assert not wrong, (seed, done)
+        if not done & {"holes", "random faces", "fin"}:
+            assert result.method in ("exact", "reoriented"), (seed, done)
+        if done == {"holes"} and len(triangles) > 400:
+            assert result.method == "capped" and abs(result.volume.total - true) < 0.1 * true, seed
+
+
+@pytest.mark.parametrize("block", range(4))
+def test_arbitrary_faces_over_arbitrary_points_are_survived(block):
+    for seed in range(50 * block, 50 * block + 50):
+        rng = np.random.default_rng(seed)
+        n, m = int(rng.integers(3, 60)), int(rng.integers(1, 200))
+        points = rng.normal(size=(n, 3)) if seed % 2 else rng.integers(0, 4, size=(n, 3)).astype(float)
+        points[:, 2] *= rng.random() < 0.7
+        points = (points * 10.0 ** rng.integers(-30, 30)).astype(np.float32 if seed % 3 else np.float64)
+        quads = rng.integers(0, n, size=(int(rng.integers(0, 40)), 4))
+        result = measure_solid(
+            Surface(
+                points,
+                rng.integers(0, n, size=(m, 3)),
+                quads,
+                triangle_faces=np.arange(m),
+                quad_faces=np.arange(m, m + len(quads)),
+            )
+        )
+        assert np.isfinite(result.volume.raw).all() and result.volume.total >= 0.0, seed
+        assert result.method == "open" or result.findings, seed
+
+
+@pytest.mark.parametrize("exponent", [-200, -100, 133, 160])
+def test_a_body_of_any_size_is_as_possible_as_another(exponent):
+    points, quads = grid_torus(8, 6)
+    points[points[:, 0] > 0.0] *= 1.5  # so that its center is not that of its box
+    one, other = (measure_solid(Surface(np.ldexp(points, k), quads=quads)) for k in (0, exponent))
+    assert one.method == other.method == "exact"
+    assert close(other.volume.total, np.ldexp(one.volume.total, 3 * exponent), rel=1e-14)
+
+
+def test_a_body_whose_moments_would_vanish_is_refused_as_one_whose_moments_overflow_is():
+    for scale, code in ((1e-61, "object_too_small"), (1e51, "object_too_large")):
+        with refused(code):
+            verdict((CUBE[0] * scale, CUBE[1]))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_welding_may_have_changed_is_bounded(seed):
+    """Which of several vertices the others are welded onto depends on their order only."""
+    rng = np.random.default_rng(seed)
+    points, triangles = soup(moved(sphere(2), rotation(seed), (1, 2, 3)))
+    points = points + rng.uniform(-3e-7, 3e-7, points.shape)
+    order = rng.permutation(len(points))
+    one, other = verdict((points, triangles)), verdict((points[order], np.argsort(order)[triangles]))
+    assert one.method == other.method == "exact"
+    assert 1e-12 < abs(one.volume.total - other.volume.total) < one.volume.input_error[0] < 1e-4 * one.volume.total
+    assert verdict(soup(sphere(2))).volume.input_error[0] == 0.0
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("faces", [(4, 5), (4, 5, 6, 7), (4,)])
+@pytest.mark.parametrize("thick", [1e-7, 1e-6, 5e-6])
+def test_an_open_foil_is_not_welded_into_a_wedge(thick, faces, dtype):
+    result = verdict(without(box((0, 0, 0), (1, 1, thick)), *faces), dtype)
+    assert close(result.volume.total, thick, rel=1e-6) and result.method in ("capped", "exact")
+    assert result.volume.input_error[0] < 1e-6 and result.health.components == 1
+
+
+def test_a_tiny_body_beside_a_large_sheet_does_not_intersect_itself():
+    """Its center is not known there, and its second moments may come out negative."""
+    sheet = grid(2)[0] * [1e8, 1e8, 1.0], grid(2)[1]
+    for seed in range(10):
+        part = moved(CUBE, 0.3 * rotation(seed), (3e7, 1e7, 0.4))
+        assert "self_intersecting" not in codes(verdict(joined(part, sheet)))
+
+
+@pytest.mark.parametrize("kind", [">i4", ">i8", "<u2", ">u2", "i1"])
+def test_indices_in_any_byte_order_name_their_points(kind):
+    body = measure_solid(Surface.from_triangles(CUBE[0].astype(">f4"), CUBE[1].astype(kind)))
+    assert body.method == "exact" and body.volume.total == 1.0
+    with pytest.raises(ValueError, match="no such point"):
+        Surface.from_triangles(CUBE[0], CUBE[1].astype(kind) + np.array(1, kind))
+
+
+@pytest.mark.parametrize("shell", [False, True])
+def test_the_area_has_what_is_flat_and_encloses_nothing(shell):
+    points, quads = ring(12, 8)
+    area = measure_solid(mesh(points, quads.tolist()), shell=shell).area
+    sheet = np.array([[9.0, 0, 0], [11.0, 0, 0], [11.0, 3.0, 0], [9.0, 3.0, 0]])
+    both = [*quads.tolist(), *(np.array([[0, 1, 2, 3], [3, 2, 1, 0]]) + len(points)).tolist()]  # its two sides
+    result = measure_solid(mesh(np.concatenate([points, sheet]), both), shell=shell)
+    assert result.method == "exact" and "flat_components" in codes(result)
+    assert close(result.area.total, area.total + 12.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_caps_are_added_to_what_was_measured(dtype):
+    rng = np.random.default_rng(5)
+    points, quads = ring(30, 20)
+    points = points + rng.normal(0.0, 0.01, points.shape) + [20.0, -7.0, 3.0]
+    surface = mesh(points, quads[rng.random(len(quads)) > 0.05].tolist(), dtype)
+    quick, slow = measure_solid(surface), measure_solid(replace(surface, corner_edges=None))
+    assert quick.method == slow.method == "capped" and quick.findings == slow.findings
+    assert quick.health.as_record() == slow.health.as_record()
+    np.testing.assert_array_equal(quick.volume.raw, slow.volume.raw)
+    exact = volume_moments(quick.repaired_surface.points, quick.repaired_surface.triangles, quick.volume.about)
+    assert all(
+        abs(Fraction(float(raw)) - truth) <= Fraction(float(error))
+        for raw, truth, error in zip(quick.volume.raw, exact, quick.volume.rounding_error)
+    )
+    assert quick.volume.rounding_error[0] <= 1e-12 * quick.volume.total
+
+
+OUTLINE = np.array([[-2, 0], [0, -1], [0, 1], [0, 0], [2, 0], [1, 3]], float)  # runs past its fourth point and back
+REGION = np.array([[0, 1, 3], [3, 2, 0], [2, 3, 4], [4, 5, 2], [0, 2, 5]])
+
+
+def letter(outline, height=0.5):
+    """An extruded outline as Blender makes it of a glyph: walls along the outline, caps over the region."""
+    count = len(outline)
+    points = np.concatenate([np.c_[outline, np.zeros(count)], np.c_[outline, np.full(count, height)]])
+    i = np.arange(count)
+    j = (i + 1) % count
+    walls = np.concatenate([np.stack([i, j, j + count], axis=1), np.stack([i, j + count, i + count], axis=1)])
+    return points, np.concatenate([REGION[:, ::-1], REGION + count, walls])
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_an_outline_that_turns_back_on_itself_closes(apart):
+    part = letter(OUTLINE)
+    if apart:  # walls with vertices of their own, welded at the same places
+        points, triangles = part
+        part = np.concatenate([points, points]), np.concatenate([triangles[:10], triangles[10:] + len(points)])
+    for offset in (0.0, 4096.0):
+        result = measure_solid(surface(moved(part, offset=(offset, offset, 0.0))))
+        assert result.method == "exact" and result.health.closed and result.health.boundary_edges == 0
+        assert result.health.non_manifold_edges == 2
+        assert only(result) == Finding("t_junctions", {"count": 2})
+        exact = volume_moments(result.repaired_surface.points, result.repaired_surface.triangles, result.volume.about)
+        assert abs(result.volume.total - 3.5) <= result.volume.rounding_error[0] and exact[0] == Fraction(7, 2)
+    wide = OUTLINE.copy()
+    wide[1, 0] = 0.5  # what is left over has an area
+    assert measure_solid(surface(letter(wide))).method == "open"
+    beside = joined(letter(OUTLINE), moved(letter(wide), offset=(9, 0, 0)))
+    result = measure_solid(surface(beside))
+    assert result.method == "open" and Finding("non_manifold_components", {"count": 1, "total": 2}) in result.findings
+
+
+def pierced_sphere(radius):
+    """A ball with a round hole of that radius in its top, cut out of a finer ring of faces."""
+    points, triangles = sphere(4)
+    top = int(np.argmax(points[:, 2]))
+    around = (triangles == top).any(axis=1)
+    points = points.copy()
+    rim = np.setdiff1d(triangles[around], [top])
+    points[rim, :2] = points[rim, :2] / np.linalg.norm(points[rim, :2], axis=1)[:, None] * radius
+    points[rim, 2] = np.sqrt(1.0 - radius**2)
+    return points, triangles[~around]
+
+
+def bent(height):
+    """A cube with one corner moved."""
+    return measure_solid(mesh(CORNERS + np.array([[0, 0, height * (k == 7)] for k in range(8)]), SIDES.tolist()))
+
+
+def noisy(step, height=1.0):
+    """A ball of triangles apart, flattened, whose corners do not quite meet."""
+    points, triangles = soup(sphere(3))
+    points = points * [1.0, 1.0, height]
+    return verdict((points + np.random.default_rng(5).uniform(-step, step, points.shape), triangles))
+
+
+def with_a_copy(part):
+    """Its first face twice."""
+    return verdict((part[0], np.concatenate([part[1], part[1][:1]])))
+
+
+def with_a_doubled_fin(length):
+    """A cube with a fin on one of its edges, twice the same way."""
+    fin = [[0, 1, 8]]
+    return verdict((np.concatenate([CUBE[0], [[0.5, -length, -length]]]), np.concatenate([CUBE[1], fin, fin])))
+
+
+@pytest.mark.parametrize(
+    ("code", "slight", "plain"),
+    [
+        ("holes_capped", lambda: verdict(pierced_sphere(2e-3)), lambda: verdict(pierced_sphere(3e-2))),
+        ("non_planar_faces", lambda: bent(1e-4), lambda: bent(1e-2)),
+        ("duplicate_faces_ignored", lambda: with_a_copy(torus(160, 80)), lambda: with_a_copy(torus(24, 16))),
+        ("duplicate_faces_counted", lambda: with_a_doubled_fin(1e-4), lambda: with_a_doubled_fin(1e-2)),
+        ("vertices_welded", lambda: noisy(3e-7), lambda: noisy(3e-7, 0.01)),
+    ],
+)
+def test_what_changes_less_than_a_ten_thousandth_has_a_code_of_its_own(code, slight, plain):
+    assert codes(plain())[0] == code
+    assert codes(slight())[0] == code + "_slightly"
+
+
+def test_edges_of_findings_are_in_the_inputs_vertices():
+    points, triangles = without(CUBE, *TOP)
+    loose = np.concatenate([np.full((3, 3), 9.0), points]), triangles + 3
+    assert (only(verdict(loose)).elements == only(verdict((points, triangles))).elements + 3).all()
+    fin = np.concatenate([CUBE[0], [[3.0, 0.5, 0.5]]]), np.concatenate([CUBE[1], [[0, 1, 8]]])
+    assert only(verdict(fin)).elements.tolist() == [12]  # the flat component's face
+    points, triangles = joined(without(CUBE, *TOP), moved(grid(3), None, (0, 0, 1)))
+    loose = np.concatenate([np.full((3, 3), 9.0), points]), triangles + 3
+    edges = only(verdict(loose)).elements
+    assert {(7, 8), (7, 9), (8, 10), (9, 10)} < set(map(tuple, edges.tolist())) and len(edges) == 16
+    beside = joined(without(CUBE, *TOP), moved(grid(2), None, (9, 0, 0)))  # whose boundary is that of no hole
+    assert verdict(beside).findings[0].elements.tolist() == [[4, 5], [4, 6], [5, 7], [6, 7]]
+
+
+def test_faces_of_findings_are_those_of_the_components_in_question():
+    inside, beside = inverted(box((3, 3, 3), (4, 4, 4))), moved(INNER, 0.5 * np.eye(3))
+    found = {finding.code: finding for finding in verdict(joined(inside, OUTER, beside)).findings}
+    assert found["inverted_components"].elements.tolist() == list(range(12))
+    assert found["components_nested"].elements.tolist() == list(range(24, 36))

@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Findings are data, and their one table of sentences covers every code that the source makes."""
+
+import ast
+import json
+import string
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+from body_moments.core.shape.library import Similarity
+from body_moments.core.verdict import finding as module
+from body_moments.core.verdict.finding import (
+    Finding,
+    MeasureError,
+    ReadError,
+    Severity,
+    finding,
+    truncate_findings,
+    unique,
+)
+from body_moments.core.verdict.health import DefectiveElements
+from body_moments.operators.write.messages import MESSAGES, of_severity, sentence, severity, truncate_list
+
+ROOT = Path(__file__).resolve().parent.parent.parent.parent
+
+
+def test_a_refusal_is_a_sentence_that_names_its_subject_and_the_remedy():
+    error = ReadError("non_finite_vertices", count=2, total=8).about("Cube").about("Other")
+    assert isinstance(error, MeasureError) and not isinstance(error, ValueError)
+    assert str(error).startswith("Cube: 2 of 8 vertices have") and error.reason == str(error)[6:]
+
+
+def test_without_the_table_the_code_speaks(monkeypatch):
+    monkeypatch.setattr(module, "_sentence_of", module._plain)
+    assert str(MeasureError("no_faces")) == "No faces."
+    assert str(finding("holes_capped", count=2, share=0.5)) == "Holes capped (count 2, share 0.5)."
+
+
+def test_values_come_back_from_json_and_equal_findings_are_one():
+    first = finding("holes_capped", count=2, flat=1, curved=1, share=0.125)
+    again = Finding.from_record(json.loads(json.dumps(first.as_record())))
+    assert again == first and str(again) == str(first)
+    other = finding("holes_capped", count=3, flat=1, curved=1, share=0.125)
+    assert unique([first, other, again]) == (first, other)
+
+
+def test_numbers_lists_causes_and_sources_are_filled_in():
+    text = sentence(finding("flipped_faces", np.arange(3, 15), count=12))
+    assert "3, 4, 5, 6, 7, 8, 9, 10, and 4 more" in text
+    assert sentence(finding("no_faces").of_sources(["A", "B"])).startswith("“A”, “B”: No faces.")
+    cause = finding("no_faces").as_record()
+    assert "No faces." in sentence(finding("hidden_object_measured", cause=cause))
+    assert "12.5%" in sentence(finding("holes_capped_slightly", count=1, share=0.125))
+
+
+def test_what_is_stored_names_the_same_elements():
+    first = finding("flipped_faces", np.arange(3, 15), count=12)
+    stored = json.loads(json.dumps(first.as_record()))
+    assert stored["elements"] == list(range(3, 11)) and sentence(Finding.from_record(stored)) == sentence(first)
+    assert "3, 4, 5, 6, 7, 8, 9, 10, and 4 more" in sentence(finding("failure", object="Cube", cause=stored))
+    of_source = finding("flipped_faces", [[np.int64(3), "Cube"]], count=1)
+    assert "3 of “Cube”" in sentence(of_source) and "elements" not in finding("no_faces").as_record()
+
+
+def test_a_number_that_json_cannot_hold_is_unknown():
+    assert "unknown of the area" in sentence(finding("holes_capped_slightly", count=1, share=None))
+
+
+def test_severity_belongs_to_the_code():
+    assert severity(finding("no_faces")) == Severity.ERROR
+    both = [finding("holes_capped_slightly", count=1, share=1e-5), finding("flat_surface")]
+    assert of_severity(both, Severity.WARNING) == [both[1]]
+
+
+def test_a_template_has_only_placeholders_that_the_formatter_knows():
+    known = ("", "percent", "length", "point", "size", "word")
+    for code, entry in MESSAGES.items():
+        for text in filter(None, (entry.text, entry.plural)):
+            for _, name, spec, conversion in string.Formatter().parse(text):
+                assert conversion in (None, "r") and (name is None or name.isidentifier()), (code, text)
+                assert spec is None or spec in known or spec[-1] in "dgfes%", (code, text, spec)
+
+
+def made_codes() -> dict[str, str]:
+    """Codes that the source makes: string arguments of what makes findings and refusals; code → where."""
+    makers = {"finding", "Finding", "MeasureError", "ReadError", "EditRefusedError", "FileError", "QueryError"}
+    made = {}
+    for part in ("core", "operators", "panels"):
+        for path in (ROOT / part).rglob("*.py"):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Call) and getattr(node.func, "id", "") in makers and node.args:
+                    for constant in ast.walk(node.args[0]):
+                        if isinstance(constant, ast.Constant) and isinstance(constant.value, str):
+                            made[constant.value] = f"{path.relative_to(ROOT)}:{node.lineno}"
+    return made
+
+
+def test_every_code_that_is_made_has_a_message():
+    missing = {code: place for code, place in made_codes().items() if code not in MESSAGES}
+    assert not missing
+
+
+def test_every_kind_of_shape_and_of_defect_that_can_be_counted_has_a_message():
+    kinds = {"shapes_" + similarity for similarity in Similarity} - {"shapes_different"}
+    assert kinds | {"defect_" + field.name for field in fields(DefectiveElements)} <= MESSAGES.keys()
+
+
+@pytest.mark.parametrize("count, more", [(7, ""), (8, ""), (9, ", und 1 weitere"), (20, ", und 12 weitere")])
+def test_a_list_is_cut_in_one_way_and_what_is_left_out_is_translated(count, more):
+    german = {"and {count} more": "und {count} weitere"}
+    names = ["a"] * count
+    shown = ", ".join(["“a”"] * min(count, 8)) + more
+    assert truncate_list(names, translate=lambda text: german.get(text, text)) == shown
+    assert truncate_list(names[:8], count, german.get) == shown
+    missing = sentence(finding("missing_links", names=names), lambda text: german.get(text, text))
+    assert missing.startswith("Linked data is missing: " + shown)
+    several = [finding("no_faces")] * count
+    cut = truncate_findings(several, 8)
+    assert cut[:8] == several[:8] and cut[8:] == ([finding("and_more", count=count - 8)] if more else [])
