@@ -16,7 +16,8 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 
 from ...core.measurement import DENSITY_FROM_MASS, Measurement
-from ...core.moments.moments import Measure, Moments, U, are_similarities, sum_moments
+from ...core.moments.affine_maps import are_similarities
+from ...core.moments.moments import Measure, Moments, U, sum_moments
 from ...core.numerics.float32 import shortest_decimal
 from ...core.numerics.rotations import rotation_matrix
 from ...core.verdict import internal_error
