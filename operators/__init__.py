@@ -14,8 +14,8 @@ from types import ModuleType
 PARTS = (
     "write.translations",
     "settings.properties",
-    *("session.handlers", "session.walls", "session.live"),
-    *("actions.setup.presets", "actions.setup.import_scan"),
+    *("session.handlers", "session.walls", "session.live", "session.outcome"),
+    *("actions.setup.presets", "actions.setup.import_scan", "actions.setup.remedies"),
     *(
         "actions.measure." + name
         for name in ("measure_selected", "live", "section", "select_faults", "clear", "copy", "moments", "fourier")
