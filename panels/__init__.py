@@ -18,6 +18,7 @@ MODULES = (
     *("material_menus", "body"),
     *("inertia", "density", "apply", "selection", "advanced"),  # sub-panels; their order is `places.ORDER`
     *("moments", "section", "shape"),  # sub-panels of the advanced one
+    *("overlay.popover", "overlay.draw"),
 )
 
 

@@ -13,6 +13,7 @@ from ..operators.write.units import Units
 from . import remedies
 from .density import material_row
 from .numbers import numbers
+from .overlay.popover import header_switch
 from .places import in_both_places
 from .verdict import method_and_findings, verdict
 
@@ -25,6 +26,9 @@ class BodyPanel:
     @classmethod
     def poll(cls, context: Context) -> bool:
         return context.object is not None
+
+    def draw_header_preset(self, context: Context) -> None:
+        header_switch(self.layout, context)
 
     def draw(self, context: Context) -> None:
         obj, scene = context.object, context.scene

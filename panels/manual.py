@@ -52,6 +52,7 @@ def _map() -> tuple[str, tuple[tuple[str, str], ...]]:
 
 def _help_entry(self: Menu, _context: Context) -> None:
     page = folder() / "index.html"
+    self.layout.separator()
     self.layout.operator("wm.url_open", text="Body Moments Manual", icon="HELP").url = page.as_uri()
 
 

@@ -138,6 +138,8 @@ def copy_defaults(scene: Scene) -> None:
     for name in COPIED:
         if not settings.is_property_set(name):
             setattr(settings, name, getattr(source, name))
+    if not settings.overlay.is_property_set("show"):
+        settings.overlay.show = source.show_overlay
 
 
 def default_density(scene: Scene) -> float | None:

@@ -19,6 +19,7 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import MAX_ORDER
 from .density import object_density
 from .hooks import wall_changed
+from .overlay import BodyMomentsOverlaySettings
 from .preferences import CLASSES as PREFERENCES
 from .preferences import SceneDefaults
 
@@ -291,6 +292,7 @@ class BodyMomentsMaterialSettings(PropertyGroup):
 class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
     """How the scene's numbers are shown, and what its objects start with."""
 
+    overlay: PointerProperty(name="Overlay", type=BodyMomentsOverlaySettings)
     has_defaults: BoolProperty(
         name="Has Defaults",
         description="The add-on's preferences were copied into this scene",
@@ -370,7 +372,13 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
         settings.thickness = options.thickness / shortest_decimal(scene.unit_settings.scale_length)
 
 
-CLASSES = (*PREFERENCES, BodyMomentsObjectSettings, BodyMomentsMaterialSettings, BodyMomentsSceneSettings)
+CLASSES = (
+    *PREFERENCES,
+    BodyMomentsOverlaySettings,
+    BodyMomentsObjectSettings,
+    BodyMomentsMaterialSettings,
+    BodyMomentsSceneSettings,
+)
 
 
 def register() -> None:

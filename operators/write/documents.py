@@ -17,6 +17,7 @@ from typing import Any
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
+ROBOT_FORMATS = ("urdf", "sdf", "mjcf", "usd")  # `operators/write/robots/formats.py` has what writes them
 STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
 
 # The inertia tensor's six entries, in the order in which they are stored on an object.
@@ -166,4 +167,9 @@ def _cell(value: Any) -> Any:
     return value
 
 
-FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv}
+def to_robot(documents: Iterable[dict[str, Any]]) -> str:
+    """What the process that measured has written of one file in a format of robots."""
+    return "".join(file_document.get("robot", "") for file_document in documents)
+
+
+FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv, **dict.fromkeys(ROBOT_FORMATS, to_robot)}

@@ -50,6 +50,17 @@ TEXTS = {
     "Frame Origin": "Ursprung des Bezugssystems",
     "Center": "Mittelpunkt",
     "Center, Normalized": "Mittelpunkt, normiert",
+    # overlay
+    "Mass Properties": "Masseeigenschaften",
+    "All Measured Objects": "Alle gemessenen Objekte",
+    "Drop Line": "Lotlinie",
+    "Equal Inertia": "Gleiche Trägheit",
+    "Box": "Quader",
+    "Ellipsoid": "Ellipsoid",
+    "Sum of Selection": "Summe der Auswahl",
+    "Faults": "Fehler",
+    "Support Polygon": "Standfläche",
+    "Path of Balance Groups": "Bahn der Balancegruppen",
     # numbers and buttons
     "Area": "Fläche",
     "Center of Mass": "Massenmittelpunkt",

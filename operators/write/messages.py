@@ -1242,7 +1242,7 @@ MESSAGES: dict[str, Message] = {
     "usage_spline_order": _error("{text!r} is not an order from 1 to {limit}"),
     "usage_order": _error("{text!r} is not an order from 0 to {limit}"),
     "usage_order_too_high": _error("{text!r} is above the highest order, {limit}"),
-    "usage_format_unsupported": _error("{text} is not supported"),
+    "usage_meshes_need_output": _error("--meshes needs --output, beside which they are written"),
     "usage_format_unknown": _error("{text!r} is not one of {formats}"),
     "usage_needs_fourier": _error("argument --{option}: needs --fourier OUT.npz"),
     "usage_fourier_points": _error("argument --fourier: needs either --q Q.npy, or --grid N and --qmax Q"),
@@ -1433,6 +1433,8 @@ MESSAGES: dict[str, Message] = {
         "SDF knows no limits of a joint about several axes. It moves freely: {joints}.",
         "SDF knows no limits of joints about several axes. {count} move freely: {joints}.",
     ),
+    "robot_meshes_written": _note("{count} mesh written to {folder}.", "{count} meshes written to {folder}."),
+    "robot_meshes_not_written": _error("The meshes cannot be written: {error}."),
     "mjcf_inertia_too_small": _warning(
         "MuJoCo refuses a moving body with a mass or principal moment below {limit:g} kg or kg·m²: {links}, with "
         "{least:.3g}. Set boundmass and boundinertia of the compiler, fix it to its parent, or model in larger units.",
