@@ -60,10 +60,9 @@ def warnings(
     for shown in alarming if body is not None else ():
         column = body.column(align=True)
         rows.message(column, context, shown)
-        row = column.row(align=True)
-        remedies(row, context.object, shown)
+        remedies(column, context.object, shown)
         if can_accept and severity(shown) == Severity.WARNING:
-            _accept(row, shown, accepted=True)
+            _accept(column, shown, accepted=True)
 
 
 def notes(layout: UILayout, context: Context, idname: str, findings: Sequence[Finding]) -> None:
@@ -88,7 +87,10 @@ def remedies(layout: UILayout, obj: Object, shown: Finding) -> None:
 
 
 def _accept(layout: UILayout, shown: Finding, accepted: bool) -> None:
-    button = layout.operator("object.body_moments_accept", text="", icon="CHECKMARK" if accepted else "LOOP_BACK")
+    if accepted:
+        button = layout.operator("object.body_moments_accept", text="Accept", icon="CHECKMARK")
+    else:
+        button = layout.operator("object.body_moments_accept", text="", icon="LOOP_BACK")
     button.code = shown.code
     button.accepted = accepted
 

@@ -1119,7 +1119,9 @@ MESSAGES: dict[str, Message] = {
     ),
     "balance_mesh_shared": _note("Other objects use this mesh and changed too."),
     "balance_only_active": _note("Only “{object}” was balanced; the other meshes in Edit Mode are unchanged."),
-    "modified_mesh": _error("Modifiers change the mesh, so its defects cannot be selected. Apply or hide {modifiers}."),
+    "modified_mesh": _error(
+        "Modifiers change the mesh, so its defects are not those of what is measured. Apply or hide {modifiers}."
+    ),
     "linked_results": _error("Linked from another file. Make it local to store results."),
     "override_results": _error("A library override, which would lose its results. Make it local to store results."),
     "material_not_local": _error("No local material “{material}”. Make it local."),

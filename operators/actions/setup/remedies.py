@@ -43,7 +43,7 @@ def _poll_active(cls: type[Operator], context: Context, mesh: bool = False) -> b
 
 
 def _refuse(operator: Operator, refusal: MeasureError) -> set[str]:
-    selection.report(operator, reports.refusal(refusal))
+    selection.report(operator, reports.failure(refusal.subject, refusal))
     return {"CANCELLED"}
 
 
