@@ -552,9 +552,9 @@ def test_a_report_is_as_severe_as_its_worst_finding_and_reads_as_sentences():
     )
     with_wall = "The wall was measured with real thickness: 250 mm, inward, mitered corners."
     assert calls == [
-        ({"WARNING"}, "Measured 2 of 3 objects; 1 with warnings. " + with_wall),
+        ({"WARNING"}, "Measured 2 of 3 objects; 1 with warnings: “A”. " + with_wall),
         ({"INFO"}, with_wall + " Measured A"),
-        ({"ERROR"}, "No faces. Add faces, or select another object. Measured {B}; 1 with warnings"),
+        ({"ERROR"}, "No faces. Add faces, or select another object. Measured {B}; 1 with warnings: “A”"),
     ]
 
 
