@@ -256,6 +256,11 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         min=1,
         max=6,
     )
+    accepted: StringProperty(
+        name="Accepted Findings",
+        description="Codes of the warnings that were accepted for this object and are notes",
+        options={"HIDDEN"},
+    )
     density_volume: PointerProperty(
         name="Volume",
         description="Volume object whose grid is the density inside the solid",

@@ -9,7 +9,7 @@ of mass, xx, yy, zz, xy, xz, yz, with xy = -∫xy dm.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import isfinite
@@ -196,6 +196,11 @@ def method_text(obj: Owner) -> str:
 def findings(obj: Owner) -> tuple[Finding, ...]:
     """What was found and decided when the stored numbers were computed; see `findings_in`."""
     return findings_in(obj.get("body_findings"))
+
+
+def store_findings(obj: bpy.types.Object, findings: Sequence[Finding]) -> None:
+    """Store these in the place of the findings that are stored, such as accepted ones."""
+    obj["body_findings"], obj["body_warnings"] = findings_text(findings), warning_lines(findings)
 
 
 def warning_lines(findings: Iterable[Finding]) -> str:
