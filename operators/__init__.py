@@ -15,11 +15,22 @@ PARTS = (
     "write.translations",
     "settings.properties",
     "settings.assembly",
+    "settings.reference",
     *("session.handlers", "session.walls", "session.live", "session.assembly", "session.outcome"),
     *("actions.setup." + name for name in ("presets", "import_scan", "remedies", "assembly", "assembly_snap", "bill")),
     *(
         "actions.measure." + name
-        for name in ("measure_selected", "live", "section", "select_faults", "clear", "copy", "moments", "fourier")
+        for name in (
+            "measure_selected",
+            "live",
+            "section",
+            "select_faults",
+            "clear",
+            "copy",
+            "moments",
+            "reference",
+            "fourier",
+        )
     ),
     *(
         "actions.snap." + name

@@ -53,8 +53,10 @@ def test_the_tensor_about_a_point_is_exact_within_its_bound(size, center, point)
     properties = MassProperties.from_moments(moments)
     for referred in (reference.refer(properties), reference.refer_moments(moments)):
         error = np.linalg.norm(referred.inertia - truth)
-        assert error <= referred.rounding_error["inertia"] <= 1e-11 * np.linalg.norm(truth) + 1e-9 * np.linalg.norm(
-            properties.inertia
+        assert (
+            error
+            <= referred.rounding_error["inertia"]
+            <= 1e-11 * np.linalg.norm(truth) + 1e-9 * np.linalg.norm(properties.inertia)
         )
         arm = np.array([float(Fraction(c) - Fraction(p)) for c, p in zip(center, point)])
         assert np.linalg.norm(referred.center - arm) <= referred.rounding_error["center"]
