@@ -17,7 +17,10 @@ PARTS = (
     "settings.assembly",
     "settings.reference",
     *("session.handlers", "session.walls", "session.live", "session.assembly", "session.outcome"),
-    *("actions.setup." + name for name in ("presets", "import_scan", "remedies", "assembly", "assembly_snap", "bill")),
+    *(
+        "actions.setup." + name
+        for name in ("presets", "import_scan", "remedies", "node_group", "assembly", "assembly_snap", "bill")
+    ),
     *(
         "actions.measure." + name
         for name in (

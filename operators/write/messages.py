@@ -1397,6 +1397,8 @@ MESSAGES: dict[str, Message] = {
     ),
     "already_in_place": _note("already in place"),
     "orientation_created": _note("Created the transform orientation “{name}”"),
+    "node_group_added": _note("Added the node group “{group}”"),
+    "node_marker_added": _note("Added the node group “{group}” and the marker “{object}”"),
     "no_reversed_faces": _note("no faces were measured as reversed"),
     "faces_reversed": _note("Reversed {count} face", "Reversed {count} faces"),
     "material_set": _note("Set {count} object to {material}", "Set {count} objects to {material}"),
