@@ -14,16 +14,32 @@ from types import ModuleType
 PARTS = (
     "write.translations",
     "settings.properties",
-    *("session.handlers", "session.walls", "session.live"),
-    *("actions.setup.presets", "actions.setup.import_scan"),
+    "settings.assembly",
+    "settings.reference",
+    *("session.handlers", "session.walls", "session.live", "session.assembly", "session.outcome"),
+    *(
+        "actions.setup." + name
+        for name in ("presets", "import_scan", "remedies", "node_group", "assembly", "assembly_snap", "bill")
+    ),
     *(
         "actions.measure." + name
-        for name in ("measure_selected", "live", "section", "select_faults", "clear", "copy", "moments", "fourier")
+        for name in (
+            "measure_selected",
+            "live",
+            "section",
+            "select_faults",
+            "clear",
+            "copy",
+            "moments",
+            "reference",
+            "fourier",
+        )
     ),
     *(
         "actions.snap." + name
         for name in ("origin", "principal_axes", "align", "empty", "cursor", "orientation", "rigid_body", "balance")
     ),
+    "actions.export.robot",
     *("actions.shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",
     "session.staleness",

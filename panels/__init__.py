@@ -14,9 +14,18 @@ from ..operators import register_module, unregister_module
 
 # Each with `register` or with CLASSES. A sub-panel comes after the panel that it is a part of.
 MODULES = (
-    "manual",
+    *("manual", "menus"),
     *("material_menus", "body"),
-    *("inertia", "density", "apply", "selection", "advanced"),  # sub-panels; their order is `places.ORDER`
+    *(
+        "inertia",
+        "reference",  # of the inertia
+        "density",
+        "given",
+        "apply",
+        "selection",
+        "assembly",
+        "advanced",
+    ),  # sub-panels; their order is `places.ORDER`
     *("moments", "section", "shape"),  # sub-panels of the advanced one
     *("overlay.popover", "overlay.draw"),
 )

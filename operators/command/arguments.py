@@ -13,8 +13,9 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from ...core.verdict.finding import finding
-from ..write.documents import FORMATS, FRAMES
+from ..write.documents import FORMATS, FRAMES, ROBOT_FORMATS
 from . import option_types as types
+from .output import is_stdout
 from .parser import Parser
 
 DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
@@ -54,6 +55,12 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     has_files = bool(options.files or options.manifest)
     if file_needed and not has_files:
         fail(finding("usage_file_needed"))
+    if options.format in ROBOT_FORMATS:
+        if len(options.files) > 1:
+            fail(finding("robot_one_file", count=len(options.files)))
+        options.frame = "object"  # of the links
+    if options.meshes and (options.output is None or is_stdout(options.output)):
+        fail(finding("usage_meshes_need_output"))
     if options.surface_moments and options.order is None:
         options.order = DEFAULT_ORDER
     if options.no_supervisor or not has_files:
@@ -96,7 +103,8 @@ def from_record(record: dict[str, Any]) -> argparse.Namespace:
 
 def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
     """Those options that change what is measured."""
-    return {name: value for name, value in as_record(options).items() if name not in _OF_RUNS}
+    more = {"format": options.format} if options.format in ROBOT_FORMATS else {}
+    return {name: value for name, value in as_record(options).items() if name not in _OF_RUNS} | more
 
 
 def _check_fourier(options: argparse.Namespace) -> None:
@@ -272,6 +280,16 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         default="json",
         metavar="{" + ",".join(FORMATS) + "}",
         help="(json)",
+    )
+    add(
+        "--inertial-only",
+        action="store_true",
+        help="urdf, sdf, mjcf, usd: the links with their inertials alone, without geometry, places and joints",
+    )
+    add(
+        "--meshes",
+        action="store_true",
+        help="urdf, sdf, mjcf: write the meshes that the file names, in a folder beside --output",
     )
     add("--output", type=Path, metavar="PATH", help="(standard output)")
     add(

@@ -15,8 +15,6 @@ MAX_ORDER = 30
 MAX_SPLINE_ORDER = 16
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 
-_LATER_FORMATS = ("urdf", "sdf", "mjcf", "usd")
-
 
 def _refuse(code: str, **values: object) -> argparse.ArgumentTypeError:
     return argparse.ArgumentTypeError(str(finding(code, **values)))
@@ -92,8 +90,6 @@ def frequencies(text: str) -> int:
 
 def format_name(text: str) -> str:
     """The name of a format of results."""
-    if text in _LATER_FORMATS and text not in FORMATS:
-        raise _refuse("usage_format_unsupported", text=text)
     if text not in FORMATS:
         raise _refuse("usage_format_unknown", text=text, formats=", ".join(FORMATS))
     return text

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from ...core.verdict.finding import finding
 from ..write.documents import SCHEMA, SPECTRUM_ARRAYS, to_csv
+from ..write.robots.marker import is_ours
 
 _HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
 _DOCUMENT = re.compile(rb'\s*\[?\s*\{\s*"schema"\s*:\s*"' + re.escape(SCHEMA.encode()) + rb'"')
@@ -51,7 +52,12 @@ def _is_result(path: Path, option: str) -> bool:
                 return sorted(arrays.namelist()) == sorted(name + ".npy" for name in SPECTRUM_ARRAYS)
         with open(path, "rb") as file:
             head = file.read(_HEAD)
-        return _is_table(head) or bool(_DOCUMENT.match(head)) and _are_documents(path.read_text(encoding="utf-8"))
+        return (
+            is_ours(head)
+            or _is_table(head)
+            or bool(_DOCUMENT.match(head))
+            and _are_documents(path.read_text(encoding="utf-8"))
+        )
     except (ValueError, RecursionError, zipfile.BadZipFile):
         return False
 

@@ -38,7 +38,7 @@ from ..write import record
 from ..write.documents import document
 from ..write.properties import store
 from ..write.terminal import tell
-from . import fourier
+from . import fourier, robots
 from .files import BLEND, UNITLESS, file_suffix, open_file
 from .interruption import Progress, check_interruption
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
@@ -157,7 +157,7 @@ class Run:
         for one in errors:
             where = [text for text in (file, one["name"]) if text]
             tell(*where, one["reason"])
-        return document(
+        made = document(
             objects,
             record.total([one for _, _, one in measured], caveats),
             errors,
@@ -167,6 +167,7 @@ class Run:
             frame=self.options.frame,
             status=self._status,
         )
+        return robots.complete(made, measured, self.options)
 
     def _measure_record(
         self,

@@ -27,9 +27,9 @@ from ..supervisor import listing, processes
 from ..supervisor.journal import Journal, is_journal
 from ..supervisor.pool import ChildError, Limits, Outcome, Pool, SetupError
 from ..supervisor.progress import Progress
-from ..write.documents import FORMATS, failed_document
+from ..write.documents import FORMATS, ROBOT_FORMATS, failed_document
 from ..write.file_lock import Busy, beside, locked
-from ..write.terminal import tell
+from ..write.terminal import PROGRAM, tell
 from . import interruption, output, results, targets
 from .arguments import DEFAULT_TIMEOUT, as_record, fail, of_numbers
 
@@ -83,6 +83,8 @@ def _paths(options: Namespace) -> list[str]:
         paths = paths[slice(*options.range)]
     if options.fourier is not None and len(paths) != 1:
         fail(finding("usage_fourier_one_object"))
+    if options.format in ROBOT_FORMATS and len(paths) != 1:
+        fail(finding("robot_one_file", count=len(paths)))
     return paths
 
 
@@ -235,15 +237,18 @@ class _Supervised:
         return outcome.status, failed_document(outcome.task, str(reason), outcome.status, blender=blender, frame=frame)
 
     def _tell(self, progress: Progress, outcome: Outcome, document: dict[str, Any]) -> None:
-        """Say on the standard error what is wrong with a file."""
+        """Pass on what was said of a file; where a child failed at it, all that this child has printed."""
         faults = outcome.head.get("faults", 0)
         self._faults += faults
-        if faults or document["errors"]:
+        if outcome.status != "answered":
             progress.clear()
-        if faults:
-            sys.stderr.write(outcome.said + "\n")
-        for error in document["errors"]:
-            tell(*[text for text in (outcome.task, error["name"]) if text], error["reason"])
+            tell(outcome.task, document["errors"][0]["reason"])
+            return
+        lines = outcome.said.splitlines(keepends=True)
+        told = "".join(line for line in lines if faults or line.startswith(PROGRAM + ": "))
+        if told:
+            progress.clear()
+            sys.stderr.write(told)
 
     def _write(self, journal: Journal, channel: int) -> bool:
         """Whether the result could be written."""

@@ -29,7 +29,7 @@ MAX_FAILED_STARTS = 3  # in a row
 _WATCH = 0.05 if sys.platform.startswith("linux") else 1.0  # seconds between looks at the memory of children
 _GROWTH_PERIOD = 16  # files of a child between looks at its growth
 _END = 10.0  # seconds in which a child must end that has nothing more to do
-_LOG_TAIL = 4000  # bytes of what a child has said
+_LOG_TAIL = 1 << 16  # bytes of what a child has said
 
 
 class ChildError(Exception):
@@ -240,7 +240,7 @@ class Pool:
             return []
         attempts, seconds = self._attempts.pop(task, (0, 0.0))
         seconds += time.monotonic() - child.started
-        said = self._said(child) if head.get("faults") else ""
+        said = self._said(child)
         if self._tasks and self._has_grown(child):
             self._retire(child)
         else:
@@ -278,7 +278,7 @@ class Pool:
         if not child.ready:
             self._failed_starts += 1
             if not self.about or self._failed_starts >= MAX_FAILED_STARTS:
-                raise ChildError(said or processes.how_it_ended(child.process.returncode))
+                raise ChildError(" ".join(said.split()) or processes.how_it_ended(child.process.returncode))
             return []
         if child.task is None:
             return []
@@ -318,7 +318,7 @@ class Pool:
         try:
             with open(child.log, "rb") as file:
                 file.seek(max(0, os.fstat(file.fileno()).st_size - _LOG_TAIL))
-                return file.read().decode("utf-8", "replace").strip()
+                return file.read().decode("utf-8", "replace")
         except OSError:
             return ""
 

@@ -12,11 +12,12 @@ import csv
 import io
 import json
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
+ROBOT_FORMATS = ("urdf", "sdf", "mjcf", "usd")  # `operators/write/robots/formats.py` has what writes them
 STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
 
 # The inertia tensor's six entries, in the order in which they are stored on an object.
@@ -113,8 +114,14 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     for row in _rows(documents):
         names.update(dict.fromkeys(name for name in row if name not in _LAST_COLUMNS))
     header = [*names, *_LAST_COLUMNS]
+    yield from table(header, _rows(documents))
+
+
+def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:
+    """CSV with these columns: a row for each mapping, whose missing entries stay empty. Text is written as `to_csv`
+    says."""
     yield _line(header)
-    for row in _rows(documents):
+    for row in rows:
         yield _line(_cell(row.get(name, "")) for name in header)
 
 
@@ -196,5 +203,10 @@ def _cell(value: Any) -> Any:
     return value
 
 
+def to_robot(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
+    """What the process that measured has written of one file in a format of robots."""
+    return (file_document.get("robot", "") for file_document in documents)
+
+
 # From documents, which may be gone through twice, to pieces of text.
-FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv}
+FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv, **dict.fromkeys(ROBOT_FORMATS, to_robot)}

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.robots.model import Pose
+from .marker import MARKER
 
-MARKER = "Body Moments: {}"  # the first line of what we write, by which an older result is known
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _SPACES = re.compile(r"[\t\n\r]")
 

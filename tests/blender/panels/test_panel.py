@@ -31,7 +31,7 @@ class Layout:
     def _sub(self, **_options):
         return Layout(self.record, self.closed)
 
-    row = column = split = box = grid_flow = _sub
+    row = column = split = box = grid_flow = menu_pie = _sub
 
     def panel(self, name, default_closed=False):
         return self._sub(), None if name in self.closed else self._sub()
@@ -174,7 +174,7 @@ def test_every_kind_of_object_can_be_active():
         }[kind]()
         add(data, kind)
         record = drawn()
-        assert not [entry for entry in record if entry[0] == "prop" and entry[1] in ("density", "mass_from", "overlap")]
+        assert not [entry for entry in record if entry[0] == "prop" and entry[1] in ("density", "overlap")]
         assert [entry for entry in record if entry[0] == "operator" and entry[1] == "object.body_moments_measure"]
 
 
