@@ -39,7 +39,7 @@ def text(*words):
     line = Run(arguments.parse([*map(str, words)]))
     line.measure()
     assert not line.errors
-    found = documents.FORMATS[line.options.format](line.documents)
+    found = "".join(documents.FORMATS[line.options.format](line.documents))
     if line.options.output is not None:
         output.write(found, line.options.output, -1)
     return found
