@@ -16,26 +16,49 @@ comparing what they show now. Of what cannot be compared, every update is an edi
 - the update that follows undo, which brings back numbers and shape together. An edit that undo brings back again was
   noted when it was made, and notes are kept: undo may bring back the numbers of before, too. In Edit Mode and Sculpt
   Mode it brings back the shape alone, and is an edit.
+
+How: a handler only writes down which objects were updated, for a frame of an animation may have thousands. What that
+means is found when somebody asks (`_resolve`), or before it could not be found any more: before results are replaced,
+before undo, and before the file is saved.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 import bpy
-from bpy.types import Context, Depsgraph, Object, Scene
+from bpy.types import Context, Depsgraph, Object, PropertyGroup, Scene
 
-from ..read.fingerprint import VERSION, matrix_hash, scale_hash, settings_hash, shape_digest
+from ..read.fingerprint import VERSION, has_transform, matrix_hash, scale_hash, settings_hash, shape_digest
 from ..read.quiet import paused
+from ..settings import hooks
 from . import handlers, marks
-from .affected import instancing_objects, volume_filled_objects
+from .affected import density_source, shown_by
 from .cache import SessionCache
 
-_edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
-_settings: SessionCache[str] = SessionCache()  # digest of the settings at the last update
-_changes: SessionCache[int] = SessionCache()  # how often the geometry changed, of objects for which this is asked
-_shapes: dict[str, bytes] = {}  # mark → digest of what was shown when it was stored: copies of an object share both
+
+class _Stamp(NamedTuple):
+    """An update: its number, and the scene and view layer that were evaluated."""
+
+    number: int
+    scene: int
+    view_layer: str
+
+
+_NEVER = _Stamp(0, 0, "")
+# session uid → the last update of a data-block
+_edits: dict[int, _Stamp] = {}  # of its geometry, which may be an edit
+_returns: dict[int, _Stamp] = {}  # of its geometry, which is none: of a setting, or after undo
+_moves: dict[int, _Stamp] = {}  # of its transform alone
+_touches: dict[int, _Stamp] = {}  # of anything else
+_last_update = 0  # number
+_resolved: dict[int, int] = {}  # session uid → up to which update is noted what it means
+_set_since: set[int] = set()  # objects of which a setting was changed since the last update
 _undo_pending = False  # whether the next update is that of undo or redo
+
+_edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
+_shapes: dict[str, bytes] = {}  # mark → digest of what was shown when it was stored: copies of an object share both
 
 
 # ---------------------------------------------------------------- What was stored just now
@@ -53,6 +76,7 @@ def mark_up_to_date(context: Context, objects: list[Object]) -> None:
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
+        note_edits(obj)  # of its other marks
         mark_object(obj)
         _remember_shape(obj, marks.of_results(obj), depsgraph)
 
@@ -70,6 +94,7 @@ def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) ->
     with paused():
         depsgraph = context.evaluated_depsgraph_get()
     for obj, mark in stored:
+        note_edits(obj)
         _set_edited(obj, mark, False)
         _remember_shape(obj, mark, depsgraph)
 
@@ -83,19 +108,35 @@ def mark_object(obj: Object) -> None:
         An original object.
     """
     _set_edited(obj, marks.of_results(obj), False)
-    _settings.forget(obj)
+    handlers.count_change()
 
 
-def mark_from_setting_update(obj: Object) -> None:
-    """Do as `mark_object`, from within the update of a setting: what Blender reports next is that update.
+def replace_mark(obj: Object, before: str) -> None:
+    """Take over what is noted of the results, after numbers and settings were changed together and the shape was not.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    before : str
+        The mark of the results that were replaced.
+    """
+    mark = marks.of_results(obj)
+    _set_edited(obj, mark, before in _edited.get(obj, ()))
+    if before in _shapes:
+        _shapes[mark] = _shapes[before]
+
+
+def note_edits(obj: Object) -> None:
+    """Note what Blender has reported of an object, before its marks are replaced: nobody could say later whether the
+    geometry has changed since those.
 
     Parameters
     ----------
     obj : bpy.types.Object
         An original object.
     """
-    mark_object(obj)
-    _settings[obj] = ""
+    _resolve(obj)
 
 
 def mark_axes_changed(objects: Iterable[Object]) -> None:
@@ -115,7 +156,8 @@ def mark_axes_changed(objects: Iterable[Object]) -> None:
 
 
 def geometry_changes(obj: Object) -> int:
-    """Count how often Blender reports a change of the object's geometry; some settings count as such.
+    """Return a number that grows with every change of the object's geometry that Blender reports; some settings count
+    as such.
 
     Parameters
     ----------
@@ -125,17 +167,30 @@ def geometry_changes(obj: Object) -> int:
     Returns
     -------
     int
-        How often that was since the first call for this object, or since the file was loaded.
     """
-    if obj not in _changes:
-        _changes[obj] = 0
-    return _changes.get(obj, 0)
+    return max(_last_edit(obj).number, _returns.get(obj.session_uid, _NEVER).number)
+
+
+def last_update(obj: Object) -> int:
+    """Return a number that grows with whatever Blender reports of the object or of what it shows.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    int
+    """
+    uid = obj.session_uid
+    return max(geometry_changes(obj), _moves.get(uid, _NEVER).number, _touches.get(uid, _NEVER).number)
 
 
 def is_edited(obj: Object) -> bool:
     """Return whether geometry or transform have changed since the results were stored, whatever the settings are."""
     mark = marks.parse(marks.of_results(obj))
-    return mark is None or _has_new_geometry(obj, mark) or mark.transform != matrix_hash(obj)
+    return mark is None or _has_new_geometry(obj, mark) or not has_transform(obj, mark.transform)
 
 
 def stale_reason(obj: Object, scene: Scene) -> str | None:
@@ -160,7 +215,7 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
         return "stale_settings"
     if _has_new_geometry(obj, mark):
         return "stale_geometry"
-    return "stale_transform" if mark.transform != matrix_hash(obj) else None
+    return None if has_transform(obj, mark.transform) else "stale_transform"
 
 
 def section_stale_reason(obj: Object) -> str | None:
@@ -206,6 +261,7 @@ def symmetry_stale_reason(obj: Object) -> str | None:
 
 
 def _has_new_geometry(obj: Object, mark: marks.Mark) -> bool:
+    _resolve(obj)
     return mark.geometry == marks.EDITED or ":".join(mark) in _edited.get(obj, ())
 
 
@@ -214,47 +270,93 @@ def _has_new_geometry(obj: Object, mark: marks.Mark) -> bool:
 
 def _set_edited(obj: Object, mark: str, is_edited: bool) -> None:
     """Note that the geometry of what carries this mark has changed, or that it has not."""
-    handlers.count_change()
     noted = _edited.get(obj, frozenset())
-    _edited[obj] = noted | {mark} if is_edited else noted - {mark}
+    if is_edited != (mark in noted) or obj not in _edited:
+        handlers.count_change()
+        _edited[obj] = noted | {mark} if is_edited else noted - {mark}
 
 
 def _note_updates(updates: handlers.Updates) -> None:
-    global _undo_pending
+    global _last_update, _undo_pending, _set_since
     if paused.depth:
         return
     undone, _undo_pending = _undo_pending, False
-    if not (updates.reshaped or updates.moved or updates.collections):
+    changed_settings, _set_since = _set_since, set()
+    _last_update += 1
+    stamp = _Stamp(_last_update, updates.scene.session_uid, updates.depsgraph.view_layer.name)
+    if undone:
+        edits = _edited_by_undo(updates)
+        _returns.update(dict.fromkeys([uid for uid in updates.reshaped if uid not in edits], stamp))
+        _edits.update(dict.fromkeys(edits, stamp))
+        _touches.update(dict.fromkeys((*updates.moved, *updates.others), stamp))
         return
-    instancing = instancing_objects((*updates.reshaped, *updates.moved), updates.collections)
-    reshaped = dict.fromkeys((*updates.reshaped, *instancing))
-    for obj in reshaped if len(_changes) else ():
-        if obj in _changes:
-            _changes[obj] = geometry_changes(obj) + 1
-    for obj in reshaped | dict.fromkeys(volume_filled_objects(reshaped)):
-        if carried := marks.of_object(obj):
-            _note_update(obj, carried, updates, undone)
+    reshaped: Iterable[int] = updates.reshaped
+    if changed_settings and not updates.frame_changed:
+        of_settings = changed_settings.intersection(reshaped) - _with_new_data(updates)
+        _returns.update(dict.fromkeys(of_settings, stamp))
+        reshaped = [uid for uid in reshaped if uid not in of_settings]
+    _edits.update(dict.fromkeys(reshaped, stamp))
+    _edits.update(dict.fromkeys(updates.collections, stamp))
+    _moves.update(dict.fromkeys(updates.moved, stamp))
+    _touches.update(dict.fromkeys(updates.others, stamp))
 
 
-def _note_update(obj: Object, carried: list[str], updates: handlers.Updates, undone: bool) -> None:
-    """Note a change of the object's geometry, or that there is none any more. undone: whether undo or redo evaluated
-    it."""
-    came_back = undone and not (obj.mode == "SCULPT" or getattr(obj.data, "is_editmode", False))
-    changed = not came_back and not _is_settings_update(obj, carried[0], updates.scene)
-    shape = _shape(obj, updates.depsgraph) if any(mark in _shapes for mark in carried) else None
+def _edited_by_undo(updates: handlers.Updates) -> set[int]:
+    """The updated objects of which undo brings back the shape alone."""
+    objects = [update.id.original for update in updates.depsgraph.updates if isinstance(update.id, Object)]
+    return {
+        obj.session_uid for obj in objects if obj.mode == "SCULPT" or getattr(obj.data, "is_editmode", False)
+    } & set(updates.reshaped)
+
+
+def _with_new_data(updates: handlers.Updates) -> set[int]:
+    """The updated objects whose mesh, curve or shape keys are updated too: that is no setting."""
+    evaluated = [update.id for update in updates.depsgraph.updates if update.is_updated_geometry]
+    data = {changed.original for changed in evaluated if not isinstance(changed, Object)}
+    objects = [changed.original for changed in evaluated if isinstance(changed, Object)]
+    return {
+        obj.session_uid for obj in objects if obj.data in data or getattr(obj.data, "shape_keys", None) in data
+    }
+
+
+def _last_edit(obj: Object, since: int = 0) -> _Stamp:
+    """The last update of the object, or of what it shows, that may be an edit, `_NEVER` where none came after the
+    update `since`."""
+    last = _edits.get(obj.session_uid, _NEVER)
+    for shown in shown_by(obj):
+        last = max(last, *[stamps.get(shown.session_uid, _NEVER) for stamps in (_edits, _moves)])
+    if (source := density_source(obj)) is not None:
+        last = max(last, _edits.get(source.session_uid, _NEVER))
+    return last if last.number > since else _NEVER
+
+
+def _resolve(obj: Object) -> None:
+    """Note what the updates since the last call mean for the marks of an object."""
+    uid = obj.session_uid
+    seen = _resolved.get(uid, 0)
+    if seen >= _last_update:
+        return
+    _resolved[uid] = _last_update
+    edit, returned = _last_edit(obj, seen), _returns.get(uid, _NEVER)
+    last = max(edit, returned)
+    if last.number <= seen:
+        return
+    carried = marks.of_object(obj)
+    shape = _shape(obj, _depsgraph(last)) if any([mark in _shapes for mark in carried]) else None
     for mark in carried:
         if shape is not None and mark in _shapes:
             _set_edited(obj, mark, shape != _shapes[mark])
-        elif changed or undone and mark in _shapes:  # redo brings back an edit whose note may have been taken back
+        elif edit.number or mark in _shapes:  # redo brings back an edit whose note may have been taken back
             _set_edited(obj, mark, True)
 
 
-def _is_settings_update(obj: Object, mark: str, scene: Scene) -> bool:
-    """Whether this update is one of the object's settings: Blender reports those as changes of its geometry."""
-    now = settings_hash(obj, scene)
-    before = _settings.get(obj, mark.rpartition(":")[2])
-    _settings[obj] = now
-    return now != before
+def _depsgraph(stamp: _Stamp) -> Depsgraph | None:
+    """The dependency graph that an update was of, as it was evaluated last."""
+    for scene in bpy.data.scenes:
+        if scene.session_uid == stamp.scene:
+            layer = scene.view_layers.get(stamp.view_layer)
+            return None if layer is None else layer.depsgraph
+    return None
 
 
 def _remember_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
@@ -263,11 +365,20 @@ def _remember_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
         _shapes[mark] = shape
 
 
-def _shape(obj: Object, depsgraph: Depsgraph) -> bytes | None:
+def _shape(obj: Object, depsgraph: Depsgraph | None) -> bytes | None:
     """A digest of all that the numbers come from beside settings and transform; None where there is none."""
-    if obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}:
+    if depsgraph is None or obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}:
         return None
     return shape_digest(obj, depsgraph)
+
+
+def _note_setting(settings: PropertyGroup, _context: Context) -> None:
+    _set_since.add(settings.id_data.session_uid)
+
+
+def _before_undo() -> None:
+    for obj in bpy.data.objects if _last_update else ():
+        _resolve(obj)
 
 
 def _note_undo() -> None:
@@ -276,15 +387,15 @@ def _note_undo() -> None:
 
 
 def _forget_file() -> None:
-    global _undo_pending
-    _undo_pending = False
-    _shapes.clear()
+    global _undo_pending, _last_update
+    _undo_pending, _last_update = False, 0
+    for remembered in (_edits, _returns, _moves, _touches, _resolved, _set_since, _shapes):
+        remembered.clear()
 
 
 def _write_notes() -> None:
-    if not len(_edited):
-        return
-    for obj in bpy.data.objects:
+    for obj in bpy.data.objects if _last_update or len(_edited) else ():
+        _resolve(obj)
         edited = _edited.get(obj)
         if edited and obj.is_editable:
             marks.write_edited(obj, edited)
@@ -292,9 +403,11 @@ def _write_notes() -> None:
 
 SUBSCRIPTIONS = (
     (handlers.on_update, _note_updates),
+    (handlers.before_undo, _before_undo),
     (handlers.on_undo, _note_undo),
     (handlers.on_load, _forget_file),
     (handlers.on_save, _write_notes),
+    (hooks.on_change, _note_setting),
 )
 
 
