@@ -31,12 +31,12 @@ MAX_DIGESTED_FACES = 50_000  # faces: reading and digesting them takes 2 ms
 
 def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
     """The text stored as `body_fingerprint`: version, then the three digests."""
-    return ":".join([VERSION, _digest(geometry), matrix, settings])
+    return ":".join([VERSION, digest(geometry), matrix, settings])
 
 
 def matrix_hash(obj: bpy.types.Object) -> str:
     """A digest of where the object is and how it is turned, scaled and sheared."""
-    return _digest(np.array(obj.matrix_world, np.float32).tobytes())
+    return digest(np.array(obj.matrix_world, np.float32).tobytes())
 
 
 def transform_key(obj: bpy.types.Object) -> str:
@@ -97,18 +97,34 @@ def scale_hash(obj: bpy.types.Object) -> str:
     linear = np.array(obj.matrix_world, np.float64)[:3, :3]
     products = linear.T @ linear
     largest = np.abs(products).max() or 1.0
-    return _digest((np.round(products / largest, 5) + 0.0).tobytes())
+    return digest((np.round(products / largest, 5) + 0.0).tobytes())
 
 
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     """A digest of the settings that the numbers of this object depend on."""
     settings = obj.body_moments
+    density, mass = None, None
+    if settings.mass_from == "MASS":
+        mass = shortest_decimal(settings.mass)
+    else:
+        density = given_density(obj, scene)
+    return settings_hash_with(obj, scene, density, mass)
+
+
+def given_density(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
+    """The one density that the object's settings say: kg/m³, of a wire kg/m."""
+    settings = obj.body_moments
+    return shortest_decimal(settings.linear_density) if settings.kind == "WIRE" else object_density(settings, scene)
+
+
+def settings_hash_with(obj: bpy.types.Object, scene: bpy.types.Scene, density: float | None, mass: float | None) -> str:
+    """A digest of the object's settings as they are, but for this density or mass."""
+    settings = obj.body_moments
     unit = shortest_decimal(scene.unit_settings.scale_length)
-    given = shortest_decimal(settings.linear_density) if settings.kind == "WIRE" else object_density(settings, scene)
     return effective_hash(
         "SOLID" if obj.type == "VOLUME" else settings.kind,
-        given if settings.mass_from == "DENSITY" else None,
-        shortest_decimal(settings.mass) if settings.mass_from == "MASS" else None,
+        density,
+        mass,
         shortest_decimal(settings.thickness) * unit,
         settings.overlap,
         unit,
@@ -143,7 +159,7 @@ def effective_hash(
     ]
     if kind == "SHELL" and wall != "THIN":
         used.append(wall)
-    return _digest(repr(used).encode())
+    return digest(repr(used).encode())
 
 
 def shape_digest(obj, depsgraph) -> bytes | None:
@@ -165,12 +181,13 @@ def shape_digest(obj, depsgraph) -> bytes | None:
     if geometry.mesh is None or len(geometry.mesh.polygons) > MAX_DIGESTED_FACES:
         return None
     surface = mesh_surface(geometry.mesh, edges=False)
-    digest = hashlib.blake2b(digest_size=16)
+    shape = hashlib.blake2b(digest_size=16)
     for array in (surface.points, surface.triangles, surface.quads):
-        digest.update(np.ascontiguousarray(array).tobytes())
-        digest.update(repr(array.shape).encode())
-    return digest.digest()
+        shape.update(np.ascontiguousarray(array).tobytes())
+        shape.update(repr(array.shape).encode())
+    return shape.digest()
 
 
-def _digest(data: bytes) -> str:
+def digest(data: bytes) -> str:
+    """A short text that differs for different data."""
     return hashlib.blake2s(data, digest_size=6).hexdigest()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What else an object shows, or takes its density from: what changes it though Blender does not report it as changed."""
+"""What an object shows, or takes its density from: what changes it though Blender reports no change of it."""
 
 from __future__ import annotations
 

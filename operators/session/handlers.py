@@ -85,17 +85,18 @@ def _updates(scene: Scene, depsgraph: Depsgraph, frame_changed: bool) -> Updates
     moved: list[int] = []
     others: list[int] = []
     collections: list[int] = []
+    # An evaluated data-block has no session uid.
     for update in depsgraph.updates:  # for some thousand objects a frame: no call, no look-up that is not needed
         data = update.id
         if isinstance(data, Object):
             if update.is_updated_geometry:
-                reshaped.append(data.session_uid)
+                reshaped.append(data.original.session_uid)
             elif update.is_updated_transform:
-                moved.append(data.session_uid)
+                moved.append(data.original.session_uid)
             else:
-                others.append(data.session_uid)
+                others.append(data.original.session_uid)
         elif isinstance(data, Collection) and update.is_updated_geometry:
-            collections.append(data.session_uid)
+            collections.append(data.original.session_uid)
     return Updates(scene, depsgraph, reshaped, moved, others, collections, frame_changed)
 
 

@@ -18,7 +18,9 @@ from ...core.density.transfer_function import CT_DENSITIES
 from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import MAX_ORDER
 from .density import object_density
-from .hooks import wall_changed
+from .given import GIVEN_PROPERTIES, is_point_mass
+from .given_properties import GivenPartProperties
+from .hooks import changed, density_changed, wall_changed
 from .overlay import BodyMomentsOverlaySettings
 from .preferences import CLASSES as PREFERENCES
 from .preferences import SceneDefaults
@@ -29,10 +31,16 @@ COPIED_PROPERTIES = (
     *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
     *("density_from", "density_polynomial", "density_frame", "density_attribute"),
     *("density_volume", "grid", "grid_as", "values_from", "value_density", "transfer_table", "spline_order"),
+    *GIVEN_PROPERTIES,
 )
 
 
-def _forget_material(settings: PropertyGroup, _context: Context) -> None:
+def _density_changed(settings: PropertyGroup, context: Context) -> None:
+    _forget_material(settings)
+    density_changed(settings, context)
+
+
+def _forget_material(settings: PropertyGroup, _context: Context | None = None) -> None:
     material = BY_NAME.get(settings.material)
     if settings.material and (material is None or np.float32(material.density) != np.float32(settings.density)):
         settings.material = ""
@@ -59,7 +67,7 @@ def _shown_density(settings: PropertyGroup) -> float:
     return settings.density
 
 
-class BodyMomentsObjectSettings(PropertyGroup):
+class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
     """What one object is made of."""
 
     kind: EnumProperty(
@@ -72,6 +80,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
             ("WIRE", "Wire", "The curve is a wire of the given mass per length"),
         ),
         default="SOLID",
+        update=changed,
     )
     mass_from: EnumProperty(
         name="Specify",
@@ -81,6 +90,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
             ("MASS", "Mass", "Enter the measured mass and compute the mean density"),
         ),
         default="DENSITY",
+        update=density_changed,
     )
     density_from: EnumProperty(
         name="Density From",
@@ -106,6 +116,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
             ("VOLUME", "Volume Object", "Grid of a Volume object around a solid, constant in each voxel"),
         ),
         default="VALUE",
+        update=density_changed,
     )
     density_polynomial: StringProperty(
         name="Polynomial",
@@ -114,6 +125,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
             "y, z, x², xy, xz, y², yz, z², … separated by commas"
         ),
         default="1000",
+        update=changed,
     )
     density_frame: EnumProperty(
         name="Coordinates",
@@ -128,11 +140,13 @@ class BodyMomentsObjectSettings(PropertyGroup):
             ("WORLD", "World", "Meters along the world axes from the world origin"),
         ),
         default="OBJECT",
+        update=changed,
     )
     density_attribute: StringProperty(
         name="Attribute",
         description="Float attribute on the vertices with the density in kg/m³, after modifiers",
         default="density",
+        update=changed,
     )
     density: FloatProperty(
         name="Density",
@@ -143,7 +157,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
         soft_max=25000.0,
         step=1000,
         precision=3,
-        update=_forget_material,
+        update=_density_changed,
     )
     density_kg_m3: _density_in("KG_M3", "Density")
     density_g_cm3: _density_in("G_CM3", "Density")
@@ -156,6 +170,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
         min=0.0,
         step=10,
         precision=6,
+        update=density_changed,
     )
     mass: FloatProperty(
         name="Mass",
@@ -164,6 +179,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
         min=0.0,
         step=10,
         precision=6,
+        update=density_changed,
     )
     wall: EnumProperty(
         name="Wall",
@@ -202,14 +218,17 @@ class BodyMomentsObjectSettings(PropertyGroup):
             ("UNION", "Count as Union", "Components are united first by Blender's exact Boolean"),
         ),
         default="SIGNED",
+        update=changed,
     )
     material: StringProperty(
         name="Material",
         description="Material that the density was taken from",
+        update=changed,
     )
     grid: StringProperty(
         name="Grid",
         description="Grid to measure. If empty, “density” or else the first suitable grid",
+        update=changed,
     )
     grid_as: EnumProperty(
         name="Measure As",
@@ -219,6 +238,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
             ("SOLID", "Solid", "The grid is a level set that bounds a solid filled with material"),
         ),
         default="DENSITY",
+        update=changed,
     )
     values_from: EnumProperty(
         name="Values",
@@ -228,6 +248,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
             ("TABLE", "Table", "Use a transfer table, for example for CT numbers"),
         ),
         default="FACTOR",
+        update=changed,
     )
     value_density: FloatProperty(
         name="Density of Value 1",
@@ -237,6 +258,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
         soft_max=25000.0,
         step=100,
         precision=4,
+        update=changed,
     )
     transfer_table: StringProperty(
         name="Transfer Table",
@@ -245,6 +267,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
             "The default converts CT numbers to tissue densities"
         ),
         default=CT_DENSITIES,
+        update=changed,
     )
     spline_order: IntProperty(
         name="Spline Order",
@@ -252,12 +275,14 @@ class BodyMomentsObjectSettings(PropertyGroup):
         default=1,
         min=1,
         max=6,
+        update=changed,
     )
     density_volume: PointerProperty(
         name="Volume",
         description="Volume object whose grid is the density inside the solid",
         type=Object,
         poll=lambda _settings, obj: obj.type == "VOLUME",
+        update=changed,
     )
 
 
@@ -344,11 +369,16 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)
-        different = getattr(target, name) != value
+        different = _comparable(getattr(target, name)) != _comparable(value)
         if different or source.is_property_set(name) and not target.is_property_set(name):
             setattr(target, name, value)
         changed = changed or different
     return changed
+
+
+def _comparable(value):
+    """The value; of an array its numbers."""
+    return value[:] if hasattr(value, "foreach_get") else value
 
 
 def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
@@ -356,7 +386,7 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
     for name in ("kind", "overlap"):
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name).upper())
-    if options.density is not None:
+    if options.density is not None and not is_point_mass(settings.id_data):
         settings.mass_from, settings.density_from = "DENSITY", "VALUE"
         setattr(settings, "linear_density" if settings.kind == "WIRE" else "density", options.density)
         if settings.id_data.type == "VOLUME":
