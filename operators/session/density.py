@@ -20,7 +20,7 @@ from ..read.fingerprint import VERSION, given_density, settings_hash, settings_h
 from ..settings import hooks
 from ..settings.density import default_density
 from ..write import properties
-from . import marks, staleness
+from . import marks, reference, staleness
 
 DEFAULTS = {  # what is noted where nobody has set a density, by the setting
     "density": finding("density_default_kept"),
@@ -68,6 +68,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
         ":".join(mark._replace(settings=settings_hash(obj, scene))),
     )
     staleness.replace_mark(obj, ":".join(mark))
+    reference.follow(obj, scene, reference.stored_choice(obj))
 
 
 def _can_store(obj: Object) -> bool:

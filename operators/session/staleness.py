@@ -108,6 +108,20 @@ def replace_mark(obj: Object, before: str) -> None:
         _shapes[mark] = _shapes[before]
 
 
+def pin(obj: Object) -> None:
+    """Take the results of an object as those of the place where it is, after some were stored that depend on it.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object that can hold results.
+    """
+    mark = marks.parse(before := marks.of_results(obj))
+    if mark is not None and has_transform(obj, mark.transform):
+        obj["body_fingerprint"] = ":".join(mark._replace(transform=matrix_hash(obj)))
+        replace_mark(obj, before)
+
+
 def mark_axes_changed(objects: Iterable[Object]) -> None:
     """Note that objects have other axes than before: directions that are stored in these no longer hold.
 

@@ -277,6 +277,12 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         max=6,
         update=changed,
     )
+    accepted: StringProperty(
+        name="Accepted Findings",
+        description="Codes of the warnings that were accepted for this object and are notes",
+        options={"HIDDEN"},
+        update=changed,
+    )
     density_volume: PointerProperty(
         name="Volume",
         description="Volume object whose grid is the density inside the solid",
@@ -353,6 +359,7 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
                 "Center, Normalized",
                 "Central moments of the shape scaled to a volume or area of 1, independent of size",
             ),
+            ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
         ),
         default="ORIGIN",
     )

@@ -224,3 +224,23 @@ def test_linked_and_overriding_objects_are_skipped_and_named(tmp_path, reported)
     assert reported.values("left_unchanged")["count"] == 1 and reported.values("failure")["object"].startswith("Linked")
     assert stored(linked) == before and local["body_density"] == local.body_moments.density != 1000.0
     assert_as_measured(local)
+
+
+def test_inertia_about_a_reference_follows_the_density_and_is_out_of_date_once_the_object_has_moved():
+    obj = add(mesh_body(), location=(4, -3, 2), rotation=(1, 2, 3))
+    measure(obj)
+    assert bpy.ops.object.body_moments_store_reference() == {"FINISHED"}
+    before, mark = obj["body_reference_inertia"].to_list(), obj["body_fingerprint"]
+    obj.body_moments.density = 3000.0
+    assert reason(obj) is None and close(obj["body_reference_inertia"].to_list(), np.multiply(before, 3.0), 1e-9)
+    obj.location.x += 1.0
+    assert reason(obj) == "stale_transform"
+    assert_as_measured_after(obj, mark)
+
+
+def assert_as_measured_after(obj, mark):
+    """Measuring stores what is about the reference again, for the place where the object is."""
+    measure(obj)
+    assert obj["body_fingerprint"] != mark and "body_reference_inertia" in obj
+    obj.location.x -= 1.0
+    assert reason(obj) == "stale_transform"
