@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from ...core.density.part_densities import PartDensities, part_densities
 from ...core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
 from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import distinct_linear_parts
-from ...core.moments.moments import Moments, are_similarities, sum_moments, sum_of_images
+from ...core.moments.affine_maps import are_similarities, distinct_linear_parts
+from ...core.moments.images import sum_of_images
+from ...core.moments.moments import Moments, sum_moments
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals
 from ...core.solid.parts import ClosedParts

@@ -12,7 +12,7 @@ import bpy
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity, finding
 from ...bodies.measure_object import Measured, measure_body
-from ...session import results
+from ...session import outcome, results
 from ...session.staleness import mark_up_to_date
 from ...settings.density import unset_density
 from ...settings.preferences import copy_defaults
@@ -84,15 +84,20 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         return {"FINISHED"} if stored else {"CANCELLED"}
 
     def _report(self, stored: int) -> None:
-        reported = [measured.measurement.findings for _, measured in self._results]
-        warned = sum([bool(of_severity(findings, Severity.WARNING, Severity.ERROR)) for findings in reported])
+        warnings = [
+            finding("object_warnings", object=obj.name_full, causes=[cause.as_record() for cause in causes])
+            for obj, measured in self._results
+            if (causes := of_severity(measured.measurement.findings, Severity.WARNING, Severity.ERROR))
+        ]
         tried = stored + len(self._failures)
         done = [finding("measured_several", count=stored, total=tried)] if tried > 1 else []
         if tried == stored == 1:
             name = self._results[0][0].name
-            done.append(finding("measured_one_with_warnings" if warned else "measured_one", object=name))
-        elif warned:
-            done.append(finding("with_warnings", count=warned))
+            done.append(finding("measured_one_with_warnings" if warnings else "measured_one", object=name))
+        elif warnings:
+            names = [warning.values["object"] for warning in warnings]
+            done.append(finding("with_warnings", count=len(names), objects=names))
+        outcome.remember(self.bl_label, [*self._failures, *warnings] if tried > 1 else self._failures[1:])
         reports.report(self, *done, *(reports.first(self._failures) if self._failures else ()))
 
 

@@ -540,16 +540,21 @@ def test_a_report_is_as_severe_as_its_worst_finding_and_reads_as_sentences():
     operator = SimpleNamespace(report=lambda *call: calls.append(call))
     bpy.context.scene.unit_settings.length_unit = "MILLIMETERS"
     wall = finding("wall_measured", thickness=0.25, side="inward")
-    reports.report(operator, finding("measured_several", count=2, total=3), finding("with_warnings", count=1), wall)
+    reports.report(
+        operator, finding("measured_several", count=2, total=3), finding("with_warnings", count=1, objects=["A"]), wall
+    )
     reports.report(operator, wall, finding("measured_one", object="A"))
     reports.report(
-        operator, finding("no_faces"), finding("measured_one", object="{B}"), finding("with_warnings", count=1)
+        operator,
+        finding("no_faces"),
+        finding("measured_one", object="{B}"),
+        finding("with_warnings", count=1, objects=["A"]),
     )
     with_wall = "The wall was measured with real thickness: 250 mm, inward, mitered corners."
     assert calls == [
-        ({"WARNING"}, "Measured 2 of 3 objects; 1 with warnings. " + with_wall),
+        ({"WARNING"}, "Measured 2 of 3 objects; 1 with warnings: “A”. " + with_wall),
         ({"INFO"}, with_wall + " Measured A"),
-        ({"ERROR"}, "No faces. Add faces, or select another object. Measured {B}; 1 with warnings"),
+        ({"ERROR"}, "No faces. Add faces, or select another object. Measured {B}; 1 with warnings: “A”"),
     ]
 
 
