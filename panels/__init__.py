@@ -21,6 +21,7 @@ MODULES = (
         "density",
         "given",
         "apply",
+        "stability",
         "selection",
         "assembly",
         "advanced",

@@ -36,6 +36,8 @@ class Support:
         Distance of the foot from the nearest edge, negative where the foot is outside the polygon.
     direction : (3,) array
         Unit vector on the ground: over the nearest edge, where the body tips first or falls to.
+    up : (3,) array
+        Unit vector against gravity.
 
     Examples
     --------
@@ -51,6 +53,7 @@ class Support:
     height: float
     margin: float
     direction: NDArray[np.float64]
+    up: NDArray[np.float64]
 
     @property
     def stands(self) -> bool:
@@ -150,7 +153,7 @@ def _support(contacts: NDArray, height: float, center: NDArray, axes: NDArray) -
     corners = contacts[convex_polygon(contacts)]
     margin, direction = polygon_margin(corners)
     polygon = np.concatenate([corners, np.full((len(corners), 1), -height)], axis=1) @ axes.T + center
-    return Support(polygon, center - height * axes[:, 2], height, margin, axes[:, :2] @ direction)
+    return Support(polygon, center - height * axes[:, 2], height, margin, axes[:, :2] @ direction, axes[:, 2])
 
 
 def polygon_margin(corners: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
