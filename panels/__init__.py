@@ -14,7 +14,7 @@ from ..operators import register_module, unregister_module
 
 # Each with `register` or with CLASSES. A sub-panel comes after the panel that it is a part of.
 MODULES = (
-    "manual",
+    *("manual", "menus"),
     *("material_menus", "body"),
     *(
         "inertia",

@@ -1389,6 +1389,8 @@ MESSAGES: dict[str, Message] = {
     ),
     "already_in_place": _note("already in place"),
     "orientation_created": _note("Created the transform orientation “{name}”"),
+    "node_group_added": _note("Added the node group “{group}”"),
+    "node_marker_added": _note("Added the node group “{group}” and the marker “{object}”"),
     "no_reversed_faces": _note("no faces were measured as reversed"),
     "faces_reversed": _note("Reversed {count} face", "Reversed {count} faces"),
     "material_set": _note("Set {count} object to {material}", "Set {count} objects to {material}"),
@@ -1523,6 +1525,26 @@ MESSAGES: dict[str, Message] = {
         "SDF knows no limits of a joint about several axes. It moves freely: {joints}.",
         "SDF knows no limits of joints about several axes. {count} move freely: {joints}.",
     ),
+    "left_out_of_robot": _warning("{count} of {total} objects are no links: {causes}"),
+    "robot_exported": _note("{count} link exported to {file}.", "{count} links exported to {file}."),
+    "robot_scaled": _warning(
+        "Readers differ about bodies that are scaled. Apply the scale of {links} (Object > Apply > Scale)."
+    ),
+    "robot_sheared": _warning(
+        "Bodies must not be sheared. Apply the scale of the parents of {links} (Object > Apply > Scale)."
+    ),
+    "robot_names_alike": _error("Blender gives {names} one name in USD. Rename one of them."),
+    "gltf_node_missing": _warning(
+        "{count} link has no node of its own in the file: {links}.",
+        "{count} links have no nodes of their own in the file: {links}.",
+    ),
+    "gltf_unit_scale": _note(
+        "Blender writes its units to glTF as meters. Center and inertia are in these, at {scale:g} m a unit."
+    ),
+    "gltf_unreadable": _error("Blender's exporter has not written a glTF file."),
+    "robot_geometry_not_written": _error("Blender's exporter failed: {error}."),
+    "robot_not_written": _error("The file cannot be written: {error}."),
+    "robot_copied": _note("Inertial of {count} link copied.", "Inertials of {count} links copied."),
     "robot_meshes_written": _note("{count} mesh written to {folder}.", "{count} meshes written to {folder}."),
     "robot_meshes_not_written": _error("The meshes cannot be written: {error}."),
     "mjcf_inertia_too_small": _warning(

@@ -31,7 +31,7 @@ class Layout:
     def _sub(self, **_options):
         return Layout(self.record, self.closed)
 
-    row = column = split = box = grid_flow = _sub
+    row = column = split = box = grid_flow = menu_pie = _sub
 
     def panel(self, name, default_closed=False):
         return self._sub(), None if name in self.closed else self._sub()
