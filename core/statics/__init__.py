@@ -7,7 +7,7 @@ center.
 from .balance import BalanceResult, balance
 from .gradient import Gradient, area_gradient, volume_gradient
 from .resting import RestingPoses, resting_poses
-from .support import Support, find_support, ground_axes, support_of_contacts
+from .support import Support, find_support
 
 __all__ = [
     "BalanceResult",
@@ -17,8 +17,6 @@ __all__ = [
     "area_gradient",
     "balance",
     "find_support",
-    "ground_axes",
     "resting_poses",
-    "support_of_contacts",
     "volume_gradient",
 ]

@@ -44,8 +44,8 @@ class Support:
     >>> from body_moments.core.statics import find_support
     >>> corners = [[x, y, z] for x in (0.0, 4.0) for y in (0.0, 2.0) for z in (0.0, 1.0)]
     >>> support = find_support(corners, center=[1.5, 1.5, 0.5])
-    >>> support.stands, support.margin, support.direction.tolist(), round(np.degrees(support.tipping_angle), 9)
-    (True, 0.5, [0.0, 1.0, 0.0], 45.0)
+    >>> support.stands, support.margin, support.direction.tolist(), round(support.tipping_angle, 6)
+    (True, 0.5, [0.0, 1.0, 0.0], 0.785398)
     """
 
     polygon: NDArray[np.float64]
@@ -80,9 +80,9 @@ def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
 
     Examples
     --------
-    >>> from body_moments.core.statics import ground_axes
-    >>> ground_axes([0.0, 0.0, -9.81]).tolist()
-    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    >>> from body_moments.core.statics.support import ground_axes
+    >>> ground_axes([0.0, 0.0, -9.81])[:, 2].tolist()
+    [0.0, 0.0, 1.0]
     """
     up = -np.asarray(down, np.float64)
     up = up / np.linalg.norm(up)
@@ -111,6 +111,13 @@ def find_support(
     Returns
     -------
     Support
+
+    Examples
+    --------
+    >>> from body_moments.core.statics import find_support
+    >>> corners = [[x, y, z] for x in (0.0, 4.0) for y in (0.0, 2.0) for z in (0.0, 1.0)]
+    >>> find_support(corners, center=[2.0, 1.0, 0.5], down=[1.0, 0.0, 0.0]).height
+    2.0
     """
     points, center = np.asarray(points, np.float64), np.asarray(center, np.float64)
     axes = ground_axes(down)
@@ -137,7 +144,7 @@ def support_of_contacts(contacts: ArrayLike, center: ArrayLike, down: ArrayLike 
 
     Examples
     --------
-    >>> from body_moments.core.statics import support_of_contacts
+    >>> from body_moments.core.statics.support import support_of_contacts
     >>> support = support_of_contacts([[0, 0, 0], [2, 0, 1], [0, 2, 0]], center=[3.0, -1.0, 2.0])
     >>> support.stands, round(support.margin, 6)
     (False, -1.414214)

@@ -7,7 +7,7 @@ from math import atan2, hypot, pi
 
 import numpy as np
 import pytest
-from body_moments.core.statics import find_support, ground_axes, support_of_contacts
+from body_moments.core.statics.support import find_support, ground_axes, support_of_contacts
 
 from tests.close import close
 
