@@ -15,6 +15,7 @@ PARTS = (
     "write.translations",
     "settings.properties",
     "settings.assembly",
+    "settings.reference",
     *("session.handlers", "session.walls", "session.live", "session.assembly", "session.outcome"),
     *(
         "actions.setup." + name
@@ -22,7 +23,17 @@ PARTS = (
     ),
     *(
         "actions.measure." + name
-        for name in ("measure_selected", "live", "section", "select_faults", "clear", "copy", "moments", "fourier")
+        for name in (
+            "measure_selected",
+            "live",
+            "section",
+            "select_faults",
+            "clear",
+            "copy",
+            "moments",
+            "reference",
+            "fourier",
+        )
     ),
     *(
         "actions.snap." + name

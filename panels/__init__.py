@@ -18,6 +18,7 @@ MODULES = (
     *("material_menus", "body"),
     *(
         "inertia",
+        "reference",  # of the inertia
         "density",
         "given",
         "apply",

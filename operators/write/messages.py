@@ -1254,6 +1254,14 @@ MESSAGES: dict[str, Message] = {
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ References
+    "axis_points_coincide": _error("The two points of the axis are too near to each other. Move one of them."),
+    "axis_needs_two_points": _error("{count} points are selected. Select two vertices, or two objects."),
+    "reference_object_missing": _error("No object is chosen as the reference. Choose one in Object."),
+    "reference_stored": _note(
+        "Stored the inertia of {count} object about the reference",
+        "Stored the inertia of {count} objects about the reference",
+    ),
     # ------------------------------------------------------------------ Given parts and assemblies
     "center_given": _note("The center of mass is given."),
     "inertia_given": _note("The inertia is given."),
