@@ -243,6 +243,14 @@ MESSAGES: dict[str, Message] = {
         "The surface intersects itself and regions count as negative. Set Overlaps to Count as Union, or repair "
         "the mesh."
     ),
+    "self_intersection": _warning(
+        "The surface intersects itself: about {share:percent} of the volume counts twice or as negative. Set Overlaps "
+        "to Count as Union, or repair the mesh."
+    ),
+    "self_intersection_slightly": _note(
+        "The surface intersects itself: about {share:percent} of the volume counts twice or as negative."
+    ),
+    "self_intersection_unchecked": _note("Whether the surface intersects itself was not checked."),
     "negative_inertia": _error(
         "The surface intersects itself or cannot be closed, and regions count as negative. Set Overlaps to Count as "
         "Union, repair the mesh, or set Kind to Shell."
