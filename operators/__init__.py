@@ -14,16 +14,32 @@ from types import ModuleType
 PARTS = (
     "write.translations",
     "settings.properties",
-    *("session.handlers", "session.walls", "session.live"),
-    *("actions.setup.presets", "actions.setup.import_scan"),
+    "settings.assembly",
+    "settings.reference",
+    *("session.handlers", "session.walls", "session.live", "session.assembly", "session.outcome"),
+    *(
+        "actions.setup." + name
+        for name in ("presets", "import_scan", "remedies", "node_group", "assembly", "assembly_snap", "bill")
+    ),
     *(
         "actions.measure." + name
-        for name in ("measure_selected", "live", "section", "select_faults", "clear", "copy", "moments", "fourier")
+        for name in (
+            "measure_selected",
+            "live",
+            "section",
+            "select_faults",
+            "clear",
+            "copy",
+            "moments",
+            "reference",
+            "fourier",
+        )
     ),
     *(
         "actions.snap." + name
         for name in ("origin", "principal_axes", "align", "empty", "cursor", "orientation", "rigid_body", "balance")
     ),
+    "actions.export.robot",
     *("actions.shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",
     "session.staleness",
@@ -38,18 +54,18 @@ def register() -> None:
     """Register every part; where one fails, remove the others and let the error rise."""
     with ExitStack() as undo:
         for part in _parts():
-            _register(part)
-            undo.callback(_unregister, part)
+            register_module(part)
+            undo.callback(unregister_module, part)
         undo.pop_all()
 
 
 def unregister() -> None:
     """Remove everything that `register` added, in reverse."""
     for part in reversed(_parts()):
-        _unregister(part)
+        unregister_module(part)
 
 
-def _register(part: ModuleType) -> None:
+def register_module(part: ModuleType) -> None:
     if hasattr(part, "register"):
         part.register()
         return
@@ -62,7 +78,7 @@ def _register(part: ModuleType) -> None:
         undo.pop_all()
 
 
-def _unregister(part: ModuleType) -> None:
+def unregister_module(part: ModuleType) -> None:
     if hasattr(part, "unregister"):
         part.unregister()
         return

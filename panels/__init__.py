@@ -8,33 +8,43 @@ They show what is stored or cached and compute nothing.
 
 from contextlib import ExitStack
 from importlib import import_module
+from types import ModuleType
 
-# Each with CLASSES. A sub-panel comes after the panel that it is a part of.
+from ..operators import register_module, unregister_module
+
+# Each with `register` or with CLASSES. A sub-panel comes after the panel that it is a part of.
 MODULES = (
+    *("manual", "menus"),
     *("material_menus", "body"),
-    *("inertia", "density", "apply", "selection", "advanced"),  # sub-panels; their order is `places.ORDER`
+    *(
+        "inertia",
+        "reference",  # of the inertia
+        "density",
+        "given",
+        "apply",
+        "selection",
+        "assembly",
+        "advanced",
+    ),  # sub-panels; their order is `places.ORDER`
     *("moments", "section", "shape"),  # sub-panels of the advanced one
+    *("overlay.popover", "overlay.draw"),
 )
 
 
-def _classes() -> list[type]:
-    return [cls for name in MODULES for cls in import_module("." + name, __name__).CLASSES]
+def _modules() -> list[ModuleType]:
+    return [import_module("." + name, __name__) for name in MODULES]
 
 
 def register() -> None:
-    """Register every class; where one fails, remove the others and let the error rise."""
-    import bpy
-
+    """Register every module; where one fails, remove the others and let the error rise."""
     with ExitStack() as undo:
-        for cls in _classes():
-            bpy.utils.register_class(cls)
-            undo.callback(bpy.utils.unregister_class, cls)
+        for module in _modules():
+            register_module(module)
+            undo.callback(unregister_module, module)
         undo.pop_all()
 
 
 def unregister() -> None:
     """Remove everything that `register` added, in reverse."""
-    import bpy
-
-    for cls in reversed(_classes()):
-        bpy.utils.unregister_class(cls)
+    for module in reversed(_modules()):
+        unregister_module(module)

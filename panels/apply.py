@@ -32,6 +32,7 @@ class ApplyPanel:
         text = "Set Rigid Body Mass" if obj.rigid_body else "Add Rigid Body with Mass"
         button = column.operator("object.body_moments_set_rigid_body_mass", text=text, icon="RIGID_BODY")
         button.add = not obj.rigid_body
+        layout.operator("object.body_moments_add_nodes", icon="GEOMETRY_NODES")
         layout.operator("object.body_moments_sculpt_balance", icon="SCULPTMODE_HLT")
 
 

@@ -10,9 +10,10 @@ from bpy.types import Context
 
 from ..operators.session import results
 from ..operators.write.units import Units
-from . import rows
+from . import remedies
 from .density import material_row
 from .numbers import numbers
+from .overlay.popover import header_switch
 from .places import in_both_places
 from .verdict import method_and_findings, verdict
 
@@ -26,6 +27,9 @@ class BodyPanel:
     def poll(cls, context: Context) -> bool:
         return context.object is not None
 
+    def draw_header_preset(self, context: Context) -> None:
+        header_switch(self.layout, context)
+
     def draw(self, context: Context) -> None:
         obj, scene = context.object, context.scene
         layout = self.layout
@@ -33,18 +37,20 @@ class BodyPanel:
         shown = results.of_object(obj, scene)
         verdict(layout, context, obj, measured=shown is not None)
         _, findings = method_and_findings(obj) if shown is not None else (None, ())
-        rows.warnings(layout, context, "body_moments_warnings", findings)
+        remedies.last_action(layout, context)
+        remedies.warnings(layout, context, "body_moments_warnings", findings)
         material_row(layout, context, obj)
         row = layout.row(align=True)
         row.scale_y = 1.4
         row.operator("object.body_moments_measure", icon="PHYSICS")
         row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
         if shown is not None:
+            remedies.unit_question(layout, context, shown)
             numbers(layout, context, Units.of(scene.unit_settings), shown)
             row = layout.row(align=True)
             row.operator("object.body_moments_copy_report", icon="COPYDOWN")
             row.operator("object.body_moments_clear", icon="TRASH")
-            rows.notes(layout, context, "body_moments_notes", findings)
+            remedies.notes(layout, context, "body_moments_notes", findings)
 
 
 CLASSES = VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(BodyPanel)

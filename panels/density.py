@@ -5,12 +5,15 @@ attribute, Volume object."""
 
 from __future__ import annotations
 
-from bpy.types import Context, Object, UILayout
+from bpy.types import Context, Object, Scene, UILayout
 
 from ..core.verdict.finding import finding
 from ..operators.read.visibility import GEOMETRY_TYPES
 from ..operators.session import walls as wall_slider
+from ..operators.settings.preferences import default_material
+from ..operators.settings.properties import density_field_name
 from ..operators.write.translations import CONTEXT
+from ..operators.write.units import Units
 from . import grid, rows
 from . import material_menus as materials
 from .places import in_both_places
@@ -49,7 +52,7 @@ def material_row(layout: UILayout, context: Context, obj: Object) -> None:
     elif settings.kind == "WIRE":
         column.prop(settings, "linear_density", text="Density (kg/m)")
     elif settings.density_from == "VALUE" or obj.type == "VOLUME":
-        _material(column, settings, "Material")
+        _material(column, context, settings, "Material")
     else:
         column.prop(settings, "density_from")
 
@@ -67,7 +70,7 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
         if settings.mass_from == "MASS":
             column.prop(settings, "mass", text="Mass (kg)")
         else:
-            _uniform_density(column, settings, "Material")
+            _uniform_density(column, context, settings, "Material")
         return
     row = _labeled_row(column, "Kind")
     row.use_property_split = False
@@ -100,7 +103,7 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
     elif settings.density_from == "MATERIALS":
         _materials(layout, context, obj)
     else:
-        _uniform_density(column, settings, "Material")
+        _uniform_density(column, context, settings, "Material")
 
 
 def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
@@ -117,15 +120,15 @@ def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
 def _materials(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
     column = layout.column(align=True)
-    column.label(text="Densities (kg/m³)")
+    rows.filled(column, "Densities ({:s})", Units.of(context.scene.unit_settings).unit("density", 0.0)[1])
     shown = {slot.material: None for slot in obj.material_slots if slot.material}
     for material in shown:
-        materials.density_row(column, material, material.name)
+        materials.density_row(column, context.scene, material, material.name)
     if not shown:
         rows.message(column, context, finding("panel_no_material_slots"))
     column = layout.column()
     column.use_property_split = True
-    _uniform_density(column, settings, "Others")
+    _uniform_density(column, context, settings, "Others")
 
 
 def _labeled_row(column: UILayout, label: str) -> UILayout:
@@ -137,16 +140,23 @@ def _labeled_row(column: UILayout, label: str) -> UILayout:
     return split.row(align=True)
 
 
-def _uniform_density(column: UILayout, settings, heading: str) -> None:
+def _uniform_density(column: UILayout, context: Context, settings, heading: str) -> None:
     """The object's own density, with the table and the user's presets."""
-    _material(column, settings, heading)
-    column.prop(settings, "density", text="Density (kg/m³)")
+    _material(column, context, settings, heading)
+    column.prop(settings, density_field_name(context.scene))
 
 
-def _material(column: UILayout, settings, heading: str) -> None:
+def _material(column: UILayout, context: Context, settings, heading: str) -> None:
     row = _labeled_row(column, heading)
-    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or "Custom")
+    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or _unset_material(settings, context.scene))
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
+
+
+def _unset_material(settings, scene: Scene) -> str:
+    """What stands for the material of an object whose density was not taken from the table."""
+    if settings.is_property_set("density"):
+        return "Custom"
+    return default_material(scene) or "Custom"
 
 
 CLASSES = VIEW3D_PT_body_moments_density, OBJECT_PT_body_moments_density = in_both_places(DensityPanel, "density")

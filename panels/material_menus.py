@@ -8,9 +8,9 @@ selected objects.
 
 import bpy
 from bl_ui.utils import PresetPanel
-from bpy.types import Context, Material, Menu, Panel, UILayout
+from bpy.types import Context, Material, Menu, Panel, Scene, UILayout
 
-from ..core.density.materials import CATEGORIES, MATERIALS
+from ..core.density.materials import CATEGORIES, FILAMENT, MATERIALS
 from ..core.verdict.finding import finding
 from ..operators.actions.setup.presets import (
     PRESET_FOLDER,
@@ -18,6 +18,8 @@ from ..operators.actions.setup.presets import (
     OBJECT_OT_body_moments_preset_add,
     OBJECT_OT_body_moments_set_material,
 )
+from ..operators.settings.properties import density_field_name
+from ..operators.write.units import Units
 from . import rows
 
 
@@ -33,8 +35,12 @@ class OBJECT_MT_body_moments_materials(Menu):
         layout.operator_context = "INVOKE_DEFAULT"
         _set_density(layout, context, text="Search...", icon="VIEWZOOM")
         layout.separator()
+        layout.operator_context = "EXEC_DEFAULT"
+        _entries(layout, context, FILAMENT)  # what is chosen most, without a further menu
+        layout.separator()
         for category in CATEGORIES:
-            layout.menu(_menu_name(category))
+            if category != FILAMENT:
+                layout.menu(_menu_name(category))
 
 
 def _menu_name(category: str) -> str:
@@ -51,7 +57,7 @@ def _set_density(layout: UILayout, context: Context, **options: str):
     return button
 
 
-def density_row(layout: UILayout, material: Material, label: str = "") -> None:
+def density_row(layout: UILayout, scene: Scene, material: Material, label: str = "") -> None:
     """A material's density with the menu of the table."""
     settings = material.body_moments
     row = layout.row(align=True)
@@ -60,17 +66,21 @@ def density_row(layout: UILayout, material: Material, label: str = "") -> None:
         split = row.split(factor=0.4, align=True)
         split.label(text=label, icon="MATERIAL", translate=False)
         row = split.row(align=True)
-    row.prop(settings, "density", text="" if label else "Density (kg/m³)")
+    row.prop(settings, density_field_name(scene), **({"text": ""} if label else {}))
     row.context_pointer_set("body_moments_material", material)
     row.menu(OBJECT_MT_body_moments_materials.bl_idname, text="", icon="DOWNARROW_HLT")
 
 
 def _draw_category(self: Menu, context: Context) -> None:
-    layout = self.layout
-    layout.operator_context = "EXEC_DEFAULT"
+    self.layout.operator_context = "EXEC_DEFAULT"
+    _entries(self.layout, context, self.bl_label)
+
+
+def _entries(layout: UILayout, context: Context, category: str) -> None:
+    units = Units.of(context.scene.unit_settings)
     for material in MATERIALS:
-        if material.category == self.bl_label:
-            text = "{:s}  ({:.5g})".format(material.name, material.density)
+        if material.category == category:
+            text = "{:s}  ({:s})".format(material.name, units.text("density", material.density))
             _set_density(layout, context, text=text).material = material.name
 
 
@@ -79,7 +89,7 @@ CATEGORY_MENUS = tuple(
         _menu_name(category),
         (Menu,),
         {
-            "__doc__": "{:s}, with their densities in kg/m³".format(category),
+            "__doc__": "{:s}, with their densities".format(category),
             "bl_idname": _menu_name(category),
             "bl_label": category,
             "draw": _draw_category,
@@ -128,7 +138,7 @@ class MATERIAL_PT_body_moments(Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         material = context.material
-        density_row(layout, material)
+        density_row(layout, context.scene, material)
         column = layout.column()
         if material.body_moments.material:
             column.label(text=material.body_moments.material, icon="CHECKMARK", translate=False)

@@ -8,7 +8,7 @@ Blender translates what it draws: what is a label in the source, as it is; what 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 
 import blf
@@ -18,7 +18,7 @@ from bpy.types import Context, UILayout
 
 from ..core.verdict.finding import Finding, Severity, finding
 from ..operators.actions.measure.copy import OBJECT_OT_body_moments_copy_value
-from ..operators.write.messages import of_severity, severity
+from ..operators.write.messages import severity
 from ..operators.write.translations import localized, localized_sentence
 from ..operators.write.units import SI_UNITS, Units
 
@@ -124,30 +124,6 @@ def stale_row(layout: UILayout, context: Context, code: str | None) -> None:
         row.alert = True
         reason = localized_sentence(finding(code), context.scene.unit_settings)
         sentence(row, context, localized("Out of date: {:s}").format(reason), icon="FILE_REFRESH")
-
-
-def warnings(layout: UILayout, context: Context, idname: str, findings: Iterable[Finding]) -> None:
-    """A sub-panel, open at first, of warnings and errors, where there are any; errors first."""
-    findings = list(findings)
-    alarming = [*of_severity(findings, Severity.ERROR), *of_severity(findings, Severity.WARNING)]
-    _listed(layout, context, idname, "Warnings ({:d})", alarming, closed=False)
-
-
-def notes(layout: UILayout, context: Context, idname: str, findings: Iterable[Finding]) -> None:
-    """A sub-panel, closed at first, of notes."""
-    _listed(layout, context, idname, "Notes ({:d})", of_severity(findings, Severity.NOTE), closed=True)
-
-
-def _listed(
-    layout: UILayout, context: Context, idname: str, heading: str, findings: Sequence[Finding], closed: bool
-) -> None:
-    if not findings:
-        return
-    header, body = layout.panel(idname, default_closed=closed)
-    filled(header, heading, len(findings))
-    if body is not None:
-        for shown in findings:
-            message(body, context, shown)
 
 
 def _fits(share: float, *cells: str) -> bool:

@@ -14,7 +14,7 @@ from ..operators.session import live, results, staleness
 from ..operators.write import properties
 from ..operators.write.messages import METHODS, method_key
 from ..operators.write.translations import localized
-from . import rows
+from . import remedies, rows
 
 ICONS = {
     "exact": "CHECKMARK",
@@ -24,6 +24,8 @@ ICONS = {
     "wire": "CURVE_DATA",
     "capped": "ERROR",
     "open": "CANCEL",
+    "given": "EMPTY_AXIS",
+    "assembly": "OUTLINER_COLLECTION",
 }
 SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # of what was measured, before a verdict
 
@@ -46,6 +48,7 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
         column.label(text=text, icon="RADIOBUT_OFF" if refusal is None else "CANCEL")
     if refusal is not None:
         rows.message(column, context, refusal, icon="BLANK1")
+        remedies.remedies(column, obj, refusal)
     if not measured:
         return
     _headline(column, context, obj)

@@ -42,7 +42,7 @@ RUNNING = "{}.{}".format(*sys.version_info)  # the version of the Python that ru
 # Blender as a module -> the Python which its wheel is made for
 BLENDERS = {"4.5": "3.11", "5.2": "3.13"}
 # group of tests -> minutes on one of two idle cores; the window's takes both, after all the others
-GROUPS = {"core": 2, "blender": 7, "corpus": 2, "package": 1, "window": 4}
+GROUPS = {"core": 2, "blender": 7, "corpus": 2, "package": 1, "robots": 1, "window": 4}
 SUBJECT_GROUPS = ("core", "blender")  # where `test SUBJECT` looks
 SILENCE_LIMIT = 1800  # seconds without a line of output after which a run of pytest has hung: no file takes 2 minutes
 EXIT_LIMIT = 240  # seconds that an interpreter may take to end once its tests are over
@@ -232,6 +232,12 @@ def prepare_blender(version: str) -> Path | None:
     return None
 
 
+def prepare_consumers(version: str) -> Path:
+    """The Python that has what reads robots' files, and no Blender; of the version that this Blender is made for."""
+    wanted = BLENDERS[version]
+    return prepare("robots", find_python(wanted), wanted, ["requirements-robots.txt"])
+
+
 def any_blender() -> str:
     """The version of a Blender module that can be had: the running Python's, else the newest."""
     for version in sorted(BLENDERS, key=lambda key: (BLENDERS[key] == RUNNING, key), reverse=True):
@@ -404,8 +410,11 @@ def test(options: argparse.Namespace) -> int:
 
     def lane(version: str) -> list[dict]:
         python = prepare_blender(version)
-        mine = [group for group in groups if group != "window"]
-        return [run_tests(runner, python, version, group, extra) for group in mine]
+        mine = [group for group in groups if group not in ("robots", "window")]
+        outcomes = [run_tests(runner, python, version, group, extra) for group in mine]
+        if "robots" in groups and version == max(versions):
+            outcomes.append(run_tests(runner, prepare_consumers(version), version, "robots", extra))
+        return outcomes
 
     outcomes = in_lanes(lane, versions)
     if "window" in groups:  # alone: drawing without a graphics card takes both cores

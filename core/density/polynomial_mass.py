@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.affine_maps import multiply_by_linear_form, to_trailing_axis, transform_by_horner
-from ..moments.moments import MAPS_PER_BLOCK, Measure, Moments, U, measure_scale_factors
+from ..moments.images import MAPS_PER_BLOCK
+from ..moments.moments import Measure, Moments, U, measure_scale_factors
 from ..moments.monomials import monomial_count, monomials, order_from_count, product_indices
 from ..numerics.rotations import polar_rotation
 from .polynomial import Polynomial

@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count, sum_moments
 from ..verdict.finding import MeasureError
-from .principal_frame import PrincipalFrame, principal_frame
+from .principal_frame import OwnMoments, PrincipalFrame, principal_frame, principal_frames
+from .second_order import SecondOrderFrames
 
 IDENTITY_3 = np.eye(3)
 
@@ -25,6 +26,8 @@ IDENTITY_3 = np.eye(3)
 @dataclass(frozen=True, eq=False)
 class MassProperties:
     """Mass, center and inertia of one body, or of several as one, all in one frame and unit.
+
+    Of a stack of bodies all have a leading axis.
 
     Attributes
     ----------
@@ -89,22 +92,65 @@ class MassProperties:
             raise ValueError("moments below third order")
         if not 0.0 <= density < np.inf:
             raise ValueError("impossible density: {!r}".format(density))
-        total = moments.raw[0]
-        if not total > moments.rounding_error[0]:
+        if not moments.raw[0] > moments.rounding_error[0]:
             raise MeasureError("no_certain_volume")
-        frame = principal_frame(moments, preferred_axes, refine, higher)
-        shift = moments.raw[1:4] / total
-        second = density * (moments.raw[SECOND_MOMENT_INDEX] - total * (shift[:, None] * shift))
-        inertia = second.trace() * IDENTITY_3 - second
-        principal = density * frame.moments
-        principal[2] = min(principal[2], principal[0] + principal[1])  # of a flat body rounding may set them apart
+        return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine, higher))
+
+    @classmethod
+    def of_stack(
+        cls,
+        moments: Moments,
+        density: NDArray,
+        preferred_axes: NDArray,
+        fixed: SecondOrderFrames,
+        higher: Callable[[NDArray[np.intp]], OwnMoments] | None = None,
+    ) -> MassProperties:
+        """Derive the mass properties of a stack of bodies, as `from_moments` does those of one.
+
+        Parameters
+        ----------
+        moments : Moments
+            Of n bodies, each with a certain volume, to order 3 at least.
+        density : (n,) array
+            Mass per unit of the moments, not negative.
+        preferred_axes, fixed, higher
+            As for `principal_frames`.
+
+        Returns
+        -------
+        MassProperties
+            With a leading axis.
+        """
+        return cls._with_frame(moments, density, principal_frames(fixed, preferred_axes, higher))
+
+    @classmethod
+    def _with_frame(cls, moments: Moments, density: float | NDArray, frame: PrincipalFrame) -> MassProperties:
+        total, weight = moments.raw[..., 0], np.asarray(density)
+        shift = moments.raw[..., 1:4] / total[..., None]
+        products = shift[..., :, None] * shift[..., None, :]
+        second = weight[..., None, None] * (moments.raw[..., SECOND_MOMENT_INDEX] - total[..., None, None] * products)
+        inertia = second.trace(axis1=-2, axis2=-1)[..., None, None] * IDENTITY_3 - second
+        principal = weight[..., None] * frame.moments
+        # of a flat body rounding may set them apart
+        principal[..., 2] = np.minimum(principal[..., 2], principal[..., 0] + principal[..., 1])
+        mass = weight * total
         return cls(
-            mass=float(density * total),
+            mass=mass if mass.ndim else float(mass),
             center=moments.about + shift,
             inertia=inertia,
             principal=replace(frame, moments=principal),
-            rounding_error=_propagate_error(moments, density, moments.rounding_error, rounded=True),
-            input_error=_propagate_error(moments, density, moments.input_error, rounded=False),
+            rounding_error=_propagate_error(moments, weight, moments.rounding_error, rounded=True),
+            input_error=_propagate_error(moments, weight, moments.input_error, rounded=False),
+        )
+
+    def at(self, i: int) -> MassProperties:
+        """Return one body of a stack."""
+        rounding, inputs = (
+            {name: float(values[i]) for name, values in bounds.items()}
+            for bounds in (self.rounding_error, self.input_error)
+        )
+        return MassProperties(
+            float(self.mass[i]), self.center[i], self.inertia[i], self.principal.at(i), rounding, inputs
         )
 
     def inertia_about(self, point: ArrayLike) -> NDArray[np.float64]:
@@ -135,12 +181,14 @@ class MassProperties:
 
     def in_frame(self, rotation: NDArray, origin: NDArray) -> MassProperties:
         """Return the same body in the frame whose axes are the columns of `rotation` and whose origin is `origin`."""
-        inertia = rotation.T @ self.inertia @ rotation
+        inverse = rotation.swapaxes(-1, -2)
+        inertia = inverse @ self.inertia @ rotation
+        arm = self.center - origin
         return replace(
             self,
-            center=rotation.T @ (self.center - origin),
-            inertia=(inertia + inertia.T) / 2.0,
-            principal=self.principal.rotate(rotation.T),
+            center=inverse @ arm if arm.ndim == 1 else (inverse @ arm[..., None])[..., 0],
+            inertia=(inertia + inertia.swapaxes(-1, -2)) / 2.0,
+            principal=self.principal.rotate(inverse),
         )
 
 
@@ -176,24 +224,37 @@ def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: NDArray | N
     return MassProperties.from_moments(sum_moments(weighed), preferred_axes=preferred_axes)
 
 
-def _propagate_error(moments: Moments, density: float, delta: NDArray, rounded: bool) -> dict[str, float]:
+def _propagate_error(moments: Moments, density: NDArray, delta: NDArray, rounded: bool) -> dict[str, float | NDArray]:
     """Bounds of the change when the moments are off by `delta`: propagated to first order, with the divisor at its
-    smallest."""
-    total = moments.raw[0]
-    if not total > 2.0 * delta[0]:  # then nothing bounds a quotient
-        return {"mass": float(abs(density) * delta[0]), "center": float("inf"), "inertia": float("inf")}
-    least = total - delta[0]
-    first, shift = np.abs(moments.raw[1:4]), np.abs(moments.raw[1:4]) / total
-    center = hypot(*((delta[1:4] + shift * delta[0]) / least).tolist())
-    cross = delta[1:4, None] * shift
-    second = delta[SECOND_MOMENT_INDEX] + (cross + cross.T) * (total / least) + shift[:, None] * shift * delta[0]
-    second = second + delta[1:4, None] * (delta[1:4] / least)
+    smallest; infinite where nothing bounds a quotient."""
+    total, off = moments.raw[..., 0], delta[..., 0]
+    is_bounded = total > 2.0 * off
+    total = np.where(is_bounded, total, 1.0)[..., None]
+    least = np.where(is_bounded, total[..., 0] - off, 1.0)[..., None]
+    first, off_first = np.abs(moments.raw[..., 1:4]), delta[..., 1:4]
+    shift = first / total
+    center = _lengths((off_first + shift * off[..., None]) / least)
+    cross = off_first[..., :, None] * shift[..., None, :]
+    second = delta[..., SECOND_MOMENT_INDEX] + (cross + cross.swapaxes(-1, -2)) * (total / least)[..., None]
+    second = second + shift[..., :, None] * shift[..., None, :] * off[..., None, None]
+    second = second + off_first[..., :, None] * (off_first / least)[..., None, :]
     if rounded:
-        center += 2.0 * U * hypot(*(np.abs(moments.about) + 2.0 * shift).tolist())
-        second = second + 6.0 * U * (np.abs(moments.raw[SECOND_MOMENT_INDEX]) + first[:, None] * shift)
-    inertia = hypot(*(second.trace() * IDENTITY_3 + second).ravel().tolist())  # squares of tiny ones would vanish
-    return {
-        "mass": float(abs(density) * (delta[0] + (U * total if rounded else 0.0))),
-        "center": float(center),
-        "inertia": float(abs(density) * inertia),
+        center = center + 2.0 * U * _lengths(np.abs(moments.about) + 2.0 * shift)
+        own = np.abs(moments.raw[..., SECOND_MOMENT_INDEX]) + first[..., :, None] * shift[..., None, :]
+        second = second + 6.0 * U * own
+    tensor = second.trace(axis1=-2, axis2=-1)[..., None, None] * IDENTITY_3 + second
+    inertia = np.abs(density) * _lengths(tensor.reshape(*tensor.shape[:-2], 9))
+    mass = np.abs(density) * (off + (U * moments.raw[..., 0] if rounded else 0.0))
+    bounds = {
+        "mass": mass,
+        "center": np.where(is_bounded, center, np.inf),
+        "inertia": np.where(is_bounded, inertia, np.inf),
     }
+    return bounds if total.ndim > 1 else {name: float(bound) for name, bound in bounds.items()}
+
+
+def _lengths(vectors: NDArray) -> NDArray[np.float64]:
+    """(...,) of (..., k) vectors, whose squares may vanish."""
+    if vectors.ndim == 1:
+        return np.float64(hypot(*vectors.tolist()))
+    return np.array([hypot(*vector) for vector in vectors.tolist()])

@@ -4,11 +4,12 @@
 
 The axes are the eigenvectors of the central second moments, largest first, so that axis 1 is the long axis (least
 inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third moments positive. Their rule fails on
-every body with a mirror plane, where M_300 is noise, so it is made robust: an axis is scored by its skewness, or where
-that is noise by the other third moments odd in that axis only; the two axes with the clearest scores turn positive and
-the third completes a right-handed frame. What equal moments or a want of skewness leave, moments to sixth order decide
-(see `canonical_frame`). What is still free is the body's own freedom: there the frame nearest to the axes that the
-caller prefers is taken, and `finding` says so.
+every body with a mirror plane, where M_300 is noise, so it is made robust (see `second_order`). What equal moments or a
+want of skewness leave, moments to sixth order decide (see `canonical_frame`). What is still free is the body's own
+freedom: there the frame nearest to the axes that the caller prefers is taken, and `finding` says so.
+
+Moments to sixth order may be given in coordinates of the body's own, with the rotation from there: then bodies that are
+copies of each other, turned and scaled, have the same axes, and share the search for them.
 
 The pose of a body is its center at the origin and that frame along the axes: two copies of a part, however they lie and
 whatever their faces, have one pose.
@@ -16,29 +17,22 @@ whatever their faces, have one pose.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX, Moments
+from ..moments.moments import Moments
 from ..verdict.finding import Finding, MeasureError, finding
-from .canonical_frame import NOISE_LEVEL, EquivalentFrames, SecondMomentAxes, canonical_frames
+from .canonical_frame import NOISE_LEVEL, EquivalentFrames, allowed_by_higher_moments, canonical_frames
+from .second_order import HALF_TURN_SIGNS, IS_FIXED, SYMMETRIES, SecondOrderFrames, second_order_frames
 
-EQUAL_MOMENTS_RTOL = 1e-6  # moments closer than this, relatively, are equal
-EQUAL_SCORES_RTOL = 1e-4  # scores closer than this, relatively, are equally clear
 # traces closer than the one are equal whatever the noise, than the other never
 EQUAL_TRACE_ATOL, MAX_TRACE_AMBIGUITY = 1e-6, 0.1
-# For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.
-PARTNER_AXES = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
-OWN_AXIS = np.arange(3)[:, None]
-# keep the frame's hand
-HALF_TURN_SIGNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])
+MIN_ALIGNED_COSINE = 0.999  # of an axis that a shape's own second moments fix, and that of a copy of it
+NO_VALUES = np.empty(0)
 
-# by symmetry, the axes whose moments are equal
-EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
 # What was chosen where the body leaves a choice: the object's own directions, or of the body's own ones the nearest.
 FREE = {
     "isotropic": finding("axes_all_free"),
@@ -57,6 +51,8 @@ FREE_BY_SHAPE = {
 @dataclass(frozen=True, eq=False)
 class PrincipalFrame:
     """Principal moments and axes of one body.
+
+    Of a stack of bodies all have a leading axis.
 
     Attributes
     ----------
@@ -92,12 +88,43 @@ class PrincipalFrame:
         """Return the same frame in coordinates new = rotation @ old."""
         return replace(self, axes=rotation @ self.axes)
 
+    def at(self, i: int) -> PrincipalFrame:
+        """Return one frame of a stack."""
+        return PrincipalFrame(
+            self.moments[i],
+            self.axes[i],
+            self.symmetry[i],
+            bool(self.is_unique[i]),
+            self.finding[i],
+            self.undetermined_axes[i],
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class OwnMoments:
+    """The moments to higher order of m bodies, each of them one of u shapes in coordinates of its own.
+
+    Attributes
+    ----------
+    moments : Moments
+        Of the shapes, (u, K): to order 6.
+    shape : (m,) int
+        Which of them each body is.
+    rotation : (m, 3, 3) array, optional
+        What turns the shape into the body, but for its size; None where they have the same coordinates, and each body
+        is a shape of its own.
+    """
+
+    moments: Moments
+    shape: NDArray[np.intp]
+    rotation: NDArray[np.float64] | None = None
+
 
 def principal_frame(
     moments: Moments,
     preferred_axes: NDArray | None = None,
     refine: Callable[[], Moments] | None = None,
-    higher: Callable[[], Moments] | None = None,
+    higher: Callable[[], Moments | OwnMoments] | None = None,
 ) -> PrincipalFrame:
     """Return the principal frame of a body with positive total.
 
@@ -137,19 +164,120 @@ def principal_frame(
     ('asymmetric', True, [0.1589, 0.3886, 0.5025])
     """
     preferred_axes = np.eye(3) if preferred_axes is None else np.asarray(preferred_axes, np.float64)
-    fixed = _second_order_frame(moments, refine)
-    free, symmetry, chosen = fixed.spread.undetermined_axes, fixed.symmetry, None
-    if not free and len(fixed.frames) == 1:
-        axes = fixed.frames[0]
-    elif higher is None:
-        settled_frames = [complete_free_axes(frame, free, preferred_axes) for frame in fixed.frames]
-        axes, chosen = _nearest(settled_frames, preferred_axes, fixed.spread.tilt), FREE[symmetry]
-    else:
-        alike = canonical_frames(higher(), fixed.spread, fixed.frames)
-        axes, free = nearest_frame(alike, preferred_axes), undetermined_axes(alike)
-        if alike.revolution_axes or len(alike.frames) > 1:
-            chosen = (FREE if alike.revolution_axes else FREE_BY_SHAPE)[symmetry]
-    return PrincipalFrame(fixed.moments, axes, symmetry, chosen is None, chosen, free)
+
+    def higher_of_all(_which: NDArray[np.intp]) -> OwnMoments:
+        found = higher()
+        return found if isinstance(found, OwnMoments) else OwnMoments(found.at(None), np.zeros(1, np.intp))
+
+    fixed = second_order_frames(moments.at(None), None if refine is None else lambda _which: refine().at(None))
+    if not fixed.is_body[0]:
+        raise MeasureError("negative_inertia")
+    return principal_frames(fixed, preferred_axes[None], None if higher is None else higher_of_all).at(0)
+
+
+def principal_frames(
+    fixed: SecondOrderFrames,
+    preferred_axes: NDArray,
+    higher: Callable[[NDArray[np.intp]], OwnMoments] | None = None,
+) -> PrincipalFrame:
+    """Return the principal frames of a stack of bodies, as `principal_frame` does of one.
+
+    Parameters
+    ----------
+    fixed : SecondOrderFrames
+        Of the n bodies.
+    preferred_axes : (n, 3, 3) array
+    higher : callable, optional
+        Returns the moments of those bodies that it is given, to order `canonical_frame.MAX_ORDER`; called once, where
+        third order leaves a choice.
+
+    Returns
+    -------
+    PrincipalFrame
+        With a leading axis; symmetry, finding and undetermined_axes are arrays of objects.
+    """
+    count = len(fixed.moments)
+    symmetry = np.array(SYMMETRIES, object)[fixed.symmetry]
+    chosen, undetermined = np.full(count, None), np.empty(count, object)
+    undetermined[:] = [()] * count
+    axes = fixed.axes * HALF_TURN_SIGNS[fixed.allowed.argmax(axis=1)][:, None]
+    left = np.flatnonzero((fixed.symmetry > 0) | (fixed.allowed.sum(axis=1) != 1))
+    if higher is None:
+        for i in left.tolist():
+            free = undetermined[i] = fixed.free(i)
+            candidates = complete_free_axes(fixed.frames(i), free, preferred_axes[i])
+            axes[i] = _nearest(candidates[None], preferred_axes[i : i + 1], float(fixed.tilt[i]))[0]
+            chosen[i] = FREE[symmetry[i]]
+    elif len(left):
+        known = higher(left)
+        for shape, alike in enumerate(_frames_of_shapes(fixed, left, known)):
+            of_shape = np.flatnonzero(known.shape == shape)
+            bodies = left[of_shape]
+            if alike.revolution_axes or len(alike.frames) > 1:
+                choice = FREE if alike.revolution_axes else FREE_BY_SHAPE
+                chosen[bodies] = [choice[name] for name in symmetry[bodies]]
+            free = undetermined_axes(alike)
+            if free:
+                undetermined[bodies] = [free] * len(bodies)
+            frames = np.broadcast_to(alike.frames, (len(bodies), *alike.frames.shape))
+            if known.rotation is not None:
+                frames = _align(known.rotation[of_shape][:, None] @ frames, fixed, bodies)
+            preferred = preferred_axes[bodies]
+            frames = complete_free_axes(frames, free, preferred[:, None])
+            axes[bodies] = _nearest(frames, preferred, alike.tilt)
+    return PrincipalFrame(
+        fixed.moments, axes, symmetry, np.array([found is None for found in chosen]), chosen, undetermined
+    )
+
+
+def _frames_of_shapes(fixed: SecondOrderFrames, left: NDArray[np.intp], known: OwnMoments) -> list[EquivalentFrames]:
+    """For each of the shapes the frames in which it is the same, in its own coordinates."""
+    which = left
+    if known.rotation is not None:
+        fixed, which = second_order_frames(known.moments), np.arange(len(known.moments.raw))
+    results: list[EquivalentFrames | None] = [None] * len(which)
+    by_signs = np.flatnonzero(fixed.symmetry[which] == 0)
+    if len(by_signs):
+        bodies = which[by_signs]
+        allowed = allowed_by_higher_moments(
+            known.moments.at(by_signs),
+            fixed.axes[bodies],
+            fixed.size[bodies],
+            fixed.step[bodies],
+            fixed.tilt[bodies],
+            fixed.noise,
+            fixed.allowed[bodies],
+        )
+        for shape, body, signs in zip(by_signs.tolist(), bodies.tolist(), allowed):
+            frames = fixed.axes[body] * HALF_TURN_SIGNS[signs, None]
+            results[shape] = EquivalentFrames(frames, NO_VALUES, NO_VALUES, (), float(fixed.tilt[body]))
+    return [
+        canonical_frames(known.moments.at(shape), fixed.spread(which[shape]), fixed.frames(which[shape]))
+        if found is None
+        else found
+        for shape, found in enumerate(results)
+    ]
+
+
+def _align(frames: NDArray, fixed: SecondOrderFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:
+    """(m, k, 3, 3) frames with those of their axes that the bodies' second moments fix along these."""
+    along = np.einsum("mai,mkai->mki", fixed.axes[bodies], frames)
+    near = fixed.axes[bodies][:, None] * np.sign(along)[:, :, None]
+    is_fixed = IS_FIXED[fixed.symmetry[bodies]]
+    # a frame whose axes were found among equal moments where the body's are not, or the other way round, stays
+    alike = ~is_fixed | (np.abs(along) > MIN_ALIGNED_COSINE).all(axis=1)
+    is_fixed = is_fixed & alike.all(axis=1, keepdims=True)
+    frames = np.where(is_fixed[:, None, None], near, frames)
+    for axis in range(3):
+        alone = np.flatnonzero(is_fixed[:, axis] & (is_fixed.sum(axis=1) == 1))
+        if len(alone):
+            first, second = (axis + 1) % 3, (axis + 2) % 3
+            pole = frames[alone, :, :, axis]
+            side = frames[alone, :, :, first]
+            side = side - pole * np.einsum("mka,mka->mk", pole, side)[..., None]
+            side /= np.linalg.norm(side, axis=-1, keepdims=True)
+            frames[alone, :, :, first], frames[alone, :, :, second] = side, np.cross(pole, side)
+    return frames
 
 
 def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> EquivalentFrames:
@@ -175,8 +303,15 @@ def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> Equivalen
     >>> len(equivalent_frames(polyhedron_moments(surface, 6)[0]).frames)
     3
     """
-    fixed = _second_order_frame(moments, None, noise / NOISE_LEVEL)
-    return canonical_frames(moments, fixed.spread, fixed.frames)
+    fixed = _of_one_body(moments, noise / NOISE_LEVEL)
+    return canonical_frames(moments, fixed.spread(0), fixed.frames(0))
+
+
+def _of_one_body(moments: Moments, noise_factor: float = 1.0) -> SecondOrderFrames:
+    fixed = second_order_frames(moments.at(None), None, noise_factor)
+    if not fixed.is_body[0]:
+        raise MeasureError("negative_inertia")
+    return fixed
 
 
 def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDArray[np.float64]:
@@ -203,11 +338,8 @@ def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDAr
     >>> round(float(np.linalg.det(frame)), 9)
     1.0
     """
-    return _nearest(
-        [complete_free_axes(frame, undetermined_axes(equivalent), preferred_axes) for frame in equivalent.frames],
-        preferred_axes,
-        equivalent.tilt,
-    )
+    frames = complete_free_axes(equivalent.frames, undetermined_axes(equivalent), preferred_axes)
+    return _nearest(frames[None], preferred_axes[None], equivalent.tilt)[0]
 
 
 def undetermined_axes(equivalent: EquivalentFrames) -> tuple[int, ...]:
@@ -252,17 +384,17 @@ def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = No
     >>> zhang_chen_frame(polyhedron_moments(surface)[0]).is_unique
     True
     """
-    fixed = _second_order_frame(moments, None)
-    if refine is not None and not (np.abs(fixed.skewness[:2]) > 2.0 * fixed.skewness_error[:2]).all():
-        fixed = _second_order_frame(refine(), None)
-    if fixed.spread.undetermined_axes:
+    fixed = _of_one_body(moments)
+    if refine is not None and not (np.abs(fixed.skewness[0, :2]) > 2.0 * fixed.skewness_error[0, :2]).all():
+        fixed = _of_one_body(refine())
+    if fixed.symmetry[0]:
         raise MeasureError("strict_rule_equal_moments")
-    if not (np.abs(fixed.skewness[:2]) > fixed.skewness_error[:2]).all():
+    if not (np.abs(fixed.skewness[0, :2]) > fixed.skewness_error[0, :2]).all():
         raise MeasureError("strict_rule_no_skewness")
-    axes = fixed.spread.axes.copy()
-    axes[:, :2] *= np.sign(fixed.skewness[:2])
+    axes = fixed.axes[0].copy()
+    axes[:, :2] *= np.sign(fixed.skewness[0, :2])
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
-    return PrincipalFrame(fixed.moments, axes, fixed.symmetry, True, None)
+    return PrincipalFrame(fixed.moments[0], axes, SYMMETRIES[0], True, None)
 
 
 def pose_matrix(center: NDArray, axes: NDArray) -> NDArray[np.float64]:
@@ -290,150 +422,55 @@ def pose_matrix(center: NDArray, axes: NDArray) -> NDArray[np.float64]:
     return matrix + 0.0  # no negative zeros
 
 
-@dataclass(frozen=True, eq=False)
-class _SecondOrderFrame:
-    """What second and third moments fix. moments: (3,) principal. frames: (k, 3, 3) those they allow: signs of axes
-    only. skewness, skewness_error: (3,) the skewness along the spread's axes and what of it is noise."""
-
-    moments: NDArray[np.float64]
-    spread: SecondMomentAxes
-    symmetry: str
-    frames: NDArray[np.float64]
-    skewness: NDArray[np.float64]
-    skewness_error: NDArray[np.float64]
-
-
-def _second_order_frame(
-    moments: Moments, refine: Callable[[], Moments] | None, noise_factor: float = 1.0
-) -> _SecondOrderFrame:
-    total = moments.raw[0]
-    shift = moments.raw[1:4] / total
-    second = moments.raw[SECOND_MOMENT_INDEX] / total - np.outer(shift, shift)
-    scale = abs(np.trace(second)) or 1.0  # keeps eigh clear of overflow and denormals
-    spread, vectors = np.linalg.eigh(second / scale)
-    spread, axes = spread[::-1], vectors[:, ::-1]
-    axes = axes * [1.0, 1.0, np.sign(np.linalg.det(axes))]
-    rounding = 4.0 * moments.rounding_error[SECOND_MOMENT_INDEX].max() / (total * scale) + 8.0 * np.finfo(float).eps
-    if spread[2] < -rounding:
-        raise MeasureError("negative_inertia")
-    spread = np.maximum(spread, 0.0)
-
-    size = np.sqrt(np.maximum(spread, 1e-30 * spread[0]))  # a lamina has no extent along an axis, and no skewness
-    # How far float32 has moved the points: the share of the volume that this moves, times the thinnest extent.
-    step = moments.input_error[0] / total * size[2]
-    gaps = np.array([spread[0] - spread[1], spread[1] - spread[2]])
-    doubtful = 2.0 * step * size[:2] + rounding
-    equal = gaps <= noise_factor * EQUAL_MOMENTS_RTOL * spread[:2] + doubtful
-    tilts = np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))  # of axes 1 and 2, and of 2 and 3
-    symmetry = "isotropic" if equal.all() else "oblate" if equal[0] else "prolate" if equal[1] else "asymmetric"
-
-    free = EQUAL_AXES[symmetry]
-    noise = noise_factor * NOISE_LEVEL + 4.0 * step / np.minimum(size[:, None], size[PARTNER_AXES])
-    real = size * np.sqrt(scale)
-    skewness, skewness_error = _third_scores(moments, shift, real, axes)
-    # Two axes that noise may have turned about the third one mix what the body has along them.
-    (first_tilt, second_tilt), both = tilts, 0.0 if equal.all() else float(doubtful.max() / gaps.sum())
-    tilts_matrix = np.array([[0.0, first_tilt, both], [first_tilt, 0.0, second_tilt], [both, second_tilt, 0.0]])
-    noise += 3.0 * (tilts_matrix * (np.abs(skewness) + skewness_error).max(axis=1)).sum(axis=1)[:, None]
-    scores, fixed = np.zeros(3), [i for i in range(3) if i not in free]
-    if fixed:
-        third = skewness, skewness_error
-        if refine is not None and not _is_decided(np.abs(skewness[fixed]), skewness_error[fixed], noise[fixed]):
-            third = _third_scores(refine(), shift, real, axes)
-        values, errors = third[0][fixed], third[1][fixed]
-        is_clear = np.abs(values) > noise[fixed] + errors
-        first = np.arange(len(fixed)), is_clear.argmax(axis=1)  # zero where none of them is more than noise
-        scores[fixed] = np.where(is_clear[first], values[first], 0.0)
-    inertia = (spread[[1, 0, 0]] + spread[[2, 2, 1]]) * (scale * total)
-    extents = SecondMomentAxes(axes, real, free, step * np.sqrt(scale), float(tilts.max()), noise_factor * NOISE_LEVEL)
-    return _SecondOrderFrame(
-        inertia,
-        extents,
-        symmetry,
-        _sign_consistent_frames(axes, scores),
-        skewness[:, 0],
-        noise[:, 0] + skewness_error[:, 0],
-    )
-
-
-def _is_decided(size: NDArray, error: NDArray, noise: NDArray) -> bool:
-    """Whether better third moments could neither change which scores count, nor their signs, nor their order."""
-    clear = size - error > noise
-    below = size + error <= noise
-    if not (clear[:, 0] | (clear | below).all(axis=1)).all():
-        return False
-    if len(size) < 3 or not clear.any(axis=1).all():
-        return True
-    axis_index, first = np.arange(3), clear.argmax(axis=1)
-    size, error = size[axis_index, first], error[axis_index, first]
-    last = np.argsort(size)[:2]  # of three scores, which one is the last
-    return size[last[1]] - size[last[0]] > 2.0 * error[last].sum()
-
-
-def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
-    """(3, 3) for each axis i its skewness and the two normalized third moments odd in i and even in another axis,
-    M_iii, M_ijj and M_ikk; and the bounds of their errors."""
-    total = moments.raw[0]
-    second, third = moments.raw[SECOND_MOMENT_INDEX] / total, moments.raw[THIRD_MOMENT_INDEX] / total
-    outer = np.outer(shift, shift)
-    cross = shift[:, None, None] * second
-    third = third - cross - cross.transpose(1, 0, 2) - cross.transpose(1, 2, 0) + 2.0 * shift[:, None, None] * outer
-    error = (
-        moments.rounding_error[THIRD_MOMENT_INDEX]
-        + 3.0 * np.abs(shift).max() * moments.rounding_error[SECOND_MOMENT_INDEX].max()
-    ) / total
-    squares = (axes[:, None] * axes).reshape(9, 3)
-    unit = size[:, None] * size[PARTNER_AXES] ** 2
-    scores, score_error = axes.T @ third.reshape(3, 9) @ squares, np.abs(axes.T) @ error.reshape(3, 9) @ np.abs(squares)
-    return scores[OWN_AXIS, PARTNER_AXES] / unit, score_error[OWN_AXIS, PARTNER_AXES] / unit
-
-
-def _sign_consistent_frames(axes: NDArray, scores: NDArray) -> NDArray[np.float64]:
-    """(k, 3, 3) the right-handed frames along the axes that agree with the scores."""
-    size = np.abs(scores)
-    fixed = [i for i in range(3) if scores[i]]
-    if len(fixed) == 3:  # the weakest is dropped; of equal ones the last
-        fixed.remove(max([i for i in fixed if size[i] <= size.min() * (1.0 + EQUAL_SCORES_RTOL)]))
-    return axes * HALF_TURN_SIGNS[(HALF_TURN_SIGNS[:, fixed] * scores[fixed] > 0.0).all(axis=1), None]
-
-
-def complete_free_axes(frame: NDArray, free: tuple[int, ...], preferred_axes: NDArray) -> NDArray[np.float64]:
-    """The frame with its free axes, if any, turned nearest to the preferred ones."""
+def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: NDArray) -> NDArray[np.float64]:
+    """The (..., 3, 3) frames with their free axes, if any, turned nearest to the preferred ones."""
     if not free:
-        return frame
+        return frames
+    shape = np.broadcast_shapes(frames.shape, preferred_axes.shape)
+    preferred_axes = np.broadcast_to(preferred_axes, shape)
     if len(free) == 3:
         return preferred_axes.copy()
     first, second = free
-    fixed = frame[:, 3 - first - second]
+    completed = np.array(np.broadcast_to(frames, shape))
+    fixed = completed[..., 3 - first - second]
     # (first, second, fixed) is right-handed for both pairs: maximize first·p1 + (fixed x first)·p2 over the plane.
-    wish = preferred_axes[:, first] + np.cross(preferred_axes[:, second], fixed)
-    wish = wish - fixed * (fixed @ wish)
-    if np.linalg.norm(wish) < 1e-6:  # half a turn away: any direction is as near; take the one along a preferred axis
-        wish = preferred_axes[:, np.argmin(np.abs(fixed @ preferred_axes))]
-        wish = wish - fixed * (fixed @ wish)
-    completed = frame.copy()
-    completed[:, first] = wish / np.linalg.norm(wish)
-    completed[:, second] = np.cross(fixed, completed[:, first])
+    wish = _across(preferred_axes[..., first] + np.cross(preferred_axes[..., second], fixed), fixed)
+    # half a turn away any direction is as near: the one along a preferred axis is taken
+    opposite = np.linalg.norm(wish, axis=-1) < 1e-6
+    if opposite.any():
+        cosines = np.abs(np.einsum("...a,...ai->...i", fixed, preferred_axes))
+        nearest = np.take_along_axis(preferred_axes, cosines.argmin(axis=-1)[..., None, None], axis=-1)[..., 0]
+        wish = np.where(opposite[..., None], _across(nearest, fixed), wish)
+    completed[..., first] = wish / np.linalg.norm(wish, axis=-1, keepdims=True)
+    completed[..., second] = np.cross(fixed, completed[..., first])
     return completed
 
 
-def _nearest(candidates: Sequence[NDArray], preferred_axes: NDArray, tilt: float) -> NDArray[np.float64]:
-    """The frame with the smallest turn from the preferred one. Where several are as near, the one whose axes, in
-    order, point along rather than against their preferred axes, so that noise cannot flip it.
+def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
+    """(..., 3) what of the vectors is perpendicular to unit vectors."""
+    return vectors - axis * np.einsum("...a,...a->...", axis, vectors)[..., None]
+
+
+def _nearest(candidates: NDArray, preferred_axes: NDArray, tilt: float) -> NDArray[np.float64]:
+    """(m, 3, 3) of (m, k, 3, 3) frames those with the smallest turn from the preferred ones, (m, 3, 3). Where several
+    are as near, the one whose axes, in order, point along rather than against their preferred axes, so that noise
+    cannot flip it.
 
     tilt: the angle by which noise may have turned the candidates.
     """
-    local = preferred_axes.T @ np.array(candidates)
+    bodies = np.arange(len(candidates))
+    if candidates.shape[1] == 1:
+        return candidates[:, 0] + 0.0
+    local = preferred_axes.transpose(0, 2, 1)[:, None] @ candidates
     equal = EQUAL_TRACE_ATOL + min(4.0 * tilt, MAX_TRACE_AMBIGUITY)
-    turns = np.trace(local, axis1=1, axis2=2)
-    near = np.flatnonzero(turns > turns.max() - equal)
-
-    def along(i: int) -> list[bool]:
-        columns = np.abs(local[i]) > np.abs(local[i]).max(axis=0) - equal
-        return [bool(local[i][np.argmax(columns[:, axis]), axis] > 0.0) for axis in range(3)]
-
-    ways = [along(i) for i in near.tolist()]
-    near = near[[way == max(ways) for way in ways]]
-    for entry in local.reshape(-1, 9).T:  # what is left may still be several frames, in an order of no meaning
-        near = near[entry[near] > entry[near].max() - equal]
-    return candidates[near[0]] + 0.0  # no negative zeros
+    turns = local.trace(axis1=2, axis2=3)
+    near = turns > turns.max(axis=1, keepdims=True) - equal
+    size = np.abs(local)
+    row = (size > size.max(axis=2, keepdims=True) - equal).argmax(axis=2)[:, :, None]
+    is_along = np.take_along_axis(local, row, axis=2)[:, :, 0] > 0.0
+    rank = np.where(near, is_along @ np.array([4, 2, 1]), -1)
+    near = rank == rank.max(axis=1, keepdims=True)
+    for entry in np.moveaxis(local.reshape(*local.shape[:2], 9), 2, 0):  # what is left may still be several frames
+        entry = np.where(near, entry, -np.inf)
+        near = entry > entry.max(axis=1, keepdims=True) - equal
+    return candidates[bodies, near.argmax(axis=1)] + 0.0  # no negative zeros

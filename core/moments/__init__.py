@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Raw moments about a point, their sums, affine images and error bounds; the monomials that index them."""
 
-from .moments import Measure, Moments, sum_moments, sum_of_images
+from .images import sum_of_images
+from .moments import Measure, Moments, sum_moments
 from .monomials import monomial_count, monomial_index, monomials
 from .normalized import normalize
 

@@ -9,12 +9,23 @@ maps at once; `moments` has what is faster for one map.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .monomials import monomial_count, monomial_index, product_indices
+from .monomials import (
+    count_of_degree,
+    monomial_count,
+    monomial_index,
+    monomials,
+    product_indices,
+    quotient_indices,
+)
+
+SIMILARITY_RTOL = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
 
 
 def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -67,3 +78,99 @@ def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: i
         term *= factor
         image += term
     return image
+
+
+def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
+    """(..., m, K): m functionals F, (..., m, K), under linear maps (..., 3, 3), the first as it is, the others under
+    |map|.
+
+    The image's monomials as polynomials of the old ones are those of one degree less times a form.
+    """
+    forms, out = np.stack([linear, np.abs(linear)], axis=-3), np.array(values)
+    table = np.ones((*forms.shape[:-2], 1, 1))
+    for degree in range(1, order + 1):
+        table = _raise_polynomials(table, degree, forms)
+        part = slice(monomial_count(degree - 1), monomial_count(degree))
+        out[..., 0, part] = np.add.reduce(table[..., 0, :, :] * values[..., 0, None, part], axis=-1)
+        out[..., 1:, part] = np.einsum("...rc,...mc->...mr", table[..., 1, :, :], values[..., 1:, part])
+    return out
+
+
+def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.float64]:
+    """(..., K): the moments (..., K) of bodies that are turned by rotations (..., 3, 3), without bounds."""
+    shape = np.broadcast_shapes(raw.shape[:-1], rotation.shape[:-2])
+    out = np.array(np.broadcast_to(raw, (*shape, raw.shape[-1])))
+    table = np.ones((*rotation.shape[:-2], 1, 1))
+    for degree in range(1, order + 1):
+        table = _raise_polynomials(table, degree, rotation)
+        part = slice(monomial_count(degree - 1), monomial_count(degree))
+        out[..., part] = np.add.reduce(table * raw[..., None, part], axis=-1)
+    return out
+
+
+def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:
+    """The images of the monomials of a degree as polynomials of the old ones, (..., rows, rows), from those of one
+    degree less. forms: (..., 3, 3) the images of x, y, z."""
+    count, below = count_of_degree(degree), count_of_degree(degree - 1)
+    padded = np.concatenate([table, np.zeros((*table.shape[:-1], 1))], axis=-1)
+    raised = padded[..., quotient_indices(degree, below)]  # times x, y, z: (..., below, 3, rows)
+    grown = np.empty((*table.shape[:-2], count, count))
+    for axis, old, new in (
+        (0, slice(0, below), slice(0, below)),
+        (1, slice(below - degree, below), slice(below, count - 1)),
+        (2, slice(below - 1, below), slice(count - 1, count)),
+    ):
+        form = forms[..., axis, :, None, None]
+        into = grown[..., new, :]
+        np.multiply(raised[..., old, 0, :], form[..., 0, :, :], out=into)
+        into += raised[..., old, 1, :] * form[..., 1, :, :]
+        into += raised[..., old, 2, :] * form[..., 2, :, :]
+    return grown
+
+
+@lru_cache
+def _cube_layout(order: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """(K,) where each monomial stands in a flat table of all exponents up to `order`, and (n, n) the binomials."""
+    p, q, r = monomials(order).T
+    n = order + 1
+    return (p * n + q) * n + r, np.array([[float(math.comb(i, j)) for j in range(n)] for i in range(n)])
+
+
+def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
+    """(..., K): each functional F, (..., K), with its own offset, (..., 3): F[(x+t)^α], one axis after the other."""
+    lead, n = values.shape[:-1], order + 1
+    values, offsets = values.reshape(-1, values.shape[-1]), offsets.reshape(-1, 3)
+    positions, binomials = _cube_layout(order)
+    lag = np.subtract.outer(np.arange(n), np.arange(n))
+    for axis in range(3):
+        powers = np.multiply.accumulate(
+            np.concatenate([np.ones((len(values), 1)), np.repeat(offsets[:, axis, None], order, axis=1)], axis=1),
+            axis=1,
+        )
+        table = binomials * powers[:, np.maximum(lag, 0)]
+        cube = np.zeros((len(values), n**3))
+        cube[:, positions] = values  # what stands above `order` is no moment, and must not come back
+        cube = np.moveaxis(cube.reshape(-1, n, n, n), axis + 1, 1)
+        with np.errstate(over="ignore", invalid="ignore"):
+            cube = np.einsum("mpi,miqr->mpqr", table, cube)
+        values = np.moveaxis(cube, 1, axis + 1).reshape(len(values), -1)[:, positions]
+    return values.reshape(*lead, -1)
+
+
+def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
+    """(k,) whether each of the (k, 3, 3) maps is a rotation, reflection and uniform scale, as far as float32 matrices
+    can be."""
+    return anisotropy(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY_RTOL
+
+
+def anisotropy(linear: NDArray) -> NDArray[np.float64]:
+    """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for
+    a flat map."""
+    columns = linear.transpose(1, 0, 2)
+    a, b, c = [np.add.reduce(column * column, axis=0) for column in columns]
+    ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j], axis=0)) for i, j in ((0, 1), (0, 2), (1, 2))]
+    mean = (a + b + c) / 3.0
+    off = np.maximum(np.maximum(np.abs(a - mean) + ab + ac, np.abs(b - mean) + ab + bc), np.abs(c - mean) + ac + bc)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        off = off / mean
+    return np.where(np.isfinite(off), off, np.inf)

@@ -7,38 +7,26 @@ and they map linearly under an affine map, so a sum of objects is a sum and an i
 every number and add and map as it does: `rounding_error`, what rounding (or a stated truncation) may have changed, and
 `input_error`, what storing coordinates as float32 may have changed.
 
-What affine maps do to them is in `affine_maps`.
+What affine maps do to them is in `affine_maps`, sums over many images of one body are in `images`.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import lru_cache
 from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .affine_maps import transform_by_horner
-from .monomials import (
-    count_of_degree,
-    monomial_count,
-    monomial_index,
-    monomials,
-    order_from_count,
-    product_indices,
-    quotient_indices,
-)
+from .affine_maps import SIMILARITY_RTOL, anisotropy, apply_linear, apply_translation
+from .monomials import monomial_count, monomial_index, monomials, order_from_count, product_indices
 
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
 FLOAT32_HALF_ULP = 2.0**-24  # of float32, relatively
 # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
 PAIRWISE_SUM_ROUNDINGS = 64
-MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
-SIMILARITY_RTOL = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
 
 
 SECOND_MOMENT_INDEX = np.array(
@@ -73,6 +61,8 @@ class Moments:
     """Raw moments of one body about a stated point, ∫ (x-ox)^p (y-oy)^q (z-oz)^r dm, with error bounds.
 
     They add (`+`), scale by a density (`*`) and follow affine maps (`transform`). `moments[p, q, r]` is one of them.
+    All arrays may have the same leading axes: then they are those of a stack of bodies, and what is given to methods
+    and what they return has these axes too.
 
     Parameters
     ----------
@@ -116,36 +106,54 @@ class Moments:
     @property
     def order(self) -> int:
         """The largest p+q+r."""
-        return order_from_count(len(self.raw))
+        return order_from_count(self.raw.shape[-1])
 
     def __getitem__(self, exponents: tuple[int, int, int]) -> float:
-        return float(self.raw[monomial_index(*exponents)])
+        value = self.raw[..., monomial_index(*exponents)]
+        return value if value.ndim else float(value)
 
     @property
     def total(self) -> float:
         """The volume, area, length or mass itself."""
-        return float(self.raw[0])
+        return self.raw[..., 0] if self.raw.ndim > 1 else float(self.raw[0])
+
+    def at(self, which: int | slice | NDArray) -> Moments:
+        """Return one body of a stack, or a stack of some of them."""
+        return replace(
+            self,
+            raw=self.raw[which],
+            about=self.about[which],
+            rounding_error=self.rounding_error[which],
+            input_error=self.input_error[which],
+        )
 
     @property
     def center(self) -> NDArray[np.float64]:
         """(3,) the centroid, in the coordinates of `about`. The total must not be zero."""
-        return self.about + self.raw[1:4] / self.raw[0]
+        return self.about + self.raw[..., 1:4] / self.raw[..., :1]
 
     def second(self) -> NDArray[np.float64]:
         """(3, 3) the second moments about `about`."""
-        return self.raw[SECOND_MOMENT_INDEX]
+        return self.raw[..., SECOND_MOMENT_INDEX]
 
     def third(self) -> NDArray[np.float64]:
         """(3, 3, 3) the third moments about `about`."""
-        return self.raw[THIRD_MOMENT_INDEX]
+        return self.raw[..., THIRD_MOMENT_INDEX]
 
     def truncate(self, order: int) -> Moments:
         """Return the same moments to a lower order."""
         k = monomial_count(order)
-        return replace(self, raw=self.raw[:k], rounding_error=self.rounding_error[:k], input_error=self.input_error[:k])
+        return replace(
+            self,
+            raw=self.raw[..., :k],
+            rounding_error=self.rounding_error[..., :k],
+            input_error=self.input_error[..., :k],
+        )
 
-    def __mul__(self, factor: float) -> Moments:
+    def __mul__(self, factor: float | NDArray) -> Moments:
         """Scale by a constant: a density, a thickness, a sign."""
+        if np.ndim(factor):  # one for each of a stack
+            factor = np.asarray(factor)[..., None]
         size = abs(factor)
         return replace(
             self,
@@ -180,15 +188,15 @@ class Moments:
         point = np.asarray(point, np.float64)
         if np.array_equal(point, self.about):
             return self
-        if point.shape != (3,) or not np.isfinite(point).all():
+        if point.shape != self.about.shape or not np.isfinite(point).all():
             raise ValueError("about must be finite (3,)")
         offset = self.about - point
         away = np.abs(offset)
-        raw, error, moved, size = apply_translation(
-            np.array([self.raw, self.rounding_error, self.input_error, np.abs(self.raw) + self.rounding_error]),
-            self.order,
-            np.array([offset, away, away, away]),
+        values = np.stack(
+            [self.raw, self.rounding_error, self.input_error, np.abs(self.raw) + self.rounding_error], axis=-2
         )
+        shifted = apply_translation(values, self.order, np.stack([offset, away, away, away], axis=-2))
+        raw, error, moved, size = (shifted[..., i, :] for i in range(4))
         rounding = (4.0 * monomials(self.order).sum(axis=1) + 16.0) * U
         return replace(self, raw=raw, about=point, rounding_error=error + rounding * size, input_error=moved)
 
@@ -209,12 +217,14 @@ class Moments:
         -------
         Moments
         """
-        matrix = np.eye(4)
-        matrix[:3, :3] = np.asarray(rotation, np.float64).T
-        matrix[:3, 3] = -matrix[:3, :3] @ np.asarray(origin, np.float64)
+        inverse, origin = np.asarray(rotation, np.float64).swapaxes(-1, -2), np.asarray(origin, np.float64)
+        matrix = np.zeros((*inverse.shape[:-2], 4, 4))
+        matrix[..., :3, :3], matrix[..., 3, 3] = inverse, 1.0
+        turn = -matrix[..., :3, :3]
+        matrix[..., :3, 3] = turn @ origin if origin.ndim == 1 else (turn @ origin[..., None])[..., 0]
         # A change of axes stretches nothing, whatever is measured and however the rotation was rounded.
         return replace(
-            sum_of_images(replace(self, measure=Measure.MASS), matrix[None], np.zeros(3)), measure=self.measure
+            image(replace(self, measure=Measure.MASS), matrix, np.zeros(self.about.shape)), measure=self.measure
         )
 
     def transform(self, matrix: ArrayLike) -> Moments:
@@ -237,8 +247,10 @@ class Moments:
         ValueError
             If the matrix is not finite (4, 4), or no similarity where one is needed.
         """
-        affine = _validated_matrices(np.asarray(matrix, np.float64)[None])[0]
-        return sum_of_images(self, affine[None], affine[:3, :3] @ self.about + affine[:3, 3])
+        affine = np.asarray(matrix, np.float64)
+        if affine.shape != (*self.about.shape[:-1], 4, 4) or not np.isfinite(affine).all():
+            raise ValueError("matrices not finite (4, 4)")
+        return image(self, affine, (affine[..., :3, :3] @ self.about[..., None])[..., 0] + affine[..., :3, 3])
 
 
 def sum_moments(parts: Sequence[Moments]) -> Moments:
@@ -283,196 +295,76 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
     )
 
 
-def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
-    """(k,) whether each of the (k, 3, 3) maps is a rotation, reflection and uniform scale, as far as float32 matrices
-    can be."""
-    return _anisotropy(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY_RTOL
-
-
-def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None = None) -> Moments:
-    """Add the images of one body under several affine maps: instances.
+def stack_moments(parts: Sequence[Moments]) -> Moments:
+    """Stack several bodies, of one measure and to the lowest of their orders, each about its own point.
 
     Parameters
     ----------
-    moments : Moments
-    matrices : (k, 4, 4) array
-        As for `Moments.transform`.
-    about : (3,) array_like, optional
-        The point of the result; by default the mean of the images of `moments.about`.
+    parts : sequence of Moments
+        At least one.
 
     Returns
     -------
     Moments
+        With a leading axis.
+    """
+    count = min([part.raw.shape[-1] for part in parts])
+    raw, rounding, inputs = (
+        np.array([getattr(part, name)[:count] for part in parts]) for name in ("raw", "rounding_error", "input_error")
+    )
+    return Moments(raw, np.array([part.about for part in parts]), parts[0].measure, rounding, inputs)
+
+
+def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
+    """Return the image of a body under an affine map, or of each of a stack under its own.
+
+    Parameters
+    ----------
+    moments : Moments
+    matrices : (..., 4, 4) array
+        Finite.
+    center : (..., 3) array
+        The point of the result.
 
     Raises
     ------
     ValueError
-        If the matrices are not finite (k, 4, 4), or not similarities where areas or lengths need them.
-
-    Examples
-    --------
-    >>> from body_moments.core.moments import Moments, sum_of_images
-    >>> matrices = np.stack([np.eye(4), np.diag([2.0, 2.0, 2.0, 1.0])])
-    >>> round(sum_of_images(Moments(np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(3)), matrices).total, 9)
-    9.0
+        If areas or lengths are mapped by what is no similarity.
     """
-    matrices = _validated_matrices(np.asarray(matrices, np.float64))
-    affine = np.ascontiguousarray(matrices[:, :3].transpose(1, 2, 0))
-    linear, offsets = affine[:, :3], affine[:, 3]
-    point, order = moments.about[:, None], moments.order
-    origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
-    center: NDArray[np.float64] = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
-    raw, error, extra = np.zeros((3, len(moments.raw)))
-    block = max(MAPS_PER_BLOCK * 20 // len(moments.raw), 16)
-    for start in range(0, len(matrices), block):
-        part = slice(start, start + block)
-        maps = linear[:, :, part]
-        weight, weight_error, anisotropy = measure_scale_factors(moments.measure, maps)
-        offset = origins[:, part] - center[:, None]
-        # The images of the reference point are rounded, and the body moves with them.
-        stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
-        tolerance = (
-            6 * U * (np.abs(offsets[:, part]).max(axis=0) + np.abs(center).max() + stretch * np.abs(point).max())
-        )
-        weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
-        if len(matrices) == 1:
-            image, *bounds = _single_image(moments, order, maps, offset, tolerance, weight, weight_error, anisotropy)
-        else:
-            image = np.add.reduce(transform_by_horner(moments.raw[:, None], order, maps, offset) * weight, axis=1)
-            bounds = _image_error_bounds(moments, stretch, reach, tolerance, weight, weight_error, anisotropy)
-        raw += image
-        error += bounds[0]
-        extra += bounds[1]
-    return Moments(raw, center, moments.measure, error, extra)
-
-
-def _validated_matrices(matrices: NDArray) -> NDArray[np.float64]:
-    """The maps. ValueError where they are none."""
-    if matrices.ndim != 3 or matrices.shape[1:] != (4, 4) or not len(matrices) or not np.isfinite(matrices).all():
-        raise ValueError("matrices not finite (4, 4)")
-    return matrices
-
-
-def _single_image(
-    moments: Moments,
-    order: int,
-    linear: NDArray,
-    offset: NDArray,
-    tolerance: NDArray,
-    weight: NDArray,
-    weight_error: NDArray,
-    anisotropy: NDArray,
-) -> tuple[NDArray, NDArray, NDArray]:
-    """The image under one map, (3, 3, 1) and (3, 1), and its bounds moment by moment: the same on absolute values."""
-    away = np.abs(offset.T)
-    values = apply_linear(
-        np.array(
-            [moments.raw, moments.rounding_error, moments.input_error, np.abs(moments.raw) + moments.rounding_error]
-        ),
-        order,
-        linear[:, :, 0],
+    order, about = moments.order, moments.about
+    linear, offsets = matrices[..., :3, :3], matrices[..., :3, 3]
+    origins = (
+        linear[..., 0] * about[..., :1] + linear[..., 1] * about[..., 1:2] + linear[..., 2] * about[..., 2:] + offsets
     )
-    image, error, mapped_input, size = apply_translation(
-        values, order, np.concatenate([offset.T, away, away, away + tolerance])
+    offset = origins - center
+    lead = linear.shape[:-2]
+    weight, weight_error, uneven = (
+        factor.reshape(*lead, 1)
+        for factor in measure_scale_factors(moments.measure, linear.reshape(-1, 3, 3).transpose(1, 2, 0).copy())
     )
+    # The images of the reference point are rounded, and the body moves with them.
+    stretch = np.abs(linear).sum(axis=-1).max(axis=-1)
+    tolerance = (
+        6
+        * U
+        * (np.abs(offsets).max(axis=-1) + np.abs(center).max(axis=-1) + stretch * np.abs(about).max(axis=-1))[..., None]
+    )
+    weight_error = weight_error + (1 + 6 * order + 8) * U * weight
+    away = np.abs(offset)
+    values = np.stack(
+        [moments.raw, moments.rounding_error, moments.input_error, np.abs(moments.raw) + moments.rounding_error],
+        axis=-2,
+    )
+    shifted = apply_translation(
+        apply_linear(values, order, linear), order, np.stack([offset, away, away, away + tolerance], axis=-2)
+    )
+    mapped, error, mapped_input, size = (shifted[..., i, :] for i in range(4))
     rounding = weight * error + (weight_error + (4.0 * order + 50.0) * U * weight) * size
     for axis, raised in enumerate(product_indices(order) if order else ()):
-        moved = monomials(order)[raised, axis] * tolerance * weight * size[: len(raised)]
-        rounding[raised] += moved
-    return weight * image, rounding, weight * (mapped_input + anisotropy * (size + mapped_input))
-
-
-def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
-    """(m, K): m functionals F, (m, K), under a linear map (3, 3), the first as it is, the others under |map|.
-
-    For one map it is faster than Horner's scheme to turn first, degree by degree, and to shift then, axis by axis. The
-    image's monomials as polynomials of the old ones are those of one degree less times a form.
-    """
-    forms, out = np.array([linear, np.abs(linear)]), np.array(values)
-    table = np.ones((2, 1, 1))
-    for degree in range(1, order + 1):
-        count, below = count_of_degree(degree), count_of_degree(degree - 1)
-        padded = np.concatenate([table, np.zeros((2, below, 1))], axis=2)
-        raised = padded[:, :, quotient_indices(degree, below)]  # times x, y, z: (2, below, 3, rows)
-        table = np.empty((2, count, count))
-        for axis, old, new in (
-            (0, slice(0, below), slice(0, below)),
-            (1, slice(below - degree, below), slice(below, count - 1)),
-            (2, slice(below - 1, below), slice(count - 1, count)),
-        ):
-            np.einsum("mrjc,mj->mrc", raised[:, old], forms[:, axis], out=table[:, new])
-        part = slice(monomial_count(degree - 1), monomial_count(degree))
-        out[0, part] = np.add.reduce(table[0] * values[0, part], axis=1)
-        out[1:, part] = np.einsum("rc,mc->mr", table[1], values[1:, part])
-    return out
-
-
-@lru_cache
-def _cube_layout(order: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """(K,) where each monomial stands in a flat table of all exponents up to `order`, and (n, n) the binomials."""
-    p, q, r = monomials(order).T
-    n = order + 1
-    return (p * n + q) * n + r, np.array([[float(math.comb(i, j)) for j in range(n)] for i in range(n)])
-
-
-def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
-    """(m, K): each of m functionals F, (m, K), with its own offset, (m, 3): F[(x+t)^α], one axis after the other."""
-    positions, binomials = _cube_layout(order)
-    n = order + 1
-    lag = np.subtract.outer(np.arange(n), np.arange(n))
-    for axis in range(3):
-        powers = np.multiply.accumulate(
-            np.concatenate([np.ones((len(values), 1)), np.repeat(offsets[:, axis, None], order, axis=1)], axis=1),
-            axis=1,
-        )
-        table = binomials * powers[:, np.maximum(lag, 0)]
-        cube = np.zeros((len(values), n**3))
-        cube[:, positions] = values  # what stands above `order` is no moment, and must not come back
-        cube = np.moveaxis(cube.reshape(-1, n, n, n), axis + 1, 1)
-        with np.errstate(over="ignore", invalid="ignore"):
-            cube = np.einsum("mpi,miqr->mpqr", table, cube)
-        values = np.moveaxis(cube, 1, axis + 1).reshape(len(values), -1)[:, positions]
-    return values
-
-
-def _image_error_bounds(
-    moments: Moments,
-    stretch: NDArray,
-    reach: NDArray,
-    tolerance: NDArray,
-    weight: NDArray,
-    weight_error: NDArray,
-    anisotropy: NDArray,
-) -> tuple[NDArray, NDArray]:
-    """(K,) and (K,) what `rounding_error`, with the rounding of the maps, and `input_error` become under k maps
-    together.
-
-    By degree: where the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product
-    of n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest
-    of its degree. An offset that may be off by `tolerance` changes it by at most n `tolerance` times n-1 forms.
-    """
-    order = moments.order
-    degree = monomials(order).sum(axis=1)
-    starts = [monomial_count(n - 1) for n in range(order + 1)]
-    error, inputs = (
-        np.maximum.reduceat(moments.rounding_error, starts),
-        np.maximum.reduceat(moments.input_error, starts),
-    )
-    size = np.maximum.reduceat(np.abs(moments.raw), starts) + error
-
-    def carried(factor: NDArray, reach: NDArray, *largest: NDArray) -> list[NDArray]:
-        powers = [[factor]]
-        for _ in range(order):
-            powers.append([power * reach for power in powers[-1]] + [powers[-1][-1] * stretch])
-        sums = [[math.comb(n, j) * power.sum() for j, power in enumerate(row)] for n, row in enumerate(powers)]
-        return [np.array([np.dot(row, top[: len(row)]) for row in sums]) for top in largest]
-
-    rounding, mapped_input = carried(weight, reach, error, inputs)
-    rounding += carried(weight_error, reach, size)[0]
-    rounding[1:] += np.arange(1, order + 1) * carried(weight * tolerance, reach + tolerance, size)[0][:-1]
-    if anisotropy.any():
-        mapped_input += carried(weight * anisotropy, reach, size + inputs)[0]
-    return rounding[degree], mapped_input[degree]
+        moved = monomials(order)[raised, axis] * tolerance * weight * size[..., : len(raised)]
+        rounding[..., raised] += moved
+    moved_input = weight * (mapped_input + uneven * (size + mapped_input))
+    return Moments(weight * mapped, center, moments.measure, rounding, moved_input)
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
@@ -487,21 +379,8 @@ def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, N
     permanent = sum([np.abs(plus) + np.abs(minus) for plus, minus in terms], exact)
     if measure == Measure.VOLUME:
         return det, 8 * U * permanent, exact
-    anisotropy = _anisotropy(linear)
-    if np.any(anisotropy > SIMILARITY_RTOL):
+    uneven = anisotropy(linear)
+    if np.any(uneven > SIMILARITY_RTOL):
         raise ValueError("not a similarity")
     power = 1 if measure == Measure.LENGTH else 2
-    return np.cbrt(det) ** power, 8 * U * np.cbrt(permanent) ** power, anisotropy
-
-
-def _anisotropy(linear: NDArray) -> NDArray[np.float64]:
-    """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for
-    a flat map."""
-    columns = linear.transpose(1, 0, 2)
-    a, b, c = [np.add.reduce(column * column, axis=0) for column in columns]
-    ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j], axis=0)) for i, j in ((0, 1), (0, 2), (1, 2))]
-    mean = (a + b + c) / 3.0
-    off = np.maximum(np.maximum(np.abs(a - mean) + ab + ac, np.abs(b - mean) + ab + bc), np.abs(c - mean) + ac + bc)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        off = off / mean
-    return np.where(np.isfinite(off), off, np.inf)
+    return np.cbrt(det) ** power, 8 * U * np.cbrt(permanent) ** power, uneven

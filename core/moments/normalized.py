@@ -7,7 +7,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..verdict.finding import MeasureError
-from .moments import Measure, Moments, U, apply_translation
+from .affine_maps import apply_translation
+from .moments import Measure, Moments, U
 from .monomials import monomials
 
 

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
-from ...core.moments.moments import Moments, sum_moments, sum_of_images
+from ...core.moments.images import sum_of_images
+from ...core.moments.moments import Moments, sum_moments
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals
 from ...core.verdict.finding import Finding, ReadError

@@ -71,7 +71,7 @@ def object_transform(
     Raises MeasureError where there is no transform.
     """
     unit = options.unit_scale or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
-    options = with_object_settings(options, obj, unit)
+    options = with_object_settings(options, obj, unit, depsgraph.scene)
     reading = read_object(obj, depsgraph)
     shell = options.kind == "shell"
     try:

@@ -104,7 +104,7 @@ def body(reading: VolumeReading, request: Request) -> Body:
     """Return the body of one grid. Raises MeasureError where there is none."""
     obj, density, options = request.obj, request.given.density, request.options
     made = grid_body(reading, GridOptions.of(obj.body_moments, density), request.unit, options.threads)
-    key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, ())
+    key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, (), request.scene)
     source = None if made.mass is None else finding("density_from_grid", grid=reading.grid)
     return replace(made, density_from=source, density_key=key)
 

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from ...core.mesh.boxes import boxes_overlap
 from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import distinct_linear_parts, translation_matrices
-from ...core.moments.moments import Moments, are_similarities, sum_of_images
+from ...core.moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
+from ...core.moments.images import sum_of_images
+from ...core.moments.moments import Moments
 from ...core.polyhedron.sheared_areas import area_of_images
 from ...core.solid.judgement import SolidIntegrals
 from ...core.solid.places import PlaceComparison

@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from ...core.density.part_densities import PartDensities, part_densities
 from ...core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
 from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import distinct_linear_parts
-from ...core.moments.moments import Moments, are_similarities, sum_moments, sum_of_images
+from ...core.moments.affine_maps import are_similarities, distinct_linear_parts
+from ...core.moments.images import sum_of_images
+from ...core.moments.moments import Moments, sum_moments
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals
 from ...core.solid.parts import ClosedParts
@@ -64,7 +65,7 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
         if shell:
             raise ReadError("density_volume_of_shell")
         filled = filled_by_volume(body, request)
-        return replace(filled, density_key=density_key(request.obj, ()))
+        return replace(filled, density_key=density_key(request.obj, (), request.scene))
     if density.kind == "polynomial":
         weighed = _by_polynomial(reading, body, density, request.unit, shell, factor, options.threads)
     elif density.kind == "attribute":
@@ -75,7 +76,7 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
         body,
         mass=weighed.mass,
         density_from=weighed.source,
-        density_key=density_key(request.obj, weighed.materials),
+        density_key=density_key(request.obj, weighed.materials, request.scene),
         materials=weighed.materials,
         findings=(*body.findings, *weighed.findings),
     )

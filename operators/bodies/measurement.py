@@ -19,6 +19,7 @@ from ...core.verdict.method import Method, Verdict
 from ..read import Reading
 from ..read.fingerprint import effective_hash, fingerprint, matrix_hash
 from ..read.volume import VolumeReading
+from ..settings.accepted import with_acceptance
 from ..settings.options import MeasureOptions
 from .body import KNOWN_ORDER, Body
 from .request import Request
@@ -72,7 +73,7 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
         area_moments=area_moments,
         mass_moments=(moments, factor),
         health=body.health,
-        findings=(*reading.findings, *body.findings, *frame),
+        findings=with_acceptance((*reading.findings, *body.findings, *frame), request.accepted),
         rotation=rotation,
         location=np.asarray(reading.location, np.float64) * request.unit,
         length=float(measured.raw[0]) if wire else None,

@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface, join_surfaces
-from ...core.moments.moments import Moments, are_similarities, sum_moments, sum_of_images
+from ...core.moments.affine_maps import are_similarities
+from ...core.moments.images import sum_of_images
+from ...core.moments.moments import Moments, sum_moments
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals, measure_solid
 from ...core.solid.places import compare_places

@@ -17,8 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import distinct_linear_parts, translation_matrices
-from ...core.moments.moments import Measure, Moments, are_similarities, monomial_count, sum_moments, sum_of_images
+from ...core.moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
+from ...core.moments.images import sum_of_images
+from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
 from ...core.nurbs.creases import sharpest_crease
 from ...core.nurbs.patch import Patch
 from ...core.nurbs.patch_moments import area_moments, volume_moments

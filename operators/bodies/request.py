@@ -13,7 +13,8 @@ import bpy
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
 from ..read import Reading, read_object
-from ..settings.density import DensityField, density_field
+from ..settings.accepted import accepted_codes
+from ..settings.density import DensityField, density_field, object_density
 from ..settings.options import AS_SET, MeasureOptions
 
 
@@ -57,7 +58,24 @@ class Request:
     ) -> Request:
         """Return what is asked of an object. unit: metres per Blender unit, by default the scene's."""
         unit = unit or given.unit_scale or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
-        return cls(with_object_settings(given, obj, unit), unit, given, obj, depsgraph, opened or ExitStack())
+        return cls(
+            with_object_settings(given, obj, unit, _scene(depsgraph)),
+            unit,
+            given,
+            obj,
+            depsgraph,
+            opened or ExitStack(),
+        )
+
+    @property
+    def scene(self) -> bpy.types.Scene:
+        """The scene whose defaults count."""
+        return _scene(self.depsgraph)
+
+    @property
+    def accepted(self) -> frozenset[str]:
+        """The codes of findings that were accepted for the object."""
+        return frozenset() if self.obj is None else accepted_codes(self.obj)
 
     @cached_property
     def density(self) -> DensityField | None:
@@ -85,15 +103,21 @@ class Request:
         return reading
 
 
-def with_object_settings(options: MeasureOptions, obj: bpy.types.Object, unit: float) -> MeasureOptions:
-    """The options with every gap filled from the object's settings."""
+def _scene(depsgraph: bpy.types.Depsgraph | None) -> bpy.types.Scene:
+    return bpy.context.scene if depsgraph is None else depsgraph.scene
+
+
+def with_object_settings(
+    options: MeasureOptions, obj: bpy.types.Object, unit: float, scene: bpy.types.Scene
+) -> MeasureOptions:
+    """The options with every gap filled from the object's settings, and the density of one that has none from the
+    scene's."""
     settings = obj.body_moments
     density, mass = options.density, options.mass
     kind = options.kind or ("solid" if obj.type == "VOLUME" else settings.kind.lower())  # which has no setting for it
     if density is None and mass is None:
-        given = settings.linear_density if kind == "wire" else settings.density
         density, mass = (
-            (shortest_decimal(given), None)
+            (shortest_decimal(settings.linear_density) if kind == "wire" else object_density(settings, scene), None)
             if settings.mass_from == "DENSITY"
             else (None, shortest_decimal(settings.mass))
         )

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from ...core.mesh.boxes import boxes_overlap
 from ...core.mesh.surface import Surface
-from ...core.moments.moments import Moments, monomials, sum_moments, sum_of_images
+from ...core.moments.images import sum_of_images
+from ...core.moments.moments import Moments, monomials, sum_moments
 from ...core.offset.walls import OffsetSolid, offset_solid, split_thickness
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals

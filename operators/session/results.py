@@ -20,12 +20,13 @@ from mathutils import Matrix
 from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError
+from ...core.verdict.method import Method, Verdict
 from ..bodies.measure_object import Measured
 from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
-from . import handlers, live, staleness, walls
+from . import handlers, live, reference, staleness, walls
 from .cache import SessionCache
 
 
@@ -43,6 +44,7 @@ class Total:
     findings: tuple[Finding, ...]
 
 
+ASSEMBLY = Method(Verdict.ASSEMBLY)
 _failures: SessionCache[tuple[Finding, str]] = SessionCache()  # why, and the digest of the settings of then
 _totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last one, after what was computed for it
 
@@ -50,7 +52,9 @@ _totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last on
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
     """Write what was measured on the object, and remember what its sliders need. EditRefusedError where the object
     cannot hold results."""
+    about = reference.stored_choice(obj)
     properties.store(obj, measured.measurement)
+    reference.follow(obj, scene, about)
     if isinstance(measured.body, WallBody):
         walls.cache_walls(obj, measured, _unit(scene))
 
@@ -75,17 +79,26 @@ def failure(obj: Object) -> Finding | None:
 def of_object(obj: Object, scene: Scene) -> properties.StoredProperties | None:
     """The results in the frame that the scene shows: the live ones where they are on, else those that are stored; None
     where there are none, or not all of them."""
+    return _of_object(obj, scene, scene.body_moments.frame == "OBJECT")
+
+
+def in_world(obj: Object, scene: Scene) -> properties.StoredProperties | None:
+    """The same as `of_object`, in the world frame whatever the scene shows."""
+    return _of_object(obj, scene, False)
+
+
+def _of_object(obj: Object, scene: Scene, in_own_frame: bool) -> properties.StoredProperties | None:
     now = live.current_numbers(obj)
     if now is not None and now.measurement is not None:
         measurement = now.measurement
-        body = measurement.in_object_frame() if scene.body_moments.frame == "OBJECT" else measurement.mass_properties
+        body = measurement.in_object_frame() if in_own_frame else measurement.mass_properties
         return properties.StoredProperties(
             measurement.density, measurement.volume, measurement.area, body, measurement.error_bound
         )
     numbers = properties.numbers(obj)
     if numbers is None:
         return None
-    return _in_frame(numbers, None if scene.body_moments.frame == "OBJECT" else _world_matrix(obj), _unit(scene))
+    return _in_frame(numbers, None if in_own_frame else _world_matrix(obj), _unit(scene))
 
 
 def total(context: Context) -> Total:
@@ -100,7 +113,10 @@ def total(context: Context) -> Total:
 def _sum(context: Context) -> Total:
     scene = context.scene
     stored, counted, missing, stale = [], [], [], []
+    selected = set(context.view_layer.objects.selected)
     for obj in context.view_layer.objects.selected:
+        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(obj.children_recursive):
+            continue  # what it holds counts by itself
         numbers = properties.numbers(obj)
         if numbers is None:
             missing.append(obj.name)

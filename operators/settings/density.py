@@ -12,6 +12,7 @@ from ...core.density.polynomial import Polynomial, parse_polynomial
 from ...core.measurement import Measurement
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
+from .preferences import default_density
 
 # Where the density comes from the object's one value, or that of some faces.
 _BY_OBJECT = {"density_from_value", "object_density_used", "object_density_used_for_materials"}
@@ -58,21 +59,30 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
     return DensityField("attribute", attribute=settings.density_attribute)
 
 
+def object_density(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> float:
+    """The one density in kg/m³ that an object's settings say: its own, else the scene's default."""
+    default = None if settings.is_property_set("density") else default_density(scene)
+    return shortest_decimal(settings.density) if default is None else default
+
+
 def material_density(material: bpy.types.Material | None) -> float | None:
     """kg/m³; None where there is no material, or it has no density."""
     density = 0.0 if material is None else shortest_decimal(material.body_moments.density)
     return density if density > 0.0 else None
 
 
-def unset_density(obj: bpy.types.Object, measurement: Measurement) -> str | None:
-    """Which density of the object's settings was used and set by nobody: "density" or "linear_density"; None where
-    none was. measurement: of the object, with no density or mass from elsewhere."""
+def unset_density(obj: bpy.types.Object, measurement: Measurement, scene: bpy.types.Scene) -> str | None:
+    """Which density of the object's settings was used and set by nobody, neither for the object nor for the scene:
+    "density" or "linear_density"; None where none was. measurement: of the object, with no density or mass from
+    elsewhere."""
     settings = obj.body_moments
     used = {measurement.density_from.code, *(one.code for one in measurement.findings)}
     if not used & _BY_OBJECT:
         return None
     name = "linear_density" if measurement.kind == "wire" else "density"
-    return None if settings.is_property_set(name) else name
+    if settings.is_property_set(name) or name == "density" and default_density(scene) is not None:
+        return None
+    return name
 
 
 def density_anchor(obj: bpy.types.Object) -> str:

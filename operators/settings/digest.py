@@ -8,8 +8,8 @@ from collections.abc import Iterable
 
 import bpy
 
-from ...core.numerics.float32 import shortest_decimal
-from .density import material_density
+from .density import material_density, object_density
+from .given import GivenPart
 from .grid import GridOptions
 
 
@@ -19,15 +19,19 @@ def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
     return "" if grid.solid else repr(grid.key)
 
 
-def density_key(obj: bpy.types.Object, used: Iterable[str]) -> str:
+def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Scene) -> str:
     """What of the settings and of materials decides the density, as a text; "" for one value, a given mass or a wire.
 
     used: the full names of the materials that the last measurement met, beside those in the object's slots.
+    scene: whose default density counts where the object has none.
     """
     settings = obj.body_moments
+    given = GivenPart.of(settings, 1.0).key if settings.mass_from == "MASS" else ""
     if obj.type == "VOLUME":
-        return grid_key(obj)
-    if settings.kind == "WIRE" or settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
+        return grid_key(obj) + given
+    if settings.mass_from == "MASS":
+        return given
+    if settings.kind == "WIRE" or settings.density_from == "VALUE":
         return ""
     if settings.density_from == "VOLUME":
         source = settings.density_volume
@@ -42,4 +46,4 @@ def density_key(obj: bpy.types.Object, used: Iterable[str]) -> str:
     densities = {
         material.name_full: material_density(material) for material in bpy.data.materials if material.name_full in names
     }
-    return repr((shortest_decimal(settings.density), sorted(names), sorted(densities.items())))
+    return repr((object_density(settings, scene), sorted(names), sorted(densities.items())))

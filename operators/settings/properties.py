@@ -9,14 +9,21 @@ property by scale_length³, while a weighed part weighs the same whatever a scen
 
 import bpy
 import numpy as np
-from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
+from ...core.density.density_units import DENSITY_UNITS, density_unit
 from ...core.density.materials import BY_NAME
 from ...core.density.transfer_function import CT_DENSITIES
 from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import MAX_ORDER
+from .density import object_density
+from .given import GIVEN_PROPERTIES, is_point_mass
+from .given_properties import GivenPartProperties
 from .hooks import wall_changed
+from .overlay import BodyMomentsOverlaySettings
+from .preferences import CLASSES as PREFERENCES
+from .preferences import SceneDefaults
 
 TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Blender's own translations
 
@@ -24,6 +31,7 @@ COPIED_PROPERTIES = (
     *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
     *("density_from", "density_polynomial", "density_frame", "density_attribute"),
     *("density_volume", "grid", "grid_as", "values_from", "value_density", "transfer_table", "spline_order"),
+    *GIVEN_PROPERTIES,
 )
 
 
@@ -33,7 +41,28 @@ def _forget_material(settings: PropertyGroup, _context: Context) -> None:
         settings.material = ""
 
 
-class BodyMomentsObjectSettings(PropertyGroup):
+def _density_in(unit: str, description: str):
+    """The density of an object or a material in a unit, for fields of a panel."""
+    factor, name = DENSITY_UNITS[unit]
+    return FloatProperty(
+        name="Density ({:s})".format(name),
+        description="{:s}, in {:s}".format(description, name),
+        get=lambda settings: _shown_density(settings) / factor,
+        set=lambda settings, value: setattr(settings, "density", value * factor),
+        min=0.0,
+        soft_max=25000.0 / factor,
+        precision=3 if factor < 100.0 else 4,
+        options=set(),
+    )
+
+
+def _shown_density(settings: PropertyGroup) -> float:
+    if isinstance(settings.id_data, Object):
+        return object_density(settings, bpy.context.scene)
+    return settings.density
+
+
+class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
     """What one object is made of."""
 
     kind: EnumProperty(
@@ -110,7 +139,7 @@ class BodyMomentsObjectSettings(PropertyGroup):
     )
     density: FloatProperty(
         name="Density",
-        description="Density in kg/m³, independent of the scene units. Type lb/ft³ as 170*16.0185",
+        description="Density in kg/m³, independent of the scene units",
         default=1000.0,
         min=0.0,
         soft_min=0.01,
@@ -119,6 +148,10 @@ class BodyMomentsObjectSettings(PropertyGroup):
         precision=3,
         update=_forget_material,
     )
+    density_kg_m3: _density_in("KG_M3", "Density")
+    density_g_cm3: _density_in("G_CM3", "Density")
+    density_lb_in3: _density_in("LB_IN3", "Density")
+    density_lb_ft3: _density_in("LB_FT3", "Density")
     linear_density: FloatProperty(
         name="Linear Density",
         description="Mass per length of the wire in kg/m, independent of the scene units",
@@ -223,6 +256,11 @@ class BodyMomentsObjectSettings(PropertyGroup):
         min=1,
         max=6,
     )
+    accepted: StringProperty(
+        name="Accepted Findings",
+        description="Codes of the warnings that were accepted for this object and are notes",
+        options={"HIDDEN"},
+    )
     density_volume: PointerProperty(
         name="Volume",
         description="Volume object whose grid is the density inside the solid",
@@ -244,23 +282,29 @@ class BodyMomentsMaterialSettings(PropertyGroup):
         precision=3,
         update=_forget_material,
     )
+    density_kg_m3: _density_in("KG_M3", "Density, 0 for that of the object,")
+    density_g_cm3: _density_in("G_CM3", "Density, 0 for that of the object,")
+    density_lb_in3: _density_in("LB_IN3", "Density, 0 for that of the object,")
+    density_lb_ft3: _density_in("LB_FT3", "Density, 0 for that of the object,")
     material: StringProperty(
         name="Material",
         description="Entry of the material table that the density was taken from",
     )
 
 
-class BodyMomentsSceneSettings(PropertyGroup):
-    """How the scene's numbers are shown."""
+class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
+    """How the scene's numbers are shown, and what its objects start with."""
 
-    frame: EnumProperty(
-        name="Frame",
-        description="Axes and origin in which the center of mass, the axes and the tensor are shown",
-        items=(
-            ("WORLD", "World", "World axes and origin"),
-            ("OBJECT", "Object", "Location and rotation of the object, with unit scale"),
-        ),
-        default="WORLD",
+    overlay: PointerProperty(name="Overlay", type=BodyMomentsOverlaySettings)
+    has_defaults: BoolProperty(
+        name="Has Defaults",
+        description="The add-on's preferences were copied into this scene",
+        options={"HIDDEN"},
+    )
+    units_answered: BoolProperty(
+        name="Units Answered",
+        description="Whether a unit of this scene is a millimeter has been answered",
+        options={"HIDDEN"},
     )
     moments_order: IntProperty(
         name="Order",
@@ -292,9 +336,16 @@ class BodyMomentsSceneSettings(PropertyGroup):
                 "Center, Normalized",
                 "Central moments of the shape scaled to a volume or area of 1, independent of size",
             ),
+            ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
         ),
         default="ORIGIN",
     )
+
+
+def density_field_name(scene: Scene) -> str:
+    """The property of an object's or a material's settings that shows its density in the unit that a scene is set
+    to."""
+    return "density_" + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
 
 
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
@@ -302,11 +353,16 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)
-        different = getattr(target, name) != value
+        different = _comparable(getattr(target, name)) != _comparable(value)
         if different or source.is_property_set(name) and not target.is_property_set(name):
             setattr(target, name, value)
         changed = changed or different
     return changed
+
+
+def _comparable(value):
+    """The value; of an array its numbers."""
+    return value[:] if hasattr(value, "foreach_get") else value
 
 
 def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
@@ -314,7 +370,7 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
     for name in ("kind", "overlap"):
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name).upper())
-    if options.density is not None:
+    if options.density is not None and not is_point_mass(settings.id_data):
         settings.mass_from, settings.density_from = "DENSITY", "VALUE"
         setattr(settings, "linear_density" if settings.kind == "WIRE" else "density", options.density)
         if settings.id_data.type == "VOLUME":
@@ -325,7 +381,13 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
         settings.thickness = options.thickness / shortest_decimal(scene.unit_settings.scale_length)
 
 
-CLASSES = (BodyMomentsObjectSettings, BodyMomentsMaterialSettings, BodyMomentsSceneSettings)
+CLASSES = (
+    *PREFERENCES,
+    BodyMomentsOverlaySettings,
+    BodyMomentsObjectSettings,
+    BodyMomentsMaterialSettings,
+    BodyMomentsSceneSettings,
+)
 
 
 def register() -> None:

@@ -12,7 +12,7 @@ Values stay numbers, strings, booleans and lists; only the table formats them:
     {elements}           what it is about (`Finding.elements`, of which there are `count`): 3, 5, 9, or 3 of “Cube”
 
 The optional value `sources` (names of the objects that a surface came from, where that is not the measured object
-itself) puts “A”, “B”: before any message.
+itself) puts “A”, “B”: before any message. `accepted` says that a user has judged the finding: a warning is a note then.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from ...core.verdict.finding import MAX_STORED_ELEMENTS, Elements, Finding, Seve
 from ...core.verdict.method import Method, Verdict
 
 MAX_LISTED = MAX_STORED_ELEMENTS
+ACCEPTED = "Accepted: {}"  # before a finding that a user has judged, by its value `accepted`
 
 
 @dataclass(frozen=True)
@@ -49,12 +50,12 @@ def _error(text: str, plural: str | None = None) -> Message:
     return Message(Severity.ERROR, text, plural)
 
 
-def _item(item: Any) -> str:
+def _item(item: Any, translate: Callable[[str], str]) -> str:
     """A number, “a name”, or a pair of them: 3 of “Cube”."""
     if hasattr(item, "tolist"):
         item = item.tolist()
     if isinstance(item, (list, tuple)):
-        return " of ".join(map(_item, item))
+        return translate("{} of {}").format(*[_item(part, translate) for part in item])
     return "“{}”".format(item) if isinstance(item, str) else "{}".format(item)
 
 
@@ -76,7 +77,7 @@ def truncate_list(items: Elements, count: int | None = None, translate: Callable
         “A”, “B”, and 3 more.
     """
     shown, more = truncate(items, MAX_LISTED, count)
-    texts = [_item(item) for item in shown]
+    texts = [_item(item, translate) for item in shown]
     if more:
         texts.append(translate(MESSAGES["and_more"].text).format(count=more))
     return ", ".join(texts)
@@ -92,7 +93,7 @@ class _Formatter(string.Formatter):
         if isinstance(value, Mapping):
             return sentence(Finding.from_record(value), self.translate, self.lengths)
         if value is None:  # what was not finite before it was stored
-            return "unknown"
+            return self.translate("unknown")
         if format_spec == "percent":
             return "{:.3g}%".format(100.0 * value)
         if format_spec == "length":
@@ -125,12 +126,14 @@ def sentence(
     elements = truncate_list(finding.elements, values.get("count"), translate)
     text = _Formatter(translate, lengths).vformat(translate(template), (), {**values, "elements": elements})
     sources = values.get("sources")
-    return "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
+    text = "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
+    return translate(ACCEPTED).format(text) if values.get("accepted") else text
 
 
 def severity(finding: Finding) -> Severity:
-    """How much a finding matters, by its code."""
-    return MESSAGES[finding.code].severity
+    """How much a finding matters, by its code; a warning that was accepted is a note."""
+    by_code = MESSAGES[finding.code].severity
+    return Severity.NOTE if by_code == Severity.WARNING and finding.values.get("accepted") else by_code
 
 
 def of_severity(findings: Iterable[Finding], *severities: Severity) -> list[Finding]:
@@ -646,6 +649,7 @@ MESSAGES: dict[str, Message] = {
     # where a density comes from (the panel, `density_from` of records, body_density_from)
     "density_from_value": _note("one value"),
     "density_from_mass": _note("given mass"),
+    "density_from_members": _note("members"),
     "density_from_samples": _note("samples"),
     "density_from_grid": _note("grid “{grid}”"),
     "density_from_grid_of": _note("grid “{grid}” of “{object}”"),
@@ -1124,7 +1128,9 @@ MESSAGES: dict[str, Message] = {
     ),
     "balance_mesh_shared": _note("Other objects use this mesh and changed too."),
     "balance_only_active": _note("Only “{object}” was balanced; the other meshes in Edit Mode are unchanged."),
-    "modified_mesh": _error("Modifiers change the mesh, so its defects cannot be selected. Apply or hide {modifiers}."),
+    "modified_mesh": _error(
+        "Modifiers change the mesh, so its defects are not those of what is measured. Apply or hide {modifiers}."
+    ),
     "linked_results": _error("Linked from another file. Make it local to store results."),
     "override_results": _error("A library override, which would lose its results. Make it local to store results."),
     "material_not_local": _error("No local material “{material}”. Make it local."),
@@ -1247,7 +1253,7 @@ MESSAGES: dict[str, Message] = {
     "usage_spline_order": _error("{text!r} is not an order from 1 to {limit}"),
     "usage_order": _error("{text!r} is not an order from 0 to {limit}"),
     "usage_order_too_high": _error("{text!r} is above the highest order, {limit}"),
-    "usage_format_unsupported": _error("{text} is not supported"),
+    "usage_meshes_need_output": _error("--meshes needs --output, beside which they are written"),
     "usage_format_unknown": _error("{text!r} is not one of {formats}"),
     "usage_needs_fourier": _error("argument --{option}: needs --fourier OUT.npz"),
     "usage_fourier_points": _error("argument --fourier: needs either --q Q.npy, or --grid N and --qmax Q"),
@@ -1256,7 +1262,87 @@ MESSAGES: dict[str, Message] = {
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ References
+    "axis_points_coincide": _error("The two points of the axis are too near to each other. Move one of them."),
+    "axis_needs_two_points": _error("{count} points are selected. Select two vertices, or two objects."),
+    "reference_object_missing": _error("No object is chosen as the reference. Choose one in Object."),
+    "reference_stored": _note(
+        "Stored the inertia of {count} object about the reference",
+        "Stored the inertia of {count} objects about the reference",
+    ),
+    # ------------------------------------------------------------------ Given parts and assemblies
+    "center_given": _note("The center of mass is given."),
+    "inertia_given": _note("The inertia is given."),
+    "given_inertia_impossible": _error(
+        "No body has the given inertia: its principal moments are {moments}, and none may be negative or exceed the "
+        "sum of the other two. Check signs and units."
+    ),
+    "given_center_outside": _warning("The given center of mass is outside the object. Check Center of Mass."),
+    "given_center_missing": _warning(
+        "The given mass is at the world origin, for no member has a mass. Turn on Given Center."
+    ),
+    "assembly_mass_given": _note("The mass of the assembly is given: {mass:.7g} kg."),
+    "assembly_without_members": _error(
+        "Nothing in the assembly has a mass. Add objects that can be measured, or set its mass."
+    ),
+    "member_counted_before": _note("Counted already, in “{assembly}”."),
+    "members_not_measured": _warning(
+        "{count} member cannot be measured and is not in the total: {names}. Measure it alone to see why.",
+        "{count} members cannot be measured and are not in the total: {names}. Measure them alone to see why.",
+    ),
+    "members_counted_before": _note(
+        "{count} member is in the assembly more than once and counts once: {names}.",
+        "{count} members are in the assembly more than once and count once: {names}.",
+    ),
+    "members_left_out": _note(
+        "{count} member is not rendered, or only an operand of Boolean modifiers, and is not in the total: {names}.",
+        "{count} members are not rendered, or only operands of Boolean modifiers, and are not in the total: {names}.",
+    ),
+    "members_excluded": _warning(
+        "{count} member is excluded or disabled and is not in the total: {names}. Enable it in the Outliner.",
+        "{count} members are excluded or disabled and are not in the total: {names}. Enable them in the Outliner.",
+    ),
+    "members_hidden": _note(
+        "{count} member is hidden and counts: {names}.", "{count} members are hidden and count: {names}."
+    ),
+    "members_density_unset": _warning(
+        "{count} member has no density or mass set and counts with the default: {names}. Set Density.",
+        "{count} members have no density or mass set and count with the default: {names}. Set Density.",
+    ),
+    "members_mass_given": _note(
+        "{count} assembly in it has a given mass: {names}.", "{count} assemblies in it have a given mass: {names}."
+    ),
+    "members_not_stored": _note(
+        "{count} member cannot hold results: {names}.", "{count} members cannot hold results: {names}."
+    ),
+    "instance_without_scale": _error("The instance is scaled to zero along an axis. Set its scale."),
+    "instance_stretches_sheets": _error(
+        "The instance stretches shells or wires unevenly, and their mass has no one factor. Give it a uniform scale."
+    ),
+    "no_active_collection": _error("No collection is active. Click one in the Outliner."),
+    "no_active_assembly_empty": _error("The active object is not an empty with children. Select one."),
+    "assembly_measured": _note(
+        "{assembly}: {mass:.7g} kg from {count} object", "{assembly}: {mass:.7g} kg from {count} objects"
+    ),
+    "assembly_has_open_members": _error(
+        "A member is open, and its center depends on a reference point. Close its mesh, or set Kind to Shell."
+    ),
+    "cursor_to_assembly": _note("Moved the 3D cursor to the center of mass of “{assembly}”"),
+    "empty_at_assembly": _note("Placed an empty at the principal frame of “{assembly}”"),
+    "assembly_offset_set": _note("Instances of “{assembly}” are placed by its center of mass"),
+    "assembly_origin_moved": _note("Moved “{assembly}” to the center of mass; its children stay"),
+    "children_would_move": _error(
+        "These would move with it: {names}. Remove what holds them, such as constraints or animation."
+    ),
+    "bill_written": _note(
+        "Wrote the masses of {count} member to “{file}”", "Wrote the masses of {count} members to “{file}”"
+    ),
+    "no_export_file": _error("No file is named. Choose one."),
+    "file_not_written": _error("The file cannot be written: {error}"),
+    "panel_assembly_not_measured": _note("Not measured. Press Measure Assembly"),
     # ------------------------------------------------------------------ Stored results: out of date
+    "stale_member": _warning("A member changed, or was measured anew"),
+    "stale_members": _warning("Members were added, removed or moved, or given masses changed"),
     "stale_fingerprint": _warning("Fingerprint damaged"),
     "stale_settings": _warning("Settings changed"),
     "stale_geometry": _warning("Geometry changed"),
@@ -1275,7 +1361,8 @@ MESSAGES: dict[str, Message] = {
     "measured_one": _note("Measured {object}"),
     "measured_one_with_warnings": _warning("Measured {object}, with warnings"),
     "measured_several": _note("Measured {count} of {total} objects"),
-    "with_warnings": _warning("{count} with warnings"),
+    "with_warnings": _warning("{count} with warnings: {objects}"),
+    "object_warnings": _warning("{object}: {causes}"),
     "measured_section": _note("Measured the section of {object}"),
     "measured_section_with_warnings": _warning("Measured the section of {object}, with warnings"),
     "measured_sections": _note("Measured {count} section", "Measured {count} sections"),
@@ -1318,6 +1405,10 @@ MESSAGES: dict[str, Message] = {
     ),
     "already_in_place": _note("already in place"),
     "orientation_created": _note("Created the transform orientation “{name}”"),
+    "node_group_added": _note("Added the node group “{group}”"),
+    "node_marker_added": _note("Added the node group “{group}” and the marker “{object}”"),
+    "no_reversed_faces": _note("no faces were measured as reversed"),
+    "faces_reversed": _note("Reversed {count} face", "Reversed {count} faces"),
     "material_set": _note("Set {count} object to {material}", "Set {count} objects to {material}"),
     "material_set_already": _note("already set to {material}"),
     "blender_material_set": _note("Set “{target}” to {material}"),
@@ -1399,6 +1490,7 @@ MESSAGES: dict[str, Message] = {
     "panel_wall_folds": _warning("Folds over from {length:length}"),
     "panel_density_mean": _note("Mean density, from {cause}"),
     "panel_no_material_slots": _note("No material slots"),
+    "panel_unit_question": _note("{length:length} long and {tonnes:,.0f} t: is a unit of this scene a millimeter?"),
     "panel_live": _note("Live ({milliseconds:.0f} ms). Press Measure to store"),
     "panel_orders_copied": _note("Orders {first} to {last} are only in the copy."),
     "panel_symmetry_tolerance": _note("The surface matches its images within {share:.2g} of the radius of gyration"),
@@ -1413,6 +1505,60 @@ MESSAGES: dict[str, Message] = {
     "panel_nothing_measured": _note("No selected object is measured"),
     "panel_nothing_to_compare": _note("Nothing to compare with"),
     "panel_material_default": _note("None: the object's density is used"),
+    # ------------------------------------------------------------------ Robots: what a format cannot say
+    "robot_links_left_out": _warning(
+        "{count} object without mass is no link: {links}.", "{count} objects without mass are no links: {links}."
+    ),
+    "robot_without_links": _error("There is no link. Measure objects with mass."),
+    "robot_one_file": _error("A robot is one file. Name one FILE for this format, not {count}."),
+    "robot_base_added": _note(
+        "{count} objects have no parent. They are fixed to an added link without mass, {name}. Parent them to one of "
+        "them to avoid it."
+    ),
+    "robot_ellipsoid_as_box": _note(
+        "URDF has no ellipsoid. The box of equal mass and inertia stands in its place: {links}."
+    ),
+    "urdf_effort_unknown": _note(
+        "Set effort and velocity of the joint to its motor's. They are placeholders: {joints}.",
+        "Set effort and velocity of {count} joints to those of their motors. They are placeholders: {joints}.",
+    ),
+    "sdf_limits_lost": _warning(
+        "SDF knows no limits of a joint about several axes. It moves freely: {joints}.",
+        "SDF knows no limits of joints about several axes. {count} move freely: {joints}.",
+    ),
+    "left_out_of_robot": _warning("{count} of {total} objects are no links: {causes}"),
+    "robot_exported": _note("{count} link exported to {file}.", "{count} links exported to {file}."),
+    "robot_scaled": _warning(
+        "Readers differ about bodies that are scaled. Apply the scale of {links} (Object > Apply > Scale)."
+    ),
+    "robot_sheared": _warning(
+        "Bodies must not be sheared. Apply the scale of the parents of {links} (Object > Apply > Scale)."
+    ),
+    "robot_names_alike": _error("Blender gives {names} one name in USD. Rename one of them."),
+    "gltf_node_missing": _warning(
+        "{count} link has no node of its own in the file: {links}.",
+        "{count} links have no nodes of their own in the file: {links}.",
+    ),
+    "gltf_unit_scale": _note(
+        "Blender writes its units to glTF as meters. Center and inertia are in these, at {scale:g} m a unit."
+    ),
+    "gltf_unreadable": _error("Blender's exporter has not written a glTF file."),
+    "robot_geometry_not_written": _error("Blender's exporter failed: {error}."),
+    "robot_not_written": _error("The file cannot be written: {error}."),
+    "robot_copied": _note("Inertial of {count} link copied.", "Inertials of {count} links copied."),
+    "robot_meshes_written": _note("{count} mesh written to {folder}.", "{count} meshes written to {folder}."),
+    "robot_meshes_not_written": _error("The meshes cannot be written: {error}."),
+    "mjcf_inertia_too_small": _warning(
+        "MuJoCo refuses a moving body with a mass or principal moment below {limit:g} kg or kg·m²: {links}, with "
+        "{least:.3g}. Set boundmass and boundinertia of the compiler, fix it to its parent, or model in larger units.",
+        "MuJoCo refuses moving bodies with a mass or principal moment below {limit:g} kg or kg·m²: {count} of them, "
+        "{links}, down to {least:.3g}. Set boundmass and boundinertia of the compiler, fix them to their parents, or "
+        "model in larger units.",
+    ),
+    "usd_inertia_too_small": _warning(
+        "The inertia of {links} is too small for the single precision of PhysicsMassAPI. Read newton:inertia, or use "
+        "a stage in smaller units."
+    ),
 }
 
 # What an enum says in a panel or a report: method → headline, explanation. Not findings.
@@ -1426,6 +1572,8 @@ METHODS = {
     "wall": ("Wall", "The mass is in a wall of real thickness"),
     "union": ("Union", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits"),
     "wire": ("Wire", "The mass is along the curve"),
+    "given": ("Given", "The mass is given; there is no geometry"),
+    "assembly": ("Assembly", "The members as one body"),
 }
 
 

@@ -3,9 +3,9 @@
 """SI numbers in the scene's units, with their units.
 
 Blender's own formatter has no density and no inertia, and shows a microgram as "0 kg". So all
-quantities are formatted here, to six significant digits, from the scene's system, length unit and
-mass unit. Areas, volumes and inertias follow the two chosen units; an adaptive unit is
-chosen for each number.
+quantities are formatted here, from the scene's system, length unit and mass unit, and from its number format: how many
+significant digits, how they are grouped, in which unit densities are. Areas, volumes and inertias follow the two chosen
+units; an adaptive unit is chosen for each column of numbers, which share it and their decimals.
 """
 
 from __future__ import annotations
@@ -14,10 +14,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
+from ...core.density.density_units import DENSITY_UNITS, FOOT, POUND, density_unit
 from ...core.numerics.float32 import shortest_decimal
-
-FOOT = 0.3048
-POUND = 0.45359237
 
 LENGTHS = {
     "METRIC": {
@@ -73,6 +71,9 @@ SI_UNITS = {
     "area_moment": "m⁴",
 }
 DIGITS = 6
+GROUPS = {"SPACE": "\u2009", "COMMA": ",", "NONE": ""}  # what stands between groups of three digits
+MIN_GROUPED = 5  # integers of fewer digits are read at a glance
+MIN_EXPONENT, MAX_EXPONENT = -5, 10  # beyond these, powers of ten are shown
 
 
 @dataclass(frozen=True)
@@ -85,40 +86,39 @@ class Units:
     length: str
     mass: str
     scale: float
+    density: str = "AUTO"
+    digits: int = DIGITS
+    grouping: str = "SPACE"
 
     @classmethod
     def of(cls, settings) -> Units:
-        """From a scene's `unit_settings`."""
-        return cls(
-            settings.system,
-            settings.length_unit,
-            settings.mass_unit,
-            shortest_decimal(settings.scale_length),
-        )
+        """From a scene's `unit_settings`, and the number format of that scene."""
+        units = settings.system, settings.length_unit, settings.mass_unit, shortest_decimal(settings.scale_length)
+        shown = getattr(getattr(settings, "id_data", None), "body_moments", None)
+        return cls(*units) if shown is None else cls(*units, shown.density_unit, shown.digits, shown.digit_grouping)
 
     def text(self, quantity: str, value: float) -> str:
         """One SI value: "1.5 kg", "12.3457 cm²"."""
         return self.texts(quantity, (value,))[0]
 
     def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
-        """SI values of one quantity, all in the unit that suits the largest of them. size: of the body that they belong
-        to; what is rounding beside it is shown as 0."""
+        """SI values of one quantity as a column: all in the unit that suits the largest of them, with as many decimals.
+        size: of the body that they belong to; what is rounding beside it is shown as 0."""
         largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
         noise = max(1e-12 * largest, 1e-7 * size)
         factor, name = self.unit(quantity, 0.0 if largest < noise else largest)
         # Beside a largest value, what is left of a cancelled one is noise: 1e-17 kg·m² is shown as 0.
-        return [
-            "{:s} {:s}".format(number(0.0 if abs(value) < noise else value / factor), name).rstrip() for value in values
-        ]
+        shown = [0.0 if abs(value) < noise else value / factor for value in values]
+        return ["{:s} {:s}".format(text, name).rstrip() for text in column(shown, self.digits, self.grouping)]
 
     def bound(self, quantity: str, bound: float, beside: float) -> str:
         """An SI error bound, to two digits in the unit of the value that it belongs to: "± 4.5e-15 m³"."""
         factor, name = self.unit(quantity, abs(beside))
-        return "± {:s} {:s}".format(number(bound / factor, 2), name).rstrip()
+        return "± {:s} {:s}".format(number(bound / factor, 2, self.grouping), name).rstrip()
 
     def unit(self, quantity: str, value: float) -> tuple[float, str]:
         """(SI value of one unit, its name) to show an SI `value` in."""
-        if self.system == "NONE":
+        if self.system == "NONE" and quantity != "density":
             return (self.scale ** POWERS[quantity][1], "") if quantity in POWERS else (1.0, SI_UNITS[quantity])
         if quantity in POWERS:
             sign, power = POWERS[quantity]
@@ -127,7 +127,7 @@ class Units:
         if quantity == "mass":
             return self._mass(value)
         if quantity == "density":
-            return self._density()
+            return DENSITY_UNITS[density_unit(self.density, self.system)]
         return self._inertia(value)
 
     def _length(self, value: float) -> tuple[float, str]:
@@ -142,12 +142,6 @@ class Units:
             return table[self.mass]
         base = table["KILOGRAMS" if self.system == "METRIC" else "POUNDS"]
         return _fitting_unit([table[key] for key in ADAPTIVE_MASSES[self.system]], value, base)
-
-    def _density(self) -> tuple[float, str]:
-        """As densities are tabulated and typed, whatever a scene's lengths are: kg/mm³ helps nobody."""
-        if self.system == "METRIC":
-            return 1.0, "kg/m³"
-        return POUND / FOOT**3, "lb/ft³"
 
     def _inertia(self, value: float) -> tuple[float, str]:
         masses, lengths = MASSES[self.system], LENGTHS[self.system]
@@ -174,16 +168,51 @@ def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[
     return units[-1]
 
 
-def number(value: float, digits: int = DIGITS) -> str:
-    """A number as a person reads it: six significant digits, no trailing zeros, powers of ten
+def number(value: float, digits: int = DIGITS, grouping: str = "SPACE") -> str:
+    """A number as a person reads it: so many significant digits, no trailing zeros, powers of ten
     only where needed.
     """
-    if value == 0.0:
-        return "0"
-    text = "{:.{:d}g}".format(value, digits)
-    if "e" in text:
-        mantissa, exponent = text.split("e")
-        if 0 < int(exponent) < 10:  # up to ten digits are easier to read than a power
-            return "{:.0f}".format(float(text)).replace("-", "−")
-        text = "{:s}e{:d}".format(mantissa, int(exponent))
-    return text.replace("-", "−")
+    return column((value,), digits, grouping)[0]
+
+
+def column(values: Sequence[float], digits: int = DIGITS, grouping: str = "SPACE") -> list[str]:
+    """Numbers as a person reads them below one another.
+
+    Parameters
+    ----------
+    values : sequence of float
+    digits : int
+        Significant digits of the largest of them.
+    grouping : str
+        One of `GROUPS`.
+
+    Returns
+    -------
+    list of str
+        With as many decimals each, zeros that all of them would end with left out, and the same power of ten where one
+        is needed.
+    """
+    largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
+    if largest == 0.0:
+        return [_plain_number(value, 0, "") for value in values]
+    exponent = int("{:.{:d}e}".format(largest, digits - 1).partition("e")[2])
+    power = exponent if not MIN_EXPONENT < exponent < MAX_EXPONENT else 0
+    decimals = digits - 1 - (exponent - power)
+    texts = [
+        _plain_number(round(value / 10.0**power, decimals), max(decimals, 0), GROUPS[grouping]) for value in values
+    ]
+    while "." in texts[0] and all(text.endswith("0") for text in texts):
+        texts = [text[:-1].removesuffix(".") for text in texts]
+    suffix = "e{:d}".format(power).replace("-", "−") if power else ""
+    return [text + suffix for text in texts]
+
+
+def _plain_number(value: float, decimals: int, separator: str) -> str:
+    if not isfinite(value):
+        return "{}".format(value)
+    text = "{:.{:d}f}".format(abs(value), decimals)
+    whole, point, fraction = text.partition(".")
+    if len(whole) >= MIN_GROUPED:
+        whole = "{:,d}".format(int(whole)).replace(",", separator)
+    negative = value < 0.0 and text.strip("0.")
+    return ("−" if negative else "") + whole + point + fraction

@@ -7,6 +7,8 @@ from pathlib import Path
 import bpy
 from body_moments.core.verdict.finding import finding
 
+from tests.records import valid
+
 # A tetrahedron with its right angle at the origin and legs of 1, 2 and 3 along x, y and z.
 CORNERS = ((0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3))
 FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
@@ -110,6 +112,7 @@ def run(*words):
 
     line = Run(arguments.parse(["measure", *map(str, words)]))
     line.measure()
+    valid(line.documents)
     return line
 
 

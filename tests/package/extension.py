@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the extension with the validator that Blender itself ships, as plain Python.
+"""Builds the extension, with the manual in it, with the validator that Blender itself ships, as plain Python.
 
     python extension.py OUTPUT      validates the repository's root and builds its zip into OUTPUT
 
@@ -8,8 +8,10 @@ The Python must be one that has the bpy module installed; Blender is not started
 """
 
 import importlib.util
+import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -44,9 +46,17 @@ def validate(path: Path) -> subprocess.CompletedProcess:
 
 
 def build(source: Path, output: Path) -> Path:
-    """Build the zip of a source folder into an output folder and return its path."""
+    """Build the zip of a source folder, with the manual in it, into an output folder and return its path."""
     output.mkdir(parents=True, exist_ok=True)
-    done = run_validator("build", "--source-dir", source, "--output-dir", output)
+    with tempfile.TemporaryDirectory(prefix="body_moments_") as work:
+        copy = Path(work) / "source"
+        large = shutil.ignore_patterns(".git", ".envs", "tests", "demo", "dist")
+        shutil.copytree(source, copy, ignore=large)
+        manual = [sys.executable, "-P", str(Path(__file__).with_name("manual.py")), str(copy)]
+        made = subprocess.run(manual, capture_output=True, encoding="utf-8", errors="replace")
+        if made.returncode:
+            raise RuntimeError(f"building the manual failed\n{made.stderr}")
+        done = run_validator("build", "--source-dir", copy, "--output-dir", output)
     created = [line for line in done.stdout.splitlines() if line.startswith("created: ")]
     if done.returncode or not created:
         raise RuntimeError(f"building the extension failed\n{done.stdout}")

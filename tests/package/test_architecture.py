@@ -13,7 +13,7 @@ CORE = (
     ("numerics", "verdict"),
     ("moments",),
     ("mesh", "inertia", "papers"),
-    ("polyhedron", "shape", "scans"),
+    ("polyhedron", "shape", "scans", "robots"),
     ("solid", "plane", "fourier", "rigs"),
     ("density", "nurbs", "offset"),
     ("statics",),

@@ -12,9 +12,10 @@ import bpy
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity, finding
 from ...bodies.measure_object import Measured, measure_body
-from ...session import results
+from ...session import outcome, results
 from ...session.staleness import mark_up_to_date
 from ...settings.density import unset_density
+from ...settings.preferences import copy_defaults
 from ...write import reports
 from ...write.messages import of_severity
 from ..modal import ModalSteps, redraw
@@ -47,6 +48,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
 
     def _begin(self, context: bpy.types.Context) -> int:
         """Start with the selected objects, in edit mode those being edited; how many there are."""
+        copy_defaults(context.scene)
         objects = list(context.selected_objects)
         self._results: list[tuple[bpy.types.Object, Measured]] = []
         self._refusals: list[tuple[bpy.types.Object, Finding]] = []
@@ -82,21 +84,26 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         return {"FINISHED"} if stored else {"CANCELLED"}
 
     def _report(self, stored: int) -> None:
-        reported = [measured.measurement.findings for _, measured in self._results]
-        warned = sum([bool(of_severity(findings, Severity.WARNING, Severity.ERROR)) for findings in reported])
+        warnings = [
+            finding("object_warnings", object=obj.name_full, causes=[cause.as_record() for cause in causes])
+            for obj, measured in self._results
+            if (causes := of_severity(measured.measurement.findings, Severity.WARNING, Severity.ERROR))
+        ]
         tried = stored + len(self._failures)
         done = [finding("measured_several", count=stored, total=tried)] if tried > 1 else []
         if tried == stored == 1:
             name = self._results[0][0].name
-            done.append(finding("measured_one_with_warnings" if warned else "measured_one", object=name))
-        elif warned:
-            done.append(finding("with_warnings", count=warned))
+            done.append(finding("measured_one_with_warnings" if warnings else "measured_one", object=name))
+        elif warnings:
+            names = [warning.values["object"] for warning in warnings]
+            done.append(finding("with_warnings", count=len(names), objects=names))
+        outcome.remember(self.bl_label, [*self._failures, *warnings] if tried > 1 else self._failures[1:])
         reports.report(self, *done, *(reports.first(self._failures) if self._failures else ()))
 
 
 def _with_default_density(obj: bpy.types.Object, measured: Measured) -> Measured:
     """With a note where nobody has set the density."""
-    unset = unset_density(obj, measured.measurement)
+    unset = unset_density(obj, measured.measurement, bpy.context.scene)
     if unset is None:
         return measured
     kept = finding("density_default_kept") if unset == "density" else finding("linear_density_default_kept")

@@ -79,7 +79,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
         faults: dict[Object, dict[str, np.ndarray]] = {}
 
         def measure(obj: Object) -> bool:
-            _require_editable_mesh(obj)
+            require_editable_mesh(obj)
             measurements[obj] = measure_object(obj, depsgraph)
             return True
 
@@ -108,7 +108,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
         return selection.summarize(self, count, len(objects), done, failures, defects)
 
 
-def _require_editable_mesh(obj: Object) -> None:
+def require_editable_mesh(obj: Object) -> None:
     """Raises where what is measured is not what could be edited."""
     if not obj.is_editable or not obj.data.is_editable:
         raise EditRefusedError("linked_object_data")

@@ -9,9 +9,10 @@ from bl_operators.presets import AddPresetBase
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ....core.density.materials import BY_NAME, MATERIALS
+from ....core.density.materials import BY_NAME
 from ....core.verdict.finding import finding
 from ...scene.transforms import require_storable_data
+from ...settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...settings.properties import COPIED_PROPERTIES, copy_settings
 from ...write import reports
 from .. import selection
@@ -24,16 +25,6 @@ def _targets(context: Context) -> list[Object]:
     active = context.view_layer.objects.active
     objects = list(context.view_layer.objects.selected)
     return objects if active is None or active in objects else [active, *objects]
-
-
-MATERIAL_ITEMS = [
-    (
-        material.name,
-        material.name,
-        "{:.7g} kg/m³. Source: {:s}".format(material.density, material.source),
-    )
-    for material in MATERIALS
-]
 
 
 class OBJECT_OT_body_moments_set_material(Operator):
@@ -65,6 +56,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context: Context) -> set[str]:
+        copy_defaults(context.scene)
         material = BY_NAME[self.material]
         objects = _targets(context)
 

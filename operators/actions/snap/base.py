@@ -19,7 +19,8 @@ from bpy.props import BoolProperty
 from bpy.types import Context, Object, Operator
 from numpy.typing import NDArray
 
-from ....core.inertia.principal_frame import EQUAL_AXES, zhang_chen_frame
+from ....core.inertia.principal_frame import zhang_chen_frame
+from ....core.inertia.second_order import EQUAL_AXES
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import EditRefusedError, Finding, finding

@@ -375,7 +375,7 @@ def test_materials_are_many_sourced_and_plausible():
             "METRIC",
             "MILLIMETERS",
             "GRAMS",
-            ("1500 mm", "200 mm²", "8000000000 mm³", "250 g", "7850 kg/m³", "200000 g·mm²"),
+            ("1500 mm", "200 mm²", "8\u2009000\u2009000\u2009000 mm³", "250 g", "7850 kg/m³", "200\u2009000 g·mm²"),
         ),
         (
             "IMPERIAL",
@@ -384,7 +384,7 @@ def test_materials_are_many_sourced_and_plausible():
             (
                 "59.0551 in",
                 "0.310001 in²",
-                "488190 in³",
+                "488\u2009190 in³",
                 "0.551156 lb",
                 "490.059 lb/ft³",
                 "0.683434 lb·in²",
@@ -439,7 +439,7 @@ def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():
     assert [number(value) for value in (0.0, 1e-9, 123456789.0, -0.5, 1.23456789e-3, 1e12)] == [
         "0",
         "1e−9",
-        "123457000",
+        "123\u2009457\u2009000",
         "−0.5",
         "0.00123457",
         "1e12",
@@ -449,6 +449,68 @@ def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():
     assert texts == ["5 kg·m²", "0 kg·m²"]
     adaptive = Units("METRIC", "ADAPTIVE", "ADAPTIVE", 1.0)  # noise is 0 in the unit of 0
     assert adaptive.texts("length", (1e-16, 0.0), size=1.0) == adaptive.texts("length", (0.0, 0.0)) == ["0 m", "0 m"]
+
+
+def test_a_column_shares_unit_decimals_and_power_and_groups_digits_as_the_scene_says():
+    from body_moments.operators.write.units import Units
+
+    units = Units("METRIC", "METERS", "KILOGRAMS", 1.0)
+    assert units.texts("length", (1.0 / 3.0, -2.25, 0.0)) == ["0.33333 m", "−2.25000 m", "0.00000 m"]
+    assert units.texts("length", (1.5, -2.25, 0.0)) == ["1.50 m", "−2.25 m", "0.00 m"]
+    assert units.texts("inertia", (2.5e12, 1e10)) == ["2.50e12 kg·m²", "0.01e12 kg·m²"]
+    assert units.texts("mass", (20000.04, 0.1)) == ["20\u2009000.0 kg", "0.1 kg"]
+    assert units.texts("mass", (99999.97, 5.0)) == ["100\u2009000 kg", "5 kg"]  # rounded up: a digit less behind it
+    assert units.texts("mass", (-1e-9, 5.0)) == ["0 kg", "5 kg"]  # no negative zero
+    settings = bpy.context.scene.unit_settings
+    shown = bpy.context.scene.body_moments
+    settings.length_unit = "METERS"
+    for digits, grouping, expected in ((3, "COMMA", "12,300 m"), (15, "NONE", "12345.6789 m"), (2, "NONE", "12000 m")):
+        shown.digits, shown.digit_grouping = digits, grouping
+        assert Units.of(settings).text("length", 12345.6789) == expected
+
+
+@pytest.mark.parametrize(
+    ("unit", "system", "text", "entered"),
+    [
+        ("AUTO", "METRIC", "7850 kg/m³", 7850.0),
+        ("AUTO", "IMPERIAL", "490.059 lb/ft³", 490.0594),
+        ("G_CM3", "IMPERIAL", "7.85 g/cm³", 7.85),
+        ("LB_IN3", "METRIC", "0.2836 lb/in³", 0.2836),
+        ("KG_M3", "NONE", "7850 kg/m³", 7850.0),
+    ],
+)
+def test_densities_are_shown_and_entered_in_the_chosen_unit(unit, system, text, entered):
+    from body_moments.operators.settings.properties import density_field_name
+    from body_moments.operators.write.units import Units
+
+    scene = bpy.context.scene
+    scene.unit_settings.system, scene.body_moments.density_unit = system, unit
+    settings = add(mesh_body()).body_moments
+    for owner in (settings, bpy.data.materials.new("Steel").body_moments):
+        setattr(owner, density_field_name(scene), entered)
+        assert close(owner.density, 7850.0, rel=2e-4)
+        assert close(getattr(owner, density_field_name(scene)), entered, rel=1e-6)
+    assert Units.of(scene.unit_settings).text("density", 7850.0).startswith(text[:5])
+    assert Units.of(scene.unit_settings).text("density", 7850.0).endswith(text.split()[1])
+
+
+def test_a_scenes_default_material_is_the_density_of_objects_without_one_here_and_in_batch():
+    from body_moments.operators.session import staleness
+
+    scene, obj = bpy.context.scene, add(mesh_body())
+    scene.body_moments.default_material = "PLA"
+    bpy.ops.object.body_moments_measure()
+    bpy.context.view_layer.update()
+    assert obj["body_density"] == 1240.0 and staleness.stale_reason(obj, scene) is None
+    assert "density_default_kept" not in obj["body_findings"]
+    assert obj.body_moments.density_kg_m3 == 1240.0 and not obj.body_moments.is_property_set("density")
+    scene.body_moments.default_material, scene.body_moments.default_density = "CUSTOM", 1300.5
+    assert staleness.stale_reason(obj, scene) == "stale_settings"
+    bpy.ops.object.body_moments_measure()
+    assert obj["body_density"] == 1300.5
+    obj.body_moments.density = 5.0
+    bpy.ops.object.body_moments_measure()
+    assert obj["body_density"] == 5.0
 
 
 @pytest.mark.parametrize("operator", ["measure", "measure_section", "find_similar", "origin_to_center"])
@@ -478,16 +540,21 @@ def test_a_report_is_as_severe_as_its_worst_finding_and_reads_as_sentences():
     operator = SimpleNamespace(report=lambda *call: calls.append(call))
     bpy.context.scene.unit_settings.length_unit = "MILLIMETERS"
     wall = finding("wall_measured", thickness=0.25, side="inward")
-    reports.report(operator, finding("measured_several", count=2, total=3), finding("with_warnings", count=1), wall)
+    reports.report(
+        operator, finding("measured_several", count=2, total=3), finding("with_warnings", count=1, objects=["A"]), wall
+    )
     reports.report(operator, wall, finding("measured_one", object="A"))
     reports.report(
-        operator, finding("no_faces"), finding("measured_one", object="{B}"), finding("with_warnings", count=1)
+        operator,
+        finding("no_faces"),
+        finding("measured_one", object="{B}"),
+        finding("with_warnings", count=1, objects=["A"]),
     )
     with_wall = "The wall was measured with real thickness: 250 mm, inward, mitered corners."
     assert calls == [
-        ({"WARNING"}, "Measured 2 of 3 objects; 1 with warnings. " + with_wall),
+        ({"WARNING"}, "Measured 2 of 3 objects; 1 with warnings: “A”. " + with_wall),
         ({"INFO"}, with_wall + " Measured A"),
-        ({"ERROR"}, "No faces. Add faces, or select another object. Measured {B}; 1 with warnings"),
+        ({"ERROR"}, "No faces. Add faces, or select another object. Measured {B}; 1 with warnings: “A”"),
     ]
 
 

@@ -31,7 +31,7 @@ class Layout:
     def _sub(self, **_options):
         return Layout(self.record, self.closed)
 
-    row = column = split = box = grid_flow = _sub
+    row = column = split = box = grid_flow = menu_pie = _sub
 
     def panel(self, name, default_closed=False):
         return self._sub(), None if name in self.closed else self._sub()
@@ -174,7 +174,7 @@ def test_every_kind_of_object_can_be_active():
         }[kind]()
         add(data, kind)
         record = drawn()
-        assert not [entry for entry in record if entry[0] == "prop" and entry[1] in ("density", "mass_from", "overlap")]
+        assert not [entry for entry in record if entry[0] == "prop" and entry[1] in ("density", "overlap")]
         assert [entry for entry in record if entry[0] == "operator" and entry[1] == "object.body_moments_measure"]
 
 
@@ -589,18 +589,18 @@ def settings_drawn(obj):
 
 def test_the_panel_shows_the_settings_of_each_source_of_density():
     obj = add(mesh_body())
-    assert "density" in settings_drawn(obj) and "density_polynomial" not in settings_drawn(obj)
+    assert "density_kg_m3" in settings_drawn(obj) and "density_polynomial" not in settings_drawn(obj)
     obj.body_moments.density_from = "POLYNOMIAL"
     shown = settings_drawn(obj)
-    assert {"density_polynomial", "density_frame"} <= {*shown} and "density" not in shown
+    assert {"density_polynomial", "density_frame"} <= {*shown} and "density_kg_m3" not in shown
     obj.body_moments.density_from = "ATTRIBUTE"
     assert "density_attribute" in settings_drawn(obj)
     obj.body_moments.density_from = "MATERIALS"
-    assert settings_drawn(obj).count("density") == 1 and shows(drawn(), "panel_no_material_slots")
+    assert settings_drawn(obj).count("density_kg_m3") == 1 and shows(drawn(), "panel_no_material_slots")
     for name in ("Steel", "Cork"):
         obj.data.materials.append(bpy.data.materials.new(name))
     obj.data.materials.append(bpy.data.materials["Cork"])  # one row for each material
-    assert settings_drawn(obj).count("density") == 3
+    assert settings_drawn(obj).count("density_kg_m3") == 3
     targets = [entry[2].name for entry in drawn() if entry[0] == "pointer"]
     assert targets == ["Steel", "Cork"] and {"Steel", "Cork"} <= {*labels(drawn())}
     obj.body_moments.mass_from = "MASS"
@@ -626,7 +626,7 @@ def test_a_materials_panel_draws_its_density():
         layout = Layout()
         with bpy.context.temp_override(material=made):
             MATERIAL_PT_body_moments.draw(SimpleNamespace(layout=layout), bpy.context)
-        assert ("prop", "density") in layout.record
+        assert ("prop", "density_kg_m3") in layout.record
         assert shows(layout.record, "panel_material_default") == default and (default or not labels(layout.record))
     assert MATERIAL_PT_body_moments.poll(SimpleNamespace(material=made))
     assert not MATERIAL_PT_body_moments.poll(SimpleNamespace())
@@ -639,7 +639,8 @@ def test_the_menus_set_the_material_that_the_layout_points_at():
     for target, wanted in ((None, "object.body_moments_set_material"), (made, "material.body_moments_set_density")):
         layout = Layout()
         CATEGORY_MENUS[0].draw(
-            SimpleNamespace(layout=layout, bl_label="Metals"), SimpleNamespace(body_moments_material=target)
+            SimpleNamespace(layout=layout, bl_label="Metals"),
+            SimpleNamespace(body_moments_material=target, scene=bpy.context.scene),
         )
         buttons = [entry for entry in layout.record if entry[0] == "operator"]
         assert buttons and {entry[1] for entry in buttons} == {wanted}

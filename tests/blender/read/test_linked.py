@@ -125,5 +125,5 @@ def test_the_density_of_a_linked_material_cannot_be_set_by_its_local_namesake(tm
         names.materials = ["Stahl"]
     for material, enabled in ((local, True), (names.materials[0], False)):
         Row.rows.clear()
-        density_row(Row(), material)
+        density_row(Row(), bpy.context.scene, material)
         assert Row.rows[0].enabled is enabled

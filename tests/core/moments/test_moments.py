@@ -8,16 +8,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.moments.moments import (
-    Measure,
-    Moments,
-    are_similarities,
-    monomial_count,
-    monomial_index,
-    monomials,
-    sum_moments,
-    sum_of_images,
-)
+from body_moments.core.moments.affine_maps import are_similarities
+from body_moments.core.moments.images import sum_of_images
+from body_moments.core.moments.moments import Measure, Moments, monomial_count, monomial_index, monomials, sum_moments
 from body_moments.core.moments.normalized import normalize
 
 from tests.close import close

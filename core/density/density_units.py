@@ -1,0 +1,33 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Units in which densities are shown and entered. Pure data."""
+
+from __future__ import annotations
+
+POUND = 0.45359237  # kg
+FOOT = 0.3048  # m
+DENSITY_UNITS = {  # name of a setting → kg/m³, unit
+    "KG_M3": (1.0, "kg/m³"),
+    "G_CM3": (1e3, "g/cm³"),
+    "LB_IN3": (POUND / (FOOT / 12.0) ** 3, "lb/in³"),
+    "LB_FT3": (POUND / FOOT**3, "lb/ft³"),
+}
+SYSTEM_UNITS = {"METRIC": "KG_M3", "IMPERIAL": "LB_FT3", "NONE": "KG_M3"}  # as tabulated and typed, not in kg/mm³
+
+
+def density_unit(chosen: str, system: str) -> str:
+    """Return the unit to show densities in.
+
+    Parameters
+    ----------
+    chosen : str
+        One of `DENSITY_UNITS`, or "AUTO".
+    system : str
+        A scene's unit system, one of `SYSTEM_UNITS`.
+
+    Returns
+    -------
+    str
+        One of `DENSITY_UNITS`.
+    """
+    return SYSTEM_UNITS[system] if chosen == "AUTO" else chosen

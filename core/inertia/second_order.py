@@ -1,0 +1,210 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What second and third moments say of the principal frames of a stack of bodies.
+
+The axes are the eigenvectors of the central second moments, largest first. An axis is scored by its skewness, or where
+that is noise by the other third moments odd in that axis only; the two axes with the clearest scores turn positive and
+the third completes a right-handed frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.moments import SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX, Moments
+from .canonical_frame import NOISE_LEVEL, SecondMomentAxes
+
+EQUAL_MOMENTS_RTOL = 1e-6  # moments closer than this, relatively, are equal
+EQUAL_SCORES_RTOL = 1e-4  # scores closer than this, relatively, are equally clear
+# For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.
+PARTNER_AXES = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
+OWN_AXIS = np.arange(3)[:, None]
+# keep the frame's hand
+HALF_TURN_SIGNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])
+
+SYMMETRIES = "asymmetric", "prolate", "oblate", "isotropic"
+# by symmetry, the axes whose moments are equal
+EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
+IS_FIXED = np.array([[axis not in EQUAL_AXES[name] for axis in range(3)] for name in SYMMETRIES])
+
+
+@dataclass(frozen=True, eq=False)
+class SecondOrderFrames:
+    """What second and third moments fix of the frames of n bodies.
+
+    Attributes
+    ----------
+    is_body : (n,) bool
+        Whether the second moments are those of a body at all.
+    moments : (n, 3) array
+        Principal moments of inertia, ascending.
+    axes : (n, 3, 3) array
+        The axes as columns, determinant 1, largest second moment first.
+    size : (n, 3) array
+        The extents (standard deviations) along them.
+    symmetry : (n,) int
+        Of `SYMMETRIES`.
+    step, tilt : (n,) array
+        As in `SecondMomentAxes`.
+    noise : float
+        Likewise.
+    allowed : (n, 4) bool
+        Which of HALF_TURN_SIGNS times the axes third moments allow.
+    skewness, skewness_error : (n, 3) array
+        Along the axes, and what of it is noise.
+    """
+
+    is_body: NDArray[np.bool_]
+    moments: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    size: NDArray[np.float64]
+    symmetry: NDArray[np.intp]
+    step: NDArray[np.float64]
+    tilt: NDArray[np.float64]
+    noise: float
+    allowed: NDArray[np.bool_]
+    skewness: NDArray[np.float64]
+    skewness_error: NDArray[np.float64]
+
+    def free(self, i: int) -> tuple[int, ...]:
+        """The axes of one body that equal moments leave free."""
+        return EQUAL_AXES[SYMMETRIES[self.symmetry[i]]]
+
+    def spread(self, i: int) -> SecondMomentAxes:
+        """What second moments say of one body."""
+        step, tilt = float(self.step[i]), float(self.tilt[i])
+        return SecondMomentAxes(self.axes[i], self.size[i], self.free(i), step, tilt, self.noise)
+
+    def frames(self, i: int) -> NDArray[np.float64]:
+        """(k, 3, 3) the right-handed frames of one body that third moments allow: signs of its axes."""
+        return self.axes[i] * HALF_TURN_SIGNS[self.allowed[i], None]
+
+
+def second_order_frames(
+    moments: Moments, refine: Callable[[NDArray[np.intp]], Moments] | None = None, noise_factor: float = 1.0
+) -> SecondOrderFrames:
+    """Find what second and third moments fix.
+
+    Parameters
+    ----------
+    moments : Moments
+        Of n bodies with positive totals, to order 3 at least.
+    refine : callable, optional
+        Returns, of those of the bodies that it is given, the moments with exact third order; called where bounds do not
+        decide.
+    noise_factor : float
+        By how much more than NOISE_LEVEL is noise.
+    """
+    total = moments.raw[:, 0]
+    shift = moments.raw[:, 1:4] / total[:, None]
+    second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None] - shift[:, :, None] * shift[:, None, :]
+    scale = np.abs(second.trace(axis1=1, axis2=2))
+    scale[scale == 0.0] = 1.0  # keeps eigh clear of overflow and denormals
+    spread, axes = np.linalg.eigh(second / scale[:, None, None])
+    spread, axes = spread[:, ::-1], axes[:, :, ::-1].copy()
+    axes[:, :, 2] *= np.sign(np.linalg.det(axes))[:, None]
+    rounding = 4.0 * moments.rounding_error[:, 4:10].max(axis=1) / (total * scale) + 8.0 * np.finfo(float).eps
+    is_body = spread[:, 2] >= -rounding
+    spread = np.maximum(spread, 0.0)
+
+    size = np.sqrt(np.maximum(spread, 1e-30 * spread[:, :1]))  # a lamina has no extent along an axis, and no skewness
+    # How far float32 has moved the points: the share of the volume that this moves, times the thinnest extent.
+    step = moments.input_error[:, 0] / total * size[:, 2]
+    gaps = spread[:, :2] - spread[:, 1:]
+    doubtful = (2.0 * step)[:, None] * size[:, :2] + rounding[:, None]
+    equal = gaps <= noise_factor * EQUAL_MOMENTS_RTOL * spread[:, :2] + doubtful
+    tilts = np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))  # of axes 1 and 2, and of 2 and 3
+    symmetry = 2 * equal[:, 0] + equal[:, 1]
+
+    noise = noise_factor * NOISE_LEVEL + (4.0 * step)[:, None, None] / np.minimum(
+        size[:, :, None], size[:, PARTNER_AXES]
+    )
+    real = size * np.sqrt(scale)[:, None]
+    skewness, skewness_error = _third_scores(moments, shift, real, axes)
+    # Two axes that noise may have turned about the third one mix what the body has along them.
+    tilt_between = np.zeros((len(total), 3, 3))
+    tilt_between[:, 0, 1] = tilt_between[:, 1, 0] = tilts[:, 0]
+    tilt_between[:, 1, 2] = tilt_between[:, 2, 1] = tilts[:, 1]
+    span = gaps.sum(axis=1)
+    both = np.where(symmetry == 3, 0.0, doubtful.max(axis=1) / np.where(span > 0.0, span, 1.0))
+    tilt_between[:, 0, 2] = tilt_between[:, 2, 0] = both
+    mixed = (tilt_between * (np.abs(skewness) + skewness_error).max(axis=2)[:, None]).sum(axis=2)
+    noise += 3.0 * mixed[:, :, None]
+    fixed = IS_FIXED[symmetry]
+    third, error = skewness, skewness_error
+    if refine is not None:
+        undecided = np.flatnonzero(~_are_decided(np.abs(skewness), skewness_error, noise, fixed))
+        if len(undecided):
+            third, error = third.copy(), error.copy()
+            third[undecided], error[undecided] = _third_scores(
+                refine(undecided), shift[undecided], real[undecided], axes[undecided]
+            )
+    is_clear = np.abs(third) > noise + error
+    first = is_clear.argmax(axis=2)[:, :, None]  # zero where none of them is more than noise
+    is_scored = fixed & is_clear.any(axis=2)
+    scores = np.where(is_scored, np.take_along_axis(third, first, axis=2)[:, :, 0], 0.0)
+    inertia = (spread[:, [1, 0, 0]] + spread[:, [2, 2, 1]]) * (scale * total)[:, None]
+    return SecondOrderFrames(
+        is_body,
+        inertia,
+        axes,
+        real,
+        symmetry,
+        step * np.sqrt(scale),
+        tilts.max(axis=1),
+        noise_factor * NOISE_LEVEL,
+        _allowed_signs(scores),
+        skewness[:, :, 0],
+        noise[:, :, 0] + skewness_error[:, :, 0],
+    )
+
+
+def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,) whether better third moments could change neither which scores of fixed axes count, nor their signs, nor
+    their order."""
+    clear = size - error > noise
+    below = size + error <= noise
+    decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
+    first = clear.argmax(axis=2)[:, :, None]
+    size, error = (np.take_along_axis(values, first, axis=2)[:, :, 0] for values in (size, error))
+    last = np.argsort(size, axis=1)[:, :2]  # of three scores, which one is the last
+    size, error = np.take_along_axis(size, last, axis=1), np.take_along_axis(error, last, axis=1)
+    apart = size[:, 1] - size[:, 0] > 2.0 * error.sum(axis=1)
+    return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
+
+
+def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
+    """(n, 3, 3) of each body for each axis i its skewness and the two normalized third moments odd in i and even in
+    another axis, M_iii, M_ijj and M_ikk; and the bounds of their errors."""
+    count, total = len(shift), moments.raw[:, 0]
+    second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
+    third = moments.raw[:, THIRD_MOMENT_INDEX] / total[:, None, None, None]
+    outer = shift[:, :, None] * shift[:, None, :]
+    across = shift[:, :, None, None]
+    cross = across * second[:, None]
+    third = third - cross - cross.transpose(0, 2, 1, 3) - cross.transpose(0, 2, 3, 1) + 2.0 * across * outer[:, None]
+    of_second = 3.0 * np.abs(shift).max(axis=1) * moments.rounding_error[:, 4:10].max(axis=1)
+    error = (moments.rounding_error[:, THIRD_MOMENT_INDEX] + of_second[:, None, None, None]) / total[
+        :, None, None, None
+    ]
+    squares = (axes[:, :, None] * axes[:, None]).reshape(count, 9, 3)
+    unit = size[:, :, None] * size[:, PARTNER_AXES] ** 2
+    turned = axes.transpose(0, 2, 1)
+    scores = turned @ third.reshape(count, 3, 9) @ squares
+    score_error = np.abs(turned) @ error.reshape(count, 3, 9) @ np.abs(squares)
+    return scores[:, OWN_AXIS, PARTNER_AXES] / unit, score_error[:, OWN_AXIS, PARTNER_AXES] / unit
+
+
+def _allowed_signs(scores: NDArray) -> NDArray[np.bool_]:
+    """(n, 4) which of HALF_TURN_SIGNS agree with (n, 3) scores."""
+    size, counts = np.abs(scores), scores != 0.0
+    # Of three, the weakest is dropped; of equal ones the last.
+    weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL)
+    last = 2 - weak[:, ::-1].argmax(axis=1)
+    counts = counts & ~(counts.all(axis=1)[:, None] & (np.arange(3) == last[:, None]))
+    return ((HALF_TURN_SIGNS * scores[:, None] > 0.0) | ~counts[:, None]).all(axis=2)

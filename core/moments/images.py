@@ -1,0 +1,115 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sum of one body's images under many affine maps: its instances."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .affine_maps import transform_by_horner
+from .moments import Moments, U, image, measure_scale_factors
+from .monomials import monomial_count, monomials
+
+MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
+
+
+def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None = None) -> Moments:
+    """Add the images of one body under several affine maps: instances.
+
+    Parameters
+    ----------
+    moments : Moments
+    matrices : (k, 4, 4) array
+        As for `Moments.transform`.
+    about : (3,) array_like, optional
+        The point of the result; by default the mean of the images of `moments.about`.
+
+    Returns
+    -------
+    Moments
+
+    Raises
+    ------
+    ValueError
+        If the matrices are not finite (k, 4, 4), or not similarities where areas or lengths need them.
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import Moments, sum_of_images
+    >>> matrices = np.stack([np.eye(4), np.diag([2.0, 2.0, 2.0, 1.0])])
+    >>> round(sum_of_images(Moments(np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(3)), matrices).total, 9)
+    9.0
+    """
+    matrices = np.asarray(matrices, np.float64)
+    if matrices.ndim != 3 or matrices.shape[1:] != (4, 4) or not len(matrices) or not np.isfinite(matrices).all():
+        raise ValueError("matrices not finite (4, 4)")
+    if len(matrices) == 1:
+        linear, point = matrices[0, :3, :3], moments.about
+        center = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + matrices[0, :3, 3]
+        return image(moments, matrices[0], center if about is None else np.asarray(about, np.float64))
+    affine = np.ascontiguousarray(matrices[:, :3].transpose(1, 2, 0))
+    linear, offsets = affine[:, :3], affine[:, 3]
+    point, order = moments.about[:, None], moments.order
+    origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
+    center: NDArray[np.float64] = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
+    raw, error, extra = np.zeros((3, len(moments.raw)))
+    block = max(MAPS_PER_BLOCK * 20 // len(moments.raw), 16)
+    for start in range(0, len(matrices), block):
+        part = slice(start, start + block)
+        maps = linear[:, :, part]
+        weight, weight_error, uneven = measure_scale_factors(moments.measure, maps)
+        offset = origins[:, part] - center[:, None]
+        # The images of the reference point are rounded, and the body moves with them.
+        stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
+        tolerance = (
+            6 * U * (np.abs(offsets[:, part]).max(axis=0) + np.abs(center).max() + stretch * np.abs(point).max())
+        )
+        weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
+        raw += np.add.reduce(transform_by_horner(moments.raw[:, None], order, maps, offset) * weight, axis=1)
+        bounds = _image_error_bounds(moments, stretch, reach, tolerance, weight, weight_error, uneven)
+        error += bounds[0]
+        extra += bounds[1]
+    return Moments(raw, center, moments.measure, error, extra)
+
+
+def _image_error_bounds(
+    moments: Moments,
+    stretch: NDArray,
+    reach: NDArray,
+    tolerance: NDArray,
+    weight: NDArray,
+    weight_error: NDArray,
+    uneven: NDArray,
+) -> tuple[NDArray, NDArray]:
+    """(K,) and (K,) what `rounding_error`, with the rounding of the maps, and `input_error` become under k maps
+    together.
+
+    By degree: where the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product
+    of n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest
+    of its degree. An offset that may be off by `tolerance` changes it by at most n `tolerance` times n-1 forms.
+    """
+    order = moments.order
+    degree = monomials(order).sum(axis=1)
+    starts = [monomial_count(n - 1) for n in range(order + 1)]
+    error, inputs = (
+        np.maximum.reduceat(moments.rounding_error, starts),
+        np.maximum.reduceat(moments.input_error, starts),
+    )
+    size = np.maximum.reduceat(np.abs(moments.raw), starts) + error
+
+    def carried(factor: NDArray, reach: NDArray, *largest: NDArray) -> list[NDArray]:
+        powers = [[factor]]
+        for _ in range(order):
+            powers.append([power * reach for power in powers[-1]] + [powers[-1][-1] * stretch])
+        sums = [[math.comb(n, j) * power.sum() for j, power in enumerate(row)] for n, row in enumerate(powers)]
+        return [np.array([np.dot(row, top[: len(row)]) for row in sums]) for top in largest]
+
+    rounding, mapped_input = carried(weight, reach, error, inputs)
+    rounding += carried(weight_error, reach, size)[0]
+    rounding[1:] += np.arange(1, order + 1) * carried(weight * tolerance, reach + tolerance, size)[0][:-1]
+    if uneven.any():
+        mapped_input += carried(weight * uneven, reach, size + inputs)[0]
+    return rounding[degree], mapped_input[degree]

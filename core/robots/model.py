@@ -1,0 +1,369 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Links, joints and what they hold, as the writers of robot formats take them and the readers give them. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..inertia.mass_properties import combine
+from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
+
+AGREEING_RTOL = 8.0 * float(np.finfo(np.float64).eps)  # of the largest entry
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """Where a frame stands in another one: x_other = rotation @ x + position.
+
+    Attributes
+    ----------
+    position : (3,) array
+        Meters.
+    rotation : (3, 3) array
+        Determinant 1.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots import Pose
+    >>> quarter = Pose(np.array([1.0, 0.0, 0.0]), np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]))
+    >>> (quarter @ quarter.inverse()).position.tolist()
+    [0.0, 0.0, 0.0]
+    """
+
+    position: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    rotation: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
+
+    def __matmul__(self, other: Pose) -> Pose:
+        """Return where the other frame stands, given in this one."""
+        return Pose(self.rotation @ other.position + self.position, self.rotation @ other.rotation)
+
+    def inverse(self) -> Pose:
+        """Return where the other frame stands in this one."""
+        return Pose(-self.rotation.T @ self.position, self.rotation.T)
+
+
+@dataclass(frozen=True, eq=False)
+class Inertial:
+    """Mass, center and inertia of one link, along the link's axes.
+
+    Attributes
+    ----------
+    mass : float
+        kg.
+    center : (3,) array
+        In the link's frame, m.
+    inertia : (3, 3) array
+        About the center, kg·m²; I_xy = -∫xy dm.
+    moments : (3,) array
+        Its principal moments, ascending, none greater than the sum of the others.
+    axes : (3, 3) array
+        Its principal axes as columns, determinant 1.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots import Inertial
+    >>> ball = Inertial(1.0, np.zeros(3), 0.4 * np.eye(3), np.full(3, 0.4), np.eye(3))
+    >>> ball.moments.tolist()
+    [0.4, 0.4, 0.4]
+    """
+
+    mass: float
+    center: NDArray[np.float64]
+    inertia: NDArray[np.float64]
+    moments: NDArray[np.float64]
+    axes: NDArray[np.float64]
+
+    @classmethod
+    def with_agreeing_axes(
+        cls, mass: float, center: NDArray, inertia: NDArray, moments: NDArray, axes: NDArray
+    ) -> Inertial:
+        """Return an inertial whose principal pair gives its tensor to rounding.
+
+        Where two moments are all but equal, a measurement takes the axes nearest to the object's own, between which the
+        tensor still differs by up to a millionth. What reads the pair alone would miss that; so there the axes turn to
+        where the tensor has them.
+
+        Parameters
+        ----------
+        mass, center, inertia, moments, axes
+            As of the class.
+
+        Returns
+        -------
+        Inertial
+        """
+        largest = np.abs(inertia).max()
+        along = axes.T @ inertia @ axes
+        if np.abs(along - np.diag(moments)).max() > AGREEING_RTOL * largest:
+            values, turn = np.linalg.eigh(along)
+            axes = axes @ turn
+            axes = axes * (1.0, 1.0, np.sign(np.linalg.det(axes)))
+            # Of a rod the least moment is known far better than the tensor has it.
+            moments = np.where(np.abs(values - moments) > AGREEING_RTOL * largest, values, moments)
+            moments[2] = min(moments[2], moments[0] + moments[1])
+        return cls(float(mass), center, inertia, moments, axes)
+
+    def place(self, pose: Pose) -> Inertial:
+        """Return the same along the axes of the frame in which the link's stands at `pose`."""
+        turn = pose.rotation
+        inertia = turn @ self.inertia @ turn.T
+        return Inertial(
+            self.mass, turn @ self.center + pose.position, (inertia + inertia.T) / 2.0, self.moments, turn @ self.axes
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """What a link looks like, or collides as.
+
+    Attributes
+    ----------
+    kind : str
+        "mesh", "box", "ellipsoid", "capsule", "cylinder" or "sphere".
+    size : tuple of float
+        Meters: sides of a box, semi-axes of an ellipsoid, radius and length along z of a capsule (without its caps)
+        or a cylinder, the radius of a sphere. Of a mesh the factors along its axes.
+    pose : Pose
+        In the link's frame.
+    file : str
+        Of a mesh, with slashes; relative to the file that names it.
+    sheet : bool
+        Whether the mesh bounds no volume.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots import Shape
+    >>> Shape("box", (1.0, 2.0, 3.0)).pose.position.tolist()
+    [0.0, 0.0, 0.0]
+    """
+
+    kind: str
+    size: tuple[float, ...] = (1.0, 1.0, 1.0)
+    pose: Pose = field(default_factory=Pose)
+    file: str = ""
+    sheet: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class FreeAxis:
+    """One degree of freedom of a joint.
+
+    Attributes
+    ----------
+    kind : str
+        "rotate" or "translate".
+    axis : (3,) array
+        Of unit length, in the child's frame.
+    lower, upper : float
+        Limits in radians or meters, infinite where there is none.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots import FreeAxis
+    >>> FreeAxis("rotate", np.array([0.0, 0.0, 1.0]), -0.5, 0.5).is_limited
+    True
+    """
+
+    kind: str
+    axis: NDArray[np.float64]
+    lower: float = -inf
+    upper: float = inf
+
+    @property
+    def is_limited(self) -> bool:
+        """Whether either limit is a number."""
+        return self.lower > -inf or self.upper < inf
+
+
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """What holds a link to its parent. Its frame is the child's.
+
+    Attributes
+    ----------
+    name, parent, child : str
+    free : tuple of FreeAxis
+        In the order in which they turn, the one next to the parent first; none where the joint is fixed.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots import Joint
+    >>> Joint("elbow", "upper arm", "forearm").free
+    ()
+    """
+
+    name: str
+    parent: str
+    child: str
+    free: tuple[FreeAxis, ...] = ()
+
+    @property
+    def is_ball(self) -> bool:
+        """Whether it turns freely about every axis."""
+        turns = [free for free in self.free if free.kind == "rotate" and not free.is_limited]
+        return len(turns) == len(self.free) == 3
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """One rigid part.
+
+    Attributes
+    ----------
+    name : str
+    inertial : Inertial or None
+        None for a frame without mass.
+    pose : Pose
+        In the world.
+    shapes : tuple of Shape
+    scale : (3,) array
+        What the source's own geometry is scaled by along the link's axes, where it is not written anew.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots import Link
+    >>> Link("base").inertial is None
+    True
+    """
+
+    name: str
+    inertial: Inertial | None = None
+    pose: Pose = field(default_factory=Pose)
+    shapes: tuple[Shape, ...] = ()
+    scale: NDArray[np.float64] = field(default_factory=lambda: np.ones(3))
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """Links and the joints that make trees of them.
+
+    Attributes
+    ----------
+    name : str
+    links : tuple of Link
+        No name twice.
+    joints : tuple of Joint
+        No child twice, and none among its own ancestors.
+
+    Raises
+    ------
+    ValueError
+        If a name stands twice or is of no link, or if joints close a loop.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots import Joint, Link, Robot
+    >>> robot = Robot("arm", (Link("base"), Link("hand")), (Joint("wrist", "base", "hand"),))
+    >>> [link.name for link in robot.roots], [link.name for link in robot.children("base")]
+    (['base'], ['hand'])
+    """
+
+    name: str
+    links: tuple[Link, ...]
+    joints: tuple[Joint, ...] = ()
+
+    def __post_init__(self) -> None:
+        names = {link.name for link in self.links}
+        if len(names) < len(self.links) or len(self._joint_by_child) < len(self.joints):
+            raise ValueError("a name stands twice")
+        if not names.issuperset([name for joint in self.joints for name in (joint.parent, joint.child)]):
+            raise ValueError("joint without link")
+        if sum(1 for _ in self.ordered()) < len(self.links):
+            raise ValueError("joints close a loop")
+
+    @cached_property
+    def _link_by_name(self) -> dict[str, Link]:
+        return {link.name: link for link in self.links}
+
+    @cached_property
+    def _joint_by_child(self) -> dict[str, Joint]:
+        return {joint.child: joint for joint in self.joints}
+
+    @cached_property
+    def _children(self) -> dict[str, list[Link]]:
+        below: dict[str, list[Link]] = {}
+        for link in self.links:
+            joint = self._joint_by_child.get(link.name)
+            if joint is not None:
+                below.setdefault(joint.parent, []).append(link)
+        return below
+
+    @property
+    def roots(self) -> tuple[Link, ...]:
+        """The links that no joint holds."""
+        return tuple(link for link in self.links if link.name not in self._joint_by_child)
+
+    def link(self, name: str) -> Link:
+        """Return the link of that name."""
+        return self._link_by_name[name]
+
+    def joint_of(self, child: str) -> Joint | None:
+        """Return the joint that holds a link, None for a root."""
+        return self._joint_by_child.get(child)
+
+    def children(self, name: str) -> list[Link]:
+        """Return the links that hang on one."""
+        return self._children.get(name, [])
+
+    def ordered(self) -> Iterator[Link]:
+        """Yield all links, parents before their children."""
+        waiting = list(reversed(self.roots))
+        while waiting:
+            link = waiting.pop()
+            yield link
+            waiting.extend(reversed(self.children(link.name)))
+
+    def pose_in_parent(self, link: Link) -> Pose:
+        """Return where a link stands in its parent's frame; a root, in the world's."""
+        joint = self.joint_of(link.name)
+        return link.pose if joint is None else self.link(joint.parent).pose.inverse() @ link.pose
+
+    def rigid_parts(self, link: Link) -> list[Link]:
+        """Return a link and everything that only fixed joints hold to it, parents first."""
+        parts, waiting = [], [link]
+        while waiting:
+            part = waiting.pop()
+            parts.append(part)
+            waiting.extend(
+                [child for child in reversed(self.children(part.name)) if not self.joint_of(child.name).free]
+            )
+        return parts
+
+    def rigid_inertial(self, link: Link) -> Inertial | None:
+        """Return the inertial of a link with everything that fixed joints hold to it, along the link's axes; None
+        where none of it has mass."""
+        to_link = link.pose.inverse()
+        parts = [part for part in self.rigid_parts(link) if part.inertial is not None]
+        if len(parts) == 1 and parts[0] is link:
+            return link.inertial
+        return combine_inertials([part.inertial.place(to_link @ part.pose) for part in parts]) if parts else None
+
+
+def combine_inertials(inertials: list[Inertial]) -> Inertial:
+    """Return several inertials, given along the same axes, as one.
+
+    Parameters
+    ----------
+    inertials : list of Inertial
+
+    Returns
+    -------
+    Inertial
+    """
+    bodies = []
+    for inertial in inertials:
+        raw = np.zeros(monomial_count(3))
+        raw[0] = inertial.mass
+        raw[SECOND_MOMENT_INDEX] = np.trace(inertial.inertia) / 2.0 * np.eye(3) - inertial.inertia
+        bodies.append((Moments(raw, inertial.center, Measure.MASS), 1.0))
+    total = combine(bodies)
+    return Inertial.with_agreeing_axes(
+        total.mass, total.center, total.inertia, total.principal.moments, total.principal.axes
+    )

@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Records of measured objects become the links of a robot.
+
+A record has its numbers along the object's axes (frame "object") and an entry `link`, as `operators/read/links.py`
+makes it: where the object stands, what it hangs on and how it may move. So whatever has a record can be a link.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from math import inf
+from pathlib import PurePath
+from typing import Any
+
+import numpy as np
+
+from ....core.numerics.rotations import rotation_matrix
+from ....core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
+from ....core.verdict.finding import Finding, finding
+from .text import unique_names
+
+DEFAULT_NAME = "robot"
+MESH_FOLDER = "meshes"
+_NOT_IN_FILES = re.compile(r"[^\w.-]")
+
+
+def robot_of_document(document: Mapping[str, Any]) -> tuple[Robot, list[Finding]]:
+    """Return what the records of a file are as a robot, called like the file, and what was left out."""
+    name = PurePath(document["file"]).stem if document["file"] else DEFAULT_NAME
+    return robot_of_records(name, document["objects"])
+
+
+def robot_of_records(name: str, records: Sequence[Mapping[str, Any]]) -> tuple[Robot, list[Finding]]:
+    """Return records as a robot, and what was left out.
+
+    Parameters
+    ----------
+    name : str
+    records : sequence of mapping
+        With their numbers in the frame "object" and an entry `link`; others are left out.
+
+    Returns
+    -------
+    Robot
+    list of Finding
+    """
+    usable = {record["name"]: record for record in records if record.get("link") and record["mass"]}
+    files = mesh_files(usable)
+    links = [_link(record, files[label]) for label, record in usable.items()]
+    joints = []
+    for label, record in usable.items():
+        parent = next((above for above in record["link"]["parents"] if above in usable and above != label), None)
+        if parent is not None:
+            joints.append(Joint("{}_joint".format(label), parent, label, _free(record["link"].get("free", ()))))
+    left_out = [record["name"] for record in records if record["name"] not in usable]
+    findings = [finding("robot_links_left_out", count=len(left_out), links=left_out)] if left_out else []
+    if not usable:
+        findings.append(finding("robot_without_links"))
+    return Robot(name, tuple(links), tuple(joints)), findings
+
+
+def mesh_files(names: Iterable[str]) -> dict[str, str]:
+    """Return the file of each link's mesh, beside the robot's own file; names differ by more than upper case."""
+    stems = unique_names(names, lambda name: _NOT_IN_FILES.sub("_", name).lower() or "_")
+    return {name: "{}/{}.stl".format(MESH_FOLDER, stem) for name, stem in stems.items()}
+
+
+def _link(record: Mapping[str, Any], file: str) -> Link:
+    place = record["link"]
+    inertial = Inertial.with_agreeing_axes(
+        record["mass"],
+        np.array(record["center_of_mass"]),
+        np.array(record["inertia"]),
+        np.array(record["principal_moments"]),
+        np.array(record["principal_axes"]),
+    )
+    pose = Pose(np.array(place["position"]), rotation_matrix(place["rotation"]))
+    shapes = (Shape("mesh", file=file, sheet=record["kind"] == "shell"),) if _has_surface(record) else ()
+    return Link(record["name"], inertial, pose, shapes, np.array(place["scale"]))
+
+
+def _has_surface(record: Mapping[str, Any]) -> bool:
+    return record["type"] not in ("VOLUME", "EMPTY") and record["kind"] != "wire"
+
+
+def _free(axes: Iterable[Mapping[str, Any]]) -> tuple[FreeAxis, ...]:
+    return tuple(
+        FreeAxis(
+            axis["kind"],
+            np.array(axis["axis"], np.float64),
+            -inf if axis["lower"] is None else axis["lower"],
+            inf if axis["upper"] is None else axis["upper"],
+        )
+        for axis in axes
+    )

@@ -1,0 +1,212 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drawing in the 3D Viewport: a few batches for all bodies, made again only when something has changed.
+
+Lines are drawn twice, faint through everything and then full where nothing is in front of them, so that one sees how
+deep they lie. Discs and digits are drawn over everything, the nearest last. What is drawn depends on the session's
+generation and the settings, where discs are on the view also: as long as these stay, a redraw makes no array.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import bpy
+import gpu
+import numpy as np
+from bpy.types import Context, SpaceView3D
+from gpu_extras.batch import batch_for_shader
+from numpy.typing import NDArray
+
+from ...operators.session import handlers
+from ...operators.settings.overlay import BodyMomentsOverlaySettings
+from . import appearance as look
+from . import lines
+from .bodies import Bodies, collect
+from .view import View
+
+MAX_REGIONS = 8  # of which batches are kept
+SETTINGS = tuple(name for name in BodyMomentsOverlaySettings.__annotations__ if name != "show")
+
+Batch = gpu.types.GPUBatch
+
+
+@dataclass(eq=False)
+class _Drawn:
+    """What was made for a region, and what it was made for."""
+
+    key: tuple = ()
+    view_key: bytes = b""
+    bodies: Bodies | None = None
+    lines: tuple[Batch, ...] = ()  # faint, full
+    fills: tuple[Batch, ...] = ()
+    discs: tuple[Batch, ...] = ()
+
+
+@dataclass(eq=False)
+class _State:
+    handle: object = None
+    regions: dict[int, _Drawn] = field(default_factory=dict)
+
+
+_state = _State()
+
+
+def draw() -> None:
+    """Draw the overlay into the region that Blender is drawing."""
+    context = bpy.context
+    space, scene = context.space_data, context.scene
+    if space is None or scene is None or not space.overlay.show_overlays:
+        return
+    settings = scene.body_moments.overlay
+    if not settings.show:
+        return
+    drawn = _drawn(context)
+    key = _key(context)
+    if drawn.key != key:
+        _make(drawn, context)
+        drawn.key, drawn.view_key = key, b""
+    if not (drawn.lines or drawn.fills or len(drawn.bodies)):
+        return
+    view = _view()
+    if drawn.view_key != view.key:
+        drawn.discs = _discs(drawn.bodies, view, context.scene.body_moments.overlay.show_axes)
+        drawn.view_key = view.key
+    with _restored_state():
+        _draw_batches(drawn, view)
+
+
+def _drawn(context: Context) -> _Drawn:
+    pointer = context.region.as_pointer()
+    if pointer not in _state.regions:
+        while len(_state.regions) >= MAX_REGIONS:
+            del _state.regions[next(iter(_state.regions))]
+        _state.regions[pointer] = _Drawn()
+    return _state.regions[pointer]
+
+
+def _key(context: Context) -> tuple:
+    """What all that is drawn depends on, beside the view."""
+    settings = context.scene.body_moments.overlay
+    return (
+        handlers.generation(),
+        context.scene.session_uid,
+        context.view_layer.name,
+        context.space_data.local_view is not None,
+        *(getattr(settings, name) for name in SETTINGS),
+        _scale(),
+    )
+
+
+def _scale() -> float:
+    return bpy.context.preferences.system.ui_scale
+
+
+def _view() -> View:
+    size = np.array(gpu.state.viewport_get()[2:], np.float64)
+    return View(
+        np.array(gpu.matrix.get_model_view_matrix(), np.float64),
+        np.array(gpu.matrix.get_projection_matrix(), np.float64),
+        size,
+    )
+
+
+# ---------------------------------------------------------------- What is drawn
+
+
+def _make(drawn: _Drawn, context: Context) -> None:
+    settings = context.scene.body_moments.overlay
+    drawn.bodies = bodies = collect(context)
+    parts = [(segments, colors) for segments, colors in lines.body_lines(bodies, settings)]
+    drawn.lines = _line_batches(parts)
+
+
+def _line_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
+    """parts: (k, 2, 3) segments and (k, 4) colors."""
+    parts = [(segments, colors) for segments, colors in parts if len(segments)]
+    if not parts:
+        return ()
+    points = np.concatenate([segments for segments, _ in parts]).reshape(-1, 3).astype(np.float32)
+    colors = np.concatenate([colors for _, colors in parts]).astype(np.float32).repeat(2, axis=0)
+    shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
+    faint = colors.copy()
+    faint[:, 3] *= look.BEHIND
+    return tuple(batch_for_shader(shader, "LINES", {"pos": points, "color": tint}) for tint in (faint, colors))
+
+
+def _discs(bodies: Bodies, view: View, with_digits: bool) -> tuple[Batch, ...]:
+    if not len(bodies):
+        return ()
+    points, colors = lines.disc_triangles(bodies, view, _scale(), with_digits)
+    shader = gpu.shader.from_builtin("FLAT_COLOR")
+    return (batch_for_shader(shader, "TRIS", {"pos": points, "color": colors}),)
+
+
+# ---------------------------------------------------------------- Drawing it
+
+
+@contextmanager
+def _restored_state() -> Iterator[None]:
+    """Put the GPU's state back, whatever happens in here."""
+    state = gpu.state
+    blend, depth, mask, width = (
+        state.blend_get(),
+        state.depth_test_get(),
+        state.depth_mask_get(),
+        state.line_width_get(),
+    )
+    try:
+        state.blend_set("ALPHA")
+        state.depth_mask_set(False)
+        yield
+    finally:
+        state.blend_set(blend)
+        state.depth_test_set(depth)
+        state.depth_mask_set(mask)
+        state.line_width_set(width)
+
+
+def _draw_batches(drawn: _Drawn, view: View) -> None:
+    scale = _scale()
+    uniform = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+    colored = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
+    for batch, depth, opacity in zip(drawn.lines, ("NONE", "LESS_EQUAL"), (look.BEHIND, 1.0)):
+        gpu.state.depth_test_set(depth)
+        for shader, width in ((uniform, look.LINE + 2.0 * look.OUTLINE), (colored, look.LINE)):
+            shader.bind()
+            shader.uniform_float("viewportSize", view.size)
+            shader.uniform_float("lineWidth", scale * width)
+            if shader is uniform:
+                shader.uniform_float("color", (*look.DARK[:3], 0.6 * opacity))
+            batch.draw(shader)
+    gpu.state.depth_test_set("NONE")
+    for batch in drawn.discs:
+        batch.draw(gpu.shader.from_builtin("FLAT_COLOR"))
+
+
+# ---------------------------------------------------------------- Switching it on
+
+
+def register() -> None:
+    """Draw from now on, where there are windows."""
+    if not bpy.app.background:
+        _state.handle = SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
+        _redraw()
+
+
+def unregister() -> None:
+    """Draw no more, and free what was made."""
+    if _state.handle is not None:
+        SpaceView3D.draw_handler_remove(_state.handle, "WINDOW")
+        _state.handle = None
+        _redraw()
+    _state.regions.clear()
+
+
+def _redraw() -> None:
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()

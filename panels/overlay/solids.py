@@ -1,0 +1,58 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lines in the world: principal axes, drop lines, boxes and ellipsoids of equal inertia, of many bodies at once.
+
+Each function returns (n, k, 2, 3): k segments for each of n bodies.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+CIRCLE = 2.0 * np.pi / 48.0 * np.arange(49)
+DASHES = 16  # of a drop line
+EDGES = np.array([[i, i | 1 << axis] for i in range(8) for axis in range(3) if not i & 1 << axis])
+CORNERS = np.array([[(i >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for i in range(8)])
+
+
+def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
+    """Each axis through the center, a radius of gyration long to both sides."""
+    arms = (axes * gyration[:, None, :]).transpose(0, 2, 1)
+    return np.stack([centers[:, None] - arms, centers[:, None] + arms], axis=2)
+
+
+def drop_lines(centers: NDArray, gyration: NDArray, floor: float = 0.0) -> NDArray[np.float64]:
+    """A dashed line from the center to the floor, and a ring where it meets it."""
+    feet = centers.copy()
+    feet[:, 2] = floor
+    steps = np.arange(2 * DASHES).reshape(-1, 2) / (2.0 * DASHES - 1.0)
+    dashes = feet[:, None, None] + steps[None, :, :, None] * (centers - feet)[:, None, None]
+    ring = np.stack([np.cos(CIRCLE), np.sin(CIRCLE), np.zeros_like(CIRCLE)], axis=1)
+    ring = np.stack([ring[:-1], ring[1:]], axis=1)
+    return np.concatenate(
+        [dashes, feet[:, None, None] + 0.15 * gyration.max(axis=1)[:, None, None, None] * ring], axis=1
+    )
+
+
+def _spread(gyration: NDArray) -> NDArray[np.float64]:
+    """(n, 3) I_j + I_k - I_i by mass, from (n, 3) radii of gyration: twice the mean square distance along axis i."""
+    squares = gyration**2
+    return np.maximum(squares.sum(axis=1, keepdims=True) - 2.0 * squares, 0.0)
+
+
+def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
+    """The box with the same mass and inertia: sides s_i² = 6 (I_j + I_k - I_i) / m."""
+    half = np.sqrt(6.0 * _spread(gyration)) / 2.0
+    corners = centers[:, None] + np.einsum("nij,kj,nj->nki", axes, CORNERS, half)
+    return corners[:, EDGES]
+
+
+def ellipsoid_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
+    """The ellipsoid with the same mass and inertia, semi-axes a_i² = 5 (I_j + I_k - I_i) / (2 m): three ellipses."""
+    half = np.sqrt(2.5 * _spread(gyration))
+    circles = np.zeros((3, len(CIRCLE), 3))
+    for axis in range(3):
+        circles[axis, :, axis - 1], circles[axis, :, axis - 2] = np.cos(CIRCLE), np.sin(CIRCLE)
+    points = centers[:, None, None] + np.einsum("nij,ckj,nj->ncki", axes, circles, half)
+    return np.stack([points[:, :, :-1], points[:, :, 1:]], axis=3).reshape(len(centers), -1, 2, 3)

@@ -1,0 +1,68 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The view that is drawn: where points of the world are on the screen, and how large a pixel is there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """A projection of the world to the screen.
+
+    Attributes
+    ----------
+    view, projection : (4, 4) array
+        World to view, view to clip coordinates.
+    size : (2,) array
+        Width and height in pixels.
+    """
+
+    view: NDArray[np.float64]
+    projection: NDArray[np.float64]
+    size: NDArray[np.float64]
+
+    @property
+    def key(self) -> bytes:
+        """Equal for equal views."""
+        return self.view.tobytes() + self.projection.tobytes() + self.size.tobytes()
+
+    def depths(self, points: NDArray) -> NDArray[np.float64]:
+        """(n,) distances of (n, 3) points from the eye along the view, negative behind it in perspective."""
+        return -(points @ self.view[2, :3] + self.view[2, 3])
+
+    def pixels(self, points: NDArray) -> NDArray[np.float64]:
+        """(n, 2) where (n, 3) points are, from the lower left corner. Without meaning for points behind the eye."""
+        seen = points @ self.view[:3, :3].T + self.view[:3, 3]
+        clip = seen @ self.projection[:, :3].T + self.projection[:, 3]
+        scale = np.where(clip[:, 3] == 0.0, 1.0, clip[:, 3])
+        return (clip[:, :2] / scale[:, None] + 1.0) / 2.0 * self.size
+
+    def pixel_sizes(self, points: NDArray) -> NDArray[np.float64]:
+        """(n, 2) how long a pixel is at (n, 3) points, along the width and the height; 0 behind the eye."""
+        seen = points @ self.view[:3, :3].T + self.view[:3, 3]
+        w = seen @ self.projection[3, :3] + self.projection[3, 3]
+        return np.maximum(w, 0.0)[:, None] * 2.0 / (self.size * np.diagonal(self.projection)[:2])
+
+    def place(self, anchors: NDArray, offsets: NDArray) -> NDArray[np.float64]:
+        """Put shapes of constant size on the screen at points of the world.
+
+        Parameters
+        ----------
+        anchors : (n, 3) array
+        offsets : (n, ..., 2) array
+            In pixels, right and up.
+
+        Returns
+        -------
+        (n, ..., 3) array
+            In the world, in the plane through the anchor that faces the view.
+        """
+        lengths = self.pixel_sizes(anchors)
+        ones = (1,) * (offsets.ndim - 2)
+        scaled = offsets * lengths.reshape(-1, *ones, 2)
+        return anchors.reshape(-1, *ones, 3) + scaled @ self.view[:2, :3]

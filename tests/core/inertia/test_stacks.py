@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A stack of bodies is each of them: moments, mass properties and frames with a leading axis."""
+
+import numpy as np
+import pytest
+from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.inertia.principal_frame import OwnMoments, principal_frame
+from body_moments.core.inertia.second_order import second_order_frames
+from body_moments.core.moments.images import sum_of_images
+from body_moments.core.moments.moments import Measure, stack_moments
+from body_moments.core.moments.symmetric_tensors import invert_through_point
+
+from tests.close import close
+from tests.core import bodies, shapes
+from tests.core.recursion import moments
+
+PARTS = {**shapes.ASYMMETRIC, **{name: part for name, (part, _) in shapes.SYMMETRIC.items()}}
+SIXTH = {name: moments(part, 6) for name, part in PARTS.items()}
+RNG = np.random.default_rng(14)
+
+
+def placed(count):
+    """Similar maps, every third one mirrored; far away, tiny and huge."""
+    matrices = np.tile(np.eye(4), (count, 1, 1))
+    for i, matrix in enumerate(matrices):
+        matrix[:3, :3] = bodies.rotation(i) * 10.0 ** RNG.uniform(-4, 4) * (-1.0 if i % 3 == 2 else 1.0)
+        matrix[:3, 3] = RNG.normal(size=3) * 10.0 ** RNG.uniform(-3, 5)
+    return matrices
+
+
+def same(stack, i, alone):
+    for name in ("raw", "about", "rounding_error", "input_error"):
+        assert (getattr(stack, name)[i] == getattr(alone, name)).all(), name
+
+
+def test_moments_of_a_stack_are_those_of_each():
+    parts = [found.truncate(3) for found in SIXTH.values()]
+    stack, matrices = stack_moments(parts), placed(len(PARTS))
+    points, factors = RNG.normal(size=(len(parts), 3)), RNG.uniform(0.1, 9.0, len(parts))
+    images, shifted, scaled = stack.transform(matrices), stack.about_point(points), stack * factors
+    turned = stack.in_frame(np.array([bodies.rotation(i) for i in range(len(parts))]), points)
+    assert stack.order == 3 and (images.total == [images.at(i).total for i in range(len(parts))]).all()
+    for i, part in enumerate(parts):
+        same(images, i, part.transform(matrices[i]))
+        same(shifted, i, part.about_point(points[i]))
+        same(scaled, i, part * float(factors[i]))
+        found = part.in_frame(bodies.rotation(i), points[i])
+        assert (np.abs(turned.raw[i] - found.raw) <= found.rounding_error).all()
+        close(images.center[i], sum_of_images(part, matrices[i : i + 1]).center, 1e-14)
+
+
+def test_a_stack_that_is_no_similarity_has_no_areas():
+    area = stack_moments([found.truncate(0) for found in SIXTH.values()])
+    matrices = placed(len(PARTS))
+    matrices[3, 0, :3] *= 2.0
+    with pytest.raises(ValueError, match="similarity"):
+        type(area)(area.raw, area.about, Measure.AREA).transform(matrices)
+
+
+def test_frames_of_a_stack_are_those_of_each():
+    matrices = placed(len(PARTS))
+    parts = [part.transform(matrix) for part, matrix in zip(SIXTH.values(), matrices)]
+    sixth = stack_moments(parts)
+    preferred = np.array([bodies.rotation(100 + i) for i in range(len(parts))])
+    density = RNG.uniform(1e-3, 1e4, len(parts))
+    third = sixth.truncate(3)
+    stack = MassProperties.of_stack(
+        third,
+        density,
+        preferred,
+        second_order_frames(third),
+        lambda which: OwnMoments(sixth.at(which), np.arange(len(which))),
+    )
+    for i, part in enumerate(parts):
+        alone = MassProperties.from_moments(
+            part.truncate(3), float(density[i]), preferred[i], higher=lambda part=part: part
+        )
+        found = stack.at(i)
+        assert found.mass == alone.mass and (found.center == alone.center).all()
+        assert (found.inertia == alone.inertia).all() and found.rounding_error == alone.rounding_error
+        assert found.input_error == alone.input_error
+        assert (found.principal.moments == alone.principal.moments).all()
+        assert np.abs(found.principal.axes - alone.principal.axes).max() < 1e-12
+        for name in ("symmetry", "is_unique", "finding", "undetermined_axes"):
+            assert getattr(found.principal, name) == getattr(alone.principal, name)
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_copies_share_the_axes_of_their_shape(name):
+    """Wherever a copy stands, however it is turned, scaled and mirrored: its frame is its shape's, turned with it."""
+    shape, matrices = SIXTH[name], placed(6)
+    mirrored = np.linalg.det(matrices[:, :3, :3]) < 0.0
+    scale = np.cbrt(np.linalg.det(matrices[:, :3, :3]))
+    rotation = matrices[:, :3, :3] / scale[:, None, None]
+    known = OwnMoments(stack_moments([shape, invert_through_point(shape)]), mirrored.astype(int), rotation)
+    third = stack_moments([shape.truncate(3).transform(matrix) for matrix in matrices])
+
+    def higher(which):
+        return OwnMoments(known.moments, known.shape[which], known.rotation[which])
+
+    stack = MassProperties.of_stack(third, np.ones(6), rotation, second_order_frames(third), higher).principal
+    for i, matrix in enumerate(matrices):
+        alone = principal_frame(third.at(i), rotation[i], higher=lambda matrix=matrix: shape.transform(matrix))
+        assert stack.finding[i] == alone.finding and stack.symmetry[i] == alone.symmetry
+        assert np.abs(stack.axes[i] - alone.axes).max() < 1e-7
+        if not alone.is_unique:
+            first = 0 if not mirrored[i] else int(np.flatnonzero(mirrored)[0])
+            own = [rotation[j].T @ stack.axes[j] for j in (first, i)]
+            assert np.abs(own[0] - own[1]).max() < 1e-9

@@ -1,0 +1,100 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The manual in the zip: every link leads somewhere, none leaves it, and every button and setting has its page."""
+
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+from tests.package import manual
+
+bpy = pytest.importorskip("bpy")
+from body_moments.panels import manual as shown
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+LINES_OF_README = 150
+
+
+class Page(HTMLParser):
+    """The anchors of a page, and what it refers to."""
+
+    def __init__(self, path: Path):
+        super().__init__()
+        self.ids, self.links = set(), []
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, _tag, attributes):
+        for name, value in attributes:
+            if name == "id":
+                self.ids.add(value)
+            elif name in ("href", "src") and value is not None:
+                self.links.append(value)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    path = tmp_path_factory.mktemp("manual") / manual.FOLDER
+    manual.build(path)
+    return path
+
+
+def test_every_link_leads_somewhere_and_none_leaves_the_manual(folder):
+    pages = {path: Page(path) for path in folder.rglob("*.html")}
+    assert len(pages) > 30 and sum(len(page.links) for page in pages.values()) > 300
+    broken = []
+    for path, page in pages.items():
+        for link in page.links:
+            file, _, place = link.partition("#")
+            target = (path.parent / file).resolve() if file else path
+            inside = target.is_relative_to(folder) and target.is_file()
+            if not inside or (place and place not in pages.get(target, page).ids):
+                broken.append("{}: {}".format(path.relative_to(folder), link))
+    assert not broken, "\n".join(broken)
+
+
+def test_a_link_that_is_broken_or_leads_elsewhere_fails_the_build():
+    readme = ROOT / "README.md"
+    for link in ("docs/nothing.md", "https://example.org/"):
+        with pytest.raises(ValueError, match=re.escape(link)):
+            manual.target(link, readme)
+
+
+def test_the_readme_of_the_zip_leads_into_the_manual(folder):
+    links = re.findall(r"\]\(([^)]+)\)", manual.readme())
+    assert len(links) > 20
+    assert all((folder.parent / link.partition("#")[0]).is_file() for link in links)
+
+
+def test_the_readme_is_short():
+    assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) <= LINES_OF_README
+
+
+def test_every_page_of_buttons_and_settings_exists(folder):
+    assert {page for _, page in shown.PAGES} <= {path.name for path in folder.glob("*.html")}
+
+
+@pytest.mark.parametrize(
+    ("control", "page"),
+    [
+        ("bpy.ops.object.body_moments_measure", "reading-the-numbers.html"),
+        ("bpy.ops.object.body_moments_measure_section", "sections.html"),
+        ("bpy.ops.object.body_moments_axes_to_principal", "actions.html"),
+        ("bpy.ops.view3d.body_moments_cursor_to_center", "actions.html"),
+        ("bpy.types.BodyMomentsObjectSettings.thickness", "walls.html"),
+        ("bpy.types.BodyMomentsObjectSettings.density_from", "densities.html"),
+        ("bpy.types.BodyMomentsObjectSettings.spline_order", "volumes-and-scans.html"),
+        ("bpy.types.BodyMomentsSceneSettings.moments_order", "moments.html"),
+    ],
+)
+def test_online_manual_finds_the_page_of_a_control(control, page, folder, monkeypatch):
+    monkeypatch.setattr(shown, "folder", lambda: folder)
+    shown.register()
+    try:
+        from bl_operators.wm import WM_OT_doc_view_manual as Viewer
+
+        assert Viewer._lookup_rna_url(control, verbose=False) == folder.as_uri() + "/" + page
+    finally:
+        shown.unregister()
+    assert all(prefix != folder.as_uri() + "/" for prefix, _ in bpy.utils.manual_map())

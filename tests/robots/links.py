@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Random bodies as links: boxes and balls, sheared and turned; thin plates, rods, all but equal moments."""
+
+import numpy as np
+from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
+
+from tests.core.bodies import box
+
+
+def rotation(rng):
+    """A random rotation: the QR factors of a random matrix, made proper."""
+    q, r = np.linalg.qr(rng.normal(size=(3, 3)))
+    q = q * np.sign(np.diag(r))
+    return q * np.linalg.det(q)
+
+
+def ball(count=6):
+    """A closed mesh whose vertices lie on a sphere."""
+    u = np.linspace(0.0, 2.0 * np.pi, 2 * count, endpoint=False)
+    v = np.linspace(0.0, np.pi, count + 1)[1:-1]
+    rings = np.stack(
+        [np.outer(np.sin(v), np.cos(u)), np.outer(np.sin(v), np.sin(u)), np.outer(np.cos(v), np.ones_like(u))], axis=-1
+    ).reshape(-1, 3)
+    points, n = np.concatenate([rings, [[0, 0, 1], [0, 0, -1]]]), len(u)
+    faces = []
+    for j in range(n):
+        k = (j + 1) % n
+        faces.append((len(rings), j, k))
+        last = (len(v) - 1) * n
+        faces.append((len(rings) + 1, last + k, last + j))
+        for i in range(len(v) - 1):
+            a, b, c, d = i * n + j, i * n + k, (i + 1) * n + k, (i + 1) * n + j
+            faces += [(a, d, c), (a, c, b)]
+    return points, np.array(faces)
+
+
+def inertial(points, triangles, density=1000.0):
+    """What measuring the body along the link's axes gives."""
+    body = MassProperties.from_moments(polyhedron_moments(Surface.from_triangles(points, triangles))[0], density)
+    frame = body.principal
+    return Inertial.with_agreeing_axes(body.mass, body.center, body.inertia, frame.moments, frame.axes)
+
+
+def shaped(rng, kind):
+    """(points, triangles) of one random body."""
+    points, triangles = ball() if kind == "ball" else box((-1, -1, -1), (1, 1, 1))
+    sides = {
+        "plate": [1.0, rng.uniform(0.3, 1.0), 10.0 ** rng.uniform(-9, -3)],
+        "rod": [1.0, 10.0 ** rng.uniform(-4, -2), 10.0 ** rng.uniform(-4, -2)],
+        "square": [1.0, 1.0, 10.0 ** rng.uniform(-9, -3)],
+        "ball": [1.0, 1.0, 1.0 + rng.choice([0.0, 1e-15, 1e-9, 1e-3])],
+    }.get(kind, rng.uniform(0.2, 1.0, 3))
+    stretch = rotation(rng) * np.asarray(sides)
+    if kind == "sheared":
+        stretch = stretch @ (np.eye(3) + np.triu(rng.uniform(-0.5, 0.5, (3, 3)), 1))
+    size = 10.0 ** rng.uniform(-2, 1)
+    return points @ (size * stretch).T + size * rng.normal(size=3), triangles
+
+
+KINDS = ("plate", "rod", "square", "ball", "box", "sheared")
+
+
+def bodies(count, seed=17, chain=False):
+    """A robot of that many separate bodies, or of one chain of them with all kinds of joints."""
+    rng = np.random.default_rng(seed)
+    links, joints = [], []
+    for index in range(count):
+        name = "body {}".format(index)
+        pose = Pose(rng.normal(size=3) * 3.0, rotation(rng))
+        links.append(Link(name, inertial(*shaped(rng, KINDS[index % len(KINDS)])), pose))
+        if chain and index:
+            joints.append(Joint("joint {}".format(index), "body {}".format(index - 1), name, free_axes(rng, index)))
+    return Robot("test", tuple(links), tuple(joints))
+
+
+def free_axes(rng, index):
+    """Fixed, hinge, slide, hinge without limits, ball, two hinges with limits, in turns."""
+    x, y, z = np.eye(3)
+    unit = rotation(rng)[0]
+    return (
+        (),
+        (FreeAxis("rotate", unit, -0.5, 1.25),),
+        (FreeAxis("translate", unit, -0.25, 0.75),),
+        (FreeAxis("rotate", unit),),
+        tuple(FreeAxis("rotate", axis) for axis in (x, y, z)),
+        (FreeAxis("rotate", z, -1.0, 1.0), FreeAxis("rotate", x, -0.5, 0.25)),
+    )[index % 6]
+
+
+def shapes(pose):
+    """One of each primitive."""
+    sizes = {"box": (1.0, 2.0, 3.0), "sphere": (0.5,), "capsule": (0.25, 1.0), "cylinder": (0.25, 2.0)}
+    return (*(Shape(kind, size, pose) for kind, size in sizes.items()), Shape("ellipsoid", (1.0, 2.0, 3.0), pose))

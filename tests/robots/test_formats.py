@@ -1,0 +1,303 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Each format read back by a consumer of its own: mass, center, tensor, places and joints."""
+
+import math
+from xml.etree import ElementTree
+
+import mujoco
+import numpy as np
+import pytest
+from body_moments.core.numerics.rotations import rotation_matrix
+from body_moments.core.robots.model import Inertial, Joint, Link, Pose, Robot
+from body_moments.operators.write.robots import mjcf, sdf, urdf, usd
+from body_moments.operators.write.robots.formats import robot_text
+from body_moments.operators.write.robots.text import roll_pitch_yaw
+from pxr import Sdf, Usd, UsdGeom, UsdPhysics
+from urdf_parser_py.urdf import URDF
+
+from tests.robots import sdf_schema
+from tests.robots.links import bodies, rotation, shapes
+
+RTOL = 1e-14  # of the largest entry
+SINGLE = 2.0**-23
+
+
+def near(found, truth, rel=RTOL, scale=None):
+    """Whether all entries are within `rel` of the largest true one, or of `scale`."""
+    found, truth = np.asarray(found, float), np.asarray(truth, float)
+    return np.abs(found - truth).max() <= rel * (np.abs(truth).max() if scale is None else scale)
+
+
+def tensor(moments, axes):
+    return (axes * np.asarray(moments)) @ axes.T
+
+
+@pytest.fixture(scope="module")
+def chain():
+    return bodies(24, chain=True)
+
+
+@pytest.fixture(scope="module")
+def many():
+    return bodies(500)
+
+
+def turned(roll, pitch, yaw):
+    """Rz(yaw) Ry(pitch) Rx(roll), as URDF has it."""
+    (cr, sr), (cp, sp), (cy, sy) = ((math.cos(angle), math.sin(angle)) for angle in (roll, pitch, yaw))
+    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
+    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
+    return np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]]) @ about_y @ about_x
+
+
+def test_urdf_gives_its_consumer_each_link(many):
+    found = URDF.from_xml_string(urdf.write(many).encode())
+    for link in many.links:
+        told, true = found.link_map[link.name].inertial, link.inertial
+        assert told.mass == true.mass and told.origin.xyz == true.center.tolist() and told.origin.rpy == [0, 0, 0]
+        assert near(told.inertia.to_matrix(), true.inertia)
+
+
+def test_urdf_is_one_tree_whose_links_stand_where_they_did(chain):
+    both = Robot("pair", (*chain.links, Link("apart", chain.links[0].inertial, chain.links[1].pose)), chain.joints)
+    found = URDF.from_xml_string(urdf.write(both).encode())
+    assert found.get_root() == "base_link" and len(found.joints) == len(found.links) - 1
+    by_child = {joint.child: joint for joint in found.joints}
+
+    def place(name):
+        if name == found.get_root():
+            return Pose()
+        origin = by_child[name].origin
+        return place(by_child[name].parent) @ Pose(np.array(origin.xyz), turned(*origin.rpy))
+
+    for link in both.links:
+        pose = place(link.name)
+        assert near(pose.position, link.pose.position, 1e-13, 10.0) and near(pose.rotation, link.pose.rotation, 1e-13)
+
+
+def test_urdf_joints_move_as_the_robot_does(chain):
+    by_child = {joint.child: joint for joint in URDF.from_xml_string(urdf.write(chain).encode()).joints}
+    for joint in chain.joints:
+        told = by_child[joint.child]
+        if not joint.free:
+            assert told.type == "fixed"
+            continue
+        axis = joint.free[-1]
+        kinds = {"translate": "prismatic", "rotate": "revolute" if axis.is_limited else "continuous"}
+        assert told.type == kinds[axis.kind] and near(told.axis, axis.axis)
+        if axis.is_limited:
+            assert (told.limit.lower, told.limit.upper) == (axis.lower, axis.upper)
+        massless = [by_child["{}_axis_{}".format(joint.child, n + 1)] for n in range(len(joint.free) - 1)]
+        assert [near(j.axis, free.axis) for j, free in zip(massless, joint.free)] == [True] * len(massless)
+
+
+@pytest.mark.parametrize("pitch", [0.3, math.pi / 2, -math.pi / 2, math.pi / 2 - 1e-9, 1.57079632])
+def test_angles_give_the_rotation_back_at_the_poles_too(pitch):
+    for roll, yaw in ((0.0, 0.0), (2.0, -1.0), (-3.0, 3.0)):
+        turn = turned(roll, pitch, yaw)
+        assert np.abs(turned(*roll_pitch_yaw(turn)) - turn).max() < 1e-15
+
+
+def test_mujoco_takes_all_bodies_and_gives_their_inertia(many):
+    heavy = Robot("many", tuple(link for link in many.links if link.inertial.moments[0] > mjcf.LEAST))
+    assert len(heavy.links) > 400 and not mjcf.check(heavy)
+    model = mujoco.MjModel.from_xml_string(mjcf.write(heavy))
+    for link in heavy.links:
+        body, true = model.body(link.name), link.inertial
+        axes = rotation_matrix(body.iquat)
+        assert body.mass[0] == true.mass and (body.ipos == true.center).all()
+        assert near(tensor(body.inertia, axes), true.inertia)
+
+
+def test_mujoco_moves_the_joints_within_their_limits(chain):
+    model = mujoco.MjModel.from_xml_string(mjcf.write(chain))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    for link in chain.links:
+        assert near(data.body(link.name).xpos, link.pose.position, 1e-13, 10.0)
+        assert near(data.body(link.name).xmat.reshape(3, 3), link.pose.rotation, 1e-13)
+    assert model.joint(0).type[0] == mujoco.mjtJoint.mjJNT_FREE
+    for joint in chain.joints:
+        for count, free in enumerate(joint.free, start=1):
+            if joint.is_ball:
+                assert model.joint(joint.name).type[0] == mujoco.mjtJoint.mjJNT_BALL
+                break
+            told = model.joint(joint.name if len(joint.free) == 1 else "{}_{}".format(joint.name, count))
+            assert near(told.axis, free.axis) and bool(model.jnt_limited[told.id]) == free.is_limited
+            if free.is_limited:
+                assert tuple(told.range) == (free.lower, free.upper)
+
+
+def test_what_mujoco_refuses_is_a_finding():
+    small = bodies(1).links[0].inertial
+    factor = 1e-16 / small.moments[0]
+    tiny = Inertial(small.mass * factor, small.center, small.inertia * factor, small.moments * factor, small.axes)
+    robot = Robot("tiny", (Link("grain", tiny),))
+    assert [found.code for found in mjcf.check(robot)] == ["mjcf_inertia_too_small"]
+    with pytest.raises(ValueError):
+        mujoco.MjModel.from_xml_string(mjcf.write(robot))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_free_body_keeps_energy_and_momentum_for_a_second(seed):
+    """RK4, step 1e-4: what the frame or the sign of an entry would spoil."""
+    robot = bodies(6, seed=seed)
+    for link in [link for link in robot.links if link.inertial.moments[0] > mjcf.LEAST]:
+        alone = Robot("spin", (link,))
+        model = mujoco.MjModel.from_xml_string(mjcf.write(alone))
+        model.opt.timestep, model.opt.integrator = 1e-4, mujoco.mjtIntegrator.mjINT_RK4
+        model.opt.gravity[:] = 0.0
+        model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
+        data = mujoco.MjData(model)
+        rng = np.random.default_rng(seed)
+        data.qvel[:] = rng.normal(size=6)
+
+        def state(model=model, data=data, link=link):
+            mujoco.mj_forward(model, data)
+            turn = data.body(link.name).xmat.reshape(3, 3)
+            spin = turn @ data.qvel[3:]
+            momentum = turn @ link.inertial.inertia @ turn.T @ spin
+            arm = turn @ link.inertial.center
+            velocity = data.qvel[:3] + np.cross(spin, arm)
+            kinetic = 0.5 * (link.inertial.mass * velocity @ velocity + spin @ momentum)
+            return data.energy[1], kinetic, momentum, link.inertial.mass * velocity
+
+        before = state()
+        for _ in range(10_000):
+            mujoco.mj_step(model, data)
+        after = state()
+        assert near(before[0], before[1], 1e-12)  # MuJoCo's own energy is that of the tensor that was measured
+        for old, new in zip(before, after):
+            assert near(new, old, 1e-9)
+
+
+def test_sdf_is_what_its_schema_allows_and_gives_each_link(many):
+    text = sdf.write(many)
+    root = ElementTree.fromstring(text)
+    sdf_schema.validate(root)
+    for link, element in zip(many.links, root.iter("link")):
+        inertial, true = element.find("inertial"), link.inertial
+        x, y, z, qx, qy, qz, qw = map(float, inertial.findtext("pose").split())
+        assert inertial.find("pose").get("rotation_format") == "quat_xyzw"
+        found = {child.tag: float(child.text) for child in inertial.find("inertia")}
+        matrix = np.array([[found["i" + "".join(sorted(a + b))] for b in "xyz"] for a in "xyz"])
+        turn = rotation_matrix([qw, qx, qy, qz])
+        assert float(inertial.findtext("mass")) == true.mass and near((x, y, z), true.center)
+        assert near(turn @ matrix @ turn.T, true.inertia)
+        moments = np.diag(matrix)
+        assert (matrix == np.diag(moments)).all() and moments.sum() >= 2.0 * moments.max()  # Error Code 19 otherwise
+
+
+def test_sdf_joints_and_shapes_are_what_its_schema_allows(chain):
+    dressed = Link("dressed", chain.links[0].inertial, Pose(), shapes(chain.links[1].pose))
+    robot = Robot("world", (*chain.links, dressed), chain.joints)
+    root = ElementTree.fromstring(sdf.write(robot))
+    sdf_schema.validate(root)
+    assert root.find("model").get("name") == "world_"
+    types = {joint.get("name"): joint.get("type") for joint in root.iter("joint")}
+    kinds = ["fixed", "revolute", "prismatic", "revolute", "ball", "universal"]
+    assert types == {joint.name: kinds[(index + 1) % 6] for index, joint in enumerate(chain.joints)}
+    assert not sdf.check(chain)
+
+
+def stage_of(text):
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    assert layer.ImportFromString(text)
+    return Usd.Stage.Open(layer), layer
+
+
+def test_usd_in_single_precision_breaks_no_triangle_inequality(many):
+    stage, _ = stage_of(usd.write(many))
+    assert UsdGeom.GetStageMetersPerUnit(stage) == 1.0 and UsdPhysics.GetStageKilogramsPerUnit(stage) == 1.0
+    for link in many.links:
+        prim, true = stage.GetPrimAtPath("/Robot/" + usd.identifier(link.name)), link.inertial
+        assert prim.HasAPI(UsdPhysics.RigidBodyAPI)
+        mass = UsdPhysics.MassAPI(prim)
+        moments = np.array(mass.GetDiagonalInertiaAttr().Get(), float)
+        turn = mass.GetPrincipalAxesAttr().Get()
+        axes = rotation_matrix([turn.real, *turn.imaginary])
+        assert moments.sum() >= 2.0 * moments.max() and moments.min() > 0.0
+        assert near(mass.GetMassAttr().Get(), true.mass, SINGLE)
+        assert near(mass.GetCenterOfMassAttr().Get(), true.center, SINGLE)
+        assert near(moments, true.moments, 2.0 * SINGLE) and near(tensor(moments, axes), true.inertia, 8.0 * SINGLE)
+        xx, yy, zz, xy, xz, yz = prim.GetAttribute("newton:inertia").Get()
+        assert near([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], true.inertia)
+
+
+def test_usd_links_stand_where_they_did_and_joints_hold_them_there(chain):
+    stage, _ = stage_of(usd.write(chain))
+    cache = UsdGeom.XformCache()
+    places = {}
+    for link in chain.links:
+        matrix = np.array(cache.GetLocalToWorldTransform(stage.GetPrimAtPath("/Robot/" + usd.identifier(link.name)))).T
+        assert near(matrix[:3, 3], link.pose.position, 1e-13) and near(matrix[:3, :3], link.pose.rotation, 1e-13)
+        places["/Robot/" + usd.identifier(link.name)] = matrix
+    for joint in chain.joints:
+        prim = UsdPhysics.Joint(stage.GetPrimAtPath("/Robot/" + usd.identifier(joint.name)))
+        ends = []
+        for body, point, turn in (
+            (prim.GetBody0Rel(), prim.GetLocalPos0Attr(), prim.GetLocalRot0Attr()),
+            (prim.GetBody1Rel(), prim.GetLocalPos1Attr(), prim.GetLocalRot1Attr()),
+        ):
+            matrix = places[str(body.GetTargets()[0])]
+            quaternion = turn.Get()
+            frame = matrix[:3, :3] @ rotation_matrix([quaternion.real, *quaternion.imaginary])
+            ends.append((matrix[:3, :3] @ np.array(point.Get()) + matrix[:3, 3], frame))
+        assert near(ends[0][0], ends[1][0], 1e-5, 10.0) and near(ends[0][1], ends[1][1], 1e-5)
+        if len(joint.free) == 1:
+            axis = places["/Robot/" + usd.identifier(joint.child)][:3, :3] @ joint.free[0].axis
+            assert near(ends[1][1][:, 0], axis, 1e-6)
+            low = prim.GetPrim().GetAttribute("physics:lowerLimit").Get()
+            lower = joint.free[0].lower
+            true = math.degrees(lower) if joint.free[0].kind == "rotate" else lower
+            assert low == true or near(low, true, SINGLE)
+
+
+def test_names_that_a_format_forbids_are_changed_and_none_stands_twice():
+    names = ["world", "a::b", "a__b", "<&\"'>", "Würfel", "Würfel ", "1", "_1", "\x00\n", ""]
+    inertial = bodies(1).links[0].inertial
+    robot = Robot("odd --> name", tuple(Link(name, inertial) for name in names), (Joint("world", names[0], names[1]),))
+    model = mujoco.MjModel.from_xml_string(robot_text(robot, "mjcf")[0])
+    assert len({model.body(index).name for index in range(model.nbody)}) == len(names) + 1
+    assert len(URDF.from_xml_string(urdf.write(robot).encode()).link_map) == len(names) + 1
+    sdf_schema.validate(ElementTree.fromstring(sdf.write(robot)))
+    stage, _ = stage_of(usd.write(robot))
+    assert sum(prim.HasAPI(UsdPhysics.MassAPI) for prim in stage.Traverse()) == len(names)
+
+
+def test_shapes_are_read_as_they_were_meant(chain):
+    pose = Pose(np.array([1.0, 2.0, 3.0]), rotation(np.random.default_rng(1)))
+    robot = Robot("dressed", (Link("body", chain.links[0].inertial, Pose(), shapes(pose)),))
+    model = mujoco.MjModel.from_xml_string(mjcf.write(robot))
+    sizes = [model.geom_size[index].tolist() for index in range(model.ngeom)]
+    assert sizes == [[0.5, 1.0, 1.5], [0.5, 0, 0], [0.25, 0.5, 0], [0.25, 1.0, 0], [1.0, 2.0, 3.0]]
+    assert near(model.body("body").mass, chain.links[0].inertial.mass)  # not from the shapes
+    (link,) = URDF.from_xml_string(urdf.write(robot).encode()).links
+    kinds = [type(shape.geometry).__name__ for shape in link.collisions]
+    assert kinds == ["Box", "Sphere", "Cylinder", "Sphere", "Sphere", "Cylinder", "Box"]
+    assert [found.code for found in urdf.check(robot)] == ["robot_ellipsoid_as_box"]
+    stage, _ = stage_of(usd.write(robot))
+    assert sum(prim.HasAPI(UsdPhysics.CollisionAPI) for prim in stage.Traverse()) == 5
+
+
+def test_inertials_alone_are_text_of_the_same_numbers(chain):
+    for name, whole in (("urdf", urdf), ("sdf", sdf), ("mjcf", mjcf)):
+        root = ElementTree.fromstring(robot_text(chain, name, inertial_only=True)[0])
+        everything = ElementTree.fromstring(whole.write(chain))
+        assert not [element for tag in ("joint", "visual", "geom", "freejoint") for element in root.iter(tag)]
+        mine, theirs = ([ElementTree.tostring(i) for i in tree.iter("inertial")] for tree in (root, everything))
+        assert [b" ".join(text.split()) for text in mine] == [b" ".join(text.split()) for text in theirs]
+
+
+def test_a_tree_of_links_is_checked():
+    links = (Link("a"), Link("b"))
+    for joints in (
+        (Joint("j", "a", "b"), Joint("k", "b", "a")),
+        (Joint("j", "a", "b"), Joint("k", "a", "b")),
+        (Joint("j", "a", "c"),),
+    ):
+        with pytest.raises(ValueError):
+            Robot("bad", links, joints)
+    with pytest.raises(ValueError):
+        Robot("bad", (Link("a"), Link("a")))

@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The overlay's pixels in the window: the disc is at the projected center, says the verdict, follows a move in the same
+redraw, and is gone when it is switched off or the add-on is disabled.
+
+The tests run in the order of the file and go on from one another.
+"""
+
+import numpy as np
+import pytest
+
+PACKAGE = "bl_ext.user_default.body_moments"
+SETTINGS = "bpy.context.scene.body_moments.overlay"
+EXACT, OUT_OF_DATE = (0.15, 0.85, 0.60), (0.68, 0.72, 0.76)
+FROM_SRGB = 0.06  # of a color: what rounding and the display change
+
+
+def center_color(window, name="overlay"):
+    """(3,) the color on the screen where the cube's center is."""
+    window.point_at_view()
+    window.redraw()
+    window.get("True")
+    path = window.picture(name)
+    return window.ask(
+        "from bpy_extras.view3d_utils import location_3d_to_region_2d as project\n"
+        "cube, region = bpy.data.objects['Cube'], regions['WINDOW']\n"
+        "place = project(region, area.spaces.active.region_3d, cube.matrix_world.translation)\n"
+        f"image = bpy.data.images.load({str(path)!r})\n"
+        "x, y = round(region.x + place.x), round(region.y + place.y)\n"
+        "start = 4 * (y * image.size[0] + x)\n"
+        "result = list(image.pixels[start:start + 3])\n"
+        "bpy.data.images.remove(image)"
+    )
+
+
+def is_near(color, truth):
+    return bool(np.abs(np.subtract(color, truth)).max() <= FROM_SRGB)
+
+
+def test_nothing_is_drawn_before_the_first_measure(window):
+    window.ask("bpy.ops.view3d.view_selected()")
+    assert not is_near(center_color(window, "overlay-before"), EXACT)
+
+
+@pytest.mark.parametrize("light", [False, True], ids=["dark", "light"])
+def test_the_disc_is_at_the_projected_center_on_every_background(window, light):
+    window.ask(
+        "bpy.ops.object.body_moments_measure()\n"
+        "gradients = bpy.context.preferences.themes[0].view_3d.space.gradients\n"
+        f"gradients.high_gradient = gradients.gradient = ({0.95 if light else 0.02},) * 3"
+    )
+    assert is_near(center_color(window, f"overlay-{'light' if light else 'dark'}"), EXACT)
+
+
+def test_the_disc_follows_a_move(window):
+    window.type("g", "x", "1", "Return")
+    window.wait("bpy.data.objects['Cube'].location.x == 2.0")
+    assert is_near(center_color(window, "overlay-moved"), EXACT)
+
+
+def test_the_verdict_is_out_of_date_after_a_change_of_settings(window):
+    window.ask("bpy.data.objects['Cube'].body_moments.density = 2700.0")
+    assert is_near(center_color(window, "overlay-stale"), OUT_OF_DATE)
+
+
+@pytest.mark.parametrize("switch", [SETTINGS + ".show", "area.spaces.active.overlay.show_overlays"])
+def test_it_is_switched_off(window, switch):
+    window.ask("bpy.ops.object.body_moments_measure()")
+    window.ask(f"{switch} = False")
+    assert not is_near(center_color(window), EXACT)
+    window.ask(f"{switch} = True")
+
+
+def test_nothing_is_drawn_when_the_add_on_is_disabled(window):
+    window.ask(f"bpy.ops.preferences.addon_disable(module={PACKAGE!r})")
+    assert not is_near(center_color(window, "overlay-disabled"), EXACT)
+    assert "Traceback" not in window.output()
