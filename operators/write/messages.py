@@ -1505,6 +1505,21 @@ MESSAGES: dict[str, Message] = {
     "panel_nothing_measured": _note("No selected object is measured"),
     "panel_nothing_to_compare": _note("Nothing to compare with"),
     "panel_material_default": _note("None: the object's density is used"),
+    # ------------------------------------------------------------------ Stability and balance
+    "hull_without_extent": _error("All points are on one line: nothing can stand on it."),
+    "center_outside_hull": _error(
+        "The center of mass is outside the convex hull: no body can have it there. Check the surface and the density."
+    ),
+    "no_stable_pose": _error("There is no pose in which it rests: it rolls on."),
+    "hull_simplified": _note(
+        "“{object}” is finely divided: its convex hull is taken with {corners} corners, to {share:percent} of its size"
+    ),
+    "stability_computed": _note("{count} of {total} object stands", "{count} of {total} objects stand"),
+    "objects_tip": _warning("{names} tips over", "{names} tip over"),
+    "laid_on_ground": _note("Laid {count} object on the ground", "Laid {count} objects on the ground"),
+    "already_on_ground": _note("already on the ground"),
+    "panel_stability_unknown": _note("Stability has not been computed."),
+    "panel_stability_stale": _note("The geometry has changed. Check again."),
     # ------------------------------------------------------------------ Robots: what a format cannot say
     "robot_links_left_out": _warning(
         "{count} object without mass is no link: {links}.", "{count} objects without mass are no links: {links}."
