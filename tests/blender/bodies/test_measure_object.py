@@ -581,4 +581,4 @@ def test_suzanne_raises_no_alarm_and_a_ring_past_itself_does_until_it_is_united(
     signed, united = measure(part), measure(part, overlap="union")
     share = said(signed)["self_intersection"]["share"]
     assert 0.15 < share < 0.25 and signed.health.self_intersection == "found"
-    assert close(united.volume, 0.8 * signed.volume, rel=0.01) and set(said(united)) == {"union_by_boolean"}
+    assert close(united.volume, 0.8 * signed.volume, rel=0.01) and "union_by_boolean" in said(united)
