@@ -15,6 +15,7 @@ PARTS = (
     "write.translations",
     "settings.properties",
     "settings.assembly",
+    "settings.reference",
     *("session.handlers", "session.walls", "session.live", "session.assembly", "session.outcome"),
     *(
         "actions.setup." + name
@@ -22,12 +23,23 @@ PARTS = (
     ),
     *(
         "actions.measure." + name
-        for name in ("measure_selected", "live", "section", "select_faults", "clear", "copy", "moments", "fourier")
+        for name in (
+            "measure_selected",
+            "live",
+            "section",
+            "select_faults",
+            "clear",
+            "copy",
+            "moments",
+            "reference",
+            "fourier",
+        )
     ),
     *(
         "actions.snap." + name
         for name in ("origin", "principal_axes", "align", "empty", "cursor", "orientation", "rigid_body", "balance")
     ),
+    *("actions.statics." + name for name in ("stability", "rest_on_ground")),
     "actions.export.robot",
     *("actions.shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",

@@ -18,9 +18,11 @@ MODULES = (
     *("material_menus", "body"),
     *(
         "inertia",
+        "reference",  # of the inertia
         "density",
         "given",
         "apply",
+        "stability",
         "selection",
         "assembly",
         "advanced",

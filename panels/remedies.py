@@ -27,6 +27,7 @@ REMEDIES = {
     "components_nested": (UNION,),
     "components_overlap": (UNION,),
     "self_intersecting": (UNION,),
+    "self_intersection": (UNION,),
     "flipped_faces": (OUTSIDE, DEFECTS),
     "inverted_components": (OUTSIDE,),
     "faces_reversed_before_union": (OUTSIDE,),

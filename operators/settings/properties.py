@@ -336,6 +336,7 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
                 "Center, Normalized",
                 "Central moments of the shape scaled to a volume or area of 1, independent of size",
             ),
+            ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
         ),
         default="ORIGIN",
     )

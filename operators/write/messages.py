@@ -246,6 +246,14 @@ MESSAGES: dict[str, Message] = {
         "The surface intersects itself and regions count as negative. Set Overlaps to Count as Union, or repair "
         "the mesh."
     ),
+    "self_intersection": _warning(
+        "The surface intersects itself: about {share:percent} of the volume counts twice or as negative. Set Overlaps "
+        "to Count as Union, or repair the mesh."
+    ),
+    "self_intersection_slightly": _note(
+        "The surface intersects itself: about {share:percent} of the volume counts twice or as negative."
+    ),
+    "self_intersection_unchecked": _note("Whether the surface intersects itself was not checked."),
     "negative_inertia": _error(
         "The surface intersects itself or cannot be closed, and regions count as negative. Set Overlaps to Count as "
         "Union, repair the mesh, or set Kind to Shell."
@@ -1254,6 +1262,14 @@ MESSAGES: dict[str, Message] = {
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ References
+    "axis_points_coincide": _error("The two points of the axis are too near to each other. Move one of them."),
+    "axis_needs_two_points": _error("{count} points are selected. Select two vertices, or two objects."),
+    "reference_object_missing": _error("No object is chosen as the reference. Choose one in Object."),
+    "reference_stored": _note(
+        "Stored the inertia of {count} object about the reference",
+        "Stored the inertia of {count} objects about the reference",
+    ),
     # ------------------------------------------------------------------ Given parts and assemblies
     "center_given": _note("The center of mass is given."),
     "inertia_given": _note("The inertia is given."),
@@ -1489,6 +1505,21 @@ MESSAGES: dict[str, Message] = {
     "panel_nothing_measured": _note("No selected object is measured"),
     "panel_nothing_to_compare": _note("Nothing to compare with"),
     "panel_material_default": _note("None: the object's density is used"),
+    # ------------------------------------------------------------------ Stability and balance
+    "hull_without_extent": _error("All points are on one line: nothing can stand on it."),
+    "center_outside_hull": _error(
+        "The center of mass is outside the convex hull: no body can have it there. Check the surface and the density."
+    ),
+    "no_stable_pose": _error("There is no pose in which it rests: it rolls on."),
+    "hull_simplified": _note(
+        "“{object}” is finely divided: its convex hull is taken with {corners} corners, to {share:percent} of its size"
+    ),
+    "stability_computed": _note("{count} of {total} object stands", "{count} of {total} objects stand"),
+    "objects_tip": _warning("{names} tips over", "{names} tip over"),
+    "laid_on_ground": _note("Laid {count} object on the ground", "Laid {count} objects on the ground"),
+    "already_on_ground": _note("already on the ground"),
+    "panel_stability_unknown": _note("Stability has not been computed."),
+    "panel_stability_stale": _note("The geometry has changed. Check again."),
     # ------------------------------------------------------------------ Robots: what a format cannot say
     "robot_links_left_out": _warning(
         "{count} object without mass is no link: {links}.", "{count} objects without mass are no links: {links}."

@@ -50,7 +50,17 @@ DESCRIPTIONS = {
     "body_length": "Length of a wire in m",
     "body_display_volume": "What the display mesh of a NURBS surface would have given as its volume, in m³",
     "body_fingerprint": "What the numbers were computed from",
+    "body_reference": "What body_reference_inertia is about, as JSON",
+    "body_reference_origin": "Origin of the reference in the world, in m",
+    "body_reference_axes": "Quaternion w, x, y, z that turns the world axes into those of the reference",
+    "body_reference_center": "Center of mass from the origin of the reference, along its axes, in m",
+    "body_reference_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the origin of the reference, along its "
+    "axes, in kg·m² (xy = −∫xy dm)",
+    "body_reference_error_bound": "What rounding may have changed: center of mass, inertia; then the same two for what "
+    "storing coordinates as float32 may have",
+    "body_axis_inertia": "Moment of inertia about the axis of the reference, in kg·m²",
 }
+REFERENCE_KEYS = ("body_reference", "body_axis")  # how the keys of results about a reference begin
 FRAMES = {  # of what results are stored on
     bpy.types.Object: "the object's frame (location and rotation, unit scale)",
     bpy.types.Collection: "the world",
@@ -140,10 +150,25 @@ def _write(obj: Owner, values: dict) -> None:
         if key not in values and key in obj:
             del obj[key]
     for key, value in values.items():
-        obj[key] = value
-        if not isinstance(value, str):
-            description = DESCRIPTIONS[key].format(frame=FRAMES[type(obj)])
-            obj.id_properties_ui(key).update(description=description, precision=6)
+        _set(obj, key, value)
+
+
+def _set(obj: Owner, key: str, value: object) -> None:
+    obj[key] = value
+    if not isinstance(value, str):
+        description = DESCRIPTIONS[key].format(frame=FRAMES[type(obj)])
+        obj.id_properties_ui(key).update(description=description, precision=6)
+
+
+def store_reference(obj: Owner, values: dict) -> None:
+    """Write results about a reference, by their keys, beside the others. EditRefusedError where the owner cannot hold
+    them."""
+    require_storable(obj)
+    for key in DESCRIPTIONS:
+        if key.startswith(REFERENCE_KEYS) and key not in values and key in obj:
+            del obj[key]
+    for key, value in values.items():
+        _set(obj, key, value)
 
 
 def require_storable(obj: Owner) -> None:
