@@ -189,6 +189,14 @@ MESSAGES = {
         "zählen setzen.",
     ),
     "flat_surface": ("Die Oberfläche ist eben und umschließt kein Volumen. Art auf Schale setzen.",),
+    "self_intersection": (
+        "Die Oberfläche durchdringt sich: etwa {share:percent} des Volumens zählen doppelt oder negativ. Überlappungen "
+        "auf Als Vereinigung zählen setzen oder das Mesh reparieren.",
+    ),
+    "self_intersection_slightly": (
+        "Die Oberfläche durchdringt sich: etwa {share:percent} des Volumens zählen doppelt oder negativ.",
+    ),
+    "self_intersection_unchecked": ("Ob sich die Oberfläche durchdringt, wurde nicht geprüft.",),
     "self_intersecting": (
         "Die Oberfläche durchdringt sich, und Bereiche zählen negativ. Überlappungen auf Als Vereinigung zählen setzen "
         "oder das Netz reparieren.",
