@@ -105,14 +105,20 @@ def Mesh "Tetra"
 """
 
 
+def parsed(*words):
+    """The options of a command line, as a process has them that measures by itself."""
+    from body_moments.operators.command import arguments, checks
+
+    options = arguments.parse([*map(str, words)])
+    checks.check(options)
+    return options
+
+
 def run(*words):
     """The command line in this process, with its documents; nothing is written anywhere."""
-    from body_moments.operators.command import arguments, checks
     from body_moments.operators.command.run import Run
 
-    options = arguments.parse(["measure", *map(str, words)])
-    checks.check(options)
-    line = Run(options)
+    line = Run(parsed("measure", *words))
     line.measure()
     valid(line.documents)
     return line
