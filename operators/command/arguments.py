@@ -275,6 +275,11 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         help="add the numbers by which `similar` finds the shape again",
     )
     add(
+        "--thumbnails",
+        action="store_true",
+        help="add a small picture of each body with its principal axes, for `report`",
+    )
+    add(
         "--format",
         type=types.format_name,
         default="json",

@@ -39,7 +39,7 @@ from ..write.documents import document
 from ..write.properties import store
 from ..write.terminal import tell
 from . import fourier, robots
-from .files import BLEND, UNITLESS, file_suffix, open_file
+from .files import BLEND, UNITLESS, file_suffix, newer_version, open_file
 from .interruption import Progress, check_interruption
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
 from .references import blocked_scripts, missing_links
@@ -123,6 +123,7 @@ class Run:
                     *_unit_findings(path, self.options.unit_scale),
                     *_unused_array_options(self.options),
                     *blocked_scripts(),
+                    *newer_version(),
                 )
                 operands = boolean_operands(bpy.context.scene) if self.options.object is None else {}
                 for label, obj in chosen:

@@ -58,7 +58,7 @@ def _walk(top: str) -> Iterator[str]:
                 if (status.st_dev, status.st_ino) not in known:
                     known.add((status.st_dev, status.st_ino))
                     names = sorted(name for name in os.listdir(path) if not name.startswith("."))
-                    waiting.append(os.path.join(path, name) for name in names)
+                    waiting.append(iter([os.path.join(path, name) for name in names]))
 
 
 def write_lines(paths: Iterable[str]) -> Iterator[str]:

@@ -1293,6 +1293,8 @@ MESSAGES: dict[str, Message] = {
         "argument --output: {path} is in the way of the older result, and is none itself. Move it, or use --force"
     ),
     "folder_without_files": _error("No file that can be measured is in the folder {folder}. Name files"),
+    "results_unreadable": _error("The results {file} cannot be read: {error}"),
+    "results_malformed": _error("{file} is not a result of body_moments. Name what “measure” has written"),
     "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
