@@ -16,7 +16,15 @@ PARTS = (
     "settings.properties",
     "settings.assembly",
     "settings.reference",
-    *("session.handlers", "session.walls", "session.live", "session.assembly", "session.outcome"),
+    *(
+        "session.handlers",
+        "session.updates",
+        "session.density",
+        "session.walls",
+        "session.live",
+        "session.assembly",
+        "session.outcome",
+    ),
     *(
         "actions.setup." + name
         for name in ("presets", "import_scan", "remedies", "node_group", "assembly", "assembly_snap", "bill")
@@ -39,6 +47,7 @@ PARTS = (
         "actions.snap." + name
         for name in ("origin", "principal_axes", "align", "empty", "cursor", "orientation", "rigid_body", "balance")
     ),
+    *("actions.statics." + name for name in ("stability", "rest_on_ground")),
     "actions.export.robot",
     *("actions.shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",

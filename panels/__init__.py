@@ -22,6 +22,7 @@ MODULES = (
         "density",
         "given",
         "apply",
+        "stability",
         "selection",
         "assembly",
         "advanced",

@@ -246,6 +246,14 @@ MESSAGES: dict[str, Message] = {
         "The surface intersects itself and regions count as negative. Set Overlaps to Count as Union, or repair "
         "the mesh."
     ),
+    "self_intersection": _warning(
+        "The surface intersects itself: about {share:percent} of the volume counts twice or as negative. Set Overlaps "
+        "to Count as Union, or repair the mesh."
+    ),
+    "self_intersection_slightly": _note(
+        "The surface intersects itself: about {share:percent} of the volume counts twice or as negative."
+    ),
+    "self_intersection_unchecked": _note("Whether the surface intersects itself was not checked."),
     "negative_inertia": _error(
         "The surface intersects itself or cannot be closed, and regions count as negative. Set Overlaps to Count as "
         "Union, repair the mesh, or set Kind to Shell."
@@ -1482,7 +1490,7 @@ MESSAGES: dict[str, Message] = {
     "panel_wall_folds": _warning("Folds over from {length:length}"),
     "panel_density_mean": _note("Mean density, from {cause}"),
     "panel_no_material_slots": _note("No material slots"),
-    "panel_unit_question": _note("{length:length} long and {tonnes:,.0f} t: is a unit of this scene a millimeter?"),
+    "panel_unit_question": _note("{length} long and {mass}: is a unit of this scene a millimeter?"),
     "panel_live": _note("Live ({milliseconds:.0f} ms). Press Measure to store"),
     "panel_orders_copied": _note("Orders {first} to {last} are only in the copy."),
     "panel_symmetry_tolerance": _note("The surface matches its images within {share:.2g} of the radius of gyration"),
@@ -1497,6 +1505,21 @@ MESSAGES: dict[str, Message] = {
     "panel_nothing_measured": _note("No selected object is measured"),
     "panel_nothing_to_compare": _note("Nothing to compare with"),
     "panel_material_default": _note("None: the object's density is used"),
+    # ------------------------------------------------------------------ Stability and balance
+    "hull_without_extent": _error("All points are on one line: nothing can stand on it."),
+    "center_outside_hull": _error(
+        "The center of mass is outside the convex hull: no body can have it there. Check the surface and the density."
+    ),
+    "no_stable_pose": _error("There is no pose in which it rests: it rolls on."),
+    "hull_simplified": _note(
+        "“{object}” is finely divided: its convex hull is taken with {corners} corners, to {share:percent} of its size"
+    ),
+    "stability_computed": _note("{count} of {total} object stands", "{count} of {total} objects stand"),
+    "objects_tip": _warning("{names} tips over", "{names} tip over"),
+    "laid_on_ground": _note("Laid {count} object on the ground", "Laid {count} objects on the ground"),
+    "already_on_ground": _note("already on the ground"),
+    "panel_stability_unknown": _note("Stability has not been computed."),
+    "panel_stability_stale": _note("The geometry has changed. Check again."),
     # ------------------------------------------------------------------ Robots: what a format cannot say
     "robot_links_left_out": _warning(
         "{count} object without mass is no link: {links}.", "{count} objects without mass are no links: {links}."

@@ -33,6 +33,7 @@ class OBJECT_OT_body_moments_clear(Operator):
 
         def remove(obj: Object) -> bool:
             require_editable(obj)
+            staleness.note_edits(obj)
             symmetric = obj.is_property_set(SYMMETRY)
             obj.property_unset(SYMMETRY)
             return properties.clear(obj) | section.clear(obj) | symmetric

@@ -84,6 +84,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             return True
 
         def store(obj: Object) -> bool:
+            staleness.note_edits(obj)
             properties.store(obj, measurements[obj])
             if wrong := _defects_by_kind(measurements[obj]):
                 faults[obj] = wrong
