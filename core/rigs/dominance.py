@@ -66,7 +66,7 @@ def dominant_bones(
     Parameters
     ----------
     faces, corners : (c,) integer arrays
-        Of each corner of the surface, the face, 0 to f - 1, and the vertex.
+        Of each corner of the surface, the face, 0 to f - 1, and the vertex. A face without corners has no bone.
     points : (n, 3) array_like
         Positions of the vertices, in the coordinates of the bones.
     weights : VertexWeights
@@ -76,6 +76,7 @@ def dominant_bones(
     Returns
     -------
     bone : (f,) integer array
+        -1 for a face without corners.
     by_distance : (k,) integer array
         The faces without any weight, which went with the nearest bone.
 
@@ -91,7 +92,9 @@ def dominant_bones(
     points, bones = np.asarray(points, np.float64), np.asarray(bones, np.float64)
     count, number = int(faces.max(initial=-1)) + 1, len(bones)
     size = np.bincount(faces, minlength=count)
-    center = np.stack([np.bincount(faces, points[corners, k], minlength=count) / size for k in range(3)], axis=1)
+    center = np.stack(
+        [np.bincount(faces, points[corners, k], minlength=count) / np.maximum(size, 1) for k in range(3)], axis=1
+    )
     face, bone, score = _scores(faces, corners, weights, number)
     result = np.full(count, -1)
     if len(face):
