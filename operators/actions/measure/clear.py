@@ -46,6 +46,7 @@ class OBJECT_OT_body_moments_clear(Operator):
 
         def remove(obj: Object) -> bool:
             require_editable(obj)
+            staleness.note_edits(obj)
             removed = "MASS" in self.kinds and properties.clear(obj)
             removed |= "SECTION" in self.kinds and section.clear(obj)
             if "SYMMETRY" in self.kinds and obj.is_property_set(SYMMETRY):

@@ -100,6 +100,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             return True
 
         def store(obj: Object) -> bool:
+            staleness.note_edits(obj)
             properties.store(obj, measurements[obj])
             wrong = {kind: found for kind, found in _defects_by_kind(measurements[obj]).items() if kind in self.kinds}
             if wrong:

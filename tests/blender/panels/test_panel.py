@@ -320,7 +320,7 @@ def test_totals_have_parallel_axis_terms():
     found = labels(drawn())
     assert "3 Objects" in found
     assert "Not measured: “Not Measured”" in " ".join(found)
-    objects[1].body_moments.density = 5.0
+    objects[1].body_moments.kind = "SHELL"
     bpy.context.view_layer.update()
     assert "Out of date: “1”" in " ".join(labels(drawn()))
 
@@ -504,13 +504,13 @@ def test_out_of_date_after_a_change_of_transform_settings_or_geometry_and_not_af
     bpy.ops.object.body_moments_measure()
     update()
     assert not outdated()
-    obj.location.x = 2.0
+    obj.scale.x = 2.0
     update()
     assert outdated() == ["transform"]
-    obj.location.x = 0.0
+    obj.scale.x = 1.0
     update()
     assert not outdated()
-    obj.body_moments.density = 7000.0
+    obj.body_moments.kind = "SHELL"
     assert outdated() == ["settings"]
     bpy.ops.object.body_moments_measure()
     update()
