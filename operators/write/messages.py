@@ -830,7 +830,7 @@ MESSAGES: dict[str, Message] = {
     "nrrd_data_file_missing": _error("The data file “{file:.80s}” is missing."),
     "nrrd_data_file_outside": _error(
         "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you trust the header, "
-        "use the command line's --allow-outside."
+        "turn on Allow Outside, or use --allow-outside."
     ),
     "file_exceeds_limit": _error(
         "“{file}” exceeds a limit: {count} {name} of at most {limit}. If you trust the file, set the environment "
