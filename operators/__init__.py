@@ -16,7 +16,15 @@ PARTS = (
     "settings.properties",
     "settings.assembly",
     "settings.reference",
-    *("session.handlers", "session.walls", "session.live", "session.assembly", "session.outcome"),
+    *(
+        "session.handlers",
+        "session.updates",
+        "session.density",
+        "session.walls",
+        "session.live",
+        "session.assembly",
+        "session.outcome",
+    ),
     *(
         "actions.setup." + name
         for name in ("presets", "import_scan", "remedies", "node_group", "assembly", "assembly_snap", "bill")

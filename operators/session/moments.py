@@ -26,7 +26,7 @@ from ..read.fingerprint import matrix_hash, settings_hash
 from ..read.reference import ReferenceChoice
 from ..write.terminal import visible
 from ..write.units import number
-from . import staleness
+from . import updates
 from .cache import SessionCache
 
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
@@ -91,7 +91,7 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
     matrix, settings, geometry = computed.key
     if settings != settings_hash(obj, scene):
         return "stale_settings"
-    if geometry != staleness.geometry_changes(obj):
+    if geometry != updates.last_change_of_geometry(obj):
         return "stale_geometry"
     return "stale_transform" if matrix != matrix_hash(obj) else None
 

@@ -19,7 +19,7 @@ from ...core.numerics.rotations import quaternion
 from ...core.verdict.finding import Finding, MeasureError, QueryError
 from ..read.reference import ReferenceChoice
 from ..write import properties
-from . import handlers
+from . import handlers, staleness
 from .cache import SessionCache
 
 _shown: SessionCache[tuple[tuple, ReferredInertia | Finding]] = SessionCache()  # the last one, after what it is of
@@ -82,6 +82,8 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
     if choice.about == "AXIS":
         values["body_axis_inertia"] = result.about_z
     properties.store_reference(owner, values)
+    if isinstance(owner, bpy.types.Object):
+        staleness.pin(owner)
 
 
 def stored_choice(owner: Object | Collection) -> ReferenceChoice | None:

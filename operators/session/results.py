@@ -52,6 +52,7 @@ _totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last on
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
     """Write what was measured on the object, and remember what its sliders need. EditRefusedError where the object
     cannot hold results."""
+    staleness.note_edits(obj)
     about = reference.stored_choice(obj)
     properties.store(obj, measured.measurement)
     faults.remember(obj, measured)

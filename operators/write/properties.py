@@ -79,6 +79,7 @@ LENGTHS = {
     "body_error_bound": 8,
 }
 OPTIONAL = ("body_length", "body_display_volume")  # of wires, and of what was measured without its display mesh
+ROUNDING = 2.0**-52  # of a product of two rounded numbers, relative
 BOUND_KEYS = ("volume", "area", "center_of_mass", "inertia")
 ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
 
@@ -141,6 +142,32 @@ def store(obj: Owner, measurement: Measurement) -> None:
     except BaseException:
         _write(obj, before)
         raise
+    retrigger_drivers(obj)
+
+
+def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
+    """Write what another density makes of stored results, all of which are finite: the mass by a factor, and all that
+    it is a factor of.
+
+    Parameters
+    ----------
+    obj : Owner
+        One that can hold results.
+    density : float
+        The mean, kg/m³; 0 of a wire.
+    mass : float
+        kg.
+    findings : sequence of Finding
+    fingerprint : str
+    """
+    factor = mass / obj["body_mass"]
+    for key in ("body_inertia", "body_inertia_diagonal", "body_inertia_products", "body_principal_moments"):
+        obj[key] = [factor * value for value in obj[key]]
+    bounds = list(obj["body_error_bound"])
+    bounds[3], bounds[7] = factor * bounds[3] + ROUNDING * sum(obj["body_principal_moments"]), factor * bounds[7]
+    obj["body_error_bound"] = bounds
+    obj["body_mass"], obj["body_density"], obj["body_fingerprint"] = mass, density, fingerprint
+    obj["body_findings"], obj["body_warnings"] = findings_text(findings), warning_lines(findings)
     retrigger_drivers(obj)
 
 

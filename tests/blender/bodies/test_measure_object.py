@@ -448,13 +448,13 @@ def test_out_of_date_names_what_has_changed():
         return staleness.stale_reason(obj, scene)
 
     assert reason() is None
-    obj.body_moments.density = 500.0
+    obj.body_moments.kind = "SHELL"
     assert reason() == "stale_settings"
-    obj.body_moments.density = 1000.0
+    obj.body_moments.kind = "SOLID"
     assert reason() is None
-    obj.location.x = 1.0
+    obj.scale.x = 2.0
     assert reason() == "stale_transform"
-    obj.location.x = 0.0
+    obj.scale.x = 1.0
     assert reason() is None
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
