@@ -830,7 +830,7 @@ MESSAGES: dict[str, Message] = {
     "nrrd_data_file_missing": _error("The data file “{file:.80s}” is missing."),
     "nrrd_data_file_outside": _error(
         "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you trust the header, "
-        "use the command line's --allow-outside."
+        "turn on Allow Outside, or use --allow-outside."
     ),
     "file_exceeds_limit": _error(
         "“{file}” exceeds a limit: {count} {name} of at most {limit}. If you trust the file, set the environment "
@@ -1214,6 +1214,29 @@ MESSAGES: dict[str, Message] = {
     "scene_never_saved": _error("The scene was never saved; --write has no file. Save it first."),
     "out_of_memory": _error("Too little memory. Measure it alone, reduce it, or use a larger machine."),
     "interrupted": _error("interrupted; the result was not written"),
+    "interrupted_resumable": _error(
+        "interrupted after {done} of {total} files; the result was not written. Run the same with --resume to go on"
+    ),
+    "file_crashed": _error(
+        "Blender crashed on the file ({how}), {count} times. Open it in Blender, save it again, or leave it out.",
+    ),
+    "file_timed_out": _error(
+        "The file took longer than {seconds:g} s. Use a longer --timeout, or open it in Blender to see why."
+    ),
+    "file_took_memory": _error(
+        "The file took more than {megabytes:.0f} MB of memory. Use a larger --memory-mb, fewer --jobs, or reduce it."
+    ),
+    "file_version_unsupported": _error(
+        "This Blender ({blender}) cannot read the file, which was saved by Blender {version}. Use a Blender that can."
+    ),
+    "file_newer_version": _warning(
+        "The file was saved by a newer Blender ({version}) than this one ({blender}), which may have lost some of it. "
+        "Use that Blender."
+    ),
+    "progress_files": _note("{done} of {total} files, {rate:.3g} per second, {left} left, {failed} not ok"),
+    "progress_started": _note("{done} of {total} files"),
+    "progress_done": _note("{count} file in {seconds:.1f} s: {counts}", "{count} files in {seconds:.1f} s: {counts}"),
+    "children_failed": _error("no process that measures can be started: {reason}"),
     "scripts_allowed": _warning(
         "Blender was allowed to run the scripts of the file, which may have changed it: {names}. Start Blender with "
         "-Y, or name the file after “measure”."
@@ -1261,6 +1284,17 @@ MESSAGES: dict[str, Message] = {
     "usage_fourier_one_object": _error("argument --fourier: takes one object of one FILE"),
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
+    "usage_range": _error("{text!r} is not A:B, two whole numbers with A no larger than B"),
+    "usage_needs_supervisor": _error("argument --{option}: applies to FILEs that are measured by other processes"),
+    "usage_resume_output": _error("argument --resume: needs the --output of the run to go on with"),
+    "usage_no_blender": _error("No module named 'bpy' is here. Use --blender PATH, or install it"),
+    "usage_busy": _error("argument --output: another run is writing {path}. Wait for its end, or use another name"),
+    "usage_old_foreign": _error(
+        "argument --output: {path} is in the way of the older result, and is none itself. Move it, or use --force"
+    ),
+    "folder_without_files": _error("No file that can be measured is in the folder {folder}. Name files"),
+    "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
+    "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
     # ------------------------------------------------------------------ Rigs
     "no_active_armature": _error("The active object is not an armature. Select one."),
