@@ -24,6 +24,7 @@ PARTS = (
         "session.walls",
         "session.live",
         "session.assembly",
+        "session.rig",
         "session.outcome",
     ),
     *(

@@ -196,7 +196,7 @@ def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
             settings = member.data.body_moments
             keys.append(GivenPart.of(settings, 1.0).key + repr(settings.mass) + matrix_hash(member.data))
         elif member.is_measured:
-            keys.append(fingerprints.get(member.data, ""))
+            keys.append(fingerprints.get(member.data, "") + matrix_hash(member.data))  # which moving leaves as they are
     return "\n".join(keys)
 
 

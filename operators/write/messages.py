@@ -1300,7 +1300,7 @@ MESSAGES: dict[str, Message] = {
     "no_active_armature": _error("The active object is not an armature. Select one."),
     "armature_in_edit_mode": _error("The armature is in Edit Mode. Leave it."),
     "armature_not_editable": _error("The armature cannot be put into its rest pose. Make it local."),
-    "no_deforming_bones": _error("No bone deforms meshes. Turn on Deform for those that do."),
+    "no_deforming_bones": _error("No bone deforms meshes. Make those that do deforming bones."),
     "bone_missing": _error("Its parent bone “{bone}” does not exist. Choose another one."),
     "rig_without_parts": _error(
         "The armature deforms no mesh that can be measured, and nothing is parented to its bones. Add an Armature "
