@@ -101,7 +101,7 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> str:
 def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> str:
     """CSV with these columns: a row for each mapping, whose missing entries stay empty. Text is written as `to_csv`
     says."""
-    cells = ([_cell(row.get(name, "")) for name in header] for row in rows)
+    cells = ([spreadsheet_cell(row.get(name, "")) for name in header] for row in rows)
     return "".join(map(_line, (header, *cells)))
 
 
@@ -163,7 +163,7 @@ def _line(cells: Iterable[Any]) -> str:
     return text.getvalue().removesuffix("\r\n") + "\n"
 
 
-def _cell(value: Any) -> Any:
+def spreadsheet_cell(value: Any) -> Any:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, list):
