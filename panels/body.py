@@ -10,7 +10,7 @@ from bpy.types import Context
 
 from ..operators.session import results
 from ..operators.write.units import Units
-from . import remedies
+from . import remedies, rows
 from .density import material_row
 from .numbers import numbers
 from .overlay.popover import header_switch
@@ -42,14 +42,14 @@ class BodyPanel:
         material_row(layout, context, obj)
         row = layout.row(align=True)
         row.scale_y = 1.4
-        row.operator("object.body_moments_measure", icon="PHYSICS")
+        rows.button(row, context, "object.body_moments_measure", "PHYSICS")
         row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
         if shown is not None:
             remedies.unit_question(layout, context, shown)
             numbers(layout, context, Units.of(scene.unit_settings), shown)
-            row = layout.row(align=True)
-            row.operator("object.body_moments_copy_report", icon="COPYDOWN")
-            row.operator("object.body_moments_clear", icon="TRASH")
+            row = layout.column(align=True) if rows.is_narrow(context) else layout.row(align=True)
+            rows.button(row, context, "object.body_moments_copy_report", "COPYDOWN")
+            rows.button(row, context, "object.body_moments_clear", "TRASH")
             remedies.notes(layout, context, "body_moments_notes", findings)
 
 

@@ -7,14 +7,16 @@ refused; and the question whether a unit is a millimeter.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from bpy.types import Context, Object, UILayout
+from bpy.types import Context, UILayout
 
 from ..core.verdict.finding import Finding, Severity, finding, truncate
 from ..operators.session import outcome
 from ..operators.write.messages import of_severity, severity
 from ..operators.write.properties import StoredProperties
 from ..operators.write.translations import localized
+from ..operators.write.units import Units
 from . import rows
 
 UNION = ("object.body_moments_count_as_union", "MOD_BOOLEAN")
@@ -25,6 +27,7 @@ REMEDIES = {
     "components_nested": (UNION,),
     "components_overlap": (UNION,),
     "self_intersecting": (UNION,),
+    "self_intersection": (UNION,),
     "flipped_faces": (OUTSIDE, DEFECTS),
     "inverted_components": (OUTSIDE,),
     "faces_reversed_before_union": (OUTSIDE,),
@@ -46,6 +49,7 @@ MESH_ONLY = (OUTSIDE, DEFECTS)
 MAX_SHOWN = 8  # of what the last action refused
 MIN_QUESTIONED_LENGTH = 5.0  # m: longer bodies may be meant in millimeters
 MIN_QUESTIONED_MASS = 1e5  # kg
+QUESTION_DIGITS = 3
 
 
 def warnings(
@@ -60,9 +64,9 @@ def warnings(
     for shown in alarming if body is not None else ():
         column = body.column(align=True)
         rows.message(column, context, shown)
-        remedies(column, context.object, shown)
+        remedies(column, context, shown)
         if can_accept and severity(shown) == Severity.WARNING:
-            _accept(column, shown, accepted=True)
+            _accept(column, context, shown, accepted=True)
 
 
 def notes(layout: UILayout, context: Context, idname: str, findings: Sequence[Finding]) -> None:
@@ -76,19 +80,19 @@ def notes(layout: UILayout, context: Context, idname: str, findings: Sequence[Fi
         row = body.row(align=True)
         rows.message(row, context, shown)
         if shown.values.get("accepted"):
-            _accept(row, shown, accepted=False)
+            _accept(row, context, shown, accepted=False)
 
 
-def remedies(layout: UILayout, obj: Object, shown: Finding) -> None:
+def remedies(layout: UILayout, context: Context, shown: Finding) -> None:
     """Draw the buttons that do what the sentence of a finding advises."""
     for idname, icon in REMEDIES.get(shown.code, ()):
-        if obj.type == "MESH" or (idname, icon) not in MESH_ONLY:
-            layout.operator(idname, icon=icon)
+        if context.object.type == "MESH" or (idname, icon) not in MESH_ONLY:
+            rows.button(layout, context, idname, icon)
 
 
-def _accept(layout: UILayout, shown: Finding, accepted: bool) -> None:
+def _accept(layout: UILayout, context: Context, shown: Finding, accepted: bool) -> None:
     if accepted:
-        button = layout.operator("object.body_moments_accept", text="Accept", icon="CHECKMARK")
+        button = rows.button(layout, context, "object.body_moments_accept", "CHECKMARK", text="Accept")
     else:
         button = layout.operator("object.body_moments_accept", text="", icon="LOOP_BACK")
     button.code = shown.code
@@ -102,17 +106,17 @@ def last_action(layout: UILayout, context: Context) -> None:
         return
     box = layout.box()
     header = box.row(align=True)
-    header.label(text=localized(last.action), icon="ERROR", translate=False)
+    rows.sentence(header, context, localized(last.action), icon="ERROR", boxed=True)
     header.operator("wm.body_moments_dismiss", text="", icon="X", emboss=False)
     column = box.column(align=True)
     shown, more = truncate(last.findings, MAX_SHOWN)
     for refused in shown:
-        rows.message(column, context, refused, icon="NONE")
-        remedies(column, context.object, refused)
+        rows.message(column, context, refused, icon="NONE", boxed=True)
+        remedies(column, context, refused)
     if more:
         rows.message(column, context, finding("and_more", count=more), icon="NONE")
     if len(last.objects) > 1 or last.objects and last.objects[0] != context.object.name_full:
-        box.operator("object.body_moments_select_refused", icon="RESTRICT_SELECT_OFF")
+        rows.button(box, context, "object.body_moments_select_refused", "RESTRICT_SELECT_OFF")
 
 
 def unit_question(layout: UILayout, context: Context, shown: StoredProperties) -> None:
@@ -126,8 +130,10 @@ def unit_question(layout: UILayout, context: Context, shown: StoredProperties) -
     ):
         return
     box = layout.box()
-    question = finding("panel_unit_question", length=length, tonnes=1e-3 * shown.body.mass)
-    rows.message(box, context, question, icon="QUESTION")
+    units = replace(Units.of(scene.unit_settings), mass="TONNES", digits=QUESTION_DIGITS)
+    texts = {"length": units.text("length", length), "mass": units.text("mass", shown.body.mass)}
+    question = finding("panel_unit_question", **texts)
+    rows.message(box, context, question, icon="QUESTION", boxed=True)
     column = box.column(align=True)
-    column.operator("scene.body_moments_set_millimeters", icon="DRIVER_DISTANCE")
-    column.operator("scene.body_moments_keep_units", icon="X")
+    rows.button(column, context, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")
+    rows.button(column, context, "scene.body_moments_keep_units", "X")

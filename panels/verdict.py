@@ -48,7 +48,7 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
         column.label(text=text, icon="RADIOBUT_OFF" if refusal is None else "CANCEL")
     if refusal is not None:
         rows.message(column, context, refusal, icon="BLANK1")
-        remedies.remedies(column, obj, refusal)
+        remedies.remedies(column, context, refusal)
     if not measured:
         return
     _headline(column, context, obj)

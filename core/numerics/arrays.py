@@ -22,7 +22,7 @@ def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
 def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
     """0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, …"""
     ends = np.cumsum(counts)
-    return np.arange(ends[-1]) - np.repeat(ends - counts, counts)
+    return np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts)
 
 
 def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:

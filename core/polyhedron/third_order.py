@@ -260,6 +260,8 @@ class _Integration:
         """Volume and area, with their bounds."""
         sizes, rounding, inputs = _error_bounds(self, sums)
         raw = sums.sums / DIVISORS
+        if self.planarity is not None:
+            self.planarity.cones = sizes[0], float(sums.sums[0])
         error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
         volume = Moments(raw, self.center, Measure.VOLUME, error, inputs[0])
         if not self.area:

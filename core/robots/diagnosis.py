@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The one change that makes a stated inertial that of its geometry.
 
-A link's geometry, filled evenly, has a center and an inertia for each kilogram. Where what is stated differs, each of a
-list of common mistakes is undone; what then agrees to the digits that files have is no coincidence. Where none does, the
-mass may simply lie otherwise: that is no error, and only its factor is reported.
+A link's geometry, filled evenly, has a center and an inertia for each kilogram. Where what is stated differs, each of
+a list of common mistakes is undone; what then agrees to the digits that files have is no coincidence. Where none does,
+the mass may simply lie otherwise: that is no error, and only its factor is reported.
 """
 
 from __future__ import annotations

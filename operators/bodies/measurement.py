@@ -17,7 +17,7 @@ from ...core.moments.moments import Moments
 from ...core.verdict.finding import ReadError, finding
 from ...core.verdict.method import Method, Verdict
 from ..read import Reading
-from ..read.fingerprint import effective_hash, fingerprint, matrix_hash
+from ..read.fingerprint import effective_hash, fingerprint, transform_key
 from ..read.volume import VolumeReading
 from ..settings.accepted import with_acceptance
 from ..settings.options import MeasureOptions
@@ -178,4 +178,4 @@ def _fingerprint(body: Body, request: Request) -> str:
     )
     digested = [moments for moments in (body.volume, body.area, body.mass, body.length) if moments is not None]
     geometry = b"".join([moments.raw.tobytes() for moments in digested])
-    return fingerprint(geometry, "" if request.obj is None else matrix_hash(request.obj), settings)
+    return fingerprint(geometry, "" if request.obj is None else transform_key(request.obj), settings)

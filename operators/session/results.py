@@ -26,7 +26,7 @@ from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
-from . import handlers, live, staleness, walls
+from . import faults, handlers, live, reference, staleness, walls
 from .cache import SessionCache
 
 
@@ -52,7 +52,11 @@ _totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last on
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
     """Write what was measured on the object, and remember what its sliders need. EditRefusedError where the object
     cannot hold results."""
+    staleness.note_edits(obj)
+    about = reference.stored_choice(obj)
     properties.store(obj, measured.measurement)
+    faults.remember(obj, measured)
+    reference.follow(obj, scene, about)
     if isinstance(measured.body, WallBody):
         walls.cache_walls(obj, measured, _unit(scene))
 

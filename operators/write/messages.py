@@ -246,6 +246,14 @@ MESSAGES: dict[str, Message] = {
         "The surface intersects itself and regions count as negative. Set Overlaps to Count as Union, or repair "
         "the mesh."
     ),
+    "self_intersection": _warning(
+        "The surface intersects itself: about {share:percent} of the volume counts twice or as negative. Set Overlaps "
+        "to Count as Union, or repair the mesh."
+    ),
+    "self_intersection_slightly": _note(
+        "The surface intersects itself: about {share:percent} of the volume counts twice or as negative."
+    ),
+    "self_intersection_unchecked": _note("Whether the surface intersects itself was not checked."),
     "negative_inertia": _error(
         "The surface intersects itself or cannot be closed, and regions count as negative. Set Overlaps to Count as "
         "Union, repair the mesh, or set Kind to Shell."
@@ -822,7 +830,7 @@ MESSAGES: dict[str, Message] = {
     "nrrd_data_file_missing": _error("The data file “{file:.80s}” is missing."),
     "nrrd_data_file_outside": _error(
         "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you trust the header, "
-        "use the command line's --allow-outside."
+        "turn on Allow Outside, or use --allow-outside."
     ),
     "file_exceeds_limit": _error(
         "“{file}” exceeds a limit: {count} {name} of at most {limit}. If you trust the file, set the environment "
@@ -1206,6 +1214,29 @@ MESSAGES: dict[str, Message] = {
     "scene_never_saved": _error("The scene was never saved; --write has no file. Save it first."),
     "out_of_memory": _error("Too little memory. Measure it alone, reduce it, or use a larger machine."),
     "interrupted": _error("interrupted; the result was not written"),
+    "interrupted_resumable": _error(
+        "interrupted after {done} of {total} files; the result was not written. Run the same with --resume to go on"
+    ),
+    "file_crashed": _error(
+        "Blender crashed on the file ({how}), {count} times. Open it in Blender, save it again, or leave it out.",
+    ),
+    "file_timed_out": _error(
+        "The file took longer than {seconds:g} s. Use a longer --timeout, or open it in Blender to see why."
+    ),
+    "file_took_memory": _error(
+        "The file took more than {megabytes:.0f} MB of memory. Use a larger --memory-mb, fewer --jobs, or reduce it."
+    ),
+    "file_version_unsupported": _error(
+        "This Blender ({blender}) cannot read the file, which was saved by Blender {version}. Use a Blender that can."
+    ),
+    "file_newer_version": _warning(
+        "The file was saved by a newer Blender ({version}) than this one ({blender}), which may have lost some of it. "
+        "Use that Blender."
+    ),
+    "progress_files": _note("{done} of {total} files, {rate:.3g} per second, {left} left, {failed} not ok"),
+    "progress_started": _note("{done} of {total} files"),
+    "progress_done": _note("{count} file in {seconds:.1f} s: {counts}", "{count} files in {seconds:.1f} s: {counts}"),
+    "children_failed": _error("no process that measures can be started: {reason}"),
     "scripts_allowed": _warning(
         "Blender was allowed to run the scripts of the file, which may have changed it: {names}. Start Blender with "
         "-Y, or name the file after “measure”."
@@ -1253,7 +1284,26 @@ MESSAGES: dict[str, Message] = {
     "usage_fourier_one_object": _error("argument --fourier: takes one object of one FILE"),
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
+    "usage_range": _error("{text!r} is not A:B, two whole numbers with A no larger than B"),
+    "usage_needs_supervisor": _error("argument --{option}: applies to FILEs that are measured by other processes"),
+    "usage_resume_output": _error("argument --resume: needs the --output of the run to go on with"),
+    "usage_no_blender": _error("No module named 'bpy' is here. Use --blender PATH, or install it"),
+    "usage_busy": _error("argument --output: another run is writing {path}. Wait for its end, or use another name"),
+    "usage_old_foreign": _error(
+        "argument --output: {path} is in the way of the older result, and is none itself. Move it, or use --force"
+    ),
+    "folder_without_files": _error("No file that can be measured is in the folder {folder}. Name files"),
+    "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
+    "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ References
+    "axis_points_coincide": _error("The two points of the axis are too near to each other. Move one of them."),
+    "axis_needs_two_points": _error("{count} points are selected. Select two vertices, or two objects."),
+    "reference_object_missing": _error("No object is chosen as the reference. Choose one in Object."),
+    "reference_stored": _note(
+        "Stored the inertia of {count} object about the reference",
+        "Stored the inertia of {count} objects about the reference",
+    ),
     # ------------------------------------------------------------------ Given parts and assemblies
     "center_given": _note("The center of mass is given."),
     "inertia_given": _note("The inertia is given."),
@@ -1389,6 +1439,8 @@ MESSAGES: dict[str, Message] = {
     ),
     "already_in_place": _note("already in place"),
     "orientation_created": _note("Created the transform orientation “{name}”"),
+    "node_group_added": _note("Added the node group “{group}”"),
+    "node_marker_added": _note("Added the node group “{group}” and the marker “{object}”"),
     "no_reversed_faces": _note("no faces were measured as reversed"),
     "faces_reversed": _note("Reversed {count} face", "Reversed {count} faces"),
     "material_set": _note("Set {count} object to {material}", "Set {count} objects to {material}"),
@@ -1472,7 +1524,7 @@ MESSAGES: dict[str, Message] = {
     "panel_wall_folds": _warning("Folds over from {length:length}"),
     "panel_density_mean": _note("Mean density, from {cause}"),
     "panel_no_material_slots": _note("No material slots"),
-    "panel_unit_question": _note("{length:length} long and {tonnes:,.0f} t: is a unit of this scene a millimeter?"),
+    "panel_unit_question": _note("{length} long and {mass}: is a unit of this scene a millimeter?"),
     "panel_live": _note("Live ({milliseconds:.0f} ms). Press Measure to store"),
     "panel_orders_copied": _note("Orders {first} to {last} are only in the copy."),
     "panel_symmetry_tolerance": _note("The surface matches its images within {share:.2g} of the radius of gyration"),
@@ -1487,6 +1539,21 @@ MESSAGES: dict[str, Message] = {
     "panel_nothing_measured": _note("No selected object is measured"),
     "panel_nothing_to_compare": _note("Nothing to compare with"),
     "panel_material_default": _note("None: the object's density is used"),
+    # ------------------------------------------------------------------ Stability and balance
+    "hull_without_extent": _error("All points are on one line: nothing can stand on it."),
+    "center_outside_hull": _error(
+        "The center of mass is outside the convex hull: no body can have it there. Check the surface and the density."
+    ),
+    "no_stable_pose": _error("There is no pose in which it rests: it rolls on."),
+    "hull_simplified": _note(
+        "“{object}” is finely divided: its convex hull is taken with {corners} corners, to {share:percent} of its size"
+    ),
+    "stability_computed": _note("{count} of {total} object stands", "{count} of {total} objects stand"),
+    "objects_tip": _warning("{names} tips over", "{names} tip over"),
+    "laid_on_ground": _note("Laid {count} object on the ground", "Laid {count} objects on the ground"),
+    "already_on_ground": _note("already on the ground"),
+    "panel_stability_unknown": _note("Stability has not been computed."),
+    "panel_stability_stale": _note("The geometry has changed. Check again."),
     # ------------------------------------------------------------------ Robots: what a format cannot say
     "robot_links_left_out": _warning(
         "{count} object without mass is no link: {links}.", "{count} objects without mass are no links: {links}."
@@ -1561,7 +1628,10 @@ MESSAGES: dict[str, Message] = {
     "mesh_damaged": _warning("A mesh cannot be read: {name} ({error})."),
     "mesh_too_large": _warning("A mesh is too large: {name}."),
     "mesh_empty": _warning("A mesh has no triangles: {name}."),
-    "audit_done": _note("{links} links: {errors} errors, {warnings} warnings."),
+    "audit_done": _note("{links} links: {errors} errors, {warnings} warnings, {notes} notes"),
+    "usage_repair_folder": _error("--repair: {path} is no folder"),
+    "usage_repair_same": _error("--repair: {path} is the folder of a file that is read. Choose another one"),
+    "audit_copies_alike": _error("Two files have one name: {name}. Audit them one at a time, or choose other folders."),
     "audit_not_written": _error("The file cannot be written: {error}."),
     "audit_copy_not_replaced": _error("{path} exists and is no copy of ours. Choose another folder."),
     # ------------------------------------------------------------------ Audit: what no body can have
@@ -1573,8 +1643,8 @@ MESSAGES: dict[str, Message] = {
         "Impossible: the largest principal moment exceeds the sum of the others by {excess:percent}."
     ),
     "inertial_triangle_slightly": _warning(
-        "The largest principal moment exceeds the sum of the others by {excess:percent}, as rounding does. Some readers "
-        "refuse it; state more digits."
+        "The largest principal moment exceeds the sum of the others by {excess:percent}, as rounding does. Some "
+        "readers refuse it; state more digits."
     ),
     "inertial_center_outside": _error("Impossible: the center of mass is {distance:length} outside of the geometry."),
     "inertial_spread_outside": _error(
@@ -1593,7 +1663,8 @@ MESSAGES: dict[str, Message] = {
     "audit_inertia_unit": _warning("Multiply the inertia by {factor:g}: it then agrees with the geometry."),
     "audit_center_unit": _warning("Multiply the center of mass by {factor:g}: it then agrees with the geometry."),
     "audit_length_unit": _warning(
-        "Multiply the lengths of the inertial by {factor:g}, its inertia by the square: it then agrees with the geometry."
+        "Multiply the lengths of the inertial by {factor:g}, its inertia by the square: it then agrees with the "
+        "geometry."
     ),
     "audit_mesh_unit": _warning("Scale the mesh by {factor:g}: the inertial then agrees with it."),
     "audit_inertia_of_unit_mass": _warning("The inertia is that of 1 kg. Multiply it by the mass, {factor:.6g}."),

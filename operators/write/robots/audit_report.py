@@ -4,9 +4,7 @@
 
 from __future__ import annotations
 
-import csv
 import html
-import io
 import json
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -15,7 +13,7 @@ import numpy as np
 
 from ....core.robots.stated import Description, StatedInertial, StatedLink
 from ....core.verdict.finding import Finding, Severity
-from ..documents import spreadsheet_cell
+from ..documents import table
 from ..messages import sentence, severity
 from ..record import plain
 
@@ -94,12 +92,7 @@ def _rows(documents: Iterable[dict[str, Any]]) -> Iterable[list[Any]]:
 
 def to_csv(documents: Sequence[dict[str, Any]]) -> str:
     """One row for each finding, and one for each link without any."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for row in _rows(documents):
-        writer.writerow([spreadsheet_cell(value) for value in row])
-    return text.getvalue()
+    return "".join(table(COLUMNS, (dict(zip(COLUMNS, row)) for row in _rows(documents))))
 
 
 def to_html(documents: Sequence[dict[str, Any]]) -> str:

@@ -505,7 +505,7 @@ def test_a_scenes_default_material_is_the_density_of_objects_without_one_here_an
     assert "density_default_kept" not in obj["body_findings"]
     assert obj.body_moments.density_kg_m3 == 1240.0 and not obj.body_moments.is_property_set("density")
     scene.body_moments.default_material, scene.body_moments.default_density = "CUSTOM", 1300.5
-    assert staleness.stale_reason(obj, scene) == "stale_settings"
+    assert obj["body_density"] == 1300.5 and staleness.stale_reason(obj, scene) is None
     bpy.ops.object.body_moments_measure()
     assert obj["body_density"] == 1300.5
     obj.body_moments.density = 5.0

@@ -143,7 +143,7 @@ def test_the_unit_is_asked_for_once_a_scene_and_set_at_a_click():
     ask = "scene.body_moments_set_millimeters"
     assert ask not in buttons()
     bpy.ops.object.body_moments_measure()
-    assert ask in buttons() and "60 m long and 267,840 t" in " ".join(labels(drawn()))
+    assert ask in buttons() and "60 m long and 268\u2009000 t" in " ".join(labels(drawn()))
     assert bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"}
     assert scene.unit_settings.length_unit == "MILLIMETERS" and close(scene.unit_settings.scale_length, 1e-3, rel=1e-6)
     assert close(obj["body_mass"], 0.26784, rel=1e-6) and ask not in buttons()
