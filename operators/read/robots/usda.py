@@ -167,6 +167,13 @@ def read(data: bytes) -> Description:
         raise FileError("usda_invalid", line=1) from error
     if not text.startswith("#usda"):
         raise FileError("usda_invalid", line=1)
+    try:
+        return _description(text, data)
+    except (IndexError, KeyError, ValueError, RecursionError) as error:
+        raise FileError("usda_invalid", line=text.count("\n") + 1) from error
+
+
+def _description(text: str, data: bytes) -> Description:
     parser = _Parser(text)
     metadata = ""
     if parser.peek() == "(":
