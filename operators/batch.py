@@ -135,7 +135,18 @@ def _audit(argv: list[str], channel: int, _file_needed: bool) -> int:
     return SOME_FAILED if faults or not is_written else ALL_MEASURED
 
 
-_COMMANDS: dict[str, Callable[[list[str], int, bool], int]] = {"similar": _similar, "audit": _audit, "child": _serve}
+def _gather(argv: list[str], channel: int, file_needed: bool) -> int:
+    """Prepare and gather the results of many files."""
+    from .command import gather
+
+    return gather.run(argv, channel, file_needed)
+
+
+_GATHER = ("manifest", "merge", "to-csv", "summary", "compare", "report")
+_COMMANDS: dict[str, Callable[[list[str], int, bool], int]] = {
+    **{"similar": _similar, "audit": _audit, "child": _serve},
+    **dict.fromkeys(_GATHER, _gather),
+}
 
 
 def _load_settings() -> None:

@@ -21,7 +21,8 @@ from ..supervisor import journal, listing
 from ..write.documents import SCHEMA, to_csv, to_json_lines
 from ..write.html.report import to_html
 from ..write.terminal import tell, visible
-from . import output, results
+from . import compare, output, results
+from .option_types import positive
 from .parser import Parser
 
 _LISTED = 10  # files in each part of a summary
@@ -84,7 +85,7 @@ def _documents(path: Path) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
                 entry = entry["document"]
             if entry["schema"] != SCHEMA:
                 raise ValueError(path)
-            yield {"status": "error" if entry["errors"] else "ok", **entry}, about
+            yield entry if "status" in entry else {**entry, "status": "error" if entry["errors"] else "ok"}, about
 
 
 def run(argv: list[str], channel: int, _file_needed: bool) -> int:
@@ -130,6 +131,11 @@ def _parse(argv: list[str]) -> argparse.Namespace:
     parser.add_argument("paths", nargs="+", metavar=names)
     parser.add_argument("--output", type=Path, metavar="PATH", help="(standard output)")
     parser.add_argument("--force", action="store_true", help="replace any file at --output (only results)")
+    if command == "compare":
+        parser.add_argument("--tolerance", type=positive, default=0.0, help="relative to each number's own size (0)")
+        parser.add_argument(
+            "--align", action="store_true", help="compare in each body's own pose: it may have moved (needs --pose)"
+        )
     return parser.parse_args(argv)
 
 
@@ -208,6 +214,14 @@ def _bound(entry: dict[str, Any]) -> float | None:
     return sum(known) if known else None
 
 
+def _compare(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
+    if len(options.paths) != 2:
+        raise QueryError("compare_two")
+    first, second = (Results((Path(path),)) for path in options.paths)
+    lines, failed = compare.differences(first, second, options.tolerance, options.align)
+    return (visible(line) + "\n" for line in lines), failed
+
+
 def _counted(counts: Counter[str]) -> str:
     return ", ".join("{} {}".format(count, name) for name, count in counts.most_common()) or "-"
 
@@ -217,6 +231,7 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace], tuple[Iterable[str], bool]]]
     "merge": _merge,
     "to-csv": _to_csv,
     "summary": _summary,
+    "compare": _compare,
     "report": _report,
 }
 _DESCRIPTIONS = {
@@ -224,6 +239,7 @@ _DESCRIPTIONS = {
     "merge": "Joins results, of ranges of a list for example: one document a file, as JSON lines.",
     "to-csv": "Results as a table.",
     "summary": "What became of many files: counts by status and method, findings, the slowest, the widest bounds.",
+    "compare": "Every number of two results, whose files and objects have the same names: they pass where their bounds "
+    "or the tolerance allow the difference.",
     "report": "Results as one HTML file that opens without a network: a table to sort and filter, and pictures.",
 }
-NAMES = tuple(_COMMANDS)

@@ -83,4 +83,5 @@ def read(path: Path) -> list[str]:
         raise QueryError("manifest_unreadable", file=str(path), error=error.strerror or str(error)) from error
     except (ValueError, KeyError, TypeError, IndexError, RecursionError) as error:
         raise QueryError("manifest_malformed", file=str(path)) from error
-    return [os.path.join(path.parent, name) for name in names]
+    folder = "" if path.parent == Path() else path.parent
+    return [os.path.join(folder, name) for name in names]

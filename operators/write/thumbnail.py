@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 SIZE = 128  # pixels
-_SAMPLES = 60_000  # points of the surface that are drawn
+_SAMPLES = 200_000  # points of the surface that are drawn
 _MARGIN = 0.1
 _VIEW = np.array([[0.8, -0.6, 0.0], [0.36, 0.48, 0.8], [0.48, 0.64, -0.6]]).T  # columns: right, up, away from the eye
 _AXES = ((214, 64, 64), (72, 160, 72), (72, 96, 214))  # red, green, blue: axes 1, 2 and 3
@@ -66,7 +66,7 @@ def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) ->
     triangles = corners[chosen]
     spots = triangles[:, 0] + a * (triangles[:, 1] - triangles[:, 0]) + b * (triangles[:, 2] - triangles[:, 0])
     order = np.argsort(-spots[:, 2])  # the farthest first: the last one put at a pixel stays
-    light = np.abs(normals[chosen] @ (0.3, 0.7, -0.65)) / np.maximum(areas[chosen], 1e-300)
+    light = np.abs(normals[chosen] @ (0.75, 0.75, -0.35)) / np.maximum(areas[chosen], 1e-300)
     colors = np.empty((_SAMPLES, 4), np.uint8)
     colors[:, :3] = _BODY * (0.35 + 0.65 * light[:, None].clip(0.0, 1.0))
     colors[:, 3] = 255

@@ -34,11 +34,12 @@ p{margin:.3rem 0}
 input,select{font:inherit;padding:.2rem .4rem;margin-right:.5rem}
 table{border-collapse:collapse;margin-top:1rem;width:100%}
 th,td{text-align:left;vertical-align:top;padding:.3rem .6rem;border-bottom:1px solid #8884;overflow-wrap:anywhere}
-th{position:sticky;top:0;background:Canvas}
+th{white-space:nowrap;position:sticky;top:0;background:Canvas}
 th button{font:inherit;font-weight:600;border:0;background:none;color:inherit;padding:0;cursor:pointer}
 th[aria-sort=ascending] button::after{content:" \\25b2"}
 th[aria-sort=descending] button::after{content:" \\25bc"}
 td.number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+td{min-width:4rem}
 td img,td svg{width:96px;height:96px;display:block}
 .crashed,.timeout,.memory,.error,.missing,.unsupported_version{color:#c33;font-weight:600}
 .warning{color:#a60}
@@ -99,8 +100,7 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
         yield "<th{}>{}</th>".format(kind, "<button>{}</button>".format(title) if title else "")
     yield "</tr></thead><tbody>\n"
     for document in documents:
-        for row in _rows(document):
-            yield row
+        yield from _rows(document)
     yield "</tbody></table><script>{}</script></body></html>\n".format(_SCRIPT)
 
 
@@ -170,7 +170,7 @@ def _picture(entry: dict[str, Any]) -> str:
         for other in corners
         if one < other and sum(a != b for a, b in zip(one, other)) == 1
     ]
-    lines = ['M{}L{}'.format(corners[one], corners[other]) for one, other in edges]
+    lines = ["M{}L{}".format(corners[one], corners[other]) for one, other in edges]
     shown = '<path d="{}" fill="none" stroke="#888"/>'.format("".join(lines))
     for column, color in zip(columns, ("#d64040", "#48a048", "#4860d6")):
         end = [42.0 * value for value in column]
