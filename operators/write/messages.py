@@ -1296,6 +1296,44 @@ MESSAGES: dict[str, Message] = {
     "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ Rigs
+    "no_active_armature": _error("The active object is not an armature. Select one."),
+    "armature_in_edit_mode": _error("The armature is in Edit Mode. Leave it."),
+    "armature_not_editable": _error("The armature cannot be put into its rest pose. Make it local."),
+    "no_deforming_bones": _error("No bone deforms meshes. Make those that do deforming bones."),
+    "bone_missing": _error("Its parent bone “{bone}” does not exist. Choose another one."),
+    "rig_without_parts": _error(
+        "The armature deforms no mesh that can be measured, and nothing is parented to its bones. Add an Armature "
+        "modifier to the mesh."
+    ),
+    "bone_part_impossible": _error("No body has the moments of the bone's part: {cause} Check weights and normals."),
+    "bone_parts_impossible": _warning(
+        "{count} bone has a part whose moments no body has: {names}. Check weights and normals.",
+        "{count} bones have parts whose moments no body has: {names}. Check weights and normals.",
+    ),
+    "unweighted_vertices": _warning(
+        "{count} of {total} vertices has no weight on a deforming bone; faces with such vertices alone go with the "
+        "nearest bone. Assign weights.",
+        "{count} of {total} vertices have no weight on a deforming bone; faces with such vertices alone go with the "
+        "nearest bone. Assign weights.",
+    ),
+    "rig_open_mesh": _warning(
+        "The mesh cannot be closed; each bone's part is closed at its own cuts. Repair the mesh."
+    ),
+    "rig_wall_thin": _note("The wall counts as a thin sheet: area times thickness."),
+    "rig_mean_density": _warning("The density varies; every bone's part has the mean density of the mesh."),
+    "bones_measured": _note(
+        "{armature}: {mass:.7g} kg in the parts of {count} bone",
+        "{armature}: {mass:.7g} kg in the parts of {count} bones",
+    ),
+    "physics_rig_created": _note(
+        "Created {count} rigid body and {joints} joints", "Created {count} rigid bodies and {joints} joints"
+    ),
+    "physics_rig_too_light": _error(
+        "Rigid bodies weigh {limit:.3g} kg at least, and these parts less: {names}. Scale the character, or set masses."
+    ),
+    "rig_center_added": _note("Added the center of mass of “{armature}”, which follows its pose"),
+    "stale_rig": _warning("Bones, settings or objects changed"),
     # ------------------------------------------------------------------ References
     "axis_points_coincide": _error("The two points of the axis are too near to each other. Move one of them."),
     "axis_needs_two_points": _error("{count} points are selected. Select two vertices, or two objects."),
