@@ -25,6 +25,11 @@ def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
     return np.arange(ends[-1]) - np.repeat(ends - counts, counts)
 
 
+def segment_starts(counts: NDArray) -> NDArray[np.intp]:
+    """0, counts[0], counts[0] + counts[1], …: where segments of these lengths begin."""
+    return np.cumsum(counts) - counts
+
+
 def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:
     """(count or more,) the sum of the weights that have each index: what numpy's types say of `bincount` only without
     weights."""

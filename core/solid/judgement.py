@@ -120,7 +120,7 @@ def judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSoli
         findings += _component_findings(mesh, oriented.comparison, checked.size)
     if self_intersecting:
         findings.append(finding("self_intersecting"))
-    findings += _shape_findings(oriented.is_solid, given.planarity, volume)
+    findings += shape_findings(oriented.is_solid, given.planarity, volume)
     health = _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share)
     return SolidIntegrals(volume, given.area, health, verdict, tuple(findings), oriented)
 
@@ -232,7 +232,7 @@ def _component_findings(mesh: RepairedMesh, comparison: ComponentComparison, siz
     return findings
 
 
-def _shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> list[Finding]:
+def shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> list[Finding]:
     """About a surface without a volume, and about faces whose diagonals make a difference."""
     if not is_solid:
         return [finding("flat_surface")]
