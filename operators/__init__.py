@@ -14,8 +14,9 @@ from types import ModuleType
 PARTS = (
     "write.translations",
     "settings.properties",
-    *("session.handlers", "session.walls", "session.live"),
-    *("actions.setup.presets", "actions.setup.import_scan"),
+    "settings.assembly",
+    *("session.handlers", "session.walls", "session.live", "session.assembly"),
+    *("actions.setup." + name for name in ("presets", "import_scan", "assembly", "assembly_snap", "bill")),
     *(
         "actions.measure." + name
         for name in ("measure_selected", "live", "section", "select_faults", "clear", "copy", "moments", "fourier")

@@ -16,7 +16,15 @@ from ..operators import register_module, unregister_module
 MODULES = (
     "manual",
     *("material_menus", "body"),
-    *("inertia", "density", "apply", "selection", "advanced"),  # sub-panels; their order is `places.ORDER`
+    *(
+        "inertia",
+        "density",
+        "given",
+        "apply",
+        "selection",
+        "assembly",
+        "advanced",
+    ),  # sub-panels; their order is `places.ORDER`
     *("moments", "section", "shape"),  # sub-panels of the advanced one
     *("overlay.popover", "overlay.draw"),
 )

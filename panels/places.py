@@ -11,7 +11,16 @@ from __future__ import annotations
 
 from bpy.types import Panel
 
-ORDER = ("inertia", "density", "apply", "stability", "selection", "advanced")  # of CAD's mass property dialogs
+ORDER = (
+    "inertia",
+    "density",
+    "given",
+    "apply",
+    "stability",
+    "selection",
+    "assembly",
+    "advanced",
+)  # of CAD's mass property dialogs
 ROOT = "body_moments"
 
 

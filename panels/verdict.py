@@ -24,6 +24,8 @@ ICONS = {
     "wire": "CURVE_DATA",
     "capped": "ERROR",
     "open": "CANCEL",
+    "given": "EMPTY_AXIS",
+    "assembly": "OUTLINER_COLLECTION",
 }
 SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # of what was measured, before a verdict
 

@@ -25,6 +25,8 @@ class Verdict(StrEnum):
     UNION = "union"  # overlapping components united first
     SHELL = "shell"  # a sheet or a wall
     WIRE = "wire"  # a curve
+    GIVEN = "given"  # a mass that is known, without geometry
+    ASSEMBLY = "assembly"  # several bodies as one
 
     @property
     def is_closed(self) -> bool:

@@ -20,6 +20,7 @@ from ..read import Reading
 from ..read.volume import VolumeReading
 from ..settings.options import AS_SET, MeasureOptions
 from .body import Body
+from .given import point_measurement, read_point, with_given
 from .kinds import KINDS
 from .measurement import measurement_of
 from .request import Request
@@ -54,11 +55,15 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
     try:
         with ExitStack() as opened:
             request = Request.of(obj, depsgraph, options, opened=opened)
+            point = read_point(request)
+            if point is not None:
+                measurement, body = point_measurement(point, request)
+                return Measured(measurement, point, body)
             for kind in KINDS:
                 reading = kind.read(request) if request.options.kind in kind.MEASURED_AS else None
                 if reading is not None:  # the last one of them reads or refuses
                     break
-            body = kind.body(reading, request)
+            body = with_given(kind.body(reading, request), reading, request)
             return Measured(measurement_of(reading, body, request), reading, body)
     except MeasureError as error:
         error.about(obj.name)

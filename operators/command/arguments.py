@@ -19,13 +19,11 @@ from ...core.density.spline_tables import MAX_ORDER as MAX_SPLINE_ORDER
 from ...core.polyhedron import MAX_ORDER
 from ...core.verdict.finding import MeasureError, finding
 from ..settings.limits import scan_limits
-from ..write.documents import FORMATS, FRAMES
+from ..write.documents import FORMATS, FRAMES, ROBOT_FORMATS
 from . import fourier, inputs, output, results
 from .parser import Parser
 
 DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
-
-_LATER_FORMATS = ("urdf", "sdf", "mjcf", "usd")
 
 _EPILOG = """\
 FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz or .fbx, or an array or
@@ -47,6 +45,12 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     options = parser.parse_intermixed_args(_join_negative_values(argv))
     if file_needed and not options.files:
         parser.error(str(finding("usage_file_needed")))
+    if options.format in ROBOT_FORMATS:
+        if len(options.files) > 1:
+            parser.error(str(finding("robot_one_file", count=len(options.files))))
+        options.frame = "object"  # of the links
+    if options.meshes and (options.output is None or output.is_stdout(options.output)):
+        parser.error(str(finding("usage_meshes_need_output")))
     if options.surface_moments and options.order is None:
         options.order = DEFAULT_ORDER
     try:
@@ -250,6 +254,16 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         metavar="{" + ",".join(FORMATS) + "}",
         help="(json)",
     )
+    add(
+        "--inertial-only",
+        action="store_true",
+        help="urdf, sdf, mjcf, usd: the links with their inertials alone, without geometry, places and joints",
+    )
+    add(
+        "--meshes",
+        action="store_true",
+        help="urdf, sdf, mjcf: write the meshes that the file names, in a folder beside --output",
+    )
     add("--output", type=Path, metavar="PATH", help="(standard output)")
     add(
         "--force",
@@ -309,8 +323,6 @@ def _order(text: str) -> int:
 
 
 def _format(text: str) -> str:
-    if text in _LATER_FORMATS:
-        raise argparse.ArgumentTypeError(str(finding("usage_format_unsupported", text=text)))
     if text not in FORMATS:
         raise argparse.ArgumentTypeError(str(finding("usage_format_unknown", text=text, formats=", ".join(FORMATS))))
     return text

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from ...core.verdict.finding import finding
 from ..write.documents import SCHEMA, to_csv
+from ..write.robots.text import is_ours
 from ..write.spectrum import ARRAYS
 
 _HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
@@ -52,7 +53,12 @@ def _is_result(path: Path, option: str) -> bool:
                 return sorted(arrays.namelist()) == sorted(name + ".npy" for name in ARRAYS)
         with open(path, "rb") as file:
             head = file.read(_HEAD)
-        return _is_table(head) or bool(_DOCUMENT.match(head)) and _are_documents(path.read_text(encoding="utf-8"))
+        return (
+            is_ours(head)
+            or _is_table(head)
+            or bool(_DOCUMENT.match(head))
+            and _are_documents(path.read_text(encoding="utf-8"))
+        )
     except (ValueError, RecursionError, zipfile.BadZipFile):
         return False
 

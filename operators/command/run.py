@@ -40,7 +40,7 @@ from ..write import record
 from ..write.documents import document
 from ..write.properties import store
 from ..write.terminal import tell
-from . import fourier
+from . import fourier, robots
 from .files import BLEND, UNITLESS, file_suffix, open_file
 from .interruption import Progress, check_interruption
 from .references import blocked_scripts, missing_links
@@ -150,7 +150,7 @@ class Run:
         for one in errors:
             where = [text for text in (file, one["name"]) if text]
             tell(*where, one["reason"])
-        return document(
+        made = document(
             objects,
             record.total([one for _, _, one in measured], caveats),
             errors,
@@ -159,6 +159,7 @@ class Run:
             blender=".".join(map(str, bpy.app.version)),
             frame=self.options.frame,
         )
+        return robots.complete(made, measured, self.options)
 
     def _measure_record(
         self,

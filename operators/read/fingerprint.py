@@ -28,12 +28,12 @@ MAX_DIGESTED_FACES = 50_000  # faces: reading and digesting them takes 2 ms
 
 def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
     """The text stored as `body_fingerprint`: version, then the three digests."""
-    return ":".join([VERSION, _digest(geometry), matrix, settings])
+    return ":".join([VERSION, digest(geometry), matrix, settings])
 
 
 def matrix_hash(obj: bpy.types.Object) -> str:
     """A digest of where the object is and how it is turned, scaled and sheared."""
-    return _digest(np.array(obj.matrix_world, np.float32).tobytes())
+    return digest(np.array(obj.matrix_world, np.float32).tobytes())
 
 
 def scale_hash(obj: bpy.types.Object) -> str:
@@ -41,7 +41,7 @@ def scale_hash(obj: bpy.types.Object) -> str:
     linear = np.array(obj.matrix_world, np.float64)[:3, :3]
     products = linear.T @ linear
     largest = np.abs(products).max() or 1.0
-    return _digest((np.round(products / largest, 5) + 0.0).tobytes())
+    return digest((np.round(products / largest, 5) + 0.0).tobytes())
 
 
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
@@ -87,7 +87,7 @@ def effective_hash(
     ]
     if kind == "SHELL" and wall != "THIN":
         used.append(wall)
-    return _digest(repr(used).encode())
+    return digest(repr(used).encode())
 
 
 def shape_digest(obj, depsgraph) -> bytes | None:
@@ -109,12 +109,13 @@ def shape_digest(obj, depsgraph) -> bytes | None:
     if geometry.mesh is None or len(geometry.mesh.polygons) > MAX_DIGESTED_FACES:
         return None
     surface = mesh_surface(geometry.mesh, edges=False)
-    digest = hashlib.blake2b(digest_size=16)
+    shape = hashlib.blake2b(digest_size=16)
     for array in (surface.points, surface.triangles, surface.quads):
-        digest.update(np.ascontiguousarray(array).tobytes())
-        digest.update(repr(array.shape).encode())
-    return digest.digest()
+        shape.update(np.ascontiguousarray(array).tobytes())
+        shape.update(repr(array.shape).encode())
+    return shape.digest()
 
 
-def _digest(data: bytes) -> str:
+def digest(data: bytes) -> str:
+    """A short text that differs for different data."""
     return hashlib.blake2s(data, digest_size=6).hexdigest()

@@ -31,8 +31,13 @@ def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Findin
 
 def boolean_operands(scene: Scene) -> dict[Object, Object]:
     """What the Boolean modifiers of the scene's objects work with, each with the first of these by name."""
+    return operands_of(scene.objects)
+
+
+def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:
+    """What the Boolean modifiers of some objects work with, each with the first of these by name."""
     operands: dict[Object, Object] = {}
-    for user in sorted(scene.objects, key=lambda obj: obj.name):
+    for user in sorted(objects, key=lambda obj: obj.name):
         for operand in _operands(user):
             operands.setdefault(operand, user)
     return operands
@@ -43,10 +48,7 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
     if len(objects) < 2:
         return []
     objects = sorted(objects, key=lambda obj: obj.name)
-    operands: dict[Object, Object] = {}
-    for user in objects:
-        for operand in _operands(user):
-            operands.setdefault(operand, user)
+    operands = operands_of(objects)
     cutters = [[obj.name, operands[obj].name] for obj in objects if obj in operands]
     rendered = set(_rendered(view_layer.layer_collection))
     unseen = [

@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from itertools import islice
 
 from ...core.verdict.finding import Finding, ReadError, finding
+from ..settings.given import is_point_mass
 
 GEOMETRY_TYPES = {
     "MESH",
@@ -35,6 +36,8 @@ def measurable(obj) -> bool:
     promises nothing more."""
     if obj.instance_type == "COLLECTION":
         return obj.instance_collection is not None
+    if obj.type == "EMPTY":
+        return is_point_mass(obj)
     if obj.type == "CURVE":
         # As a wire it needs none, and as a shell what closed curves bound is one.
         settings = getattr(obj, "body_moments", None)

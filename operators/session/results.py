@@ -20,6 +20,7 @@ from mathutils import Matrix
 from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError
+from ...core.verdict.method import Method, Verdict
 from ..bodies.measure_object import Measured
 from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
@@ -43,6 +44,7 @@ class Total:
     findings: tuple[Finding, ...]
 
 
+ASSEMBLY = Method(Verdict.ASSEMBLY)
 _failures: SessionCache[tuple[Finding, str]] = SessionCache()  # why, and the digest of the settings of then
 _totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last one, after what was computed for it
 
@@ -109,7 +111,10 @@ def total(context: Context) -> Total:
 def _sum(context: Context) -> Total:
     scene = context.scene
     stored, counted, missing, stale = [], [], [], []
+    selected = set(context.view_layer.objects.selected)
     for obj in context.view_layer.objects.selected:
+        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(obj.children_recursive):
+            continue  # what it holds counts by itself
         numbers = properties.numbers(obj)
         if numbers is None:
             missing.append(obj.name)

@@ -20,7 +20,7 @@ comparing what they show now. Of what cannot be compared, every update is an edi
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import bpy
 from bpy.types import Context, Depsgraph, Object, Scene
@@ -35,6 +35,8 @@ _edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an obje
 _settings: SessionCache[str] = SessionCache()  # digest of the settings at the last update
 _changes: SessionCache[int] = SessionCache()  # how often the geometry changed, of objects for which this is asked
 _shapes: dict[str, bytes] = {}  # mark → digest of what was shown when it was stored: copies of an object share both
+# of what is no object's own body, by method: what compares its results with an object
+reasons_by_method: dict[str, Callable[[Object], str | None]] = {}
 _undo_pending = False  # whether the next update is that of undo or redo
 
 
@@ -156,6 +158,9 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
     mark = marks.parse(marks.of_results(obj))
     if mark is None or mark.version != VERSION:
         return "stale_fingerprint" if "body_mass" in obj else None
+    reason_of = reasons_by_method.get(str(obj.get("body_method", "")))
+    if reason_of is not None:
+        return reason_of(obj)
     if mark.settings != settings_hash(obj, scene):
         return "stale_settings"
     if _has_new_geometry(obj, mark):

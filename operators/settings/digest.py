@@ -9,6 +9,7 @@ from collections.abc import Iterable
 import bpy
 
 from .density import material_density, object_density
+from .given import GivenPart
 from .grid import GridOptions
 
 
@@ -25,9 +26,12 @@ def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Sce
     scene: whose default density counts where the object has none.
     """
     settings = obj.body_moments
+    given = GivenPart.of(settings, 1.0).key if settings.mass_from == "MASS" else ""
     if obj.type == "VOLUME":
-        return grid_key(obj)
-    if settings.kind == "WIRE" or settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
+        return grid_key(obj) + given
+    if settings.mass_from == "MASS":
+        return given
+    if settings.kind == "WIRE" or settings.density_from == "VALUE":
         return ""
     if settings.density_from == "VOLUME":
         source = settings.density_volume

@@ -18,6 +18,8 @@ from ...core.density.transfer_function import CT_DENSITIES
 from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import MAX_ORDER
 from .density import object_density
+from .given import GIVEN_PROPERTIES, is_point_mass
+from .given_properties import GivenPartProperties
 from .hooks import wall_changed
 from .overlay import BodyMomentsOverlaySettings
 from .preferences import CLASSES as PREFERENCES
@@ -29,6 +31,7 @@ COPIED_PROPERTIES = (
     *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
     *("density_from", "density_polynomial", "density_frame", "density_attribute"),
     *("density_volume", "grid", "grid_as", "values_from", "value_density", "transfer_table", "spline_order"),
+    *GIVEN_PROPERTIES,
 )
 
 
@@ -59,7 +62,7 @@ def _shown_density(settings: PropertyGroup) -> float:
     return settings.density
 
 
-class BodyMomentsObjectSettings(PropertyGroup):
+class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
     """What one object is made of."""
 
     kind: EnumProperty(
@@ -344,11 +347,16 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)
-        different = getattr(target, name) != value
+        different = _comparable(getattr(target, name)) != _comparable(value)
         if different or source.is_property_set(name) and not target.is_property_set(name):
             setattr(target, name, value)
         changed = changed or different
     return changed
+
+
+def _comparable(value):
+    """The value; of an array its numbers."""
+    return value[:] if hasattr(value, "foreach_get") else value
 
 
 def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
@@ -356,7 +364,7 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
     for name in ("kind", "overlap"):
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name).upper())
-    if options.density is not None:
+    if options.density is not None and not is_point_mass(settings.id_data):
         settings.mass_from, settings.density_from = "DENSITY", "VALUE"
         setattr(settings, "linear_density" if settings.kind == "WIRE" else "density", options.density)
         if settings.id_data.type == "VOLUME":

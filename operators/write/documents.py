@@ -17,6 +17,7 @@ from typing import Any
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
+ROBOT_FORMATS = ("urdf", "sdf", "mjcf", "usd")  # `operators/write/robots/formats.py` has what writes them
 STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
 
 # The inertia tensor's six entries, in the order in which they are stored on an object.
@@ -94,8 +95,14 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> str:
             [*_COLUMNS, *(name for row in records for name in row if name not in _LAST_COLUMNS), *_LAST_COLUMNS]
         )
     )
-    rows = ([_cell(row.get(name, "")) for name in header] for row in records)
-    return "".join(map(_line, (header, *rows)))
+    return table(header, records)
+
+
+def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> str:
+    """CSV with these columns: a row for each mapping, whose missing entries stay empty. Text is written as `to_csv`
+    says."""
+    cells = ([_cell(row.get(name, "")) for name in header] for row in rows)
+    return "".join(map(_line, (header, *cells)))
 
 
 _COLUMNS = (
@@ -166,4 +173,9 @@ def _cell(value: Any) -> Any:
     return value
 
 
-FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv}
+def to_robot(documents: Iterable[dict[str, Any]]) -> str:
+    """What the process that measured has written of one file in a format of robots."""
+    return "".join(file_document.get("robot", "") for file_document in documents)
+
+
+FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv, **dict.fromkeys(ROBOT_FORMATS, to_robot)}

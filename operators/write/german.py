@@ -32,6 +32,14 @@ TEXTS = {
     "The mass is along the curve": "Die Masse liegt entlang der Kurve",
     "Warnings ({:d})": "Warnungen ({:d})",
     "Notes ({:d})": "Hinweise ({:d})",
+    "Given": "Vorgegeben",
+    "The mass is given; there is no geometry": "Die Masse ist vorgegeben; es gibt keine Geometrie",
+    "Assembly": "Baugruppe",
+    "The members as one body": "Die Teile als ein Körper",
+    "Measure Assembly": "Baugruppe messen",
+    "Members": "Teile",
+    "Given Center": "Vorgegebener Mittelpunkt",
+    "Given Inertia": "Vorgegebene Trägheit",
     # settings
     "Kind": "Art",
     "Solid": "Massiv",
@@ -205,6 +213,21 @@ MESSAGES = {
     "zero_density": ("Die Dichte ist null. Dichte setzen.",),
     "axes_all_free": ("Alle Hauptträgheitsmomente sind gleich; die Achsen des Objekts gelten.",),
     "linked_results": ("Aus einer anderen Datei verknüpft. Lokal machen, um Ergebnisse zu speichern.",),
+    "assembly_without_members": (
+        "Nichts in der Baugruppe hat eine Masse. Messbare Objekte hinzufügen oder ihre Masse vorgeben.",
+    ),
+    "members_not_measured": (
+        "{count} Teil ist nicht messbar und fehlt in der Summe: {names}. Einzeln messen, um den Grund zu sehen.",
+        "{count} Teile sind nicht messbar und fehlen in der Summe: {names}. Einzeln messen, um den Grund zu sehen.",
+    ),
+    "members_excluded": (
+        "{count} Teil ist ausgeschlossen und fehlt in der Summe: {names}. Im Outliner einschalten.",
+        "{count} Teile sind ausgeschlossen und fehlen in der Summe: {names}. Im Outliner einschalten.",
+    ),
+    "members_density_unset": (
+        "{count} Teil hat weder Dichte noch Masse und zählt mit der Vorgabe: {names}. Dichte setzen.",
+        "{count} Teile haben weder Dichte noch Masse und zählen mit der Vorgabe: {names}. Dichte setzen.",
+    ),
     "stale_settings": ("Einstellungen geändert",),
     "stale_geometry": ("Geometrie geändert",),
     "stale_transform": ("Transformation geändert",),

@@ -638,6 +638,7 @@ MESSAGES: dict[str, Message] = {
     # where a density comes from (the panel, `density_from` of records, body_density_from)
     "density_from_value": _note("one value"),
     "density_from_mass": _note("given mass"),
+    "density_from_members": _note("members"),
     "density_from_samples": _note("samples"),
     "density_from_grid": _note("grid “{grid}”"),
     "density_from_grid_of": _note("grid “{grid}” of “{object}”"),
@@ -1239,7 +1240,7 @@ MESSAGES: dict[str, Message] = {
     "usage_spline_order": _error("{text!r} is not an order from 1 to {limit}"),
     "usage_order": _error("{text!r} is not an order from 0 to {limit}"),
     "usage_order_too_high": _error("{text!r} is above the highest order, {limit}"),
-    "usage_format_unsupported": _error("{text} is not supported"),
+    "usage_meshes_need_output": _error("--meshes needs --output, beside which they are written"),
     "usage_format_unknown": _error("{text!r} is not one of {formats}"),
     "usage_needs_fourier": _error("argument --{option}: needs --fourier OUT.npz"),
     "usage_fourier_points": _error("argument --fourier: needs either --q Q.npy, or --grid N and --qmax Q"),
@@ -1248,7 +1249,79 @@ MESSAGES: dict[str, Message] = {
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ Given parts and assemblies
+    "center_given": _note("The center of mass is given."),
+    "inertia_given": _note("The inertia is given."),
+    "given_inertia_impossible": _error(
+        "No body has the given inertia: its principal moments are {moments}, and none may be negative or exceed the "
+        "sum of the other two. Check signs and units."
+    ),
+    "given_center_outside": _warning("The given center of mass is outside the object. Check Center of Mass."),
+    "given_center_missing": _warning(
+        "The given mass is at the world origin, for no member has a mass. Turn on Given Center."
+    ),
+    "assembly_mass_given": _note("The mass of the assembly is given: {mass:.7g} kg."),
+    "assembly_without_members": _error(
+        "Nothing in the assembly has a mass. Add objects that can be measured, or set its mass."
+    ),
+    "member_counted_before": _note("Counted already, in “{assembly}”."),
+    "members_not_measured": _warning(
+        "{count} member cannot be measured and is not in the total: {names}. Measure it alone to see why.",
+        "{count} members cannot be measured and are not in the total: {names}. Measure them alone to see why.",
+    ),
+    "members_counted_before": _note(
+        "{count} member is in the assembly more than once and counts once: {names}.",
+        "{count} members are in the assembly more than once and count once: {names}.",
+    ),
+    "members_left_out": _note(
+        "{count} member is not rendered, or only an operand of Boolean modifiers, and is not in the total: {names}.",
+        "{count} members are not rendered, or only operands of Boolean modifiers, and are not in the total: {names}.",
+    ),
+    "members_excluded": _warning(
+        "{count} member is excluded or disabled and is not in the total: {names}. Enable it in the Outliner.",
+        "{count} members are excluded or disabled and are not in the total: {names}. Enable them in the Outliner.",
+    ),
+    "members_hidden": _note(
+        "{count} member is hidden and counts: {names}.", "{count} members are hidden and count: {names}."
+    ),
+    "members_density_unset": _warning(
+        "{count} member has no density or mass set and counts with the default: {names}. Set Density.",
+        "{count} members have no density or mass set and count with the default: {names}. Set Density.",
+    ),
+    "members_mass_given": _note(
+        "{count} assembly in it has a given mass: {names}.", "{count} assemblies in it have a given mass: {names}."
+    ),
+    "members_not_stored": _note(
+        "{count} member cannot hold results: {names}.", "{count} members cannot hold results: {names}."
+    ),
+    "instance_without_scale": _error("The instance is scaled to zero along an axis. Set its scale."),
+    "instance_stretches_sheets": _error(
+        "The instance stretches shells or wires unevenly, and their mass has no one factor. Give it a uniform scale."
+    ),
+    "no_active_collection": _error("No collection is active. Click one in the Outliner."),
+    "no_active_assembly_empty": _error("The active object is not an empty with children. Select one."),
+    "assembly_measured": _note(
+        "{assembly}: {mass:.7g} kg from {count} object", "{assembly}: {mass:.7g} kg from {count} objects"
+    ),
+    "assembly_has_open_members": _error(
+        "A member is open, and its center depends on a reference point. Close its mesh, or set Kind to Shell."
+    ),
+    "cursor_to_assembly": _note("Moved the 3D cursor to the center of mass of “{assembly}”"),
+    "empty_at_assembly": _note("Placed an empty at the principal frame of “{assembly}”"),
+    "assembly_offset_set": _note("Instances of “{assembly}” are placed by its center of mass"),
+    "assembly_origin_moved": _note("Moved “{assembly}” to the center of mass; its children stay"),
+    "children_would_move": _error(
+        "These would move with it: {names}. Remove what holds them, such as constraints or animation."
+    ),
+    "bill_written": _note(
+        "Wrote the masses of {count} member to “{file}”", "Wrote the masses of {count} members to “{file}”"
+    ),
+    "no_export_file": _error("No file is named. Choose one."),
+    "file_not_written": _error("The file cannot be written: {error}"),
+    "panel_assembly_not_measured": _note("Not measured. Press Measure Assembly"),
     # ------------------------------------------------------------------ Stored results: out of date
+    "stale_member": _warning("A member changed, or was measured anew"),
+    "stale_members": _warning("Members were added, removed or moved, or given masses changed"),
     "stale_fingerprint": _warning("Fingerprint damaged"),
     "stale_settings": _warning("Settings changed"),
     "stale_geometry": _warning("Geometry changed"),
@@ -1426,6 +1499,8 @@ MESSAGES: dict[str, Message] = {
         "SDF knows no limits of a joint about several axes. It moves freely: {joints}.",
         "SDF knows no limits of joints about several axes. {count} move freely: {joints}.",
     ),
+    "robot_meshes_written": _note("{count} mesh written to {folder}.", "{count} meshes written to {folder}."),
+    "robot_meshes_not_written": _error("The meshes cannot be written: {error}."),
     "mjcf_inertia_too_small": _warning(
         "MuJoCo refuses a moving body with a mass or principal moment below {limit:g} kg or kg·m²: {links}, with "
         "{least:.3g}. Set boundmass and boundinertia of the compiler, fix it to its parent, or model in larger units.",
@@ -1450,6 +1525,8 @@ METHODS = {
     "wall": ("Wall", "The mass is in a wall of real thickness"),
     "union": ("Union", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits"),
     "wire": ("Wire", "The mass is along the curve"),
+    "given": ("Given", "The mass is given; there is no geometry"),
+    "assembly": ("Assembly", "The members as one body"),
 }
 
 

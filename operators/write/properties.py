@@ -33,13 +33,13 @@ DESCRIPTIONS = {
     "body_density": "Mean density in kg/m³",
     "body_volume": "Volume in m³",
     "body_area": "Surface area in m²",
-    "body_center_of_mass": "Center of mass in the object's frame (location and rotation, unit scale), in m",
-    "body_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the center of mass, along the object's axes, "
+    "body_center_of_mass": "Center of mass in {frame}, in m",
+    "body_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the center of mass, along the axes of {frame}, "
     "in kg·m² (xy = −∫xy dm)",
     "body_inertia_diagonal": "Inertia tensor xx, yy, zz, as in body_inertia, in kg·m²",
     "body_inertia_products": "Inertia tensor xy, xz, yz, as in body_inertia, in kg·m²",
     "body_principal_moments": "Principal moments of inertia, ascending, in kg·m²",
-    "body_principal_axes": "Quaternion w, x, y, z that turns the object's axes into the principal axes",
+    "body_principal_axes": "Quaternion w, x, y, z that turns the axes of {frame} into the principal axes",
     "body_error_bound": "What rounding may have changed: volume, area, center of mass, inertia; "
     "then the same four for what storing coordinates as float32 may have",
     "body_density_from": "Where the density came from",
@@ -51,6 +51,12 @@ DESCRIPTIONS = {
     "body_display_volume": "What the display mesh of a NURBS surface would have given as its volume, in m³",
     "body_fingerprint": "What the numbers were computed from",
 }
+FRAMES = {  # of what results are stored on
+    bpy.types.Object: "the object's frame (location and rotation, unit scale)",
+    bpy.types.Collection: "the world",
+    bpy.types.PoseBone: "the bone's rest frame (head and axes, unit scale)",
+}
+Owner = bpy.types.Object | bpy.types.Collection | bpy.types.PoseBone
 LENGTHS = {
     "body_mass": 0,
     "body_density": 0,
@@ -86,8 +92,9 @@ class StoredProperties:
         return replace(self, body=self.body.in_frame(to_object, origin))
 
 
-def store(obj: bpy.types.Object, measurement: Measurement) -> None:
-    """Write all results on the object, or none. EditRefusedError where the object cannot hold them."""
+def store(obj: Owner, measurement: Measurement) -> None:
+    """Write all results on an object, a collection or a pose bone, or none. EditRefusedError where it cannot hold
+    them."""
     require_storable(obj)
     body = measurement.mass_properties.in_frame(measurement.rotation, measurement.location)
     bound = measurement.error_bound
@@ -127,7 +134,7 @@ def store(obj: bpy.types.Object, measurement: Measurement) -> None:
     retrigger_drivers(obj)
 
 
-def _write(obj: bpy.types.Object, values: dict) -> None:
+def _write(obj: Owner, values: dict) -> None:
     """Makes these, by their keys, the only results of the object."""
     for key in DESCRIPTIONS:
         if key not in values and key in obj:
@@ -135,18 +142,20 @@ def _write(obj: bpy.types.Object, values: dict) -> None:
     for key, value in values.items():
         obj[key] = value
         if not isinstance(value, str):
-            obj.id_properties_ui(key).update(description=DESCRIPTIONS[key], precision=6)
+            description = DESCRIPTIONS[key].format(frame=FRAMES[type(obj)])
+            obj.id_properties_ui(key).update(description=description, precision=6)
 
 
-def require_storable(obj: bpy.types.Object) -> None:
-    """Raise EditRefusedError for an object that cannot hold results."""
-    if not obj.is_editable:
-        raise EditRefusedError("linked_results", subject=obj.name_full)
-    if obj.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
-        raise EditRefusedError("override_results", subject=obj.name_full)
+def require_storable(obj: Owner) -> None:
+    """Raise EditRefusedError for what cannot hold results."""
+    data = obj.id_data
+    if not data.is_editable:
+        raise EditRefusedError("linked_results", subject=data.name_full)
+    if data.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
+        raise EditRefusedError("override_results", subject=data.name_full)
 
 
-def clear(obj: bpy.types.Object) -> bool:
+def clear(obj: Owner) -> bool:
     """Remove all results; whether there were any."""
     present = [key for key in DESCRIPTIONS if key in obj]
     for key in present:
@@ -156,32 +165,35 @@ def clear(obj: bpy.types.Object) -> bool:
     return bool(present)
 
 
-def retrigger_drivers(obj: bpy.types.Object) -> None:
+def retrigger_drivers(obj: Owner) -> None:
     """Makes Blender evaluate the drivers that read what was stored, and nothing else.
 
     Tags do more: TIME evaluates the object's animation, which puts back whatever was changed and not keyed yet; OBJECT,
     what depends on its place, such as the Booleans that it is an operand of. To set a property that is only drawn makes
     Blender copy the object for evaluation, and look at its custom properties then.
     """
-    obj.show_name = obj.show_name
+    if isinstance(obj, bpy.types.Collection):
+        obj.color_tag = obj.color_tag
+    else:
+        obj.id_data.show_name = obj.id_data.show_name
 
 
-def is_stored(obj: bpy.types.Object) -> bool:
+def is_stored(obj: Owner) -> bool:
     """Whether the object carries results."""
     return numbers(obj) is not None
 
 
-def method(obj: bpy.types.Object) -> Method | None:
+def method(obj: Owner) -> Method | None:
     """How the stored numbers came about; None where there are none, or this version does not know their method."""
     return Method.parse(method_text(obj))
 
 
-def method_text(obj: bpy.types.Object) -> str:
+def method_text(obj: Owner) -> str:
     """The method as it is stored, "" where there are no numbers."""
     return str(obj.get("body_method", ""))
 
 
-def findings(obj: bpy.types.Object) -> tuple[Finding, ...]:
+def findings(obj: Owner) -> tuple[Finding, ...]:
     """What was found and decided when the stored numbers were computed; see `findings_in`."""
     return findings_in(obj.get("body_findings"))
 
@@ -230,18 +242,18 @@ def is_estimated(obj: bpy.types.Object) -> bool:
     )
 
 
-def optional(obj: bpy.types.Object, key: str) -> float | None:
+def optional(obj: Owner, key: str) -> float | None:
     """One of OPTIONAL, None where the object does not carry it."""
     value = obj.get(key)
     return value if isinstance(value, float) else None
 
 
-def density_from(obj: bpy.types.Object) -> str:
+def density_from(obj: Owner) -> str:
     """Where the density of the stored numbers came from, "" where it is the same everywhere."""
     return str(obj.get("body_density_from", ""))
 
 
-def numbers(obj: bpy.types.Object) -> tuple[tuple[float, ...], ...] | None:
+def numbers(obj: Owner) -> tuple[tuple[float, ...], ...] | None:
     """The stored numbers as they are, in the order of LENGTHS; None where one is missing or not finite."""
     values = []
     for key, length in LENGTHS.items():

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Records of measured objects become the links of a robot.
 
-A record has its numbers along the object's axes (frame "object") and an entry `link`: where the object stands, what it
-hangs on and how it may move. So everything that has a record can be a link: objects, collections, bones.
+A record has its numbers along the object's axes (frame "object") and an entry `link`, as `operators/read/links.py`
+makes it: where the object stands, what it hangs on and how it may move. So whatever has a record can be a link.
 """
 
 from __future__ import annotations
@@ -15,9 +15,8 @@ from pathlib import PurePath
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ....core.numerics.rotations import quaternion, rotation_matrix
+from ....core.numerics.rotations import rotation_matrix
 from ....core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
 from .text import unique_names
@@ -27,44 +26,8 @@ MESH_FOLDER = "meshes"
 _NOT_IN_FILES = re.compile(r"[^\w.-]")
 
 
-def link_entry(
-    position: Sequence[float],
-    rotation: NDArray,
-    scale: Sequence[float],
-    parents: Sequence[str],
-    free: Sequence[Mapping[str, Any]] = (),
-) -> dict[str, Any]:
-    """Return the entry `link` of a record.
-
-    Parameters
-    ----------
-    position : (3,) sequence
-        Of the link's frame in the world, m.
-    rotation : (3, 3) array
-        Its axes as columns.
-    scale : (3,) sequence
-        What Blender scales the object's own geometry by.
-    parents : sequence of str
-        The names of what it hangs on, the nearest first; the first one that has a record is its parent.
-    free : sequence of mapping
-        How it may move in its parent: "kind", "axis", "lower" and "upper" of each `FreeAxis`, None for no limit.
-
-    Returns
-    -------
-    dict
-    """
-    return {
-        "position": [float(value) for value in position],
-        "rotation": quaternion(np.asarray(rotation, np.float64)).tolist(),
-        "scale": [float(value) for value in scale],
-        "parents": list(parents),
-        **({"free": [dict(axis) for axis in free]} if free else {}),
-    }
-
-
-def robot_of_documents(documents: Iterable[Mapping[str, Any]]) -> tuple[Robot, list[Finding]]:
-    """Return what the records of one file are as a robot, called like the file, and what was left out."""
-    document = next(iter(documents), {"file": None, "objects": []})
+def robot_of_document(document: Mapping[str, Any]) -> tuple[Robot, list[Finding]]:
+    """Return what the records of a file are as a robot, called like the file, and what was left out."""
     name = PurePath(document["file"]).stem if document["file"] else DEFAULT_NAME
     return robot_of_records(name, document["objects"])
 

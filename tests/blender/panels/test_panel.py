@@ -174,7 +174,7 @@ def test_every_kind_of_object_can_be_active():
         }[kind]()
         add(data, kind)
         record = drawn()
-        assert not [entry for entry in record if entry[0] == "prop" and entry[1] in ("density", "mass_from", "overlap")]
+        assert not [entry for entry in record if entry[0] == "prop" and entry[1] in ("density", "overlap")]
         assert [entry for entry in record if entry[0] == "operator" and entry[1] == "object.body_moments_measure"]
 
 

@@ -1,0 +1,199 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The members of an assembly: of a collection with its nested ones, or of an empty with its children.
+
+An object counts once, in the first place where it is met. An instance of a collection is an assembly of its own, whose
+members have their own densities, unless the instancer's own density or mass is set.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import bpy
+import numpy as np
+from bpy.types import Depsgraph, Object
+from numpy.typing import NDArray
+
+from ...core.verdict.finding import Finding, finding
+from ..settings.given import is_point_mass
+from .instances import MAX_DEPTH
+from .reading import float64_matrix
+from .total_caveats import left_out_reasons, operands_of
+from .visibility import hidden_reason, instanced_by_parent, measurable
+
+Root = Object | bpy.types.Collection
+
+
+class MemberKind(StrEnum):
+    """What a member of an assembly is."""
+
+    COLLECTION = "COLLECTION"
+    INSTANCE = "INSTANCE"
+    EMPTY = "EMPTY"
+    OBJECT = "OBJECT"
+    POINT = "POINT"
+
+
+@dataclass(frozen=True, eq=False)
+class Member:
+    """A member of an assembly, or the assembly itself.
+
+    Attributes
+    ----------
+    data : Object or Collection
+        Of an instance, the instancer.
+    kind : MemberKind
+    members : tuple of Member
+        Those of a collection, an instance, or the children of an object.
+    matrix : (4, 4) array, optional
+        Of an instance, from where its collection's members stand to where they are shown, Blender units.
+    left_out : Finding, optional
+        Why it is not counted.
+    """
+
+    data: Root
+    kind: MemberKind
+    members: tuple[Member, ...] = ()
+    matrix: NDArray[np.float64] | None = None
+    left_out: Finding | None = None
+
+    @property
+    def name(self) -> str:
+        """Of the object or collection."""
+        return self.data.name
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether it has a body of its own, beside those of its members."""
+        return self.kind in (MemberKind.OBJECT, MemberKind.POINT) and self.left_out is None
+
+    def walk(self) -> Iterator[Member]:
+        """Yield the member itself and all below it, each before its own members."""
+        yield self
+        for member in self.members:
+            yield from member.walk()
+
+
+def is_assembly(data: Root) -> bool:
+    """Return whether it is a collection, or an empty that stands for its children."""
+    return isinstance(data, bpy.types.Collection) or (
+        data.type == "EMPTY" and data.instance_collection is None and bool(data.children)
+    )
+
+
+def members_of(root: Root, depsgraph: Depsgraph) -> Member:
+    """Return an assembly with all its members, as the scene has them.
+
+    Parameters
+    ----------
+    root : Object or Collection
+        An original collection, or an empty with children.
+    depsgraph : Depsgraph
+        Up to date.
+    """
+    if isinstance(root, bpy.types.Collection):
+        return _Walk(root.all_objects, depsgraph).collection(root)
+    return _Walk((), depsgraph).empty(root)
+
+
+def settings_of(data: Root):
+    """Return the settings of an assembly."""
+    return data.body_moments if isinstance(data, bpy.types.Collection) else data.body_moments_assembly
+
+
+class _Walk:
+    """One look through an assembly: in the scene, or inside an instance, where other objects are shown."""
+
+    def __init__(self, objects: Collection[Object], depsgraph: Depsgraph, inside: bool = False):
+        self.depsgraph = depsgraph
+        self.inside = inside
+        self.operands = operands_of(objects) if inside else {}
+        self.reasons = {} if inside else left_out_reasons(depsgraph.scene, depsgraph.view_layer)
+        self.counted: dict[Object, str] = {}
+        self.of_parent: dict[Object, list[Object]] = {}  # asking an object for its children looks at all there are
+        for obj in bpy.data.objects:
+            if obj.parent is not None:
+                self.of_parent.setdefault(obj.parent, []).append(obj)
+        self.given = [obj for obj in objects if is_assembly(obj) and settings_of(obj).mass_from == "MASS"]
+        self.replaced = {child for obj in self.given for child in obj.children_recursive}
+
+    def collection(self, collection: bpy.types.Collection, depth: int = 0) -> Member:
+        """A collection with its nested ones, before its own objects."""
+        if self.inside and (collection.hide_render or collection.hide_viewport):
+            return Member(collection, MemberKind.COLLECTION, left_out=finding("not_rendered"))
+        members = [self.collection(child, depth) for child in collection.children]
+        for obj in sorted(collection.objects, key=_name):
+            if obj in self.replaced:
+                continue
+            if obj in self.given and obj not in self.counted:
+                self.counted[obj] = collection.name
+                members.append(self.empty(obj, depth))
+            else:
+                members += self.object(obj, collection.name, depth)
+        return Member(collection, MemberKind.COLLECTION, tuple(members))
+
+    def empty(self, obj: Object, depth: int = 0) -> Member:
+        """An empty with what its children show, and the point mass that it may be itself."""
+        own = self.object(obj, obj.name, depth) if is_point_mass(obj) else []
+        return Member(obj, MemberKind.EMPTY, (*own, *self.children(obj, depth)))
+
+    def children(self, parent: Object, depth: int) -> list[Member]:
+        """What an object's children show."""
+        members: list[Member] = []
+        for child in sorted(self.of_parent.get(parent, ()), key=_name):
+            if child.type == "EMPTY" and child.instance_collection is None and child in self.of_parent:
+                members.append(self.empty(child, depth))
+                continue
+            of_child, below = self.object(child, parent.name, depth), self.children(child, depth)
+            members += [replace(of_child[0], members=(*of_child[0].members, *below))] if of_child else below
+        return members
+
+    def object(self, obj: Object, place: str, depth: int) -> list[Member]:
+        """The object as a member, none for what is no body. place: in which assembly it is."""
+        if not measurable(obj) or instanced_by_parent(obj):
+            return []
+        kind = MemberKind.POINT if is_point_mass(obj) else MemberKind.OBJECT
+        if obj in self.counted:
+            return [Member(obj, kind, left_out=finding("member_counted_before", assembly=self.counted[obj]))]
+        self.counted[obj] = place
+        reason = self._left_out(obj)
+        if reason is not None and not (kind == MemberKind.POINT and reason.code == "not_rendered"):
+            return [Member(obj, kind, left_out=reason)]
+        if _shows_collection(obj) and depth < MAX_DEPTH:
+            source = obj.instance_collection
+            offset = np.eye(4)
+            offset[:3, 3] = -np.array(source.instance_offset, np.float64)
+            inside = _Walk(source.all_objects, self.depsgraph, inside=True).collection(source, depth + 1)
+            return [Member(obj, MemberKind.INSTANCE, (inside,), float64_matrix(obj.matrix_world) @ offset)]
+        return [Member(obj, kind)]
+
+    def _left_out(self, obj: Object) -> Finding | None:
+        """Why an object is no part, or why Blender cannot show that it is one."""
+        if self.inside:
+            if obj in self.operands and obj.display_type in {"WIRE", "BOUNDS"}:
+                return finding("boolean_operand")
+            return finding("not_rendered") if obj.hide_render or obj.hide_viewport else None
+        reason = self.reasons.get(obj)
+        if reason is None and obj.hide_viewport:
+            return finding("disabled_in_viewports")
+        if reason is None or reason.code != "not_rendered" or obj.hide_render:
+            return reason
+        return hidden_reason(obj, self.depsgraph) or reason
+
+
+def _shows_collection(obj: Object) -> bool:
+    """Whether an instance of a collection has no density and no mass of its own."""
+    settings = obj.body_moments
+    return (
+        obj.type == "EMPTY"
+        and obj.instance_collection is not None
+        and (settings.mass_from, settings.density_from, settings.kind) == ("DENSITY", "VALUE", "SOLID")
+        and not settings.is_property_set("density")
+    )
+
+
+def _name(obj: Object) -> str:
+    return obj.name

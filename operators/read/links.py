@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What makes a measured object a link of a robot: where it stands, and what it hangs on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import bpy
+
+from ...core.measurement import Measurement
+from ...core.mesh.surface import Surface
+from ...core.numerics.rotations import quaternion
+from ...core.verdict.finding import MeasureError
+from .objects import read_object
+
+
+def link_entry(
+    obj: bpy.types.Object,
+    measurement: Measurement,
+    labels: Mapping[bpy.types.Object, str],
+    free: Sequence[Mapping[str, Any]] = (),
+) -> dict[str, Any]:
+    """Return the entry `link` of an object's record.
+
+    Parameters
+    ----------
+    obj : Object
+    measurement : Measurement
+        Its own; the link's frame is the object's.
+    labels : mapping of Object to str
+        The names of the records of all that may be links.
+    free : sequence of mapping
+        How it may move in its parent: "kind", "axis" (its own), "lower" and "upper" of each degree of freedom, None for
+        no limit.
+
+    Returns
+    -------
+    dict
+        "position" (m) and "rotation" (w, x, y, z) in the world; "scale" of the object's own geometry; "parents", the
+        nearest first; "free" where it may move.
+    """
+    parents, above = [], obj.parent
+    while above is not None:
+        parents += [labels[above]] if above in labels else []
+        above = above.parent
+    return {
+        "position": measurement.location.tolist(),
+        "rotation": quaternion(measurement.rotation).tolist(),
+        "scale": list(obj.matrix_world.to_scale()),
+        "parents": parents,
+        **({"free": [dict(axis) for axis in free]} if free else {}),
+    }
+
+
+def link_surface(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, measurement: Measurement, unit: float
+) -> Surface | None:
+    """Return what an object shows as triangles in meters, in its own frame; None where it shows no faces.
+
+    Parameters
+    ----------
+    obj : Object
+    depsgraph : Depsgraph
+    measurement : Measurement
+        Its own.
+    unit : float
+        Meters per Blender unit.
+
+    Returns
+    -------
+    Surface or None
+    """
+    try:
+        surface = read_object(obj, depsgraph, edges=False).join()
+    except MeasureError:  # such as a grid of densities
+        return None
+    to_object = measurement.rotation.T
+    return surface.transform(unit * to_object, -to_object @ measurement.location)

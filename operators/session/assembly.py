@@ -1,0 +1,157 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is stored of an assembly, and whether it still holds.
+
+Results are stored on the assembly, on those that are its members, and on the objects that were measured; the rows of
+its tree are kept with its settings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import bpy
+from bpy.types import Context, Object
+
+from ...core.numerics.float32 import shortest_decimal
+from ...core.verdict import internal_error
+from ...core.verdict.finding import Finding, Severity
+from ...core.verdict.method import Verdict
+from ..bodies.assembly import Assembly, MemberBody, assembly_measurement, members_key, structure_hash
+from ..read.assembly import MemberKind, Root, members_of, settings_of
+from ..read.fingerprint import VERSION, digest, matrix_hash
+from ..write import properties
+from ..write.messages import of_severity
+from . import handlers, marks, results, staleness
+from .cache import SessionCache
+
+_reasons: SessionCache[tuple[int, str | None]] = SessionCache()  # of assemblies, and the generation that is true of
+
+
+def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
+    """Store an assembly's results, and those of all its members.
+
+    Returns
+    -------
+    list of (str, Finding)
+        Names of members that cannot hold theirs, and why.
+
+    Raises
+    ------
+    EditRefusedError
+        Where the assembly itself cannot.
+    """
+    scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    root = assembly.root.member.data
+    properties.store(root, assembly.measurement)
+    done: dict[Root, None] = {root: None}
+    failures: list[tuple[str, Finding]] = []
+    measured: list[Object] = []
+    for part in assembly.root.walk():  # an assembly comes before the point mass that it may be itself
+        data = part.member.data
+        if data in done:
+            continue
+        done[data] = None
+        try:
+            if part.measured is not None:
+                results.store(data, part.measured, scene)
+                results.remember_failure(data, None)
+                measured.append(data)
+            elif part.member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY) and part.masses:
+                properties.store(data, assembly_measurement(part, depsgraph, unit))
+            elif part.refusal is not None and part.member.kind in (MemberKind.OBJECT, MemberKind.POINT):
+                results.remember_failure(data, part.refusal)
+        except Exception as error:
+            failures.append((data.name_full, internal_error.finding_of(error)))
+    _write_rows(assembly)
+    staleness.mark_up_to_date(context, measured)
+    return failures
+
+
+def clear(root: Root) -> bool:
+    """Remove the results of an assembly; whether there were any. EditRefusedError where it cannot be changed."""
+    properties.require_storable(root)
+    settings_of(root).rows.clear()
+    return properties.clear(root)
+
+
+def stale_reason(root: Root) -> str | None:
+    """Compare the stored results of an assembly with what it is in the window's scene now.
+
+    Returns
+    -------
+    str or None
+        The code of why they are out of date; None where they are not, or there are none.
+    """
+    known = _reasons.get(root)
+    if known is None or known[0] != handlers.generation():
+        known = _reasons[root] = (handlers.generation(), _stale_reason(root))
+    return known[1]
+
+
+def _stale_reason(root: Root) -> str | None:
+    mark = marks.parse(str(root.get("body_fingerprint", "")))
+    depsgraph = bpy.context.view_layer.depsgraph
+    if mark is None or mark.version != VERSION or depsgraph is None:
+        return "stale_fingerprint" if "body_mass" in root and mark is None else None
+    member = members_of(root, depsgraph)
+    if structure_hash(member) != mark.settings:
+        return "stale_members"
+    objects = [one.data for one in member.walk() if one.kind == MemberKind.OBJECT and one.is_measured]
+    stored = {obj: marks.of_results(obj) for obj in objects}
+    if any(staleness.stale_reason(obj, depsgraph.scene) for obj in objects):
+        return "stale_member"
+    if digest(members_key(member, stored).encode()) != mark.geometry:
+        return "stale_member"
+    moved = isinstance(root, bpy.types.Object) and matrix_hash(root) != mark.transform
+    return "stale_transform" if moved else None
+
+
+def _write_rows(assembly: Assembly) -> None:
+    """Keep the tree with the assembly's settings."""
+    rows = settings_of(assembly.root.member.data).rows
+    rows.clear()
+    mass = assembly.measurement.mass_properties.mass
+    for depth, part, factor, counted in _tree(assembly.root, 0, 1.0, True):
+        row = rows.add()
+        row.name, row.depth, row.member = part.member.name, depth, part.member.kind.value
+        own = _own_mass(part) * factor
+        row.is_counted = counted and own > 0.0
+        row.mass, row.share = own, own / mass if counted else 0.0
+        row.findings = properties.findings_text(_row_findings(part))
+
+
+def _tree(part: MemberBody, depth: int, factor: float, counted: bool) -> Iterator[tuple[int, MemberBody, float, bool]]:
+    """Each member with how deep it is, the factor by which an instance changes its mass, and whether that counts."""
+    yield depth, part, factor, counted
+    below = sum([_own_mass(member) for member in part.parts], 0.0)
+    if part.member.kind == MemberKind.INSTANCE and below > 0.0:
+        factor *= _own_mass(part) / below
+    given = any(found.code == "assembly_mass_given" for found in part.findings)
+    for member in part.parts:
+        yield from _tree(member, depth + 1, factor, counted and not given)
+
+
+def _own_mass(part: MemberBody) -> float:
+    mass = part.mass
+    return 0.0 if mass is None else mass.total
+
+
+def _row_findings(part: MemberBody) -> list[Finding]:
+    """Why a member is not counted, or what is to be said of it."""
+    if part.member.left_out is not None:
+        return [part.member.left_out]
+    if part.refusal is not None:
+        return [part.refusal]
+    if part.measured is not None:
+        return of_severity(part.measured.measurement.findings, Severity.WARNING, Severity.ERROR)
+    return list(part.findings)
+
+
+def register() -> None:
+    staleness.reasons_by_method[Verdict.ASSEMBLY] = stale_reason
+
+
+def unregister() -> None:
+    del staleness.reasons_by_method[Verdict.ASSEMBLY]

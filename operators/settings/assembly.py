@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings of an assembly, a collection or an empty with its children, and the rows of its tree."""
+
+import bpy
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.types import PropertyGroup
+
+from .given_properties import GivenPartProperties
+
+
+class BodyMomentsAssemblyRow(PropertyGroup):
+    """One member in the tree of an assembly, as it was measured. `name`: of the object or collection."""
+
+    depth: IntProperty(name="Depth", description="How many assemblies the member is in")
+    member: EnumProperty(
+        name="Member",
+        description="What the member is",
+        items=(
+            ("COLLECTION", "Collection", "All members of a collection"),
+            ("INSTANCE", "Instance", "An instance of a collection whose members have densities of their own"),
+            ("EMPTY", "Empty", "All children of an empty"),
+            ("OBJECT", "Object", "An object"),
+            ("POINT", "Point Mass", "An empty with a given mass"),
+        ),
+    )
+    is_counted: BoolProperty(name="Counted", description="Whether the member is part of the total")
+    is_open: BoolProperty(name="Open", description="Show the members of this one", default=True)
+    mass: FloatProperty(name="Mass", description="Mass in kg", precision=6)
+    share: FloatProperty(name="Share", description="Mass by the mass of the assembly")
+    findings: StringProperty(name="Findings", description="Why it is not counted, and what was noticed, as JSON")
+
+
+class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
+    """What an assembly weighs, and what it was last measured as."""
+
+    mass_from: EnumProperty(
+        name="Specify",
+        description="Whether the mass is the sum of the members or given, as of a bought part",
+        items=(
+            ("MEMBERS", "Members", "Add up the members"),
+            ("MASS", "Mass", "Enter the mass of the whole; the members give its center and inertia unless entered"),
+        ),
+        default="MEMBERS",
+    )
+    mass: FloatProperty(
+        name="Mass",
+        description="Mass of the whole in kilograms, independent of the scene units",
+        default=1.0,
+        min=0.0,
+        step=10,
+        precision=6,
+    )
+    rows: CollectionProperty(name="Members", type=BodyMomentsAssemblyRow)
+    active_row: IntProperty(name="Active Member", description="Member that is highlighted in the tree")
+
+
+CLASSES = (BodyMomentsAssemblyRow, BodyMomentsAssemblySettings)
+
+
+def register() -> None:
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Collection.body_moments = bpy.props.PointerProperty(name="Body Moments", type=BodyMomentsAssemblySettings)
+    bpy.types.Object.body_moments_assembly = bpy.props.PointerProperty(
+        name="Body Moments Assembly", type=BodyMomentsAssemblySettings
+    )
+
+
+def unregister() -> None:
+    del bpy.types.Object.body_moments_assembly
+    del bpy.types.Collection.body_moments
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

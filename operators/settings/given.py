@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A part whose mass is known: given, with or without its center and inertia.
+
+Objects and assemblies have these settings alike; they count where the mass is given.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from bpy.types import Object, PropertyGroup
+from numpy.typing import NDArray
+
+from ...core.numerics.float32 import shortest_decimal
+
+GIVEN_PROPERTIES = ("use_center", "given_center", "use_inertia", "given_inertia_diagonal", "given_inertia_products")
+
+
+@dataclass(frozen=True, eq=False)
+class GivenPart:
+    """What is given of a part beside its mass, SI, in its own frame.
+
+    Attributes
+    ----------
+    center : (3,) array or None
+        Its center of mass, m; None where that of the geometry counts.
+    inertia : (3, 3) array or None
+        Its tensor about the center, kg·m²; None where it follows from the geometry.
+    """
+
+    center: NDArray[np.float64] | None = None
+    inertia: NDArray[np.float64] | None = None
+
+    @classmethod
+    def of(cls, settings: PropertyGroup, unit: float) -> GivenPart:
+        """Return what the settings give. unit: metres per Blender unit."""
+        center = inertia = None
+        if settings.use_center:
+            center = _decimals(settings.given_center) * unit
+        if settings.use_inertia:
+            inertia = np.diag(_decimals(settings.given_inertia_diagonal))
+            xy, xz, yz = _decimals(settings.given_inertia_products)
+            inertia += np.array([[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]])
+        return cls(center, inertia)
+
+    def __bool__(self) -> bool:
+        return self.center is not None or self.inertia is not None
+
+    @property
+    def key(self) -> str:
+        """A text that changes with the settings, "" where nothing is given."""
+        values = [None if value is None else value.tolist() for value in (self.center, self.inertia)]
+        return repr(values) if self else ""
+
+
+def is_point_mass(obj: Object) -> bool:
+    """Return whether an object without any geometry stands for a part whose mass is given."""
+    settings = getattr(obj, "body_moments", None)  # none where the add-on is not registered
+    return (
+        obj.type == "EMPTY"
+        and obj.instance_collection is None
+        and settings is not None
+        and settings.mass_from == "MASS"
+    )
+
+
+def _decimals(values) -> NDArray[np.float64]:
+    return np.array([shortest_decimal(value) for value in values])

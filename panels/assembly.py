@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Assemblies: a collection, or an empty with its children, as one body, with the tree of its members.
+
+The sub-panel shows the active empty where it has children, else the active collection, which has a panel among the
+collection's properties too.
+"""
+
+from __future__ import annotations
+
+from bpy.types import Collection, Context, Panel, UILayout, UIList
+
+from ..operators.read.assembly import Root, is_assembly, settings_of
+from ..operators.session import assembly as stored_assembly
+from ..operators.write import properties
+from ..operators.write.messages import severity
+from ..operators.write.translations import localized
+from ..operators.write.units import Units
+from . import rows
+from .given import given_rows
+from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
+from .places import in_both_places
+
+MEMBER_ICONS = {
+    "COLLECTION": "OUTLINER_COLLECTION",
+    "INSTANCE": "OUTLINER_OB_GROUP_INSTANCE",
+    "EMPTY": "EMPTY_AXIS",
+    "OBJECT": "OBJECT_DATA",
+    "POINT": "EMPTY_SINGLE_ARROW",
+}
+LINES = 8  # of the tree, before it scrolls
+
+
+class BODY_MOMENTS_UL_assembly(UIList):
+    """The members of an assembly with their masses and shares"""
+
+    def draw_item(self, context, layout, _data, row, _icon, _active_data, _active_property, index) -> None:
+        line = layout.row(align=True)
+        line.separator(factor=0.001 + 1.5 * row.depth)
+        tree = settings_of(_data.id_data).rows
+        if index + 1 < len(tree) and tree[index + 1].depth > row.depth:
+            icon = "DISCLOSURE_TRI_DOWN" if row.is_open else "DISCLOSURE_TRI_RIGHT"
+            line.prop(row, "is_open", text="", icon=icon, emboss=False)
+        else:
+            line.label(text="", icon="BLANK1")
+        split = line.split(factor=0.52, align=True)
+        name = split.row(align=True)
+        name.active = row.is_counted
+        name.label(text=row.name, icon=MEMBER_ICONS[row.member], translate=False)
+        numbers = split.row(align=True)
+        numbers.active = row.is_counted
+        numbers.alignment = "RIGHT"
+        findings = properties.findings_in(row.findings)
+        if row.mass > 0.0:
+            numbers.label(text=Units.of(context.scene.unit_settings).text("mass", row.mass), translate=False)
+            if row.is_counted and row.depth:
+                numbers.label(text="{:.1f}%".format(100.0 * row.share), translate=False)
+        if findings:
+            worst = max(findings, key=lambda found: tuple(rows.ICONS).index(severity(found)))
+            numbers.label(text="", icon=rows.ICONS[severity(worst)])
+
+    def filter_items(self, _context, data, name) -> tuple[list[int], list[int]]:
+        """Hide what is below a closed member, and what a search does not name."""
+        flags, closed = [], None
+        for row in getattr(data, name):
+            if closed is not None and row.depth > closed:
+                flags.append(0)
+                continue
+            closed = None if row.is_open else row.depth
+            found = not self.filter_name or self.filter_name.lower() in row.name.lower()
+            flags.append(self.bitflag_filter_item if found else 0)
+        return flags, []
+
+
+def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
+    """Draw an assembly's settings, its total and its tree."""
+    layout.use_property_decorate = False
+    settings, target = settings_of(root), "COLLECTION" if isinstance(root, Collection) else "OBJECT"
+    column = layout.column()
+    column.use_property_split = True
+    column.row().prop(settings, "mass_from", expand=True)
+    if settings.mass_from == "MASS":
+        column.prop(settings, "mass", text="Mass (kg)")
+        given_rows(layout, settings)
+    button = layout.row()
+    button.scale_y = 1.4
+    button.operator("object.body_moments_measure_assembly", icon="PHYSICS").target = target
+    numbers = properties.numbers(root)
+    if numbers is None or properties.method_text(root) != "assembly":
+        return
+    _total(layout, context, root, properties.from_numbers(numbers))
+    layout.template_list(
+        BODY_MOMENTS_UL_assembly.__name__,
+        "",
+        settings,
+        "rows",
+        settings,
+        "active_row",
+        rows=min(LINES, len(settings.rows)),
+    )
+    if 0 <= settings.active_row < len(settings.rows):
+        for found in properties.findings_in(settings.rows[settings.active_row].findings):
+            rows.message(layout, context, found)
+    row = layout.row(align=True)
+    row.operator("object.body_moments_export_bill", text="Bill of Masses...", icon="EXPORT").target = target
+    row.operator("object.body_moments_clear_assembly", text="", icon="TRASH").target = target
+    column = layout.column(align=True)
+    column.operator("view3d.body_moments_cursor_to_assembly", icon="PIVOT_CURSOR").target = target
+    column.operator("object.body_moments_assembly_empty", icon="OUTLINER_OB_EMPTY").target = target
+    text = "Instance Offset to Center of Mass" if target == "COLLECTION" else "Origin to Center of Mass"
+    column.operator("object.body_moments_assembly_origin", text=text, icon="OBJECT_ORIGIN").target = target
+
+
+def _total(layout: UILayout, context: Context, root: Root, stored: properties.StoredProperties) -> None:
+    units = Units.of(context.scene.unit_settings)
+    rows.stale_row(layout, context, stored_assembly.stale_reason(root))
+    findings = properties.findings(root)
+    rows.warnings(layout, context, "body_moments_assembly_warnings", findings)
+    column = layout.column(align=True)
+    rows.value(column, units, "Mass", "mass", stored.body.mass)
+    if stored.volume:
+        rows.value(column, units, "Volume", "volume", stored.volume)
+    column = layout.column(align=True)
+    in_world = isinstance(root, Collection)
+    rows.heading(
+        column, "Center of Mass (World)" if in_world else "Center of Mass (Object)", "length", stored.body.center
+    )
+    rows.values(column, units, AXIS_LABELS, "length", stored.body.center, stored.body.radii_of_gyration.max())
+    column = layout.column(align=True)
+    moments = stored.body.principal.moments
+    rows.heading(column, "Principal Moments", "inertia", moments)
+    rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
+    rows.notes(layout, context, "body_moments_assembly_notes", findings)
+
+
+class AssemblyPanel:
+    """A collection, or an empty with its children, as one body"""
+
+    bl_label = "Assembly"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        root = context.object if is_assembly(context.object) else context.collection
+        text = localized("Empty: {:s}") if root == context.object else localized("Collection: {:s}")
+        self.layout.label(text=text.format(root.name), icon="OUTLINER_COLLECTION", translate=False)
+        draw_assembly(self.layout, context, root)
+
+
+class COLLECTION_PT_body_moments(Panel):
+    """The active collection as one body"""
+
+    bl_idname = "COLLECTION_PT_body_moments"
+    bl_label = "Body Moments"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "collection"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.collection is not None
+
+    def draw(self, context: Context) -> None:
+        draw_assembly(self.layout, context, context.collection)
+
+
+VIEW3D_PT_body_moments_assembly, OBJECT_PT_body_moments_assembly = in_both_places(AssemblyPanel, "assembly")
+CLASSES = (
+    BODY_MOMENTS_UL_assembly,
+    VIEW3D_PT_body_moments_assembly,
+    OBJECT_PT_body_moments_assembly,
+    COLLECTION_PT_body_moments,
+)

@@ -1,0 +1,293 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Assemblies add up what their members weigh, each once, wherever it stands; what is given counts as given."""
+
+from fractions import Fraction
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.verdict.finding import MeasureError
+from body_moments.operators.bodies.assembly import measure_assembly
+from body_moments.operators.read.assembly import members_of
+from mathutils import Matrix
+
+from tests.blender.objects import add, mesh_body
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("registered", "scene")
+
+
+def box_mesh(x, y, z, center=(0.0, 0.0, 0.0)):
+    corners = np.array([(i, j, k) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)]) * (x / 2, y / 2, z / 2) + center
+    mesh = bpy.data.meshes.new("Box")
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    mesh.from_pydata(corners.tolist(), [], faces)
+    mesh.update()
+    return mesh
+
+
+def collection(name="Assembly", parent=None):
+    made = bpy.data.collections.new(name)
+    (parent or bpy.context.scene.collection).children.link(made)
+    return made
+
+
+def box(into, size, at=(0, 0, 0), density=1000.0, name="Box", **place):
+    obj = add(box_mesh(*size), name, at, **place)
+    obj.body_moments.density = density
+    for other in obj.users_collection:
+        other.objects.unlink(obj)
+    into.objects.link(obj)
+    bpy.context.view_layer.update()
+    return obj
+
+
+def empty(into, name="Empty", at=(0, 0, 0), mass=None):
+    obj = bpy.data.objects.new(name, None)
+    into.objects.link(obj)
+    obj.location = at
+    if mass is not None:
+        obj.body_moments.mass_from, obj.body_moments.mass = "MASS", mass
+    return obj
+
+
+def measured(root):
+    bpy.context.view_layer.update()
+    return measure_assembly(root, bpy.context.evaluated_depsgraph_get())
+
+
+def codes(assembly):
+    return {found.code for found in assembly.measurement.findings}
+
+
+def boxes_inertia(boxes):
+    """(mass, center, tensor about the center) of axis-parallel boxes (density, size, center), in exact fractions."""
+    exact = [
+        (Fraction(density), [Fraction(value) for value in size], [Fraction(value) for value in at])
+        for density, size, at in boxes
+    ]
+    masses = [density * size[0] * size[1] * size[2] for density, size, _ in exact]
+    total = sum(masses)
+    center = [sum(mass * at[i] for mass, (_, _, at) in zip(masses, exact)) / total for i in range(3)]
+    second = [[Fraction(0)] * 3 for _ in range(3)]
+    for mass, (_, size, at) in zip(masses, exact):
+        for i in range(3):
+            second[i][i] += mass * size[i] ** 2 / 12
+            for j in range(3):
+                second[i][j] += mass * (at[i] - center[i]) * (at[j] - center[j])
+    trace = sum(second[i][i] for i in range(3))
+    tensor = [[(trace if i == j else 0) - second[i][j] for j in range(3)] for i in range(3)]
+    return float(total), np.array(center, float), np.array(tensor, float)
+
+
+BOXES = [(7850, (1, 2, 4), (8, 0, -2)), (1000, (2, 2, 2), (-4, 6, 1)), (2700, (0.5, 8, 0.25), (0, -16, 32))]
+
+
+def test_the_total_has_exact_parallel_axis_terms_in_nested_collections():
+    root = collection()
+    inner = collection("Inner", root)
+    for number, (density, size, at) in enumerate(BOXES):
+        box(inner if number else root, size, at, density, f"b{number}")
+    assembly = measured(root)
+    mass, center, tensor = boxes_inertia(BOXES)
+    body = assembly.measurement.mass_properties
+    assert close(body.mass, mass, 1e-14) and close(body.center, center, 1e-14)
+    assert np.abs(body.inertia - tensor).max() <= 1e-14 * np.abs(tensor).max()
+    assert np.abs(body.inertia - tensor).max() <= body.rounding_error["inertia"]
+    assert str(assembly.measurement.method) == "assembly" and assembly.measurement.type == "COLLECTION"
+    (nested,) = [part for part in assembly.root.parts if part.member.name == "Inner"]
+    assert close(nested.mass.total, 1000 * 8 + 2700, 1e-14)
+
+
+def test_an_object_in_two_collections_counts_once():
+    root = collection()
+    first, second = collection("First", root), collection("Second", root)
+    obj = box(first, (1, 1, 1))
+    second.objects.link(obj)
+    root.objects.link(obj)
+    assembly = measured(root)
+    assert close(assembly.measurement.mass_properties.mass, 1000.0, 1e-14)
+    (found,) = [found for found in assembly.measurement.findings if found.code == "members_counted_before"]
+    assert found.values["count"] == 2
+
+
+def test_what_is_not_shown_is_a_finding():
+    root = collection()
+    box(root, (1, 1, 1), name="Shown")
+    box(root, (1, 1, 1), name="NotRendered").hide_render = True
+    box(root, (1, 1, 1), name="Disabled").hide_viewport = True
+    hidden = box(root, (1, 1, 1), name="Hidden")
+    excluded = collection("Excluded", root)
+    box(excluded, (1, 1, 1), name="InExcluded")
+    layer = bpy.context.view_layer.layer_collection.children[root.name].children["Excluded"]
+    layer.exclude = True
+    hidden.hide_set(True)
+    lines = bpy.data.meshes.new("Lines")
+    lines.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+    root.objects.link(bpy.data.objects.new("Lines", lines))
+    assembly = measured(root)
+    assert close(assembly.measurement.mass_properties.mass, 2000.0, 1e-14)
+    values = {found.code: found.values.get("names") for found in assembly.measurement.findings}
+    assert values["members_left_out"] == ["NotRendered"] and values["members_hidden"] == ["Hidden"]
+    assert sorted(values["members_excluded"]) == ["Disabled", "InExcluded"]
+    assert values["members_not_measured"] == ["Lines"]
+
+
+def test_an_empty_with_its_children_is_a_body_in_its_own_frame():
+    root = empty(bpy.context.scene.collection, "Root", (1, 2, 3))
+    root.rotation_euler = (0.3, 0.5, 0.7)
+    inner = empty(bpy.context.scene.collection, "Inner")
+    inner.parent = root
+    first = box(bpy.context.scene.collection, (1, 2, 4), (1, 0, 0), name="first")
+    second = box(bpy.context.scene.collection, (2, 2, 2), (0, 5, 0), 2000.0, name="second")
+    third = box(bpy.context.scene.collection, (1, 1, 1), (0, 0, 9), name="third")
+    first.parent, second.parent, third.parent = root, inner, first
+    assembly = measured(root)
+    body = assembly.measurement.mass_properties
+    assert close(body.mass, 8000 + 16000 + 1000, 1e-6)  # the matrices are float32
+    local = assembly.measurement.in_object_frame()
+    mass, center, tensor = boxes_inertia(
+        [(1000, (1, 2, 4), (1, 0, 0)), (2000, (2, 2, 2), (0, 5, 0)), (1000, (1, 1, 1), (1, 0, 9))]
+    )
+    assert np.abs(local.center - center).max() < 1e-6 * np.abs(center).max()
+    assert np.abs(local.inertia - tensor).max() < 1e-6 * np.abs(tensor).max()
+    assert assembly.measurement.type == "EMPTY"
+
+
+def test_an_instance_weighs_as_its_members_do_wherever_it_stands():
+    parts = collection("Motor")
+    box(parts, (1, 2, 4), (1, 0, 0), 7850.0, "steel")
+    weighed = box(parts, (1, 1, 1), (0, 3, 0), name="weighed")
+    weighed.body_moments.mass_from, weighed.body_moments.mass = "MASS", 4.0
+    parts.instance_offset = (0, 0, 1)
+    bpy.context.view_layer.layer_collection.children["Motor"].exclude = True
+    root = collection()
+    made = empty(root, "Instance", (10, 20, 30))
+    made.instance_type, made.instance_collection = "COLLECTION", parts
+    made.matrix_world = Matrix.Translation((10, 20, 30)) @ Matrix.Diagonal((2, 2, 2, 1))
+    assembly = measured(root)
+    steel = 7850 * 8 * 8
+    body = assembly.measurement.mass_properties
+    assert close(body.mass, steel + 4.0, 1e-13)
+    center = (steel * np.array([12, 20, 28]) + 4.0 * np.array([10, 26, 28])) / (steel + 4.0)
+    assert close(body.center, center, 1e-12)
+    assert close(assembly.measurement.volume, 72.0, 1e-12) and close(assembly.measurement.area, 4 * 34, 1e-12)
+    _, _, tensor = boxes_inertia([(7850, (2, 4, 8), (12, 20, 28)), (Fraction(4, 8), (2, 2, 2), (10, 26, 28))])
+    assert np.abs(body.inertia - tensor).max() <= 1e-12 * np.abs(tensor).max()
+    made.body_moments.density = 500.0  # its own density: one body
+    assert close(measured(root).measurement.mass_properties.mass, 500.0 * 72.0, 1e-12)
+
+
+def test_an_instance_that_stretches_has_the_area_that_it_shows():
+    parts = collection("Parts")
+    box(parts, (1, 1, 1), density=1.0)
+    root = collection()
+    made = empty(root)
+    made.instance_type, made.instance_collection, made.scale = "COLLECTION", parts, (1, 2, 3)
+    assembly = measured(root)
+    assert close(assembly.measurement.area, 2 * (2 + 3 + 6), 1e-12)
+    assert close(assembly.measurement.mass_properties.mass, 6.0, 1e-12)
+    parts.objects[0].body_moments.kind = "SHELL"
+    with pytest.raises(MeasureError, match="no mass|has a mass"):
+        measured(root)
+
+
+def test_a_bought_part_has_the_mass_center_and_inertia_that_are_given():
+    root = collection()
+    part = collection("Bought", root)
+    box(part, (1, 2, 4), (3, 0, 0), name="case")
+    part.body_moments.mass_from, part.body_moments.mass = "MASS", 2.5
+    body = measured(root).measurement.mass_properties
+    _, _, tensor = boxes_inertia([(Fraction(5, 16), (1, 2, 4), (3, 0, 0))])
+    assert close(body.mass, 2.5, 1e-14) and np.abs(body.inertia - tensor).max() <= 1e-14 * tensor.max()
+    assert close(body.center[0], 3.0, 1e-14)
+    part.body_moments.use_center, part.body_moments.given_center = True, (2.5, 0.25, 0)
+    part.body_moments.use_inertia = True
+    part.body_moments.given_inertia_diagonal, part.body_moments.given_inertia_products = (3, 4, 5), (0.5, 0, 0.25)
+    assembly = measured(root)
+    body = assembly.measurement.mass_properties
+    assert close(body.center, [2.5, 0.25, 0], 1e-14)
+    assert np.abs(body.inertia - [[3, 0.5, 0], [0.5, 4, 0.25], [0, 0.25, 5]]).max() <= 1e-14
+    assert "members_mass_given" in codes(assembly)
+    part.body_moments.given_inertia_diagonal = (1, 1, 5)
+    with pytest.raises(MeasureError):
+        measured(part)
+
+
+def test_an_object_has_the_center_and_inertia_that_are_given_and_point_masses_have_no_volume():
+    root = collection()
+    obj = box(root, (1, 2, 4), (10, 0, 0), rotation=(0, 0, np.pi / 2))
+    obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.0
+    obj.body_moments.use_center, obj.body_moments.given_center = True, (0.25, 0.5, 0)
+    obj.body_moments.use_inertia, obj.body_moments.given_inertia_diagonal = True, (4, 1, 3.5)
+    empty(root, "Ballast", (-2, 0, 0), mass=1.0)
+    assembly = measured(root)
+    parts = {part.member.name: part.measured.measurement for part in assembly.root.parts}
+    local = parts["Box"].in_object_frame()
+    assert np.abs(local.center - [0.25, 0.5, 0]).max() < 1e-6
+    assert np.abs(local.inertia - np.diag([4, 1, 3.5])).max() < 1e-6
+    assert close(parts["Box"].volume, 8.0, 1e-6) and close(parts["Box"].density, 3.0 / 8.0, 1e-6)
+    assert not parts["Ballast"].mass_properties.inertia.any() and str(parts["Ballast"].method) == "given"
+    body = assembly.measurement.mass_properties
+    assert close(body.mass, 4.0, 1e-14) and close(body.center[0], (3 * 9.5 - 2) / 4, 1e-6)
+    obj.body_moments.given_center = (5, 0, 0)
+    bpy.context.view_layer.update()
+    measurement = measured(root).root.parts[1].measured.measurement
+    assert "given_center_outside" in {found.code for found in measurement.findings}
+
+
+def test_a_lone_point_mass_is_an_assembly_too():
+    root = collection()
+    empty(root, "Point", (1, 2, 3), mass=5.0)
+    body = measured(root).measurement.mass_properties
+    assert close(body.mass, 5.0, 1e-15) and close(body.center, [1, 2, 3], 1e-15) and not body.inertia.any()
+
+
+def test_an_empty_with_a_given_mass_stands_for_its_children_in_a_collection():
+    root = collection()
+    part = empty(root, "Part", (0, 0, 2))
+    child = box(root, (1, 1, 1), (0, 0, 0), name="child")
+    child.parent = part
+    box(root, (2, 1, 1), (4, 0, 0), name="other")
+    part.body_moments_assembly.mass_from, part.body_moments_assembly.mass = "MASS", 10.0
+    assembly = measured(root)
+    assert close(assembly.measurement.mass_properties.mass, 2010.0, 1e-14)
+    assert [part.member.name for part in assembly.root.parts] == ["Part", "other"]
+
+
+def test_nothing_is_refused_by_name():
+    with pytest.raises(MeasureError) as refused:
+        measured(collection("Nothing"))
+    assert refused.value.finding.code == "assembly_without_members" and refused.value.subject == "Nothing"
+
+
+@pytest.mark.parametrize("unit", [0.001, 1.0, 1000.0])
+def test_units_and_places_far_away(unit):
+    bpy.context.scene.unit_settings.scale_length = unit
+    root = collection()
+    far = 1024.0
+    for number, (density, size, at) in enumerate(BOXES):
+        box(root, size, np.array(at) + far, density, f"b{number}")
+    mass, center, tensor = boxes_inertia([(d, s, [v + 1024 for v in at]) for d, s, at in BOXES])
+    body = measured(root).measurement.mass_properties
+    assert close(body.mass, mass * unit**3, 1e-13) and close(body.center, center * unit, 1e-13)
+    assert np.abs(body.inertia - tensor * unit**5).max() <= 1e-13 * np.abs(tensor).max() * unit**5
+
+
+def test_an_assembly_is_as_large_as_its_slanted_members():
+    root = collection()
+    for number in range(3):
+        obj = add(
+            mesh_body(), f"m{number}", (number, 2.0 * number, 0.5), (0.1 * number, 0.2, 0.3), (1, -2, 0.5 + number)
+        )
+        bpy.context.scene.collection.objects.unlink(obj)
+        root.objects.link(obj)
+    assembly = measured(root)
+    moments = [part.measured.measurement.mass_moments[0] * 1000.0 for part in assembly.root.parts]
+    body = assembly.measurement.mass_properties
+    about = np.array([7.0, -3.0, 2.0])
+    first = sum(one.about_point(about).raw[1:4] for one in moments)
+    assert close(body.center - about, first / sum(one.total for one in moments), 1e-12)
+    tree = members_of(root, bpy.context.evaluated_depsgraph_get())
+    assert [member.name for member in tree.walk()] == ["Assembly", "m0", "m1", "m2"]

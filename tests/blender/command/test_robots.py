@@ -1,0 +1,160 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--format urdf, sdf, mjcf and usd: the scene's objects as links, with the numbers of their records."""
+
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+import numpy as np
+from body_moments.core.numerics.rotations import rotation_matrix
+from body_moments.operators.command import arguments, output
+from body_moments.operators.command.run import Run
+from body_moments.operators.write import documents
+
+from tests.blender.batch_files import document
+from tests.blender.objects import add, mesh_body
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+UNITS = (1.0, 0.001)
+
+
+def arm(unit=1.0):
+    """A scene: an upper arm, under an empty; a forearm that is its child, scaled and mirrored; a tool apart."""
+    bpy.context.scene.unit_settings.scale_length = unit
+    frame = add(None, "Frame", (1, 0, 0), (0, 0, 0.5))
+    upper = add(mesh_body("Upper"), "Upper", (5, 3, -2), (0.3, 0.4, 0.5))
+    forearm = add(mesh_body("Fore"), "Fore arm", (1, 2, 3), (1.0, 0.2, -0.4), (2, -0.5, 1))
+    tool = add(mesh_body("Tool"), "Tool", (0, 0, 4))
+    upper.parent, forearm.parent = frame, upper
+    bpy.context.view_layer.update()
+    return upper, forearm, tool
+
+
+def text(*words):
+    line = Run(arguments.parse([*map(str, words)]))
+    line.measure()
+    assert not line.errors
+    found = documents.FORMATS[line.options.format](line.documents)
+    if line.options.output is not None:
+        output.write(found, line.options.output, -1)
+    return found
+
+
+def refused(*words):
+    with pytest.raises(SystemExit) as ended:
+        arguments.parse([*map(str, words)])
+    return ended.value.code == 2
+
+
+def entries(element):
+    """The tensor of an element with ixx, ixy and so on as attributes or children."""
+    value = element.get if element.get("ixx") else element.findtext
+    return np.array([[float(value("i" + "".join(sorted(a + b)))) for b in "xyz"] for a in "xyz"])
+
+
+def numbers(words):
+    return np.array(words.split(), float)
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_urdf_has_the_records_numbers_along_the_axes_of_its_links(unit):
+    upper, forearm, tool = arm(unit)
+    root = ElementTree.fromstring(text("measure", "--format", "urdf"))
+    records = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}
+    links = {link.get("name"): link.find("inertial") for link in root.iter("link")}
+    assert links.keys() == {*records, "base_link"} and links["base_link"] is None
+    for name, record in records.items():
+        inertial = links[name]
+        assert inertial.find("origin").get("rpy") == "0 0 0"
+        assert numbers(inertial.find("origin").get("xyz")).tolist() == record["center_of_mass"]
+        assert float(inertial.find("mass").get("value")) == record["mass"]
+        assert entries(inertial.find("inertia")).tolist() == record["inertia"]
+    joints = {joint.find("child").get("link"): joint for joint in root.iter("joint")}
+    parents = {child: joint.find("parent").get("link") for child, joint in joints.items()}
+    assert parents == {"Fore arm": "Upper", "Upper": "base_link", "Tool": "base_link"}
+    place = numbers(joints["Upper"].find("origin").get("xyz"))
+    assert close(place, np.array(upper.matrix_world.translation) * unit, 1e-7)
+    away = upper.matrix_world.to_3x3().transposed() @ (
+        forearm.matrix_world.translation - upper.matrix_world.translation
+    )
+    assert close(numbers(joints["Fore arm"].find("origin").get("xyz")), np.array(away) * unit, 1e-6)
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_the_other_formats_hold_the_same_bodies(unit):
+    arm(unit)
+    records = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}
+    sdf = ElementTree.fromstring(text("measure", "--format", "sdf"))
+    for link in sdf.iter("link"):
+        record, inertial = records[link.get("name")], link.find("inertial")
+        *center, x, y, z, w = numbers(inertial.findtext("pose"))
+        turn = rotation_matrix([w, x, y, z])
+        check(record, float(inertial.findtext("mass")), center, turn @ entries(inertial.find("inertia")) @ turn.T)
+    mjcf = ElementTree.fromstring(text("measure", "--format", "mjcf"))
+    for body in mjcf.iter("body"):
+        inertial = body.find("inertial")
+        turn = rotation_matrix(numbers(inertial.get("quat")))
+        tensor = (turn * numbers(inertial.get("diaginertia"))) @ turn.T
+        check(records[body.get("name")], float(inertial.get("mass")), numbers(inertial.get("pos")), tensor)
+    usd = text("measure", "--format", "usd")
+    for name, record in records.items():
+        prim = usd[usd.index('"{}"'.format(name.replace(" ", "_"))) :]
+        xx, yy, zz, xy, xz, yz = map(float, re.search(r"newton:inertia = \[(.*)\]", prim)[1].split(","))
+        mass = float(re.search(r"physics:mass = (.*)", prim)[1])
+        check(record, record["mass"], record["center_of_mass"], [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        assert close(mass, record["mass"], 1e-7)
+
+
+def check(record, mass, center, tensor):
+    assert mass == record["mass"] and list(center) == record["center_of_mass"]
+    truth = np.array(record["inertia"])
+    assert np.abs(tensor - truth).max() < 1e-14 * np.abs(truth).max()
+
+
+def test_without_a_parent_that_is_measured_the_next_one_above_is_taken():
+    upper, forearm, tool = arm()
+    between = add(None, "Between")
+    between.parent, tool.parent = forearm, between
+    bpy.context.view_layer.update()
+    root = ElementTree.fromstring(text("measure", "--format", "urdf", "--object", "Upper", "--object", "Tool"))
+    (joint,) = root.iter("joint")
+    assert (joint.find("parent").get("link"), joint.find("child").get("link")) == ("Upper", "Tool")
+
+
+def test_inertials_alone_name_no_mesh():
+    arm()
+    for name in ("urdf", "sdf", "mjcf", "usd"):
+        found = text("measure", "--format", name, "--inertial-only")
+        assert "mesh" not in found and "joint" not in found.lower() and "Fore" in found
+
+
+def test_meshes_are_written_beside_the_file_along_the_axes_of_their_links(tmp_path):
+    arm(0.001)
+    path = tmp_path / "robot.urdf"
+    text("measure", "--format", "urdf", "--meshes", "--output", str(path))
+    record = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}["Fore arm"]
+    named = [mesh.get("filename") for mesh in ElementTree.parse(path).getroot().iter("mesh")]
+    assert {tmp_path / name for name in named} == {*(tmp_path / "meshes").iterdir()}
+    again = document(str(tmp_path / "meshes" / "fore_arm.stl"), "--unit-scale", "1")["objects"][0]
+    assert close(again["volume"], record["volume"], 1e-6)
+    assert np.abs(np.subtract(again["center_of_mass"], record["center_of_mass"])).max() < 1e-6 * 0.005
+    assert refused("measure", "--format", "urdf", "--meshes")
+
+
+def test_an_older_robot_of_ours_is_replaced_and_another_is_not(tmp_path):
+    arm()
+    for name in ("urdf", "sdf", "mjcf", "usd"):
+        path = tmp_path / ("robot." + name)
+        for _ in range(2):
+            text("measure", "--format", name, "--output", str(path))
+        path.write_text("<robot/>", encoding="utf-8")
+        assert refused("measure", "--format", name, "--output", str(path))
+
+
+def test_several_files_are_no_robot(tmp_path):
+    assert refused("measure", "--format", "urdf", str(tmp_path / "a.stl"), str(tmp_path / "b.stl"))
