@@ -14,7 +14,9 @@ import hashlib
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
+from ...core.mesh.surface import Surface
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import ReadError
 from ..settings.density import object_density
@@ -108,14 +110,18 @@ def shape_digest(obj, depsgraph) -> bytes | None:
         return None
     if geometry.mesh is None or len(geometry.mesh.polygons) > MAX_DIGESTED_FACES:
         return None
-    surface = mesh_surface(geometry.mesh, edges=False)
+    return surface_digest(mesh_surface(geometry.mesh, edges=False))
+
+
+def surface_digest(surface: Surface) -> bytes:
+    """A digest of the faces of a mesh as they were read."""
     shape = hashlib.blake2b(digest_size=16)
     for array in (surface.points, surface.triangles, surface.quads):
-        shape.update(np.ascontiguousarray(array).tobytes())
+        shape.update(np.ascontiguousarray(array))
         shape.update(repr(array.shape).encode())
     return shape.digest()
 
 
-def digest(data: bytes) -> str:
+def digest(data: bytes | NDArray) -> str:
     """A short text that differs for different data."""
     return hashlib.blake2s(data, digest_size=6).hexdigest()

@@ -8,10 +8,11 @@ the totals until Blender reports any change.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import chain
+from itertools import chain, groupby
 
 import bpy
 from bpy.types import Context, Object, Scene
@@ -21,6 +22,7 @@ from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method, Verdict
+from ..bodies.many import MeasuredStack, Stacked
 from ..bodies.measure_object import Measured
 from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
@@ -55,6 +57,37 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
     properties.store(obj, measured.measurement)
     if isinstance(measured.body, WallBody):
         walls.cache_walls(obj, measured, _unit(scene))
+
+
+def store_many(
+    measured: Sequence[tuple[Object, Measured | Stacked]], scene: Scene
+) -> Iterator[tuple[Object, Exception | None]]:
+    """As `store` on many objects; with each of them why it cannot hold results, or None."""
+    for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
+        items = list(run)
+        if stack is None:
+            for obj, alone in items:
+                try:
+                    store(obj, alone, scene)
+                except Exception as error:
+                    yield obj, error
+                else:
+                    yield obj, None
+        else:
+            yield from zip([obj for obj, _ in items], _store_stack(stack, [each.index for _, each in items]))
+
+
+def _store_stack(stack: MeasuredStack, which: list[int]) -> Iterator[Exception | None]:
+    part = stack if len(which) == len(stack) else stack.some(which)
+    return properties.store_stack(
+        part.objects,
+        part.in_object_frames(),
+        part.density,
+        part.volume.raw[:, 0],
+        part.area.raw[:, 0],
+        part.error_bounds,
+        zip([shape.method for shape in part.shapes], part.findings, part.fingerprints),
+    )
 
 
 def remember_failure(obj: Object, reason: Finding | None) -> None:

@@ -20,7 +20,8 @@ comparing what they show now. Of what cannot be compared, every update is an edi
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from types import MappingProxyType
 
 import bpy
 from bpy.types import Context, Depsgraph, Object, Scene
@@ -31,6 +32,7 @@ from . import handlers, marks
 from .affected import instancing_objects, volume_filled_objects
 from .cache import SessionCache
 
+NO_SHAPES: Mapping[Object, bytes] = MappingProxyType({})
 _edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
 _settings: SessionCache[str] = SessionCache()  # digest of the settings at the last update
 _changes: SessionCache[int] = SessionCache()  # how often the geometry changed, of objects for which this is asked
@@ -43,7 +45,7 @@ _undo_pending = False  # whether the next update is that of undo or redo
 # ---------------------------------------------------------------- What was stored just now
 
 
-def mark_up_to_date(context: Context, objects: list[Object]) -> None:
+def mark_up_to_date(context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes] = NO_SHAPES) -> None:
     """Take objects as up to date, after results were stored; evaluates what storing itself has tagged.
 
     Parameters
@@ -52,11 +54,17 @@ def mark_up_to_date(context: Context, objects: list[Object]) -> None:
         Its view layer has the objects.
     objects : list of bpy.types.Object
         Those whose results were stored or removed.
+    shapes : mapping of bpy.types.Object to bytes
+        Of objects that have just been read, the `surface_digest` of what they show.
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
         mark_object(obj)
-        _remember_shape(obj, marks.of_results(obj), depsgraph)
+        mark = marks.of_results(obj)
+        if obj in shapes and obj.mode == "OBJECT" and not _varies(obj):
+            _shapes[mark] = shapes[obj]
+        else:
+            _remember_shape(obj, mark, depsgraph)
 
 
 def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) -> None:
@@ -270,9 +278,12 @@ def _remember_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
 
 def _shape(obj: Object, depsgraph: Depsgraph) -> bytes | None:
     """A digest of all that the numbers come from beside settings and transform; None where there is none."""
-    if obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}:
-        return None
-    return shape_digest(obj, depsgraph)
+    return None if _varies(obj) else shape_digest(obj, depsgraph)
+
+
+def _varies(obj: Object) -> bool:
+    """Whether the numbers may come from more than that."""
+    return obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
 
 
 def _note_undo() -> None:

@@ -11,15 +11,17 @@ import bpy
 
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity, finding
-from ...bodies.measure_object import Measured, measure_body
+from ...bodies.many import Stacked, measure_many
+from ...bodies.measure_object import Measured
 from ...session import results
 from ...session.staleness import mark_up_to_date
-from ...settings.density import unset_density
+from ...settings.density import is_density_unset, unset_density
 from ...settings.preferences import copy_defaults
 from ...write import reports
 from ...write.messages import of_severity
 from ..modal import ModalSteps, redraw
 
+DENSITY_KEPT = finding("density_default_kept")
 MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
 
 
@@ -50,18 +52,21 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         """Start with the selected objects, in edit mode those being edited; how many there are."""
         copy_defaults(context.scene)
         objects = list(context.selected_objects)
-        self._results: list[tuple[bpy.types.Object, Measured]] = []
+        self._results: list[tuple[bpy.types.Object, Measured | Stacked]] = []
         self._refusals: list[tuple[bpy.types.Object, Finding]] = []
         self._failures: list[Finding] = []
         self._steps = self._measure(objects, context.evaluated_depsgraph_get())
         return len(objects)
 
     def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Generator[int, None, None]:
-        for done, obj in enumerate(objects, 1):
-            try:
-                self._results.append((obj, _with_default_density(obj, measure_body(obj, depsgraph))))
-            except Exception as error:
-                self._refusals.append((obj, internal_error.finding_of(error)))
+        done = 0
+        for together in measure_many(objects, depsgraph):
+            for obj, outcome in together:
+                if isinstance(outcome, Exception):
+                    self._refusals.append((obj, internal_error.finding_of(outcome)))
+                else:
+                    self._results.append((obj, _with_default_density(obj, outcome, depsgraph.scene)))
+            done += len(together)
             yield done
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
@@ -70,21 +75,20 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             self._failures.append(reports.failure(obj.name_full, refusal))
             results.remember_failure(obj, refusal)
         stored = []
-        for obj, measured in self._results:
+        for obj, refusal in results.store_many(self._results, context.scene):
             results.remember_failure(obj, None)
-            try:
-                results.store(obj, measured, context.scene)
-            except Exception as error:
-                self._failures.append(reports.failure(obj.name_full, error))
-                continue
-            stored.append(obj)
-        mark_up_to_date(context, stored)
+            if refusal is None:
+                stored.append(obj)
+            else:
+                self._failures.append(reports.failure(obj.name_full, refusal))
+        shapes = {obj: outcome.shape_digest for obj, outcome in self._results if isinstance(outcome, Stacked)}
+        mark_up_to_date(context, stored, shapes)
         self._report(len(stored))
         redraw(context)
         return {"FINISHED"} if stored else {"CANCELLED"}
 
     def _report(self, stored: int) -> None:
-        reported = [measured.measurement.findings for _, measured in self._results]
+        reported = [outcome.findings for _, outcome in self._results]
         warned = sum([bool(of_severity(findings, Severity.WARNING, Severity.ERROR)) for findings in reported])
         tried = stored + len(self._failures)
         done = [finding("measured_several", count=stored, total=tried)] if tried > 1 else []
@@ -96,14 +100,20 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         reports.report(self, *done, *(reports.first(self._failures) if self._failures else ()))
 
 
-def _with_default_density(obj: bpy.types.Object, measured: Measured) -> Measured:
+def _with_default_density(
+    obj: bpy.types.Object, outcome: Measured | Stacked, scene: bpy.types.Scene
+) -> Measured | Stacked:
     """With a note where nobody has set the density."""
-    unset = unset_density(obj, measured.measurement, bpy.context.scene)
+    if isinstance(outcome, Stacked):
+        if outcome.has_density and is_density_unset(obj.body_moments, scene):
+            outcome.add_finding(DENSITY_KEPT)
+        return outcome
+    unset = unset_density(obj, outcome.measurement, scene)
     if unset is None:
-        return measured
-    kept = finding("density_default_kept") if unset == "density" else finding("linear_density_default_kept")
-    findings = (*measured.measurement.findings, kept)
-    return replace(measured, measurement=replace(measured.measurement, findings=findings))
+        return outcome
+    kept = DENSITY_KEPT if unset == "density" else finding("linear_density_default_kept")
+    findings = (*outcome.measurement.findings, kept)
+    return replace(outcome, measurement=replace(outcome.measurement, findings=findings))
 
 
 CLASSES = (OBJECT_OT_body_moments_measure,)
