@@ -21,8 +21,8 @@ def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
 
 def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
     """0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, …"""
-    ends = np.cumsum(counts)
-    return np.arange(ends[-1]) - np.repeat(ends - counts, counts)
+    starts = segment_starts(counts)
+    return np.arange(int(np.add.reduce(counts))) - np.repeat(starts, counts)
 
 
 def segment_starts(counts: NDArray) -> NDArray[np.intp]:

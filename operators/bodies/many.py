@@ -80,8 +80,8 @@ class Stacked:
         return not self.stack.from_mass[self.index]
 
     @property
-    def shape_digest(self) -> bytes:
-        """A digest of what the object shows."""
+    def shape_digest(self) -> bytes | None:
+        """A digest of what the object shows; None of a large one."""
         return self.stack.shapes[self.index].digest
 
     def alone(self) -> Measured:
@@ -149,6 +149,7 @@ class Shape:
     """A mesh in its own coordinates, and how it was measured."""
 
     surface: Surface
+    face_count: int
     volume: Moments | None = None
     area: Moments | None = None
     health: MeshReport | None = None
@@ -157,9 +158,9 @@ class Shape:
     measured_surface: Surface | None = None
 
     @cached_property
-    def digest(self) -> bytes:
-        """Of what it shows, for staleness."""
-        return surface_digest(self.surface)
+    def digest(self) -> bytes | None:
+        """Of what it shows, for staleness; None of a large one."""
+        return surface_digest(self.surface, self.face_count)
 
     @cached_property
     def sixth_order(self) -> Moments:
@@ -213,7 +214,13 @@ class _Collector:
         return len(self.members) >= MAX_OBJECTS_PER_STACK or self.faces >= MAX_FACES_PER_STACK
 
     def add(self, obj: bpy.types.Object) -> _Member | None:
-        """The object as one of the stack; None where it cannot be."""
+        """The object as one of the stack; None where it cannot be, or reading it fails: by itself it fails again."""
+        try:
+            return self._member(obj)
+        except Exception:
+            return None
+
+    def _member(self, obj: bpy.types.Object) -> _Member | None:
         weight = self._weight(obj)
         mesh = None if weight is None else plain_mesh(obj, self.depsgraph)
         if mesh is None:
@@ -271,7 +278,7 @@ class _Collector:
             return self._by_content[content]
         if not np.isfinite(surface.box).all():
             return None
-        shape = self._by_content[content] = Shape(surface)
+        shape = self._by_content[content] = Shape(surface, len(mesh.polygons))
         self.shapes.append(shape)
         self.faces += len(surface.triangles) + len(surface.quads)
         return shape

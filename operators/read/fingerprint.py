@@ -108,13 +108,16 @@ def shape_digest(obj, depsgraph) -> bytes | None:
         geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
     except ReadError:
         return None
-    if geometry.mesh is None or len(geometry.mesh.polygons) > MAX_DIGESTED_FACES:
+    mesh = geometry.mesh
+    if mesh is None or len(mesh.polygons) > MAX_DIGESTED_FACES:
         return None
-    return surface_digest(mesh_surface(geometry.mesh, edges=False))
+    return surface_digest(mesh_surface(mesh, edges=False), len(mesh.polygons))
 
 
-def surface_digest(surface: Surface) -> bytes:
-    """A digest of the faces of a mesh as they were read."""
+def surface_digest(surface: Surface, face_count: int) -> bytes | None:
+    """A digest of the faces of a mesh as they were read; None of many."""
+    if face_count > MAX_DIGESTED_FACES:
+        return None
     shape = hashlib.blake2b(digest_size=16)
     for array in (surface.points, surface.triangles, surface.quads):
         shape.update(np.ascontiguousarray(array))

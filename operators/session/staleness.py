@@ -32,7 +32,7 @@ from . import handlers, marks
 from .affected import instancing_objects, volume_filled_objects
 from .cache import SessionCache
 
-NO_SHAPES: Mapping[Object, bytes] = MappingProxyType({})
+NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
 _edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
 _settings: SessionCache[str] = SessionCache()  # digest of the settings at the last update
 _changes: SessionCache[int] = SessionCache()  # how often the geometry changed, of objects for which this is asked
@@ -45,7 +45,9 @@ _undo_pending = False  # whether the next update is that of undo or redo
 # ---------------------------------------------------------------- What was stored just now
 
 
-def mark_up_to_date(context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes] = NO_SHAPES) -> None:
+def mark_up_to_date(
+    context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
+) -> None:
     """Take objects as up to date, after results were stored; evaluates what storing itself has tagged.
 
     Parameters
@@ -54,15 +56,16 @@ def mark_up_to_date(context: Context, objects: Iterable[Object], shapes: Mapping
         Its view layer has the objects.
     objects : list of bpy.types.Object
         Those whose results were stored or removed.
-    shapes : mapping of bpy.types.Object to bytes
+    shapes : mapping of bpy.types.Object to bytes or None
         Of objects that have just been read, the `surface_digest` of what they show.
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
         mark_object(obj)
         mark = marks.of_results(obj)
-        if obj in shapes and obj.mode == "OBJECT" and not _varies(obj):
-            _shapes[mark] = shapes[obj]
+        shape = shapes.get(obj)
+        if shape is not None and obj.mode == "OBJECT" and not _varies(obj):
+            _shapes[mark] = shape
         else:
             _remember_shape(obj, mark, depsgraph)
 

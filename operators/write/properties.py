@@ -129,7 +129,7 @@ def store_stack(
     area: NDArray,
     error_bounds: NDArray,
     texts: Iterable[tuple[Method, tuple[Finding, ...], str]],
-) -> Iterator[EditRefusedError | None]:
+) -> Iterator[Exception | None]:
     """Write the results of many objects, each a solid of one density.
 
     Parameters
@@ -146,7 +146,7 @@ def store_stack(
 
     Yields
     ------
-    EditRefusedError or None
+    Exception or None
         Of each object in turn, why it cannot hold them.
     """
     columns = (
@@ -163,17 +163,17 @@ def store_stack(
     rows = zip(*[column.tolist() for column in columns])
     known: dict[tuple[str, tuple[int, ...]], dict[str, str]] = {}
     for obj, row, (method, found, mark) in zip(objects, rows, texts):
-        try:
-            require_storable(obj)
-        except EditRefusedError as refusal:
-            yield refusal
-            continue
         key = str(method), tuple(map(id, found))
         if key not in known:  # most are alike
             known[key] = _texts(method, found, "")
-        _replace(obj, dict(zip(LENGTHS, row)) | known[key] | {"body_fingerprint": mark})
-        retrigger_drivers(obj)
-        yield None
+        try:
+            require_storable(obj)
+            _replace(obj, dict(zip(LENGTHS, row)) | known[key] | {"body_fingerprint": mark})
+            retrigger_drivers(obj)
+        except Exception as error:
+            yield error
+        else:
+            yield None
 
 
 def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str]:
