@@ -15,16 +15,40 @@ PARTS = (
     "write.translations",
     "settings.properties",
     "settings.assembly",
-    *("session.handlers", "session.walls", "session.live", "session.assembly"),
-    *("actions.setup." + name for name in ("presets", "import_scan", "assembly", "assembly_snap", "bill")),
+    "settings.reference",
+    *(
+        "session.handlers",
+        "session.updates",
+        "session.density",
+        "session.walls",
+        "session.live",
+        "session.assembly",
+        "session.outcome",
+    ),
+    *(
+        "actions.setup." + name
+        for name in ("presets", "import_scan", "remedies", "node_group", "assembly", "assembly_snap", "bill")
+    ),
     *(
         "actions.measure." + name
-        for name in ("measure_selected", "live", "section", "select_faults", "clear", "copy", "moments", "fourier")
+        for name in (
+            "measure_selected",
+            "live",
+            "section",
+            "select_faults",
+            "clear",
+            "copy",
+            "moments",
+            "reference",
+            "fourier",
+        )
     ),
     *(
         "actions.snap." + name
         for name in ("origin", "principal_axes", "align", "empty", "cursor", "orientation", "rigid_body", "balance")
     ),
+    *("actions.statics." + name for name in ("stability", "rest_on_ground")),
+    "actions.export.robot",
     *("actions.shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",
     "session.staleness",

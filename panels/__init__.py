@@ -14,13 +14,15 @@ from ..operators import register_module, unregister_module
 
 # Each with `register` or with CLASSES. A sub-panel comes after the panel that it is a part of.
 MODULES = (
-    "manual",
+    *("manual", "menus"),
     *("material_menus", "body"),
     *(
         "inertia",
+        "reference",  # of the inertia
         "density",
         "given",
         "apply",
+        "stability",
         "selection",
         "assembly",
         "advanced",

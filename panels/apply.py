@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from bpy.types import Context
 
+from . import rows
 from .places import in_both_places
 
 
@@ -18,21 +19,20 @@ class ApplyPanel:
     def draw(self, context: Context) -> None:
         layout, obj = self.layout, context.object
         column = layout.column(align=True)
-        column.operator("object.body_moments_origin_to_center", icon="OBJECT_ORIGIN")
-        column.operator("object.body_moments_axes_to_principal", icon="EMPTY_AXIS")
-        column.operator("object.body_moments_align_to_world", icon="ORIENTATION_GLOBAL")
+        rows.button(column, context, "object.body_moments_origin_to_center", "OBJECT_ORIGIN")
+        rows.button(column, context, "object.body_moments_axes_to_principal", "EMPTY_AXIS")
+        rows.button(column, context, "object.body_moments_align_to_world", "ORIENTATION_GLOBAL")
         column = layout.column(align=True)
-        column.operator("object.body_moments_add_empty", text="Add Empty", icon="OUTLINER_OB_EMPTY")
-        column.operator("view3d.body_moments_cursor_to_center", icon="PIVOT_CURSOR")
-        column.operator(
-            "object.body_moments_create_orientation",
-            text="Transform Orientation",
-            icon="ORIENTATION_LOCAL",
+        rows.button(column, context, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY", text="Add Empty")
+        rows.button(column, context, "view3d.body_moments_cursor_to_center", "PIVOT_CURSOR")
+        rows.button(
+            column, context, "object.body_moments_create_orientation", "ORIENTATION_LOCAL", text="Transform Orientation"
         )
         text = "Set Rigid Body Mass" if obj.rigid_body else "Add Rigid Body with Mass"
-        button = column.operator("object.body_moments_set_rigid_body_mass", text=text, icon="RIGID_BODY")
+        button = rows.button(column, context, "object.body_moments_set_rigid_body_mass", "RIGID_BODY", text=text)
         button.add = not obj.rigid_body
-        layout.operator("object.body_moments_sculpt_balance", icon="SCULPTMODE_HLT")
+        rows.button(layout, context, "object.body_moments_add_nodes", "GEOMETRY_NODES")
+        rows.button(layout, context, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 
 
 CLASSES = VIEW3D_PT_body_moments_apply, OBJECT_PT_body_moments_apply = in_both_places(ApplyPanel, "apply")

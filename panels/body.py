@@ -10,7 +10,7 @@ from bpy.types import Context
 
 from ..operators.session import results
 from ..operators.write.units import Units
-from . import rows
+from . import remedies, rows
 from .density import material_row
 from .numbers import numbers
 from .overlay.popover import header_switch
@@ -37,18 +37,20 @@ class BodyPanel:
         shown = results.of_object(obj, scene)
         verdict(layout, context, obj, measured=shown is not None)
         _, findings = method_and_findings(obj) if shown is not None else (None, ())
-        rows.warnings(layout, context, "body_moments_warnings", findings)
+        remedies.last_action(layout, context)
+        remedies.warnings(layout, context, "body_moments_warnings", findings)
         material_row(layout, context, obj)
         row = layout.row(align=True)
         row.scale_y = 1.4
-        row.operator("object.body_moments_measure", icon="PHYSICS")
+        rows.button(row, context, "object.body_moments_measure", "PHYSICS")
         row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
         if shown is not None:
+            remedies.unit_question(layout, context, shown)
             numbers(layout, context, Units.of(scene.unit_settings), shown)
-            row = layout.row(align=True)
-            row.operator("object.body_moments_copy_report", icon="COPYDOWN")
-            row.operator("object.body_moments_clear", icon="TRASH")
-            rows.notes(layout, context, "body_moments_notes", findings)
+            row = layout.column(align=True) if rows.is_narrow(context) else layout.row(align=True)
+            rows.button(row, context, "object.body_moments_copy_report", "COPYDOWN")
+            rows.button(row, context, "object.body_moments_clear", "TRASH")
+            remedies.notes(layout, context, "body_moments_notes", findings)
 
 
 CLASSES = VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(BodyPanel)

@@ -147,7 +147,7 @@ def _uniform_density(column: UILayout, context: Context, settings, heading: str)
 
 
 def _material(column: UILayout, context: Context, settings, heading: str) -> None:
-    row = _labeled_row(column, heading)
+    row = column.row(align=True) if rows.is_narrow(context) else _labeled_row(column, heading)
     row.menu("OBJECT_MT_body_moments_materials", text=settings.material or _unset_material(settings, context.scene))
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
 

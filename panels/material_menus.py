@@ -10,7 +10,7 @@ import bpy
 from bl_ui.utils import PresetPanel
 from bpy.types import Context, Material, Menu, Panel, Scene, UILayout
 
-from ..core.density.materials import CATEGORIES, MATERIALS
+from ..core.density.materials import CATEGORIES, FILAMENT, MATERIALS
 from ..core.verdict.finding import finding
 from ..operators.actions.setup.presets import (
     PRESET_FOLDER,
@@ -35,8 +35,12 @@ class OBJECT_MT_body_moments_materials(Menu):
         layout.operator_context = "INVOKE_DEFAULT"
         _set_density(layout, context, text="Search...", icon="VIEWZOOM")
         layout.separator()
+        layout.operator_context = "EXEC_DEFAULT"
+        _entries(layout, context, FILAMENT)  # what is chosen most, without a further menu
+        layout.separator()
         for category in CATEGORIES:
-            layout.menu(_menu_name(category))
+            if category != FILAMENT:
+                layout.menu(_menu_name(category))
 
 
 def _menu_name(category: str) -> str:
@@ -68,11 +72,14 @@ def density_row(layout: UILayout, scene: Scene, material: Material, label: str =
 
 
 def _draw_category(self: Menu, context: Context) -> None:
-    layout = self.layout
-    layout.operator_context = "EXEC_DEFAULT"
+    self.layout.operator_context = "EXEC_DEFAULT"
+    _entries(self.layout, context, self.bl_label)
+
+
+def _entries(layout: UILayout, context: Context, category: str) -> None:
     units = Units.of(context.scene.unit_settings)
     for material in MATERIALS:
-        if material.category == self.bl_label:
+        if material.category == category:
             text = "{:s}  ({:s})".format(material.name, units.text("density", material.density))
             _set_density(layout, context, text=text).material = material.name
 

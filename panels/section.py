@@ -13,7 +13,7 @@ from ..operators.read.section import SECTION_TYPES
 from ..operators.write import section as record
 from ..operators.write.translations import localized
 from ..operators.write.units import SI_UNITS, Units, number
-from . import rows
+from . import remedies, rows
 from .places import in_both_places
 
 AXIS_LABELS = ("X", "Y", "Z")
@@ -47,10 +47,10 @@ class SectionPanel:
             return
         units = Units.of(context.scene.unit_settings)
         _verdict(layout, context, stored, sections.stale_reason(obj, context.scene, stored))
-        rows.warnings(layout, context, "body_moments_section_warnings", stored.findings)
+        remedies.warnings(layout, context, "body_moments_section_warnings", stored.findings, can_accept=False)
         _numbers(layout, units, stored.section)
         _more_numbers(layout, units, stored.section)
-        rows.notes(layout, context, "body_moments_section_notes", stored.findings)
+        remedies.notes(layout, context, "body_moments_section_notes", stored.findings)
         layout.operator("object.body_moments_copy_section", icon="COPYDOWN")
 
 

@@ -14,7 +14,7 @@ from ..operators.session import live, results, staleness
 from ..operators.write import properties
 from ..operators.write.messages import METHODS, method_key
 from ..operators.write.translations import localized
-from . import rows
+from . import remedies, rows
 
 ICONS = {
     "exact": "CHECKMARK",
@@ -48,6 +48,7 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
         column.label(text=text, icon="RADIOBUT_OFF" if refusal is None else "CANCEL")
     if refusal is not None:
         rows.message(column, context, refusal, icon="BLANK1")
+        remedies.remedies(column, context, refusal)
     if not measured:
         return
     _headline(column, context, obj)

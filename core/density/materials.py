@@ -14,6 +14,7 @@ PNNL = 'PNNL-15870 Rev. 1 (2011), Compendium of Material Composition Data for Ra
 NIST = 'NIST, Tables of X-Ray Mass Attenuation Coefficients (NISTIR 5632), table 2, "{:s}"'
 INGEO = "NatureWorks, Ingeo Biopolymer 3D850 technical data sheet (ASTM D1505)"
 CURA = 'UltiMaker, material profiles of Cura (fdm_materials), "{:s}"'
+FILAMENT, RESIN = "3D Printing Filament", "3D Printing Resin and Powder"
 CRC = 'CRC Handbook of Chemistry and Physics, 97th ed. (2016), section 15, Density of Various Solids, "{:s}"'
 
 
@@ -44,6 +45,32 @@ def _materials_of(category: str, template: str, *entries: tuple[str, float, str]
 
 
 MATERIALS: tuple[Material, ...] = (
+    Material("PLA", FILAMENT, 1240.0, INGEO),
+    *_materials_of(
+        FILAMENT,
+        CURA,
+        ("PETG", 1270.0, "Generic PETG"),
+        ("ABS", 1100.0, "Generic ABS"),
+        ("ASA", 1070.0, "Generic ASA"),
+        ("TPU 95A", 1220.0, "Generic TPU 95A"),
+        ("Nylon Filament", 1140.0, "Generic Nylon"),
+        ("Polycarbonate Filament", 1190.0, "Generic PC"),
+        ("Polypropylene Filament", 890.0, "Generic PP"),
+        ("CPE", 1270.0, "Generic CPE"),
+        ("PVA", 1230.0, "Generic PVA"),
+    ),
+    *_materials_of(
+        RESIN,
+        "{:s}",
+        ("Resin, Standard", 1195.0, "ELEGOO, Standard Photopolymer Resin, technical data, solid density"),
+        ("Resin, Clear (Accura ClearVue)", 1170.0, "3D Systems, Accura ClearVue data sheet, solid density"),
+        ("Resin, Tough (Accura 25)", 1190.0, "3D Systems, Accura 25 data sheet, solid density"),
+        ("Resin, Rigid (Accura 60)", 1210.0, "3D Systems, Accura 60 data sheet, solid density"),
+        ("Resin, PolyJet (VeroClear)", 1185.0, "Stratasys, PolyJet materials data sheet (ASTM D792), RGD810"),
+        ("Resin, PolyJet Rubber-like", 1125.0, "Stratasys, PolyJet materials data sheet (ASTM D792), FLX930"),
+        ("Nylon 12, Laser Sintered", 930.0, "EOS, PA 2200 data sheet, density of laser-sintered parts"),
+        ("Nylon 12, Multi Jet Fusion", 1010.0, "HP, 3D High Reusability PA 12 data sheet (ASTM D792)"),
+    ),
     *_materials_of(
         "Metals",
         PNNL,
@@ -86,15 +113,6 @@ MATERIALS: tuple[Material, ...] = (
         ("PTFE (Teflon)", 2250.0, "Polytetrafluoroethylene (PTFE)"),
         ("PVC", 1406.0, "Polyvinyl Chloride (PVC)"),
         ("PVDF (Kynar)", 1790.0, "Kynar"),
-    ),
-    Material("PLA", "Plastics", 1240.0, INGEO),
-    *_materials_of(
-        "Plastics",
-        CURA,
-        ("ABS", 1100.0, "Generic ABS"),
-        ("ASA", 1070.0, "Generic ASA"),
-        ("PETG", 1270.0, "Generic PETG"),
-        ("TPU 95A", 1220.0, "Generic TPU 95A"),
     ),
     *_materials_of(
         "Rubber and Foam",

@@ -11,10 +11,12 @@ from .principal_frame import (
     principal_frame,
     zhang_chen_frame,
 )
+from .reference import Reference
 
 __all__ = [
     "MassProperties",
     "PrincipalFrame",
+    "Reference",
     "combine",
     "equivalent_frames",
     "nearest_frame",

@@ -61,6 +61,9 @@ class PlanarityAccumulator:
     triangles and have no choice.
 
     error: (length) how far the points may be from where they were meant. Safe in threads.
+
+    cones: what the cones over all faces from the reference point add up to where each counts as positive, and signed;
+    None where that was not at hand.
     """
 
     def __init__(self, surface: Surface, error: float):
@@ -69,6 +72,7 @@ class PlanarityAccumulator:
         self.extent = size = float((high - low).max())
         self.quads: dict[int, _PlanarityPartial] = {}
         self.triangles: dict[int, _PlanarityPartial] = {}
+        self.cones: tuple[float, float] | None = None
         # What is looked at one by one is brought to about size 1, so that sixth powers of small lengths do not
         # underflow.
         self.exponent = int(np.frexp(max(size, float(np.finfo(np.float32).tiny)))[1])

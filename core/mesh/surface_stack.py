@@ -119,6 +119,43 @@ class SurfaceStack:
             edge_counts,
         )
 
+    def some(self, which: NDArray[np.intp]) -> SurfaceStack:
+        """A stack of some of the surfaces, in ascending order."""
+        kept = np.zeros(len(self), bool)
+        kept[which] = True
+        of_point, of_triangle, of_quad, of_corner, of_face = (
+            np.repeat(kept, counts)
+            for counts in (
+                self.point_counts,
+                self.triangle_counts,
+                self.quad_counts,
+                self.corner_counts,
+                self.face_counts,
+            )
+        )
+        point, face = (np.cumsum(chosen) - 1 for chosen in (of_point, of_face))
+        edge = np.cumsum(np.repeat(kept, self.edge_counts)) - 1
+        return SurfaceStack(
+            self.points[of_point],
+            point[self.triangles[of_triangle]],
+            face[self.triangle_faces[of_triangle]],
+            point[self.quads[of_quad]],
+            face[self.quad_faces[of_quad]],
+            point[self.corner_vertices[of_corner]],
+            edge[self.corner_edges[of_corner]],
+            *(
+                counts[which]
+                for counts in (
+                    self.point_counts,
+                    self.triangle_counts,
+                    self.quad_counts,
+                    self.corner_counts,
+                    self.face_counts,
+                    self.edge_counts,
+                )
+            ),
+        )
+
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(n, 3) and (n, 3) the smallest and the largest coordinates of each surface."""

@@ -109,7 +109,7 @@ def integrate(
             if len(faces) and not indices_in_range(faces, len(points)):
                 raise ValueError(NO_VERTEX)
         triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
-        volume, areas = small_moments(
+        volume, areas, cones = small_moments(
             points,
             triangles,
             np.array([count]),
@@ -119,6 +119,8 @@ def integrate(
             area=area,
             shell=shell,
         )
+        if planarity is not None:
+            planarity.cones = float(cones[0, 0]), float(cones[0, 1])
         return volume.at(0), areas.at(0)
     # Two threads have a block each: the sums are the same with one, and with more where there is room for more.
     room, each = SCRATCH_BYTES[0] * count + SCRATCH_BYTES[1], 8 * scratch_size(3, area, exact)
@@ -257,6 +259,8 @@ class _Integration:
         """Volume and area, with their bounds."""
         sizes, rounding, inputs = _error_bounds(self, sums)
         raw = sums.sums / DIVISORS
+        if self.planarity is not None:
+            self.planarity.cones = sizes[0], float(sums.sums[0])
         error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
         volume = Moments(raw, self.center, Measure.VOLUME, error, inputs[0])
         if not self.area:

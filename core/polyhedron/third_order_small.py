@@ -50,8 +50,9 @@ def small_moments(
     *,
     area: bool,
     shell: bool,
-) -> tuple[Moments, Moments]:
-    """Return the volume's moments of n bodies and their areas, stacked.
+) -> tuple[Moments, Moments, NDArray[np.float64]]:
+    """Return the volume's moments of n bodies and their areas, stacked; and (n, 2) what the cones over the faces of
+    each add up to where all count as positive, and signed.
 
     Parameters
     ----------
@@ -86,14 +87,14 @@ def small_moments(
         first = last
     of_volume, of_area, side, base, sizes = sums[0] if len(sums) == 1 else map(np.concatenate, zip(*sums))
     rounding, inputs = _error_bounds(reach, half_ulp, side, base, sizes, counts[:, None], area)
-    raw = of_volume / DIVISORS
+    raw, cones = of_volume / DIVISORS, np.stack([sizes[:, 0], of_volume[:, 0]], axis=1)
     volume = Moments(raw, center, Measure.VOLUME, rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw), inputs[0])
     if not area:
-        return volume, Moments(np.zeros((len(counts), 1)), center, Measure.AREA)
+        return volume, Moments(np.zeros((len(counts), 1)), center, Measure.AREA), cones
     raw = of_area / (DIVISORS / AREA_FACTORS) if shell else sizes[:, 1:] / 2.0
     kept = raw.shape[1]
     error = rounding[1, :, :kept] / 2.0 + 8.0 * U * np.abs(raw)
-    return volume, Moments(raw, center, Measure.AREA, error, inputs[1, :, :kept])
+    return volume, Moments(raw, center, Measure.AREA, error, inputs[1, :, :kept]), cones
 
 
 def _segment_sums(

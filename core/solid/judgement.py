@@ -15,12 +15,13 @@ from ..moments.moments import SECOND_MOMENT_INDEX, Moments
 from ..numerics.arrays import unique_pairs
 from ..polyhedron import polyhedron_moments
 from ..verdict.finding import Finding, finding
-from ..verdict.health import NO_FACES, DefectiveElements, MeshReport
+from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshReport
 from ..verdict.method import Verdict
 from ..verdict.tolerances import NEGLIGIBLE
 from .orientation import ComponentComparison, OrientedSolid
 from .parts import ClosedParts
 from .repaired_mesh import RepairedMesh
+from .self_intersection import SelfIntersection
 from .triage import CheckedSurface, GivenIntegrals
 
 MIN_REPORTED_AMBIGUITY = 1e-6  # of the volume: below, nobody needs to know
@@ -78,7 +79,9 @@ class SolidIntegrals:
         return polyhedron_moments(self.repaired_surface, exact=True, threads=threads)[0]
 
 
-def judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid) -> SolidIntegrals:
+def judge(
+    checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, intersection: SelfIntersection | None
+) -> SolidIntegrals:
     """Give a verdict on what was measured, and report all that was decided on the way.
 
     Parameters
@@ -86,7 +89,8 @@ def judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSoli
     checked : CheckedSurface
     given : GivenIntegrals
     oriented : OrientedSolid
-        All three of the same surface.
+    intersection : SelfIntersection, optional
+        All of the same surface; None where nobody asks.
     """
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
@@ -120,8 +124,13 @@ def judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSoli
         findings += _component_findings(mesh, oriented.comparison, checked.size)
     if self_intersecting:
         findings.append(finding("self_intersecting"))
+    elif intersection is not None and verdict is not Verdict.OPEN:
+        findings += _intersection_findings(intersection, volume.total)
     findings += shape_findings(oriented.is_solid, given.planarity, volume)
-    health = _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share)
+    health = replace(
+        _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share),
+        self_intersection=Intersection.NOT_CHECKED if intersection is None else intersection.state,
+    )
     return SolidIntegrals(volume, given.area, health, verdict, tuple(findings), oriented)
 
 
@@ -230,6 +239,14 @@ def _component_findings(mesh: RepairedMesh, comparison: ComponentComparison, siz
     if comparison.undecided_pairs:
         findings.append(finding("overlap_unchecked", count=int(comparison.undecided_pairs)))
     return findings
+
+
+def _intersection_findings(intersection: SelfIntersection, volume: float) -> list[Finding]:
+    """About a component that goes through itself, or that was not looked at."""
+    if intersection.state is Intersection.FOUND:
+        code = "self_intersection_slightly" if intersection.effect < NEGLIGIBLE else "self_intersection"
+        return [finding(code, share=intersection.volume / volume)]
+    return [finding("self_intersection_unchecked")] if intersection.state is Intersection.NOT_CHECKED else []
 
 
 def shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> list[Finding]:

@@ -15,9 +15,10 @@ from __future__ import annotations
 from ..mesh.surface import Surface
 from ..verdict.method import Verdict
 from .judgement import SolidIntegrals, judge
-from .orientation import orient_components
+from .orientation import OrientedSolid, orient_components
 from .repair import repair_surface
-from .triage import check_surface, integrate_and_prove
+from .self_intersection import find_self_intersection
+from .triage import CheckedSurface, GivenIntegrals, check_surface, integrate_and_prove
 
 MAX_WELDED_SHARE = 0.1  # of the volume: where welding may change that much, what it closes is no gap left by rounding
 
@@ -58,11 +59,16 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     given = integrate_and_prove(checked, shell, threads)
     mesh = given.proven or repair_surface(checked.surface, checked.tolerance)
     oriented = orient_components(checked, given, mesh, threads)
-    solid = judge(checked, given, oriented)
+    solid = _judge(checked, given, oriented, shell)
     if mesh.max_displacement and mesh.max_displacement * given.area.total > MAX_WELDED_SHARE * abs(
         oriented.volume.total
     ):
         mesh = repair_surface(checked.surface, checked.tolerance, weld_near=False)
-        unwelded = judge(checked, given, orient_components(checked, given, mesh, threads))
+        unwelded = _judge(checked, given, orient_components(checked, given, mesh, threads), shell)
         return solid if unwelded.method is Verdict.OPEN else unwelded
     return solid
+
+
+def _judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool) -> SolidIntegrals:
+    """The verdict; a sheet may go through itself."""
+    return judge(checked, given, oriented, None if shell else find_self_intersection(checked, given, oriented))

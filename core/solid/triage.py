@@ -21,6 +21,8 @@ from ..verdict.health import MeshReport
 from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
 from .repaired_mesh import RepairedMesh
 
+SUM_ROUNDING = 1e-13  # of a sum of numbers of one sign: by how much rounding may change it
+
 
 @dataclass(frozen=True, eq=False)
 class CheckedSurface:
@@ -59,6 +61,8 @@ class GivenIntegrals:
         The input's: without caps, with what a repair leaves out and with flat parts.
     planarity : Planarity
         How flat the faces are.
+    all_cones_agree : bool
+        Whether all the cones over the faces, from the reference point, are known to have the same sign.
     proven : RepairedMesh, optional
         The mesh where its own edges prove it closed and oriented; None where they do not.
     """
@@ -66,6 +70,7 @@ class GivenIntegrals:
     volume: Moments
     area: Moments
     planarity: Planarity
+    all_cones_agree: bool
     proven: RepairedMesh | None
 
 
@@ -140,7 +145,14 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
     else:
         volume, area = polyhedron_moments(surface, planarity=accumulator, **options)
         proven = prove_closed(surface)
-    return GivenIntegrals(volume, area, accumulator.planarity(), proven)
+    agree = accumulator.cones is not None and same_sign(*accumulator.cones)
+    return GivenIntegrals(volume, area, accumulator.planarity(), agree, proven)
+
+
+def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray[np.bool_]:
+    """Whether numbers have the same sign, or are but rounding, that add up to so much without their signs and with
+    them."""
+    return total - abs(signed) <= SUM_ROUNDING * total
 
 
 def prove_closed(surface: Surface) -> RepairedMesh | None:

@@ -5,12 +5,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
+from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
 NO_PAIRS = np.empty((0, 2), np.int64)
 NO_FACES = np.empty(0, np.int64)
+
+
+class Intersection(StrEnum):
+    """Whether a part of a surface goes through itself; of several surfaces the first one of these."""
+
+    FOUND = "found"
+    NOT_CHECKED = "not_checked"
+    NOT_FOUND = "not_found"  # looked for
+    EXCLUDED = "excluded"  # proved: it does not
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +54,7 @@ class MeshReport:
     duplicate_faces: later copies of faces. degenerate_faces: without area. non_planar_faces, volume_spread: the faces
         that are not flat, and the volume (unit³) that the choice of their diagonals can change.
     cap_area_share: the area of the caps that were needed by the area of the faces.
+    self_intersection: whether a component goes through itself.
     """
 
     closed: bool
@@ -61,10 +72,12 @@ class MeshReport:
     non_planar_faces: int = 0
     volume_spread: float = 0.0
     cap_area_share: float = 0.0
+    self_intersection: Intersection = Intersection.NOT_CHECKED
     defective_elements: DefectiveElements = field(default_factory=DefectiveElements)
 
     def as_record(self) -> dict:
         """Plain values for JSON; of the faults only the flipped faces."""
         record = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name != "defective_elements"}
+        record["self_intersection"] = str(self.self_intersection)
         record["flipped_faces"] = self.defective_elements.flipped_faces.tolist()
         return record

@@ -13,6 +13,7 @@ from bpy.types import Context, Object, Operator
 from ...core.verdict.finding import Finding, finding
 from ..read import measurable
 from ..scene.transforms import ancestors
+from ..session import outcome
 from ..settings.preferences import copy_defaults
 from ..write import reports
 from .modal import progress
@@ -36,6 +37,12 @@ def poll_selection(cls: type[Operator], context: Context, any_mode: bool = False
     return True
 
 
+def report(operator: Operator, *findings: Finding) -> None:
+    """One report, which stands in the panel until the next action where it refuses or warns."""
+    outcome.remember(operator.bl_label, findings)
+    reports.report(operator, *findings)
+
+
 def summarize(
     operator: Operator,
     changed: int,
@@ -45,7 +52,8 @@ def summarize(
     findings: Sequence[Finding] = (),
     idle: Finding | None = None,
 ) -> set[str]:
-    """One report for the run, and what `execute` returns.
+    """One report for the run, and what `execute` returns. All failures and warnings stand in the panel until the next
+    action.
 
     done: what happened to `changed` of `total` objects. failures: of each that was left as it is, why. findings: what
     else was noticed. idle: where nothing had to be done, why.
@@ -56,6 +64,7 @@ def summarize(
     if failures:
         causes = [failure.as_record() for failure in reports.first(failures)]
         sentences.append(finding("left_unchanged", count=len(failures), total=total, causes=causes))
+    outcome.remember(operator.bl_label, [*failures, *findings])
     reports.report(operator, *sentences, *reports.first(findings))
     return {"FINISHED"} if changed else {"CANCELLED"}
 

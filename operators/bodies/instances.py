@@ -19,7 +19,7 @@ from ...core.polyhedron.sheared_areas import area_of_images
 from ...core.solid.judgement import SolidIntegrals
 from ...core.solid.places import PlaceComparison
 from ...core.verdict.finding import Finding, finding
-from ...core.verdict.health import DefectiveElements, MeshReport
+from ...core.verdict.health import DefectiveElements, Intersection, MeshReport
 from ..read import Reading
 
 
@@ -138,6 +138,7 @@ def merge_health(healths: Iterable[tuple[MeshReport, int, float]]) -> MeshReport
         "defective_elements": DefectiveElements(),
         "closed": all(h.closed for h, *_ in healths),
         "welded": any(h.welded for h, *_ in healths),
+        "self_intersection": min((h.self_intersection for h, *_ in healths), key=list(Intersection).index),
         "volume_spread": sum(h.volume_spread for h, *_ in healths),
         "cap_area_share": sum(h.cap_area_share * part_area for h, _, part_area in healths) / area
         if area > 0.0

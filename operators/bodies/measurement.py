@@ -18,8 +18,9 @@ from ...core.moments.moments import Moments
 from ...core.verdict.finding import ReadError, finding
 from ...core.verdict.method import Method, Verdict
 from ..read import Reading
-from ..read.fingerprint import effective_hash, fingerprint, matrix_hash
+from ..read.fingerprint import effective_hash, fingerprint, transform_key
 from ..read.volume import VolumeReading
+from ..settings.accepted import with_acceptance
 from ..settings.options import MeasureOptions
 from .body import KNOWN_ORDER, Body
 from .request import Request
@@ -73,7 +74,7 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
         area_moments=area_moments,
         mass_moments=(moments, factor),
         health=body.health,
-        findings=(*reading.findings, *body.findings, *frame),
+        findings=with_acceptance((*reading.findings, *body.findings, *frame), request.accepted),
         rotation=rotation,
         location=np.asarray(reading.location, np.float64) * request.unit,
         length=float(measured.raw[0]) if wire else None,
@@ -179,4 +180,4 @@ def _fingerprint(body: Body, request: Request) -> str:
     )
     digested = [moments for moments in (body.volume, body.area, body.mass, body.length) if moments is not None]
     geometry = b"".join([moments.raw.tobytes() for moments in digested])
-    return fingerprint(geometry, "" if request.obj is None else matrix_hash(request.obj), settings)
+    return fingerprint(geometry, "" if request.obj is None else transform_key(request.obj), settings)

@@ -13,6 +13,7 @@ import bpy
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
 from ..read import Reading, read_object
+from ..settings.accepted import accepted_codes
 from ..settings.density import DensityField, density_field, object_density
 from ..settings.options import AS_SET, MeasureOptions
 
@@ -70,6 +71,11 @@ class Request:
     def scene(self) -> bpy.types.Scene:
         """The scene whose defaults count."""
         return _scene(self.depsgraph)
+
+    @property
+    def accepted(self) -> frozenset[str]:
+        """The codes of findings that were accepted for the object."""
+        return frozenset() if self.obj is None else accepted_codes(self.obj)
 
     @cached_property
     def density(self) -> DensityField | None:

@@ -11,6 +11,8 @@ taken whenever Blender re-evaluates it.
 from __future__ import annotations
 
 import hashlib
+import math
+import struct
 
 import bpy
 import numpy as np
@@ -25,6 +27,7 @@ from .mesh import mesh_surface
 from .visibility import evaluated_geometry
 
 VERSION = "v1"
+SAME_SCALE_RTOL = 2e-6  # of an axis' length: what float32 matrices make of it as the object turns
 MAX_DIGESTED_FACES = 50_000  # faces: reading and digesting them takes 2 ms
 
 
@@ -38,6 +41,76 @@ def matrix_hash(obj: bpy.types.Object) -> str:
     return digest(np.array(obj.matrix_world, np.float32).tobytes())
 
 
+def transform_key(obj: bpy.types.Object) -> str:
+    """What of the object's transform its numbers depend on: how it is scaled and mirrored, but neither where it is nor
+    how it is turned. A digest of all of it where the object is sheared, or its body does not move along with it.
+
+    Returns
+    -------
+    str
+        To be compared by `has_transform`.
+    """
+    scale = _scale(obj) if _moves_along(obj) else None
+    if scale is None:
+        return matrix_hash(obj)
+    sign, lengths = scale
+    return sign + np.array(lengths, np.float32).tobytes().hex()
+
+
+def transform_keys(matrices: NDArray[np.float64]) -> list[str]:
+    """`transform_key` of objects whose bodies move along with them. matrices: (n, 4, 4) their `matrix_world`."""
+    columns = matrices[:, :3, :3].astype(np.float64)
+    lengths = np.sqrt(np.add.reduce(columns * columns, axis=1))
+    has_lengths = ((lengths > 0.0) & (lengths < np.inf)).all(axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        axes = columns / lengths[:, None]
+    cosines = np.abs(np.einsum("nai,naj->nij", axes, axes))[:, [0, 1, 2], [1, 2, 0]]
+    has_scale = has_lengths & (cosines <= SAME_SCALE_RTOL).all(axis=1)
+    signs = np.where(np.linalg.det(np.where(has_scale[:, None, None], axes, np.eye(3))) < 0.0, "-", "+")
+    single, whole = lengths.astype(np.float32), matrices.astype(np.float32)
+    return [
+        sign + key.tobytes().hex() if is_scale else digest(matrix.tobytes())
+        for is_scale, sign, key, matrix in zip(has_scale.tolist(), signs.tolist(), single, whole)
+    ]
+
+
+def has_transform(obj: bpy.types.Object, key: str) -> bool:
+    """Whether the object's transform is that of a key, as far as its numbers depend on it."""
+    if key[:1] not in {"+", "-"}:
+        return key == matrix_hash(obj)
+    scale = _scale(obj) if _moves_along(obj) else None
+    if scale is None or key[0] != scale[0]:
+        return False
+    try:
+        before = struct.unpack("<3f", bytes.fromhex(key[1:]))
+    except (ValueError, struct.error):
+        return False
+    return all([abs(now - then) <= SAME_SCALE_RTOL * then for now, then in zip(scale[1], before)])
+
+
+def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
+    """The sign of the determinant, and the lengths of the axes; None where the object is sheared or flat, or a length
+    is not finite."""
+    axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))  # in Python: a panel asks for many objects'
+    lengths = [math.hypot(*axis) for axis in axes]
+    if not all([0.0 < length < math.inf for length in lengths]):
+        return None
+    (a, b, c), (d, e, f), (g, h, i) = [[entry / length for entry in axis] for axis, length in zip(axes, lengths)]
+    if max(abs(a * d + b * e + c * f), abs(d * g + e * h + f * i), abs(g * a + h * b + i * c)) > SAME_SCALE_RTOL:
+        return None
+    return "-" if a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g) < 0.0 else "+", lengths
+
+
+def _moves_along(obj: bpy.types.Object) -> bool:
+    """Whether the body is the same in the object's frame wherever the object is."""
+    if obj.type == "META" or len(obj.particle_systems):
+        return False
+    settings = obj.body_moments
+    if settings.mass_from != "DENSITY" or settings.density_from not in {"POLYNOMIAL", "VOLUME"}:
+        return True
+    return settings.density_from == "POLYNOMIAL" and settings.density_frame == "OBJECT"
+
+
 def scale_hash(obj: bpy.types.Object) -> str:
     """A digest of how the object is scaled and sheared, wherever it lies."""
     linear = np.array(obj.matrix_world, np.float64)[:3, :3]
@@ -49,12 +122,28 @@ def scale_hash(obj: bpy.types.Object) -> str:
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     """A digest of the settings that the numbers of this object depend on."""
     settings = obj.body_moments
+    density, mass = None, None
+    if settings.mass_from == "MASS":
+        mass = shortest_decimal(settings.mass)
+    else:
+        density = given_density(obj, scene)
+    return settings_hash_with(obj, scene, density, mass)
+
+
+def given_density(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
+    """The one density that the object's settings say: kg/m³, of a wire kg/m."""
+    settings = obj.body_moments
+    return shortest_decimal(settings.linear_density) if settings.kind == "WIRE" else object_density(settings, scene)
+
+
+def settings_hash_with(obj: bpy.types.Object, scene: bpy.types.Scene, density: float | None, mass: float | None) -> str:
+    """A digest of the object's settings as they are, but for this density or mass."""
+    settings = obj.body_moments
     unit = shortest_decimal(scene.unit_settings.scale_length)
-    given = shortest_decimal(settings.linear_density) if settings.kind == "WIRE" else object_density(settings, scene)
     return effective_hash(
         "SOLID" if obj.type == "VOLUME" else settings.kind,
-        given if settings.mass_from == "DENSITY" else None,
-        shortest_decimal(settings.mass) if settings.mass_from == "MASS" else None,
+        density,
+        mass,
         shortest_decimal(settings.thickness) * unit,
         settings.overlap,
         unit,

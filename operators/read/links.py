@@ -4,16 +4,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import bpy
+import numpy as np
 
 from ...core.measurement import Measurement
 from ...core.mesh.surface import Surface
-from ...core.numerics.rotations import quaternion
+from ...core.numerics.rotations import polar_rotation, quaternion
 from ...core.verdict.finding import MeasureError
 from .objects import read_object
+from .reading import float64_matrix
 
 
 def link_entry(
@@ -78,3 +80,35 @@ def link_surface(
         return None
     to_object = measurement.rotation.T
     return surface.transform(unit * to_object, -to_object @ measurement.location)
+
+
+def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
+    """Return the names of objects whose matrix does more than move, turn, scale and mirror."""
+    located = list(objects)
+    if not located:
+        return []
+    _, sheared = polar_rotation(np.array([float64_matrix(obj.matrix_world) for obj in located]))
+    return [obj.name_full for obj, skew in zip(located, sheared) if skew]
+
+
+USD_ROOT = "root"  # what Blender's exporter puts everything under
+
+
+def usd_path(obj: bpy.types.Object, identifier: Callable[[str], str]) -> list[str]:
+    """Return the names of the prims from the top to an object's, in what Blender's exporter writes.
+
+    Parameters
+    ----------
+    obj : Object
+    identifier : callable
+        Makes the name of a prim of an object's.
+
+    Returns
+    -------
+    list of str
+    """
+    names, above = [], obj
+    while above is not None:
+        names.append(identifier(above.name))
+        above = above.parent
+    return [USD_ROOT, *reversed(names)]

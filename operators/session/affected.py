@@ -1,70 +1,52 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which other objects show, or take their density from, what Blender has evaluated anew."""
+"""What an object shows, or takes its density from: what changes it though Blender reports no change of it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
-import bpy
-from bpy.types import Collection, Object
-
-
-def volume_filled_objects(updated: Iterable[Object]) -> Iterator[Object]:
-    """Find the objects with stored numbers whose density comes from the voxels of updated objects.
-
-    Parameters
-    ----------
-    updated : iterable of bpy.types.Object
-        Original objects with new geometry.
-
-    Yields
-    ------
-    bpy.types.Object
-        Each once.
-    """
-    sources = {obj for obj in updated if obj.type == "VOLUME"}
-    if not sources:
-        return
-    for obj in bpy.data.objects:
-        if "body_fingerprint" in obj:
-            settings = obj.body_moments
-            if settings.density_from == "VOLUME" and settings.density_volume in sources:
-                yield obj
+from bpy.types import ID, Object
 
 
-def instancing_objects(updated: Iterable[Object], collections: set[Collection]) -> Iterator[Object]:
-    """Find the objects that show updated ones as instances, which Blender reports of collections only.
+def shown_by(obj: Object) -> Iterator[ID]:
+    """Find what an object shows as instances, whose shape and place matter.
 
     Parameters
     ----------
-    updated : iterable of bpy.types.Object
-        Original objects with new geometry or transform.
-    collections : set of bpy.types.Collection
-        Original collections of which something is new.
+    obj : bpy.types.Object
+        An original object.
 
     Yields
     ------
-    bpy.types.Object
-        Some perhaps more than once.
+    bpy.types.ID
+        Objects and collections. Of collections Blender reports what happens to their members.
     """
-    updated = set(updated)
-    above: set[Object] = set()
-    for obj in updated:
-        while (obj := obj.parent) is not None and obj not in above:
-            above.add(obj)
-            if obj.instance_type in {"VERTS", "FACES"}:
-                yield obj
-    emitted = {
-        settings
-        for settings in bpy.data.particles
-        if settings.instance_object in updated or settings.instance_collection in collections
-    }
-    for obj in bpy.data.objects if collections or emitted else ():
-        if (
-            obj.instance_type == "COLLECTION"
-            and obj.instance_collection in collections
-            or emitted
-            and any(system.settings in emitted for system in obj.particle_systems)
-        ):
-            yield obj
+    kind = obj.instance_type
+    if kind == "COLLECTION":
+        if obj.instance_collection is not None:
+            yield obj.instance_collection
+    elif kind != "NONE":
+        yield from obj.children_recursive
+    for system in obj.particle_systems:
+        settings = system.settings
+        if settings.instance_object is not None:
+            yield settings.instance_object
+        if settings.instance_collection is not None:
+            yield settings.instance_collection
+
+
+def density_source(obj: Object) -> Object | None:
+    """Return the Volume object that the density comes from, of which the shape matters; its place is a setting.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    bpy.types.Object or None
+    """
+    settings = obj.body_moments
+    return settings.density_volume if settings.density_from == "VOLUME" else None

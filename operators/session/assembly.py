@@ -22,7 +22,7 @@ from ..read.assembly import MemberKind, Root, members_of, settings_of
 from ..read.fingerprint import VERSION, digest, matrix_hash
 from ..write import properties
 from ..write.messages import of_severity
-from . import handlers, marks, results, staleness
+from . import handlers, marks, reference, results, staleness
 from .cache import SessionCache
 
 _reasons: SessionCache[tuple[int, str | None]] = SessionCache()  # of assemblies, and the generation that is true of
@@ -44,7 +44,9 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
     unit = shortest_decimal(scene.unit_settings.scale_length)
     root = assembly.root.member.data
+    about = reference.stored_choice(root)
     properties.store(root, assembly.measurement)
+    reference.follow(root, scene, about)
     done: dict[Root, None] = {root: None}
     failures: list[tuple[str, Finding]] = []
     measured: list[Object] = []

@@ -51,7 +51,21 @@ class SessionCache(Generic[Value]):
         object
             The value, or `default`.
         """
-        uid = data.session_uid
+        return self.by_uid(data.session_uid, default)
+
+    def by_uid(self, uid: int, default: Value | None = None) -> Value | None:
+        """Return the same as `get`.
+
+        Parameters
+        ----------
+        uid : int
+            Session uid of the data-block.
+        default : optional
+
+        Returns
+        -------
+        object
+        """
         if uid not in self._values:
             return default
         self._values.move_to_end(uid)

@@ -22,28 +22,33 @@ from . import cache
 
 @dataclass(frozen=True, eq=False)
 class Updates:
-    """What the window's dependency graph has evaluated anew.
+    """What the window's dependency graph has evaluated anew: session uids, for a frame may have thousands of them.
 
     Attributes
     ----------
     scene : bpy.types.Scene
         The scene that was evaluated.
     depsgraph : bpy.types.Depsgraph
-        The evaluated dependency graph.
-    reshaped, moved : sequence of bpy.types.Object
-        Original objects with new geometry, and those of which only the transform is new.
-    collections : set of bpy.types.Collection
-        Original collections of which something is new.
+        The evaluated dependency graph, its `updates` valid until the handlers return.
+    reshaped, moved, others : list of int
+        Of objects with new geometry, of those of which only the transform is new, and of those of which neither is.
+    collections : list of int
+        Of collections of which something is new.
+    frame_changed : bool
+        Whether this is the evaluation of another frame.
     """
 
     scene: Scene
     depsgraph: Depsgraph
-    reshaped: Sequence[Object]
-    moved: Sequence[Object]
-    collections: set[Collection]
+    reshaped: list[int]
+    moved: list[int]
+    others: list[int]
+    collections: list[int]
+    frame_changed: bool
 
 
 on_update: list[Callable[[Updates], None]] = []
+before_undo: list[Callable[[], None]] = []
 on_undo: list[Callable[[], None]] = []  # undo and redo: before the update that follows them
 on_load: list[Callable[[], None]] = []  # after all caches were emptied
 on_save: list[Callable[[], None]] = []
@@ -75,27 +80,45 @@ def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
             calls.callback(subscriber, *args)
 
 
-def _updates(scene: Scene, depsgraph: Depsgraph) -> Updates:
-    reshaped: list[Object] = []
-    moved: list[Object] = []
-    collections: set[Collection] = set()
-    for update in depsgraph.updates:
+def _updates(scene: Scene, depsgraph: Depsgraph, frame_changed: bool) -> Updates:
+    reshaped: list[int] = []
+    moved: list[int] = []
+    others: list[int] = []
+    collections: list[int] = []
+    # An evaluated data-block has no session uid.
+    for update in depsgraph.updates:  # for some thousand objects a frame: no call, no look-up that is not needed
         data = update.id
         if isinstance(data, Object):
             if update.is_updated_geometry:
-                reshaped.append(data.original)
+                reshaped.append(data.original.session_uid)
             elif update.is_updated_transform:
-                moved.append(data.original)
+                moved.append(data.original.session_uid)
+            else:
+                others.append(data.original.session_uid)
         elif isinstance(data, Collection) and update.is_updated_geometry:
-            collections.add(data.original)
-    return Updates(scene, depsgraph, reshaped, moved, collections)
+            collections.append(data.original.session_uid)
+    return Updates(scene, depsgraph, reshaped, moved, others, collections, frame_changed)
 
 
 @persistent
 def _on_update(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
+    _note_update(scene, depsgraph, frame_changed=False)
+
+
+@persistent
+def _on_frame(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
+    _note_update(scene, depsgraph, frame_changed=True)
+
+
+def _note_update(scene: Scene, depsgraph: Depsgraph | None, frame_changed: bool) -> None:
     count_change()
     if depsgraph is not None and depsgraph.mode == "VIEWPORT":
-        _call(on_update, _updates(scene, depsgraph))
+        _call(on_update, _updates(scene, depsgraph, frame_changed))
+
+
+@persistent
+def _before_undo(*_args) -> None:
+    _call(before_undo)
 
 
 @persistent
@@ -118,7 +141,9 @@ def _on_save(*_args) -> None:
 
 HANDLERS = (
     ("depsgraph_update_post", _on_update),
-    ("frame_change_post", _on_update),
+    ("frame_change_post", _on_frame),
+    ("undo_pre", _before_undo),
+    ("redo_pre", _before_undo),
     ("undo_post", _on_undo),
     ("redo_post", _on_undo),
     ("load_post", _on_load),

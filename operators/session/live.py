@@ -141,8 +141,8 @@ def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> Measurem
 
 
 def _note_updates(updates: handlers.Updates) -> None:
-    for obj in (*updates.reshaped, *updates.moved) if len(_followed) else ():
-        if (followed := _followed.get(obj)) is not None:
+    for uid in (*updates.reshaped, *updates.moved) if len(_followed) else ():
+        if (followed := _followed.by_uid(uid)) is not None:
             followed.is_pending = True
     pending = [followed for followed in _followed if followed.is_pending]
     if pending and not bpy.app.background and not bpy.app.timers.is_registered(_tick):

@@ -18,13 +18,15 @@ import numpy as np
 from bpy.types import Object, Scene
 from numpy.typing import NDArray
 
+from ...core.inertia.reference import Reference
 from ...core.moments.moments import Moments, monomial_count, monomials
 from ...core.moments.normalized import normalize
 from ...core.verdict.finding import Finding, MeasureError, ReadError
 from ..read.fingerprint import matrix_hash, settings_hash
+from ..read.reference import ReferenceChoice
 from ..write.terminal import visible
 from ..write.units import number
-from . import staleness
+from . import updates
 from .cache import SessionCache
 
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
@@ -89,7 +91,7 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
     matrix, settings, geometry = computed.key
     if settings != settings_hash(obj, scene):
         return "stale_settings"
-    if geometry != staleness.geometry_changes(obj):
+    if geometry != updates.last_change_of_geometry(obj):
         return "stale_geometry"
     return "stale_transform" if matrix != matrix_hash(obj) else None
 
@@ -98,16 +100,31 @@ def current_numbers(obj: Object, scene: Scene) -> Display:
     """The moments to MAX_SHOWN_ORDER as the scene's settings want them, and where there are none, why."""
     settings = scene.body_moments
     # A panel is drawn at every movement of the mouse.
-    request = (computed_moments(obj), settings.moments_of, settings.moments_about, settings.frame)
+    computed = computed_moments(obj)
+    reference: Reference | None = None
+    if settings.moments_about == "REFERENCE" and computed is not None:
+        try:
+            reference = reference_of(obj, computed, scene)
+        except MeasureError as error:
+            return (), error.finding
+    place = None if reference is None else (reference.origin.tobytes(), reference.axes.tobytes())
+    request = (computed, settings.moments_of, settings.moments_about, settings.frame, place)
     cached = _displays.get(obj)
     if cached is None or cached[0] != request:
-        cached = _displays[obj] = (request, _displayed_degrees(*request))
+        cached = _displays[obj] = (request, _displayed_degrees(*request[:4], reference))
     return cached[1]
 
 
-def _displayed_degrees(computed: ComputedMoments, of: str, about: str, frame: str) -> Display:
+def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
+    """The reference that the scene has chosen. MeasureError where there is none."""
+    return ReferenceChoice.of(scene.body_moments_reference).resolve(obj, scene, computed.volume.center)
+
+
+def _displayed_degrees(
+    computed: ComputedMoments, of: str, about: str, frame: str, reference: Reference | None
+) -> Display:
     try:
-        moments = in_frame(computed, of, about, frame, min(computed.order, MAX_SHOWN_ORDER))
+        moments = in_frame(computed, of, about, frame, min(computed.order, MAX_SHOWN_ORDER), reference)
     except MeasureError as error:
         return (), error.finding
     degrees = []
@@ -121,11 +138,18 @@ def _displayed_degrees(computed: ComputedMoments, of: str, about: str, frame: st
     return tuple(degrees), None
 
 
-def in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
+def in_frame(
+    computed: ComputedMoments, of: str, about: str, frame: str, order: int, reference: Reference | None = None
+) -> Moments:
     """The moments along the axes of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or
-    "NORMALIZED", as `normalize` by size. MeasureError where that cannot be, or leaves the range of numbers."""
+    "NORMALIZED", as `normalize` by size; or about a "REFERENCE", along its axes. MeasureError where that cannot be, or
+    leaves the range of numbers."""
     with np.errstate(over="ignore", invalid="ignore"):
-        moments = _in_frame(computed, of, about, frame, order)
+        if reference is None:
+            moments = _in_frame(computed, of, about, frame, order)
+        else:
+            moments = (computed.volume if of == "VOLUME" else computed.area).truncate(order)
+            moments = moments.in_frame(reference.axes, reference.origin)
     if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
         raise ReadError("moments_overflow_at_origin", order=order)
     return moments
@@ -155,18 +179,19 @@ def unit(of: str, about: str, degree: int) -> str:
     return "m" + str(degree + (3 if of == "VOLUME" else 2)).translate(SUPERSCRIPTS)
 
 
-def as_csv(computed: ComputedMoments, of: str, about: str, frame: str) -> str:
+def as_csv(computed: ComputedMoments, of: str, about: str, frame: str, reference: Reference | None = None) -> str:
     """All of them: a comment that says what they are, and a row for each with its bounds."""
-    moments = in_frame(computed, of, about, frame, computed.order)
+    moments = in_frame(computed, of, about, frame, computed.order, reference)
     text = io.StringIO()
     text.write(
         "# {:s}: {:s} moments, {:s} frame, {:s}\n".format(
             re.sub("[,;]", " ", visible(computed.name)),  # or what follows would be a cell of its own
             of.lower(),
-            frame.lower(),
+            "reference" if about == "REFERENCE" else frame.lower(),
             {
                 "ORIGIN": "about the frame's origin, in SI units",
                 "CENTER": "about the center, in SI units",
+                "REFERENCE": "about its origin, in SI units",
                 "NORMALIZED": "central, of the body scaled to a {:s} of 1".format(of.lower()),
             }[about],
         )

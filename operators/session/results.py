@@ -22,13 +22,13 @@ from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method, Verdict
-from ..bodies.many import MeasuredStack, Stacked
 from ..bodies.measure_object import Measured
+from ..bodies.stack import MeasuredStack, Stacked
 from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
-from . import handlers, live, staleness, walls
+from . import faults, handlers, live, reference, staleness, walls
 from .cache import SessionCache
 
 
@@ -54,7 +54,11 @@ _totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last on
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
     """Write what was measured on the object, and remember what its sliders need. EditRefusedError where the object
     cannot hold results."""
+    staleness.note_edits(obj)
+    about = reference.stored_choice(obj)
     properties.store(obj, measured.measurement)
+    faults.remember(obj, measured)
+    reference.follow(obj, scene, about)
     if isinstance(measured.body, WallBody):
         walls.cache_walls(obj, measured, _unit(scene))
 
@@ -74,20 +78,32 @@ def store_many(
                 else:
                     yield obj, None
         else:
-            yield from zip([obj for obj, _ in items], _store_stack(stack, [each.index for _, each in items]))
+            yield from _store_stack(stack, [each.index for _, each in items], scene)
 
 
-def _store_stack(stack: MeasuredStack, which: list[int]) -> Iterator[Exception | None]:
-    part = stack if len(which) == len(stack) else stack.some(which)
-    return properties.store_stack(
-        part.objects,
+def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterator[tuple[Object, Exception | None]]:
+    part = stack.some(which)
+    objects = [member.obj for member in part.members]
+    about = {}
+    for obj in objects:
+        staleness.note_edits(obj)
+        if "body_reference" in obj:
+            about[obj] = reference.stored_choice(obj)
+    refusals = properties.store_stack(
+        objects,
         part.in_object_frames(),
         part.density,
         part.volume.raw[:, 0],
         part.area.raw[:, 0],
         part.error_bounds,
-        zip([shape.method for shape in part.shapes], part.findings, part.fingerprints),
+        zip([member.shape.method for member in part.members], part.findings, part.fingerprints),
     )
+    for obj, member, refusal in zip(objects, part.members, refusals):
+        if refusal is None:
+            faults.remember_own(obj, member.shape.surface, member.shape.defects)
+            if obj in about:
+                reference.follow(obj, scene, about[obj])
+        yield obj, refusal
 
 
 def remember_failure(obj: Object, reason: Finding | None) -> None:

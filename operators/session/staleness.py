@@ -16,6 +16,10 @@ comparing what they show now. Of what cannot be compared, every update is an edi
 - the update that follows undo, which brings back numbers and shape together. An edit that undo brings back again was
   noted when it was made, and notes are kept: undo may bring back the numbers of before, too. In Edit Mode and Sculpt
   Mode it brings back the shape alone, and is an edit.
+
+How: a handler only writes down which objects were updated, for a frame of an animation may have thousands. What that
+means is found when somebody asks (`note_edits`), or before it could not be found any more: before results are replaced,
+before undo, and before the file is saved.
 """
 
 from __future__ import annotations
@@ -26,20 +30,17 @@ from types import MappingProxyType
 import bpy
 from bpy.types import Context, Depsgraph, Object, Scene
 
-from ..read.fingerprint import VERSION, matrix_hash, scale_hash, settings_hash, shape_digest
+from ..read.fingerprint import VERSION, has_transform, matrix_hash, scale_hash, settings_hash, shape_digest
 from ..read.quiet import paused
-from . import handlers, marks
-from .affected import instancing_objects, volume_filled_objects
+from . import handlers, marks, updates
 from .cache import SessionCache
 
 NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
 _edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
-_settings: SessionCache[str] = SessionCache()  # digest of the settings at the last update
-_changes: SessionCache[int] = SessionCache()  # how often the geometry changed, of objects for which this is asked
 _shapes: dict[str, bytes] = {}  # mark → digest of what was shown when it was stored: copies of an object share both
+_resolved: dict[int, int] = {}  # session uid → up to which update is noted what it means
 # of what is no object's own body, by method: what compares its results with an object
 reasons_by_method: dict[str, Callable[[Object], str | None]] = {}
-_undo_pending = False  # whether the next update is that of undo or redo
 
 
 # ---------------------------------------------------------------- What was stored just now
@@ -61,6 +62,7 @@ def mark_up_to_date(
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
+        note_edits(obj)  # of its other marks
         mark_object(obj)
         mark = marks.of_results(obj)
         shape = shapes.get(obj)
@@ -83,6 +85,7 @@ def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) ->
     with paused():
         depsgraph = context.evaluated_depsgraph_get()
     for obj, mark in stored:
+        note_edits(obj)
         _set_edited(obj, mark, False)
         _remember_shape(obj, mark, depsgraph)
 
@@ -95,20 +98,39 @@ def mark_object(obj: Object) -> None:
     obj : bpy.types.Object
         An original object.
     """
+    _resolved[obj.session_uid] = updates.count()
     _set_edited(obj, marks.of_results(obj), False)
-    _settings.forget(obj)
+    handlers.count_change()
 
 
-def mark_from_setting_update(obj: Object) -> None:
-    """Do as `mark_object`, from within the update of a setting: what Blender reports next is that update.
+def replace_mark(obj: Object, before: str) -> None:
+    """Take over what is noted of the results, after numbers and settings were changed together and the shape was not.
 
     Parameters
     ----------
     obj : bpy.types.Object
         An original object.
+    before : str
+        The mark of the results that were replaced.
     """
-    mark_object(obj)
-    _settings[obj] = ""
+    mark = marks.of_results(obj)
+    _set_edited(obj, mark, before in _edited.get(obj, ()))
+    if before in _shapes:
+        _shapes[mark] = _shapes[before]
+
+
+def pin(obj: Object) -> None:
+    """Take the results of an object as those of the place where it is, after some were stored that depend on it.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object that can hold results.
+    """
+    mark = marks.parse(before := marks.of_results(obj))
+    if mark is not None and has_transform(obj, mark.transform):
+        obj["body_fingerprint"] = ":".join(mark._replace(transform=matrix_hash(obj)))
+        replace_mark(obj, before)
 
 
 def mark_axes_changed(objects: Iterable[Object]) -> None:
@@ -127,28 +149,10 @@ def mark_axes_changed(objects: Iterable[Object]) -> None:
 # ---------------------------------------------------------------- What is out of date
 
 
-def geometry_changes(obj: Object) -> int:
-    """Count how often Blender reports a change of the object's geometry; some settings count as such.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    int
-        How often that was since the first call for this object, or since the file was loaded.
-    """
-    if obj not in _changes:
-        _changes[obj] = 0
-    return _changes.get(obj, 0)
-
-
 def is_edited(obj: Object) -> bool:
     """Return whether geometry or transform have changed since the results were stored, whatever the settings are."""
     mark = marks.parse(marks.of_results(obj))
-    return mark is None or _has_new_geometry(obj, mark) or mark.transform != matrix_hash(obj)
+    return mark is None or _has_new_geometry(obj, mark) or not has_transform(obj, mark.transform)
 
 
 def stale_reason(obj: Object, scene: Scene) -> str | None:
@@ -176,7 +180,7 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
         return "stale_settings"
     if _has_new_geometry(obj, mark):
         return "stale_geometry"
-    return "stale_transform" if mark.transform != matrix_hash(obj) else None
+    return None if has_transform(obj, mark.transform) else "stale_transform"
 
 
 def section_stale_reason(obj: Object) -> str | None:
@@ -222,6 +226,7 @@ def symmetry_stale_reason(obj: Object) -> str | None:
 
 
 def _has_new_geometry(obj: Object, mark: marks.Mark) -> bool:
+    note_edits(obj)
     return mark.geometry == marks.EDITED or ":".join(mark) in _edited.get(obj, ())
 
 
@@ -230,47 +235,38 @@ def _has_new_geometry(obj: Object, mark: marks.Mark) -> bool:
 
 def _set_edited(obj: Object, mark: str, is_edited: bool) -> None:
     """Note that the geometry of what carries this mark has changed, or that it has not."""
-    handlers.count_change()
     noted = _edited.get(obj, frozenset())
-    _edited[obj] = noted | {mark} if is_edited else noted - {mark}
+    if is_edited != (mark in noted) or obj not in _edited:
+        handlers.count_change()
+        _edited[obj] = noted | {mark} if is_edited else noted - {mark}
 
 
-def _note_updates(updates: handlers.Updates) -> None:
-    global _undo_pending
-    if paused.depth:
+def note_edits(obj: Object) -> None:
+    """Note what the updates since the last call mean for the marks of an object.
+
+    To be called before its marks are replaced: nobody could say later whether the geometry has changed since those.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    """
+    uid, newest = obj.session_uid, updates.count()
+    seen = _resolved.get(uid, 0)
+    if seen >= newest:
         return
-    undone, _undo_pending = _undo_pending, False
-    if not (updates.reshaped or updates.moved or updates.collections):
+    _resolved[uid] = newest
+    edit, returned = updates.last_edit(obj, seen), updates.last_return(obj)
+    last = max(edit, returned)
+    if last.number <= seen:
         return
-    instancing = instancing_objects((*updates.reshaped, *updates.moved), updates.collections)
-    reshaped = dict.fromkeys((*updates.reshaped, *instancing))
-    for obj in reshaped if len(_changes) else ():
-        if obj in _changes:
-            _changes[obj] = geometry_changes(obj) + 1
-    for obj in reshaped | dict.fromkeys(volume_filled_objects(reshaped)):
-        if carried := marks.of_object(obj):
-            _note_update(obj, carried, updates, undone)
-
-
-def _note_update(obj: Object, carried: list[str], updates: handlers.Updates, undone: bool) -> None:
-    """Note a change of the object's geometry, or that there is none any more. undone: whether undo or redo evaluated
-    it."""
-    came_back = undone and not (obj.mode == "SCULPT" or getattr(obj.data, "is_editmode", False))
-    changed = not came_back and not _is_settings_update(obj, carried[0], updates.scene)
-    shape = _shape(obj, updates.depsgraph) if any(mark in _shapes for mark in carried) else None
+    carried = marks.of_object(obj)
+    shape = _shape(obj, updates.depsgraph_of(last)) if any([mark in _shapes for mark in carried]) else None
     for mark in carried:
         if shape is not None and mark in _shapes:
             _set_edited(obj, mark, shape != _shapes[mark])
-        elif changed or undone and mark in _shapes:  # redo brings back an edit whose note may have been taken back
+        elif edit.number or mark in _shapes:  # redo brings back an edit whose note may have been taken back
             _set_edited(obj, mark, True)
-
-
-def _is_settings_update(obj: Object, mark: str, scene: Scene) -> bool:
-    """Whether this update is one of the object's settings: Blender reports those as changes of its geometry."""
-    now = settings_hash(obj, scene)
-    before = _settings.get(obj, mark.rpartition(":")[2])
-    _settings[obj] = now
-    return now != before
 
 
 def _remember_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
@@ -279,9 +275,9 @@ def _remember_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
         _shapes[mark] = shape
 
 
-def _shape(obj: Object, depsgraph: Depsgraph) -> bytes | None:
+def _shape(obj: Object, depsgraph: Depsgraph | None) -> bytes | None:
     """A digest of all that the numbers come from beside settings and transform; None where there is none."""
-    return None if _varies(obj) else shape_digest(obj, depsgraph)
+    return None if depsgraph is None or _varies(obj) else shape_digest(obj, depsgraph)
 
 
 def _varies(obj: Object) -> bool:
@@ -289,29 +285,26 @@ def _varies(obj: Object) -> bool:
     return obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
 
 
-def _note_undo() -> None:
-    global _undo_pending
-    _undo_pending = True
+def _note_all_edits() -> None:
+    for obj in bpy.data.objects if updates.count() else ():
+        note_edits(obj)
 
 
 def _forget_file() -> None:
-    global _undo_pending
-    _undo_pending = False
+    _resolved.clear()
     _shapes.clear()
 
 
 def _write_notes() -> None:
-    if not len(_edited):
-        return
-    for obj in bpy.data.objects:
+    _note_all_edits()
+    for obj in bpy.data.objects if len(_edited) else ():
         edited = _edited.get(obj)
         if edited and obj.is_editable:
             marks.write_edited(obj, edited)
 
 
 SUBSCRIPTIONS = (
-    (handlers.on_update, _note_updates),
-    (handlers.on_undo, _note_undo),
+    (handlers.before_undo, _note_all_edits),
     (handlers.on_load, _forget_file),
     (handlers.on_save, _write_notes),
 )

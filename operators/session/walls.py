@@ -89,7 +89,7 @@ def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
     except MeasureError:  # the panel shows how thick it may be
         return
     properties.store(obj, measurement)
-    staleness.mark_from_setting_update(obj)
+    staleness.mark_object(obj)
 
 
 def _walls_on_side(cached: _CachedWalls, obj: Object) -> Walls:

@@ -4,6 +4,8 @@
 
 from bpy.props import BoolProperty, FloatVectorProperty
 
+from .hooks import changed
+
 
 class GivenPartProperties:
     """What may be given beside a mass."""
@@ -12,6 +14,7 @@ class GivenPartProperties:
         name="Given Center",
         description="Enter the center of mass instead of taking that of the geometry",
         default=False,
+        update=changed,
     )
     given_center: FloatVectorProperty(
         name="Center of Mass",
@@ -19,11 +22,13 @@ class GivenPartProperties:
         subtype="XYZ",
         unit="LENGTH",
         precision=6,
+        update=changed,
     )
     use_inertia: BoolProperty(
         name="Given Inertia",
         description="Enter the inertia tensor instead of taking that of the geometry with the given mass",
         default=False,
+        update=changed,
     )
     given_inertia_diagonal: FloatVectorProperty(
         name="Ixx, Iyy, Izz",
@@ -33,9 +38,11 @@ class GivenPartProperties:
         ),
         min=0.0,
         precision=6,
+        update=changed,
     )
     given_inertia_products: FloatVectorProperty(
         name="Ixy, Ixz, Iyz",
         description="Tensor entries off the diagonal in kg·m², independent of the scene units: Ixy = −∫xy dm",
         precision=6,
+        update=changed,
     )

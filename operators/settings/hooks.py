@@ -6,14 +6,39 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from bpy.types import Context, PropertyGroup
+from bpy.types import Context, PropertyGroup, Scene
 
 Hook = Callable[[PropertyGroup, Context], None]
 
+on_change: list[Hook] = []  # any setting of an object
+on_density_change: list[Hook] = []  # what an object's mass is multiplied by: a density, a given mass, which of them
 on_wall_change: list[Hook] = []  # the side of a shell's material, or its thickness
+on_default_density_change: list[Hook] = []  # that of a scene's objects that have none of their own
+
+
+def changed(settings: PropertyGroup, context: Context) -> None:
+    """The update function of an object's settings."""
+    _call(on_change, settings, context)
+
+
+def density_changed(settings: PropertyGroup, context: Context) -> None:
+    """The update function of the settings that say how much an object weighs."""
+    _call(on_change, settings, context)
+    _call(on_density_change, settings, context)
 
 
 def wall_changed(settings: PropertyGroup, context: Context) -> None:
     """The update function of the settings that say where the material of a shell is."""
-    for hook in on_wall_change:
+    _call(on_change, settings, context)
+    _call(on_wall_change, settings, context)
+
+
+def default_density_changed(settings: PropertyGroup, context: Context) -> None:
+    """The update function of what objects weigh whose density has not been set, in a scene or in the preferences."""
+    if isinstance(settings.id_data, Scene):
+        _call(on_default_density_change, settings, context)
+
+
+def _call(hooks: list[Hook], settings: PropertyGroup, context: Context) -> None:
+    for hook in hooks:
         hook(settings, context)

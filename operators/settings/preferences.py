@@ -14,6 +14,7 @@ from bpy.types import AddonPreferences, Context, PropertyGroup, Scene
 
 from ...core.density.materials import BY_NAME, MATERIALS
 from ...core.numerics.float32 import shortest_decimal
+from .hooks import default_density_changed
 
 ADDON_ID = __name__.removesuffix(".operators.settings.preferences")
 MATERIAL_ITEMS = [
@@ -72,6 +73,7 @@ class SceneDefaults:
             *MATERIAL_ITEMS,
         ],
         default="NONE",
+        update=default_density_changed,
     )
     default_density: FloatProperty(
         name="Default Density",
@@ -81,6 +83,7 @@ class SceneDefaults:
         soft_max=25000.0,
         step=1000,
         precision=3,
+        update=default_density_changed,
     )
 
 

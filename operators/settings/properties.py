@@ -20,7 +20,7 @@ from ...core.polyhedron import MAX_ORDER
 from .density import object_density
 from .given import GIVEN_PROPERTIES, is_point_mass
 from .given_properties import GivenPartProperties
-from .hooks import wall_changed
+from .hooks import changed, density_changed, wall_changed
 from .overlay import BodyMomentsOverlaySettings
 from .preferences import CLASSES as PREFERENCES
 from .preferences import SceneDefaults
@@ -35,7 +35,12 @@ COPIED_PROPERTIES = (
 )
 
 
-def _forget_material(settings: PropertyGroup, _context: Context) -> None:
+def _density_changed(settings: PropertyGroup, context: Context) -> None:
+    _forget_material(settings)
+    density_changed(settings, context)
+
+
+def _forget_material(settings: PropertyGroup, _context: Context | None = None) -> None:
     material = BY_NAME.get(settings.material)
     if settings.material and (material is None or np.float32(material.density) != np.float32(settings.density)):
         settings.material = ""
@@ -75,6 +80,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("WIRE", "Wire", "The curve is a wire of the given mass per length"),
         ),
         default="SOLID",
+        update=changed,
     )
     mass_from: EnumProperty(
         name="Specify",
@@ -84,6 +90,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("MASS", "Mass", "Enter the measured mass and compute the mean density"),
         ),
         default="DENSITY",
+        update=density_changed,
     )
     density_from: EnumProperty(
         name="Density From",
@@ -109,6 +116,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("VOLUME", "Volume Object", "Grid of a Volume object around a solid, constant in each voxel"),
         ),
         default="VALUE",
+        update=density_changed,
     )
     density_polynomial: StringProperty(
         name="Polynomial",
@@ -117,6 +125,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             "y, z, x², xy, xz, y², yz, z², … separated by commas"
         ),
         default="1000",
+        update=changed,
     )
     density_frame: EnumProperty(
         name="Coordinates",
@@ -131,11 +140,13 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("WORLD", "World", "Meters along the world axes from the world origin"),
         ),
         default="OBJECT",
+        update=changed,
     )
     density_attribute: StringProperty(
         name="Attribute",
         description="Float attribute on the vertices with the density in kg/m³, after modifiers",
         default="density",
+        update=changed,
     )
     density: FloatProperty(
         name="Density",
@@ -146,7 +157,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         soft_max=25000.0,
         step=1000,
         precision=3,
-        update=_forget_material,
+        update=_density_changed,
     )
     density_kg_m3: _density_in("KG_M3", "Density")
     density_g_cm3: _density_in("G_CM3", "Density")
@@ -159,6 +170,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         min=0.0,
         step=10,
         precision=6,
+        update=density_changed,
     )
     mass: FloatProperty(
         name="Mass",
@@ -167,6 +179,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         min=0.0,
         step=10,
         precision=6,
+        update=density_changed,
     )
     wall: EnumProperty(
         name="Wall",
@@ -205,14 +218,17 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("UNION", "Count as Union", "Components are united first by Blender's exact Boolean"),
         ),
         default="SIGNED",
+        update=changed,
     )
     material: StringProperty(
         name="Material",
         description="Material that the density was taken from",
+        update=changed,
     )
     grid: StringProperty(
         name="Grid",
         description="Grid to measure. If empty, “density” or else the first suitable grid",
+        update=changed,
     )
     grid_as: EnumProperty(
         name="Measure As",
@@ -222,6 +238,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("SOLID", "Solid", "The grid is a level set that bounds a solid filled with material"),
         ),
         default="DENSITY",
+        update=changed,
     )
     values_from: EnumProperty(
         name="Values",
@@ -231,6 +248,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("TABLE", "Table", "Use a transfer table, for example for CT numbers"),
         ),
         default="FACTOR",
+        update=changed,
     )
     value_density: FloatProperty(
         name="Density of Value 1",
@@ -240,6 +258,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         soft_max=25000.0,
         step=100,
         precision=4,
+        update=changed,
     )
     transfer_table: StringProperty(
         name="Transfer Table",
@@ -248,6 +267,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             "The default converts CT numbers to tissue densities"
         ),
         default=CT_DENSITIES,
+        update=changed,
     )
     spline_order: IntProperty(
         name="Spline Order",
@@ -255,12 +275,20 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         default=1,
         min=1,
         max=6,
+        update=changed,
+    )
+    accepted: StringProperty(
+        name="Accepted Findings",
+        description="Codes of the warnings that were accepted for this object and are notes",
+        options={"HIDDEN"},
+        update=changed,
     )
     density_volume: PointerProperty(
         name="Volume",
         description="Volume object whose grid is the density inside the solid",
         type=Object,
         poll=lambda _settings, obj: obj.type == "VOLUME",
+        update=changed,
     )
 
 
@@ -331,6 +359,7 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
                 "Center, Normalized",
                 "Central moments of the shape scaled to a volume or area of 1, independent of size",
             ),
+            ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
         ),
         default="ORIGIN",
     )

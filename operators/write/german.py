@@ -69,6 +69,21 @@ TEXTS = {
     "Faults": "Fehler",
     "Support Polygon": "Standfläche",
     "Path of Balance Groups": "Bahn der Balancegruppen",
+    # stability
+    "Stability": "Standfestigkeit",
+    "Check Stability": "Standfestigkeit prüfen",
+    "Rest on Ground": "Auf den Boden legen",
+    "Stands": "Steht",
+    "Tips Over": "Kippt",
+    "Tips at": "Kippt bei",
+    "Margin": "Abstand zur Kante",
+    "Toward": "Richtung",
+    "Resting Poses": "Ruhelagen",
+    "Pose": "Lage",
+    "Ground": "Boden",
+    "Lowest Point": "Tiefster Punkt",
+    "Pose {:d} of {:d}: {:.1f}%, tips at {:.1f}°": "Lage {:d} von {:d}: {:.1f}%, kippt bei {:.1f}°",
+    "{:d} more": "{:d} weitere",
     # numbers and buttons
     "Area": "Fläche",
     "Center of Mass": "Massenmittelpunkt",
@@ -104,6 +119,10 @@ TEXTS = {
 
 # Codes of messages → German, and for several where the English has such a text
 MESSAGES = {
+    "objects_tip": ("{names} kippt um", "{names} kippen um"),
+    "laid_on_ground": ("{count} Objekt auf den Boden gelegt", "{count} Objekte auf den Boden gelegt"),
+    "panel_stability_unknown": ("Die Standfestigkeit wurde nicht berechnet.",),
+    "panel_stability_stale": ("Die Geometrie hat sich geändert. Prüfen Sie noch einmal.",),
     "and_more": ("und {count} weitere",),
     "no_faces": ("Keine Flächen. Flächen hinzufügen oder ein anderes Objekt auswählen.",),
     "no_geometry": ("Keine Geometrie. Flächen hinzufügen oder prüfen, ob ein Modifikator sie entfernt.",),
@@ -170,6 +189,14 @@ MESSAGES = {
         "zählen setzen.",
     ),
     "flat_surface": ("Die Oberfläche ist eben und umschließt kein Volumen. Art auf Schale setzen.",),
+    "self_intersection": (
+        "Die Oberfläche durchdringt sich: etwa {share:percent} des Volumens zählen doppelt oder negativ. Überlappungen "
+        "auf Als Vereinigung zählen setzen oder das Mesh reparieren.",
+    ),
+    "self_intersection_slightly": (
+        "Die Oberfläche durchdringt sich: etwa {share:percent} des Volumens zählen doppelt oder negativ.",
+    ),
+    "self_intersection_unchecked": ("Ob sich die Oberfläche durchdringt, wurde nicht geprüft.",),
     "self_intersecting": (
         "Die Oberfläche durchdringt sich, und Bereiche zählen negativ. Überlappungen auf Als Vereinigung zählen setzen "
         "oder das Netz reparieren.",

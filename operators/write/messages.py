@@ -12,7 +12,7 @@ Values stay numbers, strings, booleans and lists; only the table formats them:
     {elements}           what it is about (`Finding.elements`, of which there are `count`): 3, 5, 9, or 3 of “Cube”
 
 The optional value `sources` (names of the objects that a surface came from, where that is not the measured object
-itself) puts “A”, “B”: before any message.
+itself) puts “A”, “B”: before any message. `accepted` says that a user has judged the finding: a warning is a note then.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from ...core.verdict.finding import MAX_STORED_ELEMENTS, Elements, Finding, Seve
 from ...core.verdict.method import Method, Verdict
 
 MAX_LISTED = MAX_STORED_ELEMENTS
+ACCEPTED = "Accepted: {}"  # before a finding that a user has judged, by its value `accepted`
 
 
 @dataclass(frozen=True)
@@ -49,12 +50,12 @@ def _error(text: str, plural: str | None = None) -> Message:
     return Message(Severity.ERROR, text, plural)
 
 
-def _item(item: Any) -> str:
+def _item(item: Any, translate: Callable[[str], str]) -> str:
     """A number, “a name”, or a pair of them: 3 of “Cube”."""
     if hasattr(item, "tolist"):
         item = item.tolist()
     if isinstance(item, (list, tuple)):
-        return " of ".join(map(_item, item))
+        return translate("{} of {}").format(*[_item(part, translate) for part in item])
     return "“{}”".format(item) if isinstance(item, str) else "{}".format(item)
 
 
@@ -76,7 +77,7 @@ def truncate_list(items: Elements, count: int | None = None, translate: Callable
         “A”, “B”, and 3 more.
     """
     shown, more = truncate(items, MAX_LISTED, count)
-    texts = [_item(item) for item in shown]
+    texts = [_item(item, translate) for item in shown]
     if more:
         texts.append(translate(MESSAGES["and_more"].text).format(count=more))
     return ", ".join(texts)
@@ -92,7 +93,7 @@ class _Formatter(string.Formatter):
         if isinstance(value, Mapping):
             return sentence(Finding.from_record(value), self.translate, self.lengths)
         if value is None:  # what was not finite before it was stored
-            return "unknown"
+            return self.translate("unknown")
         if format_spec == "percent":
             return "{:.3g}%".format(100.0 * value)
         if format_spec == "length":
@@ -125,12 +126,14 @@ def sentence(
     elements = truncate_list(finding.elements, values.get("count"), translate)
     text = _Formatter(translate, lengths).vformat(translate(template), (), {**values, "elements": elements})
     sources = values.get("sources")
-    return "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
+    text = "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
+    return translate(ACCEPTED).format(text) if values.get("accepted") else text
 
 
 def severity(finding: Finding) -> Severity:
-    """How much a finding matters, by its code."""
-    return MESSAGES[finding.code].severity
+    """How much a finding matters, by its code; a warning that was accepted is a note."""
+    by_code = MESSAGES[finding.code].severity
+    return Severity.NOTE if by_code == Severity.WARNING and finding.values.get("accepted") else by_code
 
 
 def of_severity(findings: Iterable[Finding], *severities: Severity) -> list[Finding]:
@@ -243,6 +246,14 @@ MESSAGES: dict[str, Message] = {
         "The surface intersects itself and regions count as negative. Set Overlaps to Count as Union, or repair "
         "the mesh."
     ),
+    "self_intersection": _warning(
+        "The surface intersects itself: about {share:percent} of the volume counts twice or as negative. Set Overlaps "
+        "to Count as Union, or repair the mesh."
+    ),
+    "self_intersection_slightly": _note(
+        "The surface intersects itself: about {share:percent} of the volume counts twice or as negative."
+    ),
+    "self_intersection_unchecked": _note("Whether the surface intersects itself was not checked."),
     "negative_inertia": _error(
         "The surface intersects itself or cannot be closed, and regions count as negative. Set Overlaps to Count as "
         "Union, repair the mesh, or set Kind to Shell."
@@ -819,7 +830,7 @@ MESSAGES: dict[str, Message] = {
     "nrrd_data_file_missing": _error("The data file “{file:.80s}” is missing."),
     "nrrd_data_file_outside": _error(
         "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you trust the header, "
-        "use the command line's --allow-outside."
+        "turn on Allow Outside, or use --allow-outside."
     ),
     "file_exceeds_limit": _error(
         "“{file}” exceeds a limit: {count} {name} of at most {limit}. If you trust the file, set the environment "
@@ -1117,7 +1128,9 @@ MESSAGES: dict[str, Message] = {
     ),
     "balance_mesh_shared": _note("Other objects use this mesh and changed too."),
     "balance_only_active": _note("Only “{object}” was balanced; the other meshes in Edit Mode are unchanged."),
-    "modified_mesh": _error("Modifiers change the mesh, so its defects cannot be selected. Apply or hide {modifiers}."),
+    "modified_mesh": _error(
+        "Modifiers change the mesh, so its defects are not those of what is measured. Apply or hide {modifiers}."
+    ),
     "linked_results": _error("Linked from another file. Make it local to store results."),
     "override_results": _error("A library override, which would lose its results. Make it local to store results."),
     "material_not_local": _error("No local material “{material}”. Make it local."),
@@ -1201,6 +1214,29 @@ MESSAGES: dict[str, Message] = {
     "scene_never_saved": _error("The scene was never saved; --write has no file. Save it first."),
     "out_of_memory": _error("Too little memory. Measure it alone, reduce it, or use a larger machine."),
     "interrupted": _error("interrupted; the result was not written"),
+    "interrupted_resumable": _error(
+        "interrupted after {done} of {total} files; the result was not written. Run the same with --resume to go on"
+    ),
+    "file_crashed": _error(
+        "Blender crashed on the file ({how}), {count} times. Open it in Blender, save it again, or leave it out.",
+    ),
+    "file_timed_out": _error(
+        "The file took longer than {seconds:g} s. Use a longer --timeout, or open it in Blender to see why."
+    ),
+    "file_took_memory": _error(
+        "The file took more than {megabytes:.0f} MB of memory. Use a larger --memory-mb, fewer --jobs, or reduce it."
+    ),
+    "file_version_unsupported": _error(
+        "This Blender ({blender}) cannot read the file, which was saved by Blender {version}. Use a Blender that can."
+    ),
+    "file_newer_version": _warning(
+        "The file was saved by a newer Blender ({version}) than this one ({blender}), which may have lost some of it. "
+        "Use that Blender."
+    ),
+    "progress_files": _note("{done} of {total} files, {rate:.3g} per second, {left} left, {failed} not ok"),
+    "progress_started": _note("{done} of {total} files"),
+    "progress_done": _note("{count} file in {seconds:.1f} s: {counts}", "{count} files in {seconds:.1f} s: {counts}"),
+    "children_failed": _error("no process that measures can be started: {reason}"),
     "scripts_allowed": _warning(
         "Blender was allowed to run the scripts of the file, which may have changed it: {names}. Start Blender with "
         "-Y, or name the file after “measure”."
@@ -1248,7 +1284,26 @@ MESSAGES: dict[str, Message] = {
     "usage_fourier_one_object": _error("argument --fourier: takes one object of one FILE"),
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
+    "usage_range": _error("{text!r} is not A:B, two whole numbers with A no larger than B"),
+    "usage_needs_supervisor": _error("argument --{option}: applies to FILEs that are measured by other processes"),
+    "usage_resume_output": _error("argument --resume: needs the --output of the run to go on with"),
+    "usage_no_blender": _error("No module named 'bpy' is here. Use --blender PATH, or install it"),
+    "usage_busy": _error("argument --output: another run is writing {path}. Wait for its end, or use another name"),
+    "usage_old_foreign": _error(
+        "argument --output: {path} is in the way of the older result, and is none itself. Move it, or use --force"
+    ),
+    "folder_without_files": _error("No file that can be measured is in the folder {folder}. Name files"),
+    "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
+    "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ References
+    "axis_points_coincide": _error("The two points of the axis are too near to each other. Move one of them."),
+    "axis_needs_two_points": _error("{count} points are selected. Select two vertices, or two objects."),
+    "reference_object_missing": _error("No object is chosen as the reference. Choose one in Object."),
+    "reference_stored": _note(
+        "Stored the inertia of {count} object about the reference",
+        "Stored the inertia of {count} objects about the reference",
+    ),
     # ------------------------------------------------------------------ Given parts and assemblies
     "center_given": _note("The center of mass is given."),
     "inertia_given": _note("The inertia is given."),
@@ -1340,7 +1395,8 @@ MESSAGES: dict[str, Message] = {
     "measured_one": _note("Measured {object}"),
     "measured_one_with_warnings": _warning("Measured {object}, with warnings"),
     "measured_several": _note("Measured {count} of {total} objects"),
-    "with_warnings": _warning("{count} with warnings"),
+    "with_warnings": _warning("{count} with warnings: {objects}"),
+    "object_warnings": _warning("{object}: {causes}"),
     "measured_section": _note("Measured the section of {object}"),
     "measured_section_with_warnings": _warning("Measured the section of {object}, with warnings"),
     "measured_sections": _note("Measured {count} section", "Measured {count} sections"),
@@ -1383,6 +1439,10 @@ MESSAGES: dict[str, Message] = {
     ),
     "already_in_place": _note("already in place"),
     "orientation_created": _note("Created the transform orientation “{name}”"),
+    "node_group_added": _note("Added the node group “{group}”"),
+    "node_marker_added": _note("Added the node group “{group}” and the marker “{object}”"),
+    "no_reversed_faces": _note("no faces were measured as reversed"),
+    "faces_reversed": _note("Reversed {count} face", "Reversed {count} faces"),
     "material_set": _note("Set {count} object to {material}", "Set {count} objects to {material}"),
     "material_set_already": _note("already set to {material}"),
     "blender_material_set": _note("Set “{target}” to {material}"),
@@ -1464,6 +1524,7 @@ MESSAGES: dict[str, Message] = {
     "panel_wall_folds": _warning("Folds over from {length:length}"),
     "panel_density_mean": _note("Mean density, from {cause}"),
     "panel_no_material_slots": _note("No material slots"),
+    "panel_unit_question": _note("{length} long and {mass}: is a unit of this scene a millimeter?"),
     "panel_live": _note("Live ({milliseconds:.0f} ms). Press Measure to store"),
     "panel_orders_copied": _note("Orders {first} to {last} are only in the copy."),
     "panel_symmetry_tolerance": _note("The surface matches its images within {share:.2g} of the radius of gyration"),
@@ -1478,6 +1539,21 @@ MESSAGES: dict[str, Message] = {
     "panel_nothing_measured": _note("No selected object is measured"),
     "panel_nothing_to_compare": _note("Nothing to compare with"),
     "panel_material_default": _note("None: the object's density is used"),
+    # ------------------------------------------------------------------ Stability and balance
+    "hull_without_extent": _error("All points are on one line: nothing can stand on it."),
+    "center_outside_hull": _error(
+        "The center of mass is outside the convex hull: no body can have it there. Check the surface and the density."
+    ),
+    "no_stable_pose": _error("There is no pose in which it rests: it rolls on."),
+    "hull_simplified": _note(
+        "“{object}” is finely divided: its convex hull is taken with {corners} corners, to {share:percent} of its size"
+    ),
+    "stability_computed": _note("{count} of {total} object stands", "{count} of {total} objects stand"),
+    "objects_tip": _warning("{names} tips over", "{names} tip over"),
+    "laid_on_ground": _note("Laid {count} object on the ground", "Laid {count} objects on the ground"),
+    "already_on_ground": _note("already on the ground"),
+    "panel_stability_unknown": _note("Stability has not been computed."),
+    "panel_stability_stale": _note("The geometry has changed. Check again."),
     # ------------------------------------------------------------------ Robots: what a format cannot say
     "robot_links_left_out": _warning(
         "{count} object without mass is no link: {links}.", "{count} objects without mass are no links: {links}."
@@ -1499,6 +1575,26 @@ MESSAGES: dict[str, Message] = {
         "SDF knows no limits of a joint about several axes. It moves freely: {joints}.",
         "SDF knows no limits of joints about several axes. {count} move freely: {joints}.",
     ),
+    "left_out_of_robot": _warning("{count} of {total} objects are no links: {causes}"),
+    "robot_exported": _note("{count} link exported to {file}.", "{count} links exported to {file}."),
+    "robot_scaled": _warning(
+        "Readers differ about bodies that are scaled. Apply the scale of {links} (Object > Apply > Scale)."
+    ),
+    "robot_sheared": _warning(
+        "Bodies must not be sheared. Apply the scale of the parents of {links} (Object > Apply > Scale)."
+    ),
+    "robot_names_alike": _error("Blender gives {names} one name in USD. Rename one of them."),
+    "gltf_node_missing": _warning(
+        "{count} link has no node of its own in the file: {links}.",
+        "{count} links have no nodes of their own in the file: {links}.",
+    ),
+    "gltf_unit_scale": _note(
+        "Blender writes its units to glTF as meters. Center and inertia are in these, at {scale:g} m a unit."
+    ),
+    "gltf_unreadable": _error("Blender's exporter has not written a glTF file."),
+    "robot_geometry_not_written": _error("Blender's exporter failed: {error}."),
+    "robot_not_written": _error("The file cannot be written: {error}."),
+    "robot_copied": _note("Inertial of {count} link copied.", "Inertials of {count} links copied."),
     "robot_meshes_written": _note("{count} mesh written to {folder}.", "{count} meshes written to {folder}."),
     "robot_meshes_not_written": _error("The meshes cannot be written: {error}."),
     "mjcf_inertia_too_small": _warning(

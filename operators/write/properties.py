@@ -50,7 +50,17 @@ DESCRIPTIONS = {
     "body_length": "Length of a wire in m",
     "body_display_volume": "What the display mesh of a NURBS surface would have given as its volume, in m³",
     "body_fingerprint": "What the numbers were computed from",
+    "body_reference": "What body_reference_inertia is about, as JSON",
+    "body_reference_origin": "Origin of the reference in the world, in m",
+    "body_reference_axes": "Quaternion w, x, y, z that turns the world axes into those of the reference",
+    "body_reference_center": "Center of mass from the origin of the reference, along its axes, in m",
+    "body_reference_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the origin of the reference, along its "
+    "axes, in kg·m² (xy = −∫xy dm)",
+    "body_reference_error_bound": "What rounding may have changed: center of mass, inertia; then the same two for what "
+    "storing coordinates as float32 may have",
+    "body_axis_inertia": "Moment of inertia about the axis of the reference, in kg·m²",
 }
+REFERENCE_KEYS = ("body_reference", "body_axis")  # how the keys of results about a reference begin
 FRAMES = {  # of what results are stored on
     bpy.types.Object: "the object's frame (location and rotation, unit scale)",
     bpy.types.Collection: "the world",
@@ -69,6 +79,7 @@ LENGTHS = {
     "body_error_bound": 8,
 }
 OPTIONAL = ("body_length", "body_display_volume")  # of wires, and of what was measured without its display mesh
+ROUNDING = 2.0**-52  # of a product of two rounded numbers, relative
 BOUND_KEYS = ("volume", "area", "center_of_mass", "inertia")
 ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
 
@@ -200,20 +211,61 @@ def _replace(obj: Owner, values: dict) -> None:
         raise
 
 
+def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
+    """Write what another density makes of stored results, all of which are finite: the mass by a factor, and all that
+    it is a factor of.
+
+    Parameters
+    ----------
+    obj : Owner
+        One that can hold results.
+    density : float
+        The mean, kg/m³; 0 of a wire.
+    mass : float
+        kg.
+    findings : sequence of Finding
+    fingerprint : str
+    """
+    factor = mass / obj["body_mass"]
+    for key in ("body_inertia", "body_inertia_diagonal", "body_inertia_products", "body_principal_moments"):
+        obj[key] = [factor * value for value in obj[key]]
+    bounds = list(obj["body_error_bound"])
+    bounds[3], bounds[7] = factor * bounds[3] + ROUNDING * sum(obj["body_principal_moments"]), factor * bounds[7]
+    obj["body_error_bound"] = bounds
+    obj["body_mass"], obj["body_density"], obj["body_fingerprint"] = mass, density, fingerprint
+    obj["body_findings"], obj["body_warnings"] = findings_text(findings), warning_lines(findings)
+    retrigger_drivers(obj)
+
+
 def _write(obj: Owner, values: dict) -> None:
     """Makes these, by their keys, the only results of the object."""
     for key in DESCRIPTIONS:
         if key not in values and key in obj:
             del obj[key]
     for key, value in values.items():
-        obj[key] = value
-        if not isinstance(value, str):
-            obj.id_properties_ui(key).update(description=_description(key, type(obj)), precision=6)
+        _set(obj, key, value)
+
+
+def _set(obj: Owner, key: str, value: object) -> None:
+    obj[key] = value
+    if not isinstance(value, str):
+        obj.id_properties_ui(key).update(description=_description(key, type(obj)), precision=6)
 
 
 @lru_cache
 def _description(key: str, owner: type) -> str:
     return DESCRIPTIONS[key].format(frame=FRAMES[owner])
+
+
+def store_reference(obj: Owner, values: dict) -> None:
+    """Write results about a reference, by their keys, beside the others. EditRefusedError where the owner cannot hold
+    them."""
+    require_storable(obj)
+    for key in DESCRIPTIONS:
+        if key.startswith(REFERENCE_KEYS) and key not in values and key in obj:
+            del obj[key]
+    for key, value in values.items():
+        _set(obj, key, value)
 
 
 def require_storable(obj: Owner) -> None:
@@ -266,6 +318,11 @@ def method_text(obj: Owner) -> str:
 def findings(obj: Owner) -> tuple[Finding, ...]:
     """What was found and decided when the stored numbers were computed; see `findings_in`."""
     return findings_in(obj.get("body_findings"))
+
+
+def store_findings(obj: bpy.types.Object, findings: Sequence[Finding]) -> None:
+    """Store these in the place of the findings that are stored, such as accepted ones."""
+    obj["body_findings"], obj["body_warnings"] = findings_text(findings), warning_lines(findings)
 
 
 def warning_lines(findings: Iterable[Finding]) -> str:

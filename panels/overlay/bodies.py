@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from ...core.numerics.float32 import shortest_decimal
 from ...operators.session import results
+from ...operators.session.shown import shown_body
 from . import appearance as look
-from .shown import shown_body
 
 
 @dataclass(frozen=True, eq=False)

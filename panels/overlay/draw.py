@@ -25,6 +25,7 @@ from ...operators.settings.overlay import BodyMomentsOverlaySettings
 from . import appearance as look
 from . import lines
 from .bodies import Bodies, collect
+from .details import objects_details
 from .view import View
 
 MAX_REGIONS = 8  # of which batches are kept
@@ -119,8 +120,20 @@ def _view() -> View:
 def _make(drawn: _Drawn, context: Context) -> None:
     settings = context.scene.body_moments.overlay
     drawn.bodies = bodies = collect(context)
-    parts = [(segments, colors) for segments, colors in lines.body_lines(bodies, settings)]
-    drawn.lines = _line_batches(parts)
+    details = list(objects_details(context, settings))
+    drawn.lines = _line_batches(
+        [*lines.body_lines(bodies, settings), *(detail.segments for detail in details if len(detail.segments[0]))]
+    )
+    drawn.fills = _fill_batches([detail.triangles for detail in details if len(detail.triangles[0])])
+
+
+def _fill_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
+    """parts: (k, 3, 3) triangles and (k, 4) colors."""
+    if not parts:
+        return ()
+    points = np.concatenate([triangles for triangles, _ in parts]).reshape(-1, 3).astype(np.float32)
+    colors = np.concatenate([colors for _, colors in parts]).astype(np.float32).repeat(3, axis=0)
+    return (batch_for_shader(gpu.shader.from_builtin("FLAT_COLOR"), "TRIS", {"pos": points, "color": colors}),)
 
 
 def _line_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
@@ -170,6 +183,9 @@ def _restored_state() -> Iterator[None]:
 
 def _draw_batches(drawn: _Drawn, view: View) -> None:
     scale = _scale()
+    gpu.state.depth_test_set("NONE")
+    for batch in drawn.fills:
+        batch.draw(gpu.shader.from_builtin("FLAT_COLOR"))
     uniform = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     colored = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
     for batch, depth, opacity in zip(drawn.lines, ("NONE", "LESS_EQUAL"), (look.BEHIND, 1.0)):

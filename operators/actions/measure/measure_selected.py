@@ -8,20 +8,24 @@ from collections.abc import Generator
 from dataclasses import replace
 
 import bpy
+from bpy.props import EnumProperty
 
+from ....core.density.materials import BY_NAME
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity, finding
-from ...bodies.many import Stacked, measure_many
+from ...bodies.many import measure_many
 from ...bodies.measure_object import Measured
-from ...session import results
+from ...bodies.stack import Stacked
+from ...session import outcome, results
 from ...session.staleness import mark_up_to_date
 from ...settings.density import is_density_unset, unset_density
-from ...settings.preferences import copy_defaults
+from ...settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...write import reports
 from ...write.messages import of_severity
 from ..modal import ModalSteps, redraw
 
 DENSITY_KEPT = finding("density_default_kept")
+AS_SET = "AS_SET"
 MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
 
 
@@ -33,6 +37,37 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     PROGRESS = finding("progress_measuring")
     CANCELED = finding("canceled_measuring")
+
+    # What can be changed after the fact, in the redo panel; the objects' settings are kept as they are by default.
+    material: EnumProperty(
+        name="Material",
+        description="Material to give the objects before they are measured",
+        items=[(AS_SET, "As Set", "The density that each object's settings say"), *MATERIAL_ITEMS],
+        default=AS_SET,
+        options={"SKIP_SAVE"},
+    )
+    kind: EnumProperty(
+        name="Kind",
+        description="What the geometry of the objects represents",
+        items=(
+            (AS_SET, "As Set", "As each object's settings say"),
+            ("SOLID", "Solid", "The surface bounds a volume filled with material"),
+            ("SHELL", "Shell", "The surface is a sheet or wall of the given thickness"),
+        ),
+        default=AS_SET,
+        options={"SKIP_SAVE"},
+    )
+    overlap: EnumProperty(
+        name="Overlaps",
+        description="How overlapping or nested components of an object count",
+        items=(
+            (AS_SET, "As Set", "As each object's settings say"),
+            ("SIGNED", "Count Each Shell", "Every component counts fully"),
+            ("UNION", "Count as Union", "Components are united first"),
+        ),
+        default=AS_SET,
+        options={"SKIP_SAVE"},
+    )
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -52,20 +87,35 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         """Start with the selected objects, in edit mode those being edited; how many there are."""
         copy_defaults(context.scene)
         objects = list(context.selected_objects)
+        for obj in objects:
+            self._change_settings(obj)
         self._results: list[tuple[bpy.types.Object, Measured | Stacked]] = []
         self._refusals: list[tuple[bpy.types.Object, Finding]] = []
         self._failures: list[Finding] = []
         self._steps = self._measure(objects, context.evaluated_depsgraph_get())
         return len(objects)
 
+    def _change_settings(self, obj: bpy.types.Object) -> None:
+        """Set what the redo panel says of the settings; library overrides and linked objects keep theirs."""
+        if not obj.is_editable or obj.override_library is not None:
+            return
+        settings = obj.body_moments
+        if self.kind != AS_SET:
+            settings.kind = self.kind
+        if self.overlap != AS_SET:
+            settings.overlap = self.overlap
+        if self.material != AS_SET:
+            settings.mass_from, settings.density_from = "DENSITY", "VALUE"
+            settings.density, settings.material = BY_NAME[self.material].density, self.material
+
     def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Generator[int, None, None]:
         done = 0
         for together in measure_many(objects, depsgraph):
-            for obj, outcome in together:
-                if isinstance(outcome, Exception):
-                    self._refusals.append((obj, internal_error.finding_of(outcome)))
+            for obj, found in together:
+                if isinstance(found, Exception):
+                    self._refusals.append((obj, internal_error.finding_of(found)))
                 else:
-                    self._results.append((obj, _with_default_density(obj, outcome, depsgraph.scene)))
+                    self._results.append((obj, _with_default_density(obj, found, depsgraph.scene)))
             done += len(together)
             yield done
 
@@ -81,39 +131,44 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
                 stored.append(obj)
             else:
                 self._failures.append(reports.failure(obj.name_full, refusal))
-        shapes = {obj: outcome.shape_digest for obj, outcome in self._results if isinstance(outcome, Stacked)}
+        shapes = {obj: found.shape_digest for obj, found in self._results if isinstance(found, Stacked)}
         mark_up_to_date(context, stored, shapes)
         self._report(len(stored))
         redraw(context)
         return {"FINISHED"} if stored else {"CANCELLED"}
 
     def _report(self, stored: int) -> None:
-        reported = [outcome.findings for _, outcome in self._results]
-        warned = sum([bool(of_severity(findings, Severity.WARNING, Severity.ERROR)) for findings in reported])
+        warnings = [
+            finding("object_warnings", object=obj.name_full, causes=[cause.as_record() for cause in causes])
+            for obj, measured in self._results
+            if measured.findings and (causes := of_severity(measured.findings, Severity.WARNING, Severity.ERROR))
+        ]
         tried = stored + len(self._failures)
         done = [finding("measured_several", count=stored, total=tried)] if tried > 1 else []
         if tried == stored == 1:
             name = self._results[0][0].name
-            done.append(finding("measured_one_with_warnings" if warned else "measured_one", object=name))
-        elif warned:
-            done.append(finding("with_warnings", count=warned))
+            done.append(finding("measured_one_with_warnings" if warnings else "measured_one", object=name))
+        elif warnings:
+            names = [warning.values["object"] for warning in warnings]
+            done.append(finding("with_warnings", count=len(names), objects=names))
+        outcome.remember(self.bl_label, [*self._failures, *warnings] if tried > 1 else self._failures[1:])
         reports.report(self, *done, *(reports.first(self._failures) if self._failures else ()))
 
 
 def _with_default_density(
-    obj: bpy.types.Object, outcome: Measured | Stacked, scene: bpy.types.Scene
+    obj: bpy.types.Object, measured: Measured | Stacked, scene: bpy.types.Scene
 ) -> Measured | Stacked:
     """With a note where nobody has set the density."""
-    if isinstance(outcome, Stacked):
-        if outcome.has_density and is_density_unset(obj.body_moments, scene):
-            outcome.add_finding(DENSITY_KEPT)
-        return outcome
-    unset = unset_density(obj, outcome.measurement, scene)
+    if isinstance(measured, Stacked):
+        if measured.has_density and is_density_unset(obj.body_moments, scene):
+            measured.add_finding(DENSITY_KEPT)
+        return measured
+    unset = unset_density(obj, measured.measurement, scene)
     if unset is None:
-        return outcome
+        return measured
     kept = DENSITY_KEPT if unset == "density" else finding("linear_density_default_kept")
-    findings = (*outcome.measurement.findings, kept)
-    return replace(outcome, measurement=replace(outcome.measurement, findings=findings))
+    findings = (*measured.measurement.findings, kept)
+    return replace(measured, measurement=replace(measured.measurement, findings=findings))
 
 
 CLASSES = (OBJECT_OT_body_moments_measure,)

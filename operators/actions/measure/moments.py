@@ -13,10 +13,11 @@ from ....core.verdict.finding import MeasureError, finding
 from ...bodies.measure_object import THREADS, measure_object
 from ...read import measurable
 from ...read.fingerprint import matrix_hash, settings_hash
-from ...session import staleness
-from ...session.moments import ComputedMoments, as_csv, cache_moments, computed_moments
+from ...session import updates
+from ...session.moments import ComputedMoments, as_csv, cache_moments, computed_moments, reference_of
 from ...settings.options import MeasureOptions
 from ...write import reports
+from .. import selection
 from .copy import copy_text
 
 
@@ -51,7 +52,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         try:
             measurement = measure_object(obj, depsgraph, options)
         except MeasureError as error:
-            reports.report(self, reports.failure(obj.name, error))
+            selection.report(self, reports.failure(obj.name, error))
             return {"CANCELLED"}
         if measurement.length is not None:
             reports.report(self, finding("wire_without_moments", object=obj.name))
@@ -60,7 +61,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         volume = (measurement.volume_moments or replace(area * measurement.thickness, measure=Measure.VOLUME)).truncate(
             order
         )
-        key = (matrix_hash(obj), settings_hash(obj, scene), staleness.geometry_changes(obj))
+        key = (matrix_hash(obj), settings_hash(obj, scene), updates.last_change_of_geometry(obj))
         cache_moments(obj, ComputedMoments(obj.name, volume, area, measurement.rotation, measurement.location, key))
         done = finding("moments_computed", count=len(volume.raw), object=obj.name)
         reports.report(self, done, *reports.first(measurement.findings))
@@ -86,9 +87,11 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
         if computed is None:
             return {"CANCELLED"}
         try:
-            text = as_csv(computed, settings.moments_of, settings.moments_about, settings.frame)
+            about = settings.moments_about
+            reference = reference_of(context.object, computed, context.scene) if about == "REFERENCE" else None
+            text = as_csv(computed, settings.moments_of, about, settings.frame, reference)
         except MeasureError as error:
-            reports.report(self, reports.failure(computed.name, error))
+            selection.report(self, reports.failure(computed.name, error))
             return {"CANCELLED"}
         copy_text(self, context, text, finding("moments_copied", count=len(computed.volume.raw)))
         return {"FINISHED"}

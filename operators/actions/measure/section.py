@@ -15,7 +15,7 @@ from ....core.verdict.finding import Finding, MeasureError, ReadError, Severity,
 from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
 from ...read.section import SECTION_TYPES, SectionReading, read_section
-from ...session import staleness
+from ...session import outcome, staleness
 from ...write import properties, reports
 from ...write import section as record
 from ...write.messages import of_severity
@@ -130,6 +130,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
         else:
             code = "measured_section_with_warnings" if warned else "measured_section"
             done = [finding(code, object=obj.name) for obj, *_ in sections]
+        outcome.remember(self.bl_label, failures)
         reports.report(self, *done, *reports.first(failures))
         return {"FINISHED"} if sections else {"CANCELLED"}
 

@@ -23,6 +23,7 @@ from ....core.shape.signature import Likeness, Signature, similarity
 from ....core.verdict.finding import FileError, Finding, MeasureError, finding
 from ...bodies.shape import SurfaceDistance, register_surfaces, surface_shape_of
 from ...read import measurable_objects
+from ...session import outcome
 from ...write import reports
 from .. import selection
 from ..modal import ModalSteps, redraw
@@ -103,6 +104,7 @@ class _SearchMixin:
             entry, likeness = rows[0]
             distance = likeness.distance(self.scaled, self.mirrored)
             done.append(finding("nearest_shape", object=entry.name, distance=distance))
+        outcome.remember(self.bl_label, failures)
         reports.report(self, *done, *reports.first(failures))
         return {"FINISHED"}
 

@@ -32,6 +32,7 @@ from ...read import Part, read_object
 from ...read.quiet import paused
 from ...scene.transforms import FLOAT32
 from ...write import reports
+from .. import selection
 from . import base as snapping
 
 MAX_ATTEMPTS = 6  # at a cut of faces that suits the shape that it leads to
@@ -129,7 +130,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
                 findings = _balance_mesh(context, obj, mesh, balance_target, unit)
             obj.data.update_tag()  # for others that show the mesh it is one
         except MeasureError as error:
-            reports.report(self, reports.failure(obj.name_full, error))
+            selection.report(self, reports.failure(obj.name_full, error))
             return {"CANCELLED"}
         snapping.remeasure(context, [obj])
         reports.report(self, *findings)

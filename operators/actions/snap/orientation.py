@@ -46,7 +46,7 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         try:
             body = snapping.snap_target(context, obj)
         except MeasureError as error:
-            reports.report(self, reports.failure(obj.name_full, error))
+            selection.report(self, reports.failure(obj.name_full, error))
             return {"CANCELLED"}
         place = _view_3d(context)
         if place is None:

@@ -10,7 +10,7 @@ carries the mass of all of them, because the mass of a parent overrides that of 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import degrees, inf
 
 import numpy as np
@@ -19,7 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 from ....core.numerics.rotations import quaternion
 from ....core.robots.model import Inertial, Joint, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
-from .text import MARKER, number, unique_names
+from .marker import MARKER
+from .text import number, unique_names
 
 ROOT = "Robot"
 APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")
@@ -56,6 +57,61 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     for joint in () if inertial_only else robot.joints:
         lines += _indented(_joint(robot, joint, joints[joint.name], names))
     return "\n".join([*lines, "}", ""])
+
+
+def write_over(
+    robot: Robot,
+    paths: Mapping[str, Sequence[str]],
+    geometry: str,
+    meters_per_unit: float,
+    remarks: Sequence[str] = (),
+) -> str:
+    """Return a layer that gives the prims of another one their mass, and nothing else.
+
+    Parameters
+    ----------
+    robot : Robot
+    paths : mapping of str to sequence of str
+        The prims of each root, from the top.
+    geometry : str
+        The other layer's file, relative to this one.
+    meters_per_unit : float
+        Of the other layer's numbers: the unit scale of the Blender scene, which its exporter leaves out.
+    remarks : sequence of str
+        Comments at the beginning.
+
+    Returns
+    -------
+    str
+
+    Notes
+    -----
+    Prims stand in one another as objects do, and a body within a body is none: so each root carries all that is fixed
+    to it.
+    """
+    tree: dict[str, dict] = {}
+    bodies = {}
+    for link in robot.roots:
+        inertial = robot.rigid_inertial(link)
+        if inertial is not None:
+            path = tuple(paths[link.name])
+            bodies[path] = mass_attributes(inertial, meters_per_unit, link.scale)
+            branch = tree
+            for name in path:
+                branch = branch.setdefault(name, {})
+    top = next(iter(tree), ROOT)
+    lines = header(robot.name, remarks, meters_per_unit, top, [geometry])
+    return "\n".join([*lines, *_overs(tree, (), bodies), ""])
+
+
+def _overs(tree: Mapping[str, dict], above: tuple[str, ...], bodies: Mapping[tuple, list[str]]) -> list[str]:
+    lines = []
+    for name, branch in tree.items():
+        path = (*above, name)
+        body = bodies.get(path, [])
+        inner = [*body, *_overs(branch, path, bodies)]
+        lines += [*_prim("over", name, APIS if body else ()), "{", *_indented(inner), "}"]
+    return lines
 
 
 def header(

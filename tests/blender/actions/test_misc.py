@@ -505,7 +505,7 @@ def test_a_scenes_default_material_is_the_density_of_objects_without_one_here_an
     assert "density_default_kept" not in obj["body_findings"]
     assert obj.body_moments.density_kg_m3 == 1240.0 and not obj.body_moments.is_property_set("density")
     scene.body_moments.default_material, scene.body_moments.default_density = "CUSTOM", 1300.5
-    assert staleness.stale_reason(obj, scene) == "stale_settings"
+    assert obj["body_density"] == 1300.5 and staleness.stale_reason(obj, scene) is None
     bpy.ops.object.body_moments_measure()
     assert obj["body_density"] == 1300.5
     obj.body_moments.density = 5.0
@@ -540,16 +540,21 @@ def test_a_report_is_as_severe_as_its_worst_finding_and_reads_as_sentences():
     operator = SimpleNamespace(report=lambda *call: calls.append(call))
     bpy.context.scene.unit_settings.length_unit = "MILLIMETERS"
     wall = finding("wall_measured", thickness=0.25, side="inward")
-    reports.report(operator, finding("measured_several", count=2, total=3), finding("with_warnings", count=1), wall)
+    reports.report(
+        operator, finding("measured_several", count=2, total=3), finding("with_warnings", count=1, objects=["A"]), wall
+    )
     reports.report(operator, wall, finding("measured_one", object="A"))
     reports.report(
-        operator, finding("no_faces"), finding("measured_one", object="{B}"), finding("with_warnings", count=1)
+        operator,
+        finding("no_faces"),
+        finding("measured_one", object="{B}"),
+        finding("with_warnings", count=1, objects=["A"]),
     )
     with_wall = "The wall was measured with real thickness: 250 mm, inward, mitered corners."
     assert calls == [
-        ({"WARNING"}, "Measured 2 of 3 objects; 1 with warnings. " + with_wall),
+        ({"WARNING"}, "Measured 2 of 3 objects; 1 with warnings: “A”. " + with_wall),
         ({"INFO"}, with_wall + " Measured A"),
-        ({"ERROR"}, "No faces. Add faces, or select another object. Measured {B}; 1 with warnings"),
+        ({"ERROR"}, "No faces. Add faces, or select another object. Measured {B}; 1 with warnings: “A”"),
     ]
 
 

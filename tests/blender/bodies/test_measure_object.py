@@ -15,6 +15,7 @@ from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender.findings import refused, said
 from tests.close import close
+from tests.core.solid.test_self_intersection import bar
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -447,13 +448,13 @@ def test_out_of_date_names_what_has_changed():
         return staleness.stale_reason(obj, scene)
 
     assert reason() is None
-    obj.body_moments.density = 500.0
+    obj.body_moments.kind = "SHELL"
     assert reason() == "stale_settings"
-    obj.body_moments.density = 1000.0
+    obj.body_moments.kind = "SOLID"
     assert reason() is None
-    obj.location.x = 1.0
+    obj.scale.x = 2.0
     assert reason() == "stale_transform"
-    obj.location.x = 0.0
+    obj.scale.x = 1.0
     assert reason() is None
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
@@ -570,3 +571,14 @@ def test_a_density_that_nobody_set_is_a_note_in_the_window():
     wire.body_moments.kind = "WIRE"
     bpy.ops.object.body_moments_measure()
     assert [one["code"] for one in json.loads(wire["body_findings"])] == ["linear_density_default_kept"]
+
+
+def test_suzanne_raises_no_alarm_and_a_ring_past_itself_does_until_it_is_united():
+    bpy.ops.mesh.primitive_monkey_add()
+    assert not [code for code in said(measure(bpy.context.object)) if code.startswith("self_")]
+    bent = bar(1.25)
+    part = add({"points": bent[0].tolist(), "faces": bent[1].tolist()})
+    signed, united = measure(part), measure(part, overlap="union")
+    share = said(signed)["self_intersection"]["share"]
+    assert 0.15 < share < 0.25 and signed.health.self_intersection == "found"
+    assert close(united.volume, 0.8 * signed.volume, rel=0.01) and "union_by_boolean" in said(united)

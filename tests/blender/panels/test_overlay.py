@@ -87,7 +87,7 @@ def test_verdicts_differ_in_form_where_colors_are_not_seen(registered):
 
 
 def test_the_body_is_drawn_where_it_is_in_the_world(scene):
-    from body_moments.panels.overlay.shown import shown_body
+    from body_moments.operators.session.shown import shown_body
 
     scene.unit_settings.scale_length = 0.001
     obj = objects.add(objects.mesh_body(), location=(7, -3, 2), rotation=(0.3, 1.1, -0.4), scale=(2, 2, 2))
@@ -101,13 +101,13 @@ def test_the_body_is_drawn_where_it_is_in_the_world(scene):
 
 
 def test_what_is_not_measured_is_not_drawn(scene):
-    from body_moments.panels.overlay.shown import shown_body
+    from body_moments.operators.session.shown import shown_body
 
     assert shown_body(objects.add(objects.mesh_body())) is None
 
 
 def test_an_open_body_is_doubtful_and_an_edited_one_out_of_date(scene):
-    from body_moments.panels.overlay.shown import shown_body
+    from body_moments.operators.session.shown import shown_body
 
     strip = objects.add(objects.strip_mesh())
     bpy.ops.object.body_moments_measure()

@@ -14,6 +14,7 @@ from body_moments.core.verdict.finding import finding
 from body_moments.operators.read.quiet import paused
 from body_moments.operators.session import handlers, live, results, staleness, walls
 from body_moments.operators.session import moments as moments_table
+from body_moments.operators.session import updates as ledger
 from body_moments.operators.session.cache import SessionCache
 
 from tests.blender.objects import add, mesh_body, only
@@ -157,20 +158,20 @@ def test_what_was_updated_is_passed_on_once_and_as_original_data(monkeypatch):
     shaped.location.x = moved.location.x = 5.0
     bpy.context.view_layer.update()
     (updates,) = seen
-    assert (updates.reshaped, updates.moved, updates.collections) == ([shaped], [moved], set())
-    assert updates.scene == bpy.context.scene and not any(obj.is_evaluated for obj in (shaped, moved))
+    assert (updates.reshaped, updates.moved) == ([shaped.session_uid], [moved.session_uid])
+    assert updates.scene == bpy.context.scene and not updates.collections and not updates.frame_changed
     handlers._on_update(updates.scene, SimpleNamespace(mode="RENDER", updates=updates.depsgraph.updates))
     handlers._on_update(updates.scene)
     assert len(seen) == 1  # neither a renderer's evaluation nor none
     collection.objects.link(shaped)
     bpy.context.view_layer.update()
-    assert collection in seen[-1].collections
-    monkeypatch.setattr(handlers, "on_update", [staleness._note_updates, quiet.append])
-    changes = staleness.geometry_changes(shaped)
+    assert collection.session_uid in seen[-1].collections
+    monkeypatch.setattr(handlers, "on_update", [ledger._note_updates, quiet.append])
+    changes = ledger.last_change_of_geometry(shaped)
     with paused():
         shaped.data.update()
         bpy.context.view_layer.update()
-    assert staleness.geometry_changes(shaped) == changes and quiet[-1].reshaped == [shaped]
+    assert ledger.last_change_of_geometry(shaped) == changes and quiet[-1].reshaped == [shaped.session_uid]
 
 
 def test_what_a_panel_shows_is_kept_until_anything_that_it_is_made_of_changes():

@@ -133,7 +133,7 @@ def test_a_setting_of_one_object_leaves_another_with_its_mesh_up_to_date():
     one = add(mesh_body())
     other = add(one.data, "Other")
     measure(one, other)
-    one.body_moments.density = 500.0
+    one.body_moments.overlap = "UNION"
     update()
     assert (reason(one), reason(other)) == ("stale_settings", None)
 
@@ -311,7 +311,7 @@ def test_an_instancer_is_out_of_date_when_what_it_shows_changes(nested):
     shown = instancer("Instancer", member)
     outer = instancer("Outer", shown) if nested else shown
     measure(outer, other)
-    other.location.x += 1.0
+    other.scale.x *= 2.0
     update()
     assert reason(outer) is None and reason(other) == "stale_transform"
     for change in (

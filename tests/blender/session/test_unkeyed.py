@@ -90,7 +90,7 @@ def is_right(obj):
     now = measured(obj)
     return (
         before
-        or np.isclose(obj["body_mass"], now.mass_properties.mass, rtol=1e-9, atol=0)
+        or np.isclose(obj["body_mass"], now.mass_properties.mass, rtol=1e-6, atol=0)
         and np.allclose(obj["body_center_of_mass"], now.in_object_frame().center, rtol=1e-5, atol=1e-6)
     )
 

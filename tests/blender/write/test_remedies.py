@@ -52,6 +52,7 @@ NOUNS = (
         "Blender",
         "Boolean",
         "CT",
+        "MB",
         "Zhang",
         "Chen",
         "FILE",

@@ -13,8 +13,10 @@ from body_moments.core.solid.judgement import SolidIntegrals, judge
 from body_moments.core.solid.measure_solid import measure_solid
 from body_moments.core.solid.orientation import orient_components
 from body_moments.core.solid.repair import STEPS, repair_surface
+from body_moments.core.solid.self_intersection import SelfIntersection
 from body_moments.core.solid.triage import check_surface, integrate_and_prove, prove_closed
 from body_moments.core.solid.weld_open_parts import split_into_triangles
+from body_moments.core.verdict.health import Intersection
 from body_moments.core.verdict.method import Verdict
 
 from tests.core.bodies import (
@@ -182,24 +184,27 @@ def test_what_is_inside_out_is_turned_and_its_volume_is_positive(part, turned, a
     assert oriented.volume.total == pytest.approx(volume, rel=1e-14) and volume > 0.0
 
 
+PROVED = SelfIntersection(Intersection.EXCLUDED)
+
+
 def test_the_verdict_follows_from_what_the_stages_hand_on():
     checked, given, body, oriented = staged(CUBE)
-    assert judge(checked, given, oriented).method is Verdict.EXACT
+    assert judge(checked, given, oriented, PROVED).method is Verdict.EXACT
     capped = replace(oriented, mesh=replace(body, caps=np.array([[1.0, 0.0, 0.5]])))
-    result = judge(checked, given, capped)
+    result = judge(checked, given, capped, PROVED)
     assert result.method is Verdict.CAPPED and result.health.cap_area_share == pytest.approx(0.5 / 6.0, rel=1e-14)
     turned = replace(oriented, turned=np.ones(1, bool))
-    assert judge(checked, given, turned).method is Verdict.REORIENTED
+    assert judge(checked, given, turned, PROVED).method is Verdict.REORIENTED
     unclosed = replace(oriented, mesh=replace(body, open=np.ones(1, bool)))
-    assert judge(checked, given, unclosed).method is Verdict.OPEN
+    assert judge(checked, given, unclosed, PROVED).method is Verdict.OPEN
     about = oriented.volume.about
     outside = oriented.volume.about_point(about - [0.6, 0.0, 0.0]).raw  # the center would be outside of the box
     negative = oriented.volume.raw * np.where(np.arange(20) == 4, -1.0, 1.0)
     for raw in (outside, negative):
-        impossible = judge(checked, given, replace(oriented, volume=Moments(raw, about)))
+        impossible = judge(checked, given, replace(oriented, volume=Moments(raw, about)), PROVED)
         assert impossible.method is Verdict.OPEN
         assert [item.code for item in impossible.findings] == ["self_intersecting"]
-    flat = judge(checked, given, replace(oriented, is_solid=False, solid=np.zeros(1, bool)))
+    flat = judge(checked, given, replace(oriented, is_solid=False, solid=np.zeros(1, bool)), PROVED)
     assert flat.method is Verdict.OPEN and not flat.volume.raw.any() and flat.volume.rounding_error[0] >= 1.0
     assert [item.code for item in flat.findings] == ["flat_surface"]
 

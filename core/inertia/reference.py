@@ -1,0 +1,222 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inertia about any point, along any axes, and about any axis, by exact shifts, with bounds.
+
+From moments it is a shift of these (`Moments.in_frame`); from mass properties, where nothing else is known any more,
+the parallel-axis theorem:
+
+    I_p = I_c + m (|d|² 1 - d dᵀ),   d = c - p.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..moments.moments import SECOND_MOMENT_INDEX, Moments, U
+from ..verdict.finding import QueryError
+from .mass_properties import MassProperties
+
+IDENTITY_3 = np.eye(3)
+MIN_AXIS_RATIO = 1e-6  # of the points' coordinates: nearer to each other, float32 points give no direction
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """A frame that inertia is referred to.
+
+    Parameters
+    ----------
+    origin : (3,) array
+        The point.
+    axes : (3, 3) array
+        A rotation whose columns are the axes, the coordinate axes by default.
+
+    Examples
+    --------
+    >>> from body_moments.core.inertia import Reference
+    >>> Reference(np.zeros(3)).axes.tolist()
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    """
+
+    origin: NDArray[np.float64]
+    axes: NDArray[np.float64] = field(default_factory=IDENTITY_3.copy)
+
+    @classmethod
+    def through_points(cls, first: ArrayLike, second: ArrayLike) -> Reference:
+        """Return the frame whose Z axis runs from the first point to the second, and whose origin is the first.
+
+        Parameters
+        ----------
+        first, second : (3,) array_like
+
+        Returns
+        -------
+        Reference
+            The other axes are those nearest to the coordinate axes.
+
+        Raises
+        ------
+        QueryError
+            Where the points are one, or so near that they fix no direction.
+        """
+        first, second = np.asarray(first, np.float64), np.asarray(second, np.float64)
+        way = second - first
+        length = float(np.linalg.norm(way))
+        if not length > MIN_AXIS_RATIO * max(np.abs(first).max(), np.abs(second).max()):
+            raise QueryError("axis_points_coincide")
+        along = way / length
+        side = IDENTITY_3[np.abs(along).argmin()]
+        side = side - (side @ along) * along
+        side = side / np.linalg.norm(side)
+        return cls(first, np.column_stack([side, np.cross(along, side), along]))
+
+    def refer(self, properties: MassProperties) -> ReferredInertia:
+        """Refer the inertia of one body to this frame, from its mass properties.
+
+        Parameters
+        ----------
+        properties : MassProperties
+            Of one body, in the coordinates that this frame is given in.
+
+        Returns
+        -------
+        ReferredInertia
+
+        Notes
+        -----
+        The parallel-axis theorem. With e the bound of the center, and d = |c - p|, the tensor is off by at most its own
+        bound plus √2 d² times that of the mass plus m (6 d e + 2 e²).
+
+        Examples
+        --------
+        >>> from body_moments.core import MassProperties, Surface, polyhedron_moments
+        >>> from body_moments.core.inertia import Reference
+        >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        >>> properties = MassProperties.from_moments(polyhedron_moments(surface)[0], density=60.0)
+        >>> np.round(Reference(np.zeros(3)).refer(properties).inertia[0], 9).tolist()
+        [2.0, -0.5, -0.5]
+        """
+        arm = properties.center - self.origin
+        tensor = properties.inertia + properties.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
+        inertia = self.axes.T @ tensor @ self.axes
+        distance = float(np.linalg.norm(arm))
+        rounded = 2.0 * U * float(np.abs(properties.center).sum() + np.abs(self.origin).sum())
+        size = float(np.linalg.norm(properties.inertia)) + np.sqrt(2.0) * properties.mass * distance**2
+        bounds = []
+        for delta, own in ((properties.rounding_error, rounded), (properties.input_error, 0.0)):
+            center = delta["center"] + own
+            bounds.append(
+                {
+                    "mass": delta["mass"],
+                    "center": center,
+                    "inertia": delta["inertia"]
+                    + np.sqrt(2.0) * distance**2 * delta["mass"]
+                    + properties.mass * (6.0 * distance * center + 2.0 * center**2),
+                }
+            )
+        bounds[0]["center"] += 8.0 * U * distance
+        bounds[0]["inertia"] += 40.0 * U * size
+        return ReferredInertia(
+            self, properties.mass, self.axes.T @ arm, (inertia + inertia.T) / 2.0, bounds[0], bounds[1]
+        )
+
+    def refer_moments(self, moments: Moments, density: float = 1.0) -> ReferredInertia:
+        """Refer the inertia of a body of constant density to this frame, from its moments.
+
+        Parameters
+        ----------
+        moments : Moments
+            Of one body, to order 2 at least.
+        density : float
+            Mass per unit of the moments.
+
+        Returns
+        -------
+        ReferredInertia
+            With the bounds that the shift of the moments gives.
+
+        Raises
+        ------
+        MeasureError
+            If the body has no certain mass.
+
+        Examples
+        --------
+        >>> from body_moments.core.inertia import Reference
+        >>> from body_moments.core.moments import Moments
+        >>> point = Moments(np.r_[1.0, np.zeros(9)], np.array([3.0, 4.0, 0.0]))
+        >>> Reference(np.zeros(3)).refer_moments(point, 2.0).inertia.diagonal().tolist()
+        [32.0, 18.0, 50.0]
+        """
+        shifted = moments.truncate(2).in_frame(self.axes, self.origin).about_point(np.zeros(3)) * density
+        total = shifted.total
+        if not total > 2.0 * shifted.rounding_error[0]:
+            raise QueryError("no_certain_volume")
+        center = shifted.raw[1:4] / total
+        second = shifted.raw[SECOND_MOMENT_INDEX]
+        bounds = []
+        for delta in (shifted.rounding_error, shifted.input_error):
+            spread = delta[SECOND_MOMENT_INDEX]
+            least = total - delta[0] if total > delta[0] else total
+            bounds.append(
+                {
+                    "mass": float(delta[0]),
+                    "center": float(np.linalg.norm((delta[1:4] + np.abs(center) * delta[0]) / least)),
+                    "inertia": float(np.linalg.norm(spread.trace() * IDENTITY_3 + spread)),
+                }
+            )
+        bounds[0]["center"] += 2.0 * U * float(np.linalg.norm(center))
+        bounds[0]["inertia"] += 4.0 * U * float(np.linalg.norm(second))
+        return ReferredInertia(self, total, center, second.trace() * IDENTITY_3 - second, bounds[0], bounds[1])
+
+
+@dataclass(frozen=True, eq=False)
+class ReferredInertia:
+    """Inertia about a reference, along its axes.
+
+    Attributes
+    ----------
+    reference : Reference
+    mass : float
+    center : (3,) array
+        The center of mass from the reference's origin, along its axes. Mass times this is the first moment.
+    inertia : (3, 3) array
+        The tensor about the reference's origin.
+    rounding_error, input_error : dict of str to float
+        Absolute bounds of "mass", "center" and "inertia", as those of `MassProperties`.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments
+    >>> from body_moments.core.inertia import Reference
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> volume, _ = polyhedron_moments(surface)
+    >>> referred = Reference(np.zeros(3)).refer_moments(volume, 60.0)
+    >>> np.round(referred.inertia[0], 9).tolist(), round(referred.about_z, 9)
+    ([2.0, -0.5, -0.5], 2.0)
+    """
+
+    reference: Reference
+    mass: float
+    center: NDArray[np.float64]
+    inertia: NDArray[np.float64]
+    rounding_error: dict[str, float]
+    input_error: dict[str, float]
+
+    @property
+    def about_z(self) -> float:
+        """The moment of inertia about the reference's Z axis, which is the axis through two points."""
+        return float(self.inertia[2, 2])
+
+    @property
+    def radius_about_z(self) -> float:
+        """The radius of gyration about the reference's Z axis."""
+        return float(np.sqrt(max(self.about_z, 0.0) / self.mass))
+
+    @property
+    def distance_from_z(self) -> float:
+        """How far the center of mass is from the reference's Z axis."""
+        return float(np.hypot(self.center[0], self.center[1]))

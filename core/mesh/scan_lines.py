@@ -1,0 +1,269 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where parallel lines go through the faces of bodies.
+
+The lines run along the shortest side of a body's box, a little aslant, so that they follow no face of it, and stand in
+a lattice across it, at whole numbers of rows and columns. As a picture is drawn: a row crosses a triangle between two
+of its edges, and the columns in between meet it. That costs a look at the cell of each vertex, and work only for faces
+whose corners are in several rows and columns. A row crosses an edge that has one end above it, at a place that is
+computed from the edge's vertex of lower number on: triangles that share the edge see the same, and no line slips
+through between them.
+
+Bodies share a scan, each with lines of its own. Where the work would exceed what a body's number of triangles allows,
+fewer rows are taken. A body gets the same whether it is alone or one of many.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.arrays import batches, segment_ranges, sums_by_index
+from .surface import Surface, flipped_quads
+
+LINE_SLOPES = 0.08173, 0.05311  # across, for each length along: of the direction of the lines
+LATTICE_SHIFT = 0.4669, 0.2371  # of rows and columns: a lattice of vertices is met by no line
+COLUMN_SLOPE = 0.6180339887498949  # of a column's width, by which the columns of a row are ahead of those before
+POINTS_PER_BLOCK = 1 << 14
+FACES_PER_BLOCK = 1 << 16
+PAIRS_PER_BLOCK = 1 << 16  # of triangles and rows
+MIN_LINES, MAX_LINES, LINES_PER_SQRT = 576, 2048, 5.0  # through a body; and by the root of its number of triangles
+MAX_PAIRS = 8192, 1.0  # of triangles and rows of a body; and of these for each of its triangles more
+MAX_CROSSINGS = 16384, 0.5  # of lines and triangles; likewise
+
+
+@dataclass(frozen=True, eq=False)
+class LineGrids:
+    """The lines through each of some bodies.
+
+    Attributes
+    ----------
+    axes : (b, 3) int
+        Of the points' axes the one from row to row, that along a row, and that along the lines.
+    center : (b, 3) float
+        A point of the body, in the order of ``axes``.
+    cell : (b, 2) float
+        The height of the rows and the width of the columns (unit).
+    origin : (b, 2) float
+        The row and the column of the center; the body's first ones are 0.
+    rows, columns : int
+        How many there are at most.
+    """
+
+    axes: NDArray[np.intp]
+    center: NDArray[np.float64]
+    cell: NDArray[np.float64]
+    origin: NDArray[np.float64]
+    rows: int
+    columns: int
+
+    @classmethod
+    def over_boxes(cls, low: NDArray, high: NDArray, lines: NDArray[np.integer]) -> LineGrids:
+        """Make grids of about so many lines, (b,), over boxes, (b, 3)."""
+        axes = np.argsort(low - high, axis=1, kind="stable")
+        extent, center = (np.take_along_axis(sides, axes, axis=1) for sides in (high - low, (low + high) / 2.0))
+        width = extent[:, :2] + LINE_SLOPES * extent[:, 2:]
+        width = np.maximum(width, 1e-6 * width.max(axis=1, keepdims=True) + np.finfo(float).tiny)
+        rows = np.clip(np.rint(np.sqrt(lines * width[:, 0] / width[:, 1])), 1, lines)
+        columns = np.maximum(np.rint(lines / rows), 1)
+        most = np.stack([rows, np.ceil(columns + COLUMN_SLOPE * rows)], axis=1) + 1.0
+        size = most.max(axis=0).astype(np.intp) + 1
+        origin = np.floor(most / 2.0) + LATTICE_SHIFT
+        return cls(axes, center, width / np.stack([rows, columns], axis=1), origin, *size.tolist())
+
+    @classmethod
+    def through_points(cls, points: NDArray[np.float64], sizes: NDArray[np.float64]) -> LineGrids:
+        """Make a grid of the single line through a point, (b, 3), of each body; sizes: (b,) of the bodies."""
+        count = len(points)
+        cell = np.repeat(4.0 * sizes[:, None], 2, axis=1)
+        return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
+
+    def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> NDArray[np.float64]:
+        """(3, n) where points are: in rows, in columns, and along the lines from the center (unit). body: (n,) whose
+        they are, None for a single one."""
+        if body is None:
+            places = points.T[self.axes[0]].astype(np.float64)
+            center, cell, origin = self.center.T, self.cell.T, self.origin.T
+        else:
+            places = np.take_along_axis(points, self.axes[body], axis=1).T.astype(np.float64)
+            center, cell, origin = self.center[body].T, self.cell[body].T, self.origin[body].T
+        places -= center
+        along = places[2]
+        for k in range(2):
+            places[k] -= LINE_SLOPES[k] * along
+            places[k] /= cell[k]
+        places[1] -= COLUMN_SLOPE * places[0]
+        places[:2] += origin
+        return places
+
+    def squared_distances(
+        self, body: NDArray[np.intp], row: NDArray[np.intp], column: NDArray[np.intp], along: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """(k,) of places on lines from the centers of their bodies (unit²)."""
+        across = np.stack([row, column], axis=1) - self.origin[body]
+        across[:, 1] += COLUMN_SLOPE * across[:, 0]
+        across = across * self.cell[body] + np.multiply.outer(along, LINE_SLOPES)
+        return np.einsum("ij,ij->i", across, across) + along**2
+
+
+@dataclass(frozen=True, eq=False)
+class Crossings:
+    """Where lines go through triangles.
+
+    Attributes
+    ----------
+    body, row, column : (k,) int
+        Of the line.
+    triangle : (k,) int
+        Quad q is cut into 2q and 2q + 1; triangle t has twice the number of quads and t.
+    along : (k,) float
+        How far along the line from the body's center (unit).
+    sign : (k,) int
+        1 where a line enters and -1 where it leaves what faces bound that run one way around; the opposite of that
+        where they run the other.
+    rows_apart : (b,) int
+        Of each body every so many rows were taken.
+    """
+
+    body: NDArray[np.intp]
+    row: NDArray[np.intp]
+    column: NDArray[np.intp]
+    triangle: NDArray[np.intp]
+    along: NDArray[np.float64]
+    sign: NDArray[np.intp]
+    rows_apart: NDArray[np.intp]
+
+
+def line_counts(triangles: NDArray[np.integer]) -> NDArray[np.intp]:
+    """(b,) how many lines bodies of so many triangles are worth."""
+    return np.clip(LINES_PER_SQRT * np.sqrt(triangles), MIN_LINES, MAX_LINES).astype(np.intp)
+
+
+def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer] | None = None) -> Crossings:
+    """Find where lines go through the faces of bodies.
+
+    Parameters
+    ----------
+    surface : Surface
+        The faces of all bodies.
+    grids : LineGrids
+    body : (n,) int, optional
+        The body of each point; None for a single one.
+
+    Returns
+    -------
+    Crossings
+        In no particular order.
+    """
+    triangles, number = _crossed_triangles(surface, _cells(surface.points, grids, body))
+    corners = triangles.ravel()
+    owner = np.zeros(len(triangles), np.intp) if body is None else body[triangles[:, 0]].astype(np.intp)
+    places = grids.places(surface.points[corners], None if body is None else body[corners]).reshape(3, -1, 3)
+    above = np.ceil(places[0]).astype(np.intp)  # the first row that the corner is not above
+    first, last = (np.clip(end, 0, grids.rows) for end in (above.min(axis=1), above.max(axis=1)))
+    bodies, faces = len(grids.cell), _count_faces(surface, body, len(grids.cell))
+    apart = _rows_apart(sums_by_index(owner, last - first, bodies), MAX_PAIRS, faces)
+    step = apart[owner]
+    first = -(-first // step) * step
+    count = np.maximum(-((first - last) // step), 0)
+    pieces = []
+    for part in batches(count, PAIRS_PER_BLOCK) if len(count) else ():
+        which = part.start + np.repeat(np.arange(len(count[part])), count[part])
+        row = first[which] + segment_ranges(count[part]) * step[which]
+        pieces.append((which, row, *_cross_row(places[:, which], triangles[which], above[which] > row[:, None], row)))
+    if not pieces:
+        none = np.empty(0, np.intp)
+        return Crossings(none, none, none, none, np.empty(0), none, apart)
+    which, row, left, right, sign = (np.concatenate(column, axis=-1) for column in zip(*pieces))
+    owner = owner[which]
+    start, stop = (np.clip(np.ceil(end[0]), 0, grids.columns).astype(np.intp) for end in (left, right))
+    count = stop - start
+    further = _rows_apart(sums_by_index(owner, count, bodies), MAX_CROSSINGS, faces)
+    apart = apart * further
+    count[row % apart[owner] > 0] = 0
+    pair = np.repeat(np.arange(len(count)), count)
+    column = start[pair] + segment_ranges(count)
+    share = (column - left[0, pair]) / (right[0, pair] - left[0, pair])
+    along = left[1, pair] + share * (right[1, pair] - left[1, pair])
+    return Crossings(owner[pair], row[pair], column, number[which[pair]], along, sign[pair], apart)
+
+
+def _cells(
+    points: NDArray[np.floating], grids: LineGrids, body: NDArray[np.integer] | None
+) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """(n,) and (n,) the first row and the first column that each point is not above."""
+    short = max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4  # which the cache holds more of
+    cells = np.empty((2, len(points)), np.int16 if short else np.int32)
+    for start in range(0, len(points), POINTS_PER_BLOCK):
+        part = slice(start, start + POINTS_PER_BLOCK)
+        cells[:, part] = np.ceil(grids.places(points[part], None if body is None else body[part])[:2])
+    return cells[0], cells[1]
+
+
+def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int) -> NDArray[np.intp]:
+    """(b,) the triangles of each body."""
+    if body is None:
+        return np.array([len(surface.triangles) + 2 * len(surface.quads)])
+    quads, triangles = (
+        np.bincount(body[faces[:, 0]], minlength=bodies) for faces in (surface.quads, surface.triangles)
+    )
+    return triangles + 2 * quads
+
+
+def _rows_apart(work: NDArray[np.float64], limit: tuple[int, float], faces: NDArray[np.intp]) -> NDArray[np.intp]:
+    """(b,) of how many rows one is taken, so that the work stays within a limit."""
+    return np.maximum(np.ceil(work / (limit[0] + limit[1] * faces)), 1).astype(np.intp)
+
+
+def _crossed_triangles(
+    surface: Surface, cells: tuple[NDArray[np.integer], NDArray[np.integer]]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """(k, 3) the triangles in several rows and columns, and their numbers. Of a quad that is, both are there."""
+    triangles, number = [np.empty((0, 3), np.intp)], [np.empty(0, np.intp)]
+    quads = surface.quads
+    for faces in (quads, surface.triangles):
+        for start in range(0, len(faces), FACES_PER_BLOCK):
+            block = faces[start : start + FACES_PER_BLOCK]
+            crossed = np.flatnonzero(_differ(cells[0], block))
+            crossed = crossed[_differ(cells[1], block[crossed])]
+            corners = block[crossed].astype(np.intp)
+            if faces is quads:
+                flipped = flipped_quads(surface.points, corners)
+                corners = np.where(flipped[:, None], np.roll(corners, -1, axis=1), corners)
+                triangles.append(corners[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
+                number.append((2 * (start + crossed)[:, None] + [0, 1]).ravel())
+            else:
+                triangles.append(corners)
+                number.append(2 * len(quads) + start + crossed)
+    return np.concatenate(triangles), np.concatenate(number)
+
+
+def _differ(cell: NDArray[np.integer], faces: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """(k,) whether the corners of faces are in different rows, or columns."""
+    first = cell.take(faces[:, 0])
+    differ = cell.take(faces[:, 1]) != first
+    for k in range(2, faces.shape[1]):
+        differ |= cell.take(faces[:, k]) != first
+    return differ
+
+
+def _cross_row(
+    places: NDArray[np.float64], triangles: NDArray[np.intp], higher: NDArray[np.bool_], row: NDArray[np.intp]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
+    """(2, k) and (2, k) where a row enters and leaves each triangle: in columns, and along the lines; and the sign of
+    the lines' crossings in between. places: (3, k, 3) of the corners; higher: (k, 3) which are above the row."""
+    single = higher.sum(axis=1) == 1
+    lone = np.where(single, higher.argmax(axis=1), higher.argmin(axis=1))  # the corner on a side of its own
+    each = np.arange(len(triangles))
+    ends = []
+    for k in (1, 2):
+        next_one = (lone + k) % 3
+        swap = triangles[each, lone] > triangles[each, next_one]
+        begin, end = places[:, each, np.where(swap, next_one, lone)], places[:, each, np.where(swap, lone, next_one)]
+        share = (row - begin[0]) / (end[0] - begin[0])
+        ends.append(begin[1:] + share * (end[1:] - begin[1:]))
+    forward = ends[0][0] < ends[1][0]
+    left, right = np.where(forward, ends[0], ends[1]), np.where(forward, ends[1], ends[0])
+    return left, right, np.where(forward == single, -1, 1)

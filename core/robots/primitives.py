@@ -1,0 +1,149 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shapes of uniform density with the mass, center and inertia of a body.
+
+Twice the second moments of a body along its principal axes are q_i = I_j + I_k - I_i = 2 ∫x_i² dm. A box has
+∫x_i² dm = m s_i²/12 and an ellipsoid m a_i²/5, so each body has one of each. A capsule has two parameters for three
+moments: it takes the mean of the two across its axis.
+"""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .model import Inertial, Pose, Shape
+
+LEAST_SPREAD = float(np.finfo(np.float64).eps)  # of the largest one
+BISECTIONS = 200  # more than the digits of a float64 need
+
+
+def box_sides(mass: float, moments: NDArray) -> NDArray[np.float64]:
+    """Return the sides along the principal axes of the box of this mass and inertia.
+
+    Parameters
+    ----------
+    mass : float
+    moments : (3,) array
+        Principal moments.
+
+    Returns
+    -------
+    (3,) array
+        s_i = sqrt(6 (I_j + I_k - I_i) / m).
+
+    Examples
+    --------
+    >>> from body_moments.core.robots.primitives import box_sides
+    >>> np.round(box_sides(12.0, np.array([5.0, 10.0, 13.0])), 12).tolist()
+    [3.0, 2.0, 1.0]
+    """
+    return np.sqrt(6.0 * _spreads(moments) / mass)
+
+
+def ellipsoid_axes(mass: float, moments: NDArray) -> NDArray[np.float64]:
+    """Return the semi-axes along the principal axes of the ellipsoid of this mass and inertia.
+
+    Parameters
+    ----------
+    mass : float
+    moments : (3,) array
+        Principal moments.
+
+    Returns
+    -------
+    (3,) array
+        a_i = sqrt(5 (I_j + I_k - I_i) / (2 m)).
+
+    Examples
+    --------
+    >>> from body_moments.core.robots.primitives import ellipsoid_axes
+    >>> np.round(ellipsoid_axes(5.0, np.array([5.0, 10.0, 13.0])), 12).tolist()
+    [3.0, 2.0, 1.0]
+    """
+    return np.sqrt(2.5 * _spreads(moments) / mass)
+
+
+def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
+    """Return radius and length, without its caps, of the capsule along the first principal axis.
+
+    Parameters
+    ----------
+    mass : float
+    moments : (3,) array
+        Principal moments, ascending.
+
+    Returns
+    -------
+    float, float
+        Of the capsule whose moment along its axis is the least one and across it the mean of the others; a ball where
+        none is that thick, of the mean of the three.
+
+    Notes
+    -----
+    With t = L/r, of unit radius: the cylinder has πt and the caps 4π/3 of the volume V; ∫x² dV across the axis is
+    π(t/4 + 4/15), along it π(t³/12 + t²/3 + t/2 + 4/15). Their ratio grows with t from that of a ball, 1.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots.primitives import capsule_size
+    >>> np.round(capsule_size(1.0, np.full(3, 0.4)), 12).tolist()
+    [1.0, 0.0]
+    """
+    along = (moments[1] + moments[2] - moments[0]) / 2.0  # ∫x² dm
+    across = max(moments[0] / 2.0, LEAST_SPREAD * along)
+    if not along > across:
+        return sqrt(5.0 * float(moments.mean()) / (2.0 * mass)), 0.0
+    ratio = along / across
+    low, high = 0.0, sqrt(3.0 * ratio) + 1.0
+    for _ in range(BISECTIONS):
+        t = (low + high) / 2.0
+        wide, far = _capsule(t)
+        low, high = (t, high) if far < ratio * wide else (low, t)
+    t = (low + high) / 2.0
+    radius = sqrt(across / mass * (pi * t + 4.0 * pi / 3.0) / _capsule(t)[0])
+    return radius, t * radius
+
+
+def equal_inertia_shape(inertial: Inertial, kind: str) -> Shape:
+    """Return the shape of a kind with the mass, center and inertia of a link.
+
+    Parameters
+    ----------
+    inertial : Inertial
+    kind : str
+        "box", "ellipsoid" or "capsule".
+
+    Returns
+    -------
+    Shape
+        In the link's frame.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots import Inertial
+    >>> from body_moments.core.robots.primitives import equal_inertia_shape
+    >>> ball = Inertial(1.0, np.zeros(3), 0.4 * np.eye(3), np.full(3, 0.4), np.eye(3))
+    >>> np.round(equal_inertia_shape(ball, "ellipsoid").size, 12).tolist()
+    [1.0, 1.0, 1.0]
+    """
+    mass, moments, axes = inertial.mass, inertial.moments, inertial.axes
+    if kind == "capsule":
+        along_z = axes[:, [1, 2, 0]]  # the long axis last, and still a rotation
+        return Shape("capsule", capsule_size(mass, moments), Pose(inertial.center, along_z))
+    size = box_sides(mass, moments) if kind == "box" else ellipsoid_axes(mass, moments)
+    return Shape(kind, tuple(size.tolist()), Pose(inertial.center, axes))
+
+
+def _capsule(t: float) -> tuple[float, float]:
+    """∫x² dV across and along the axis of a capsule of unit radius and length t."""
+    return pi * (t / 4.0 + 4.0 / 15.0), pi * (t**3 / 12.0 + t * t / 3.0 + t / 2.0 + 4.0 / 15.0)
+
+
+def _spreads(moments: NDArray) -> NDArray[np.float64]:
+    """(3,) I_j + I_k - I_i. Where rounding leaves nothing of it, as much as changes no moment: no side is zero."""
+    first, second, third = moments
+    spreads = np.array([second + third - first, third + first - second, first + second - third])
+    return np.maximum(spreads, LEAST_SPREAD * spreads.max())

@@ -1,0 +1,190 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether a closed surface goes through itself, and how much of its volume is then counted twice or as negative.
+
+A surface whose cones from some point all have the same sign, and whose sum surrounds that point once, is the radial
+image of a sphere: it cannot meet itself. So it is with every convex body, about its center of mass. The sums over the
+faces tell it of most bodies on the way; for the others it is a pass that ends with the first face that looks away.
+
+What is not proved that way is looked at along lines. Each place on a line must be in a closed part once or not at all,
+where the part faces outward. The lengths for which that does not hold, times the lines' distances, are the volume that
+counts wrongly. A region is found where a line meets it, as one does in every region as wide as their distance; the
+number of lines follows from that of the faces, so that looking takes a part of the time that measuring does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.scan_lines import FACES_PER_BLOCK, Crossings, LineGrids, find_crossings, line_counts
+from ..mesh.surface import Surface, flipped_quads
+from ..moments.moments import SECOND_MOMENT_INDEX
+from ..numerics.arrays import sums_by_index
+from ..numerics.vectors import cross, dot
+from ..verdict.health import Intersection
+from .orientation import OrientedSolid
+from .triage import CheckedSurface, GivenIntegrals, same_sign
+
+MAX_UNSURE_LINES = 0.05  # of the lines: where more do not enter as often as they leave, the rest says nothing
+FACES_LOOKED_AT_FIRST = 1024
+
+
+@dataclass(frozen=True, eq=False)
+class SelfIntersection:
+    """What looking came to.
+
+    Attributes
+    ----------
+    state : Intersection
+    volume : float
+        What counts twice, or as negative (unit³), as often as it does too much: an estimate.
+    effect : float
+        The larger one of its shares of the volume and of the second moment about the center.
+    """
+
+    state: Intersection
+    volume: float = 0.0
+    effect: float = 0.0
+
+
+def find_self_intersection(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid) -> SelfIntersection:
+    """Look whether the surface of a solid goes through itself.
+
+    Parameters
+    ----------
+    checked : CheckedSurface
+    given : GivenIntegrals
+    oriented : OrientedSolid
+        All three of the same surface.
+    """
+    mesh, surface, volume = oriented.mesh, oriented.surface, oriented.volume
+    if not oriented.is_solid or mesh.open.any():
+        return SelfIntersection(Intersection.NOT_CHECKED)
+    component = None
+    if mesh.number > 1:
+        parts = oriented.closed_parts()
+        surface, component = _used_points(parts.points, parts.triangles), parts.part
+    else:
+        center = volume.about + volume.raw[1:4] / volume.total
+        as_given = oriented.is_proven and given.all_cones_agree
+        about = volume.about if as_given else center
+        if (as_given or all_cones_agree(surface, center)) and surrounds_once(surface, about, checked.size):
+            return SelfIntersection(Intersection.EXCLUDED)
+    low, high = surface.box
+    faces = np.array([len(surface.triangles) + 2 * len(surface.quads)])
+    grids = LineGrids.over_boxes(low[None], high[None], line_counts(faces))
+    excess = measure_excess(find_crossings(surface, grids), grids, np.array([checked.tolerance]), component)
+    if excess.unsure[0] > MAX_UNSURE_LINES:
+        return SelfIntersection(Intersection.NOT_CHECKED)
+    if not excess.volume[0] > 0.0:
+        return SelfIntersection(Intersection.NOT_FOUND)
+    spread = float(volume.about_center().raw[SECOND_MOMENT_INDEX.diagonal()].sum())
+    effect = max(float(excess.volume[0]) / volume.total, float(excess.second_moment[0]) / spread)
+    return SelfIntersection(Intersection.FOUND, float(excess.volume[0]), effect)
+
+
+def _used_points(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Surface:
+    """The surface of some triangles without the points of others."""
+    used = np.zeros(len(points), bool)
+    used[triangles.ravel()] = True
+    return Surface(points[used], (np.cumsum(used) - 1)[triangles])
+
+
+def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
+    """Whether all faces have the same side toward a point, or their planes contain it. Such a surface may still go
+    around the point several times."""
+    total = signed = 0.0
+    for corners in _corner_blocks(surface):
+        a, b, c = (corner - center[:, None] for corner in corners)
+        cones = dot(a, cross(b, c))
+        total, signed = total + float(np.abs(cones).sum()), signed + float(cones.sum())
+        if not same_sign(total, signed):
+            return False
+    return True
+
+
+def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
+    """The corners of the triangles, three times (3, k), the first block short."""
+    for faces in (surface.quads, surface.triangles):
+        starts = [0, *range(FACES_LOOKED_AT_FIRST, len(faces), FACES_PER_BLOCK), len(faces)]
+        for start, stop in zip(starts[:-1], starts[1:]):
+            block = faces[start:stop]
+            if faces is surface.quads and len(block):
+                flipped = flipped_quads(surface.points, block)
+                block = np.where(flipped[:, None], np.roll(block, -1, axis=1), block)
+                block = block[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+            if len(block):
+                yield [surface.points[block[:, k]].T.astype(np.float64) for k in range(3)]
+
+
+def surrounds_once(surface: Surface, point: NDArray[np.float64], size: float) -> bool:
+    """Whether a closed surface goes around a point once, one way or the other."""
+    found = find_crossings(surface, LineGrids.through_points(point[None], np.array([size])))
+    return abs(int(found.sign[found.along > 0.0].sum())) == 1
+
+
+@dataclass(frozen=True, eq=False)
+class Excess:
+    """What closed parts hold more than once, or less than not at all.
+
+    Attributes
+    ----------
+    volume, second_moment : (b,) float
+        Of each body, as often as it is too much; the latter about the center of the body's box.
+    unsure : (b,) float
+        The share of the crossed lines that do not enter as often as they leave, and say nothing; 1 where there is none.
+    """
+
+    volume: NDArray[np.float64]
+    second_moment: NDArray[np.float64]
+    unsure: NDArray[np.float64]
+
+
+def measure_excess(
+    crossings: Crossings, grids: LineGrids, tolerance: NDArray[np.float64], part: NDArray[np.integer] | None = None
+) -> Excess:
+    """Measure along lines what is in a closed part more than once, or less than not at all.
+
+    Parameters
+    ----------
+    crossings : Crossings
+    grids : LineGrids
+        Through the bodies.
+    tolerance : (b,) float
+        Lengths up to which nothing counts (unit).
+    part : (t,) int, optional
+        The part that each triangle bounds, of all bodies; by default each body is one.
+    """
+    bodies = len(grids.cell)
+    if not len(crossings.row):
+        return Excess(np.zeros(bodies), np.zeros(bodies), np.ones(bodies))
+    of_part = crossings.body if part is None else part[crossings.triangle].astype(np.intp)
+    line = (crossings.body * grids.rows + crossings.row) * grids.columns + crossings.column
+    group = line * (int(of_part.max()) + 1) + of_part
+    order = np.lexsort((crossings.along, group))
+    group, of_part, body = group[order], of_part[order], crossings.body[order]
+    begins = np.flatnonzero(np.concatenate([[True], group[1:] != group[:-1]]))
+    which = np.repeat(np.arange(len(begins)), np.diff(np.append(begins, len(group))))
+    depth = np.cumsum(crossings.sign[order])
+    last = np.append(begins[1:], len(group)) - 1
+    depth -= (depth[begins] - crossings.sign[order][begins])[which]
+    complete = depth[last] == 0
+    lines = np.bincount(body[begins], minlength=bodies)
+    unsure = np.where(lines > 0, np.bincount(body[begins], ~complete, minlength=bodies) / np.maximum(lines, 1), 1.0)
+
+    inner = np.flatnonzero(complete[which] & ~np.isin(np.arange(len(group)), last))
+    along, body, depth = crossings.along[order], body[inner], depth[inner]
+    length = along[inner + 1] - along[inner]
+    outward = np.sign(sums_by_index(of_part[inner], depth * length, int(of_part.max()) + 1))
+    depth = depth * outward[of_part[inner]]
+    times = np.maximum(depth - 1.0, 0.0) + np.maximum(-depth, 0.0)
+    wrong = np.flatnonzero((times > 0.0) & (length > tolerance[body]))
+    inner, body = inner[wrong], body[wrong]
+    volume = times[wrong] * length[wrong] * (np.multiply.reduce(grids.cell, axis=1) * crossings.rows_apart)[body]
+    middle = along[inner] + length[wrong] / 2.0
+    distance = grids.squared_distances(body, crossings.row[order][inner], crossings.column[order][inner], middle)
+    return Excess(sums_by_index(body, volume, bodies), sums_by_index(body, volume * distance, bodies), unsure)

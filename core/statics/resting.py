@@ -1,0 +1,198 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The poses in which a body rests on a plane, and how likely it is to end in each.
+
+A rigid body rests on faces of its convex hull. It rests stably on those that have the foot of the center of mass
+inside; from any other face it tips over the edge that the foot is farthest outside of, onto the next face, and ends in
+a stable one, for the center sinks all the time. The share of a pose is the quasi-static estimate of Wiegley, Rao and
+Goldberg ("Computing a statistical distribution of stable poses for a polyhedron", Allerton 1992): all orientations
+are equally likely when the body is let go, the face below the center is the one that it lands on, so that its
+probability is the solid angle of the face seen from the center, and nothing bounces. A face that is not stable adds its
+probability to the face that the body tips onto.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..mesh.convex_hull import ConvexHull
+from ..mesh.surface import normals
+from ..numerics.arrays import sums_by_index
+from ..numerics.graph import connected_components
+from ..verdict.finding import MeasureError
+
+PLANE_RTOL = 1e-6  # of the body's extent: corners that far from a plane are on it, margins below are none
+
+
+@dataclass(frozen=True, eq=False)
+class RestingPoses:
+    """Stable resting poses, the likeliest first.
+
+    Attributes
+    ----------
+    normals : (k, 3) array
+        Outward unit normals of the faces that the body rests on: they point down then.
+    shares : (k,) array
+        Quasi-static probabilities, adding up to 1.
+    margins : (k,) array
+        Distances of the center's foot from the nearest edge of the face.
+    heights : (k,) array
+        Of the center above the ground.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import convex_hull
+    >>> from body_moments.core.statics import resting_poses
+    >>> slab = convex_hull([[x, y, z] for x in (-3.0, 3.0) for y in (-2.0, 2.0) for z in (-1.0, 1.0)])
+    >>> poses = resting_poses(slab, center=[0.0, 0.0, 0.0])
+    >>> poses.margins[[0, 2, 4]].tolist(), np.round(poses.shares, 3).tolist()
+    ([2.0, 1.0, 1.0], [0.323, 0.323, 0.121, 0.121, 0.056, 0.056])
+    """
+
+    normals: NDArray[np.float64]
+    shares: NDArray[np.float64]
+    margins: NDArray[np.float64]
+    heights: NDArray[np.float64]
+
+    @property
+    def tipping_angles(self) -> NDArray[np.float64]:
+        """(k,) by how much the ground can be tilted in each pose before the body tips, in radians."""
+        return np.arctan2(self.margins, self.heights)
+
+
+@dataclass(frozen=True, eq=False)
+class _Faces:
+    """Faces of a hull, several triangles each: (m,) the face of each triangle, (f, 3) outward unit normals, (f,)
+    heights of the center, (f,) margins, and (f,) the face beyond the edge that the foot is nearest to or farthest
+    outside of."""
+
+    face: NDArray[np.intp]
+    normals: NDArray[np.float64]
+    heights: NDArray[np.float64]
+    margins: NDArray[np.float64]
+    beyond: NDArray[np.intp]
+
+
+def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_RTOL) -> RestingPoses:
+    """Find the stable resting poses of a body.
+
+    Parameters
+    ----------
+    hull : ConvexHull
+        Of the body.
+    center : (3,) array_like
+        Its center of mass.
+    tolerance : float
+        Of the hull's largest extent: triangles with corners that near to one plane are one face, and faces with a
+        smaller margin are not stable.
+
+    Returns
+    -------
+    RestingPoses
+
+    Raises
+    ------
+    MeasureError
+        If the center is outside the hull, where no body can have it, or no pose is stable.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import convex_hull
+    >>> from body_moments.core.statics import resting_poses
+    >>> wedge = convex_hull([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 1], [1, 0, 1], [0, 2, 1]])
+    >>> len(resting_poses(wedge, center=[1 / 3, 2 / 3, 1 / 2]).shares)
+    5
+    """
+    points = hull.points - np.asarray(center, np.float64)
+    least = tolerance * float(np.ptp(hull.points, axis=0).max())
+    faces = _faces(points, hull, least)
+    if faces.heights.min() < -least:
+        raise MeasureError("center_outside_hull")
+    if hull.is_flat:
+        shares = np.full(len(faces.heights), 0.5)
+    else:
+        shares = sums_by_index(faces.face, _solid_angles(points, hull.triangles), len(faces.heights)) / (4.0 * np.pi)
+    stable = faces.margins > least
+    # Of faces that are equally high to rounding none sinks: the body stays where it is.
+    rests = stable | (faces.heights[faces.beyond] >= faces.heights)
+    ends = np.where(rests, np.arange(len(rests)), faces.beyond)
+    while not np.array_equal(further := ends[ends], ends):
+        ends = further
+    shares = sums_by_index(ends, shares, len(rests))
+    kept = np.flatnonzero(stable)
+    if not len(kept):
+        raise MeasureError("no_stable_pose")
+    kept = kept[np.lexsort((faces.heights[kept], -np.round(shares[kept], 12)))]
+    return RestingPoses(faces.normals[kept], shares[kept], faces.margins[kept], faces.heights[kept])
+
+
+def _solid_angles(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
+    """(m,) of triangles seen from the origin, by van Oosterom and Strackee (1983), eq. 8."""
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c))
+    ab, bc, ca = ((first * second).sum(axis=1) for first, second in ((a, b), (b, c), (c, a)))
+    return 2.0 * np.arctan2(volume, la * lb * lc + ab * lc + bc * la + ca * lb)
+
+
+def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
+    """points: from the center."""
+    triangles, neighbors = hull.triangles, hull.neighbors
+    double = normals(points, triangles)
+    face, count = _coplanar(points, triangles, neighbors, double, least)
+    summed = np.stack([sums_by_index(face, double[:, axis], count) for axis in range(3)], axis=1)
+    lengths = np.linalg.norm(summed, axis=1)
+    unit = summed / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    heights = np.full(count, -np.inf)
+    for k in range(3):
+        np.maximum.at(heights, face, np.einsum("ij,ij->i", unit[face], points[triangles[:, k]]))
+
+    triangle, side = np.nonzero(face[neighbors] != face[:, None])
+    owner, beyond = face[triangle], face[neighbors[triangle, side]]
+    start = points[triangles[triangle, side]]
+    along = points[triangles[triangle, (side + 1) % 3]] - start
+    inward = np.cross(unit[owner], along)
+    length = np.linalg.norm(inward, axis=1)
+    distance = -np.einsum("ij,ij->i", inward, start) / np.where(length > 0.0, length, 1.0)
+    order = np.lexsort((distance, owner))
+    first = np.append(True, owner[order][1:] != owner[order][:-1])
+    nearest = order[first]
+    margins, over = np.full(count, -np.inf), np.arange(count)
+    margins[owner[nearest]], over[owner[nearest]] = distance[nearest], beyond[nearest]
+    return _Faces(face, unit, heights, margins, over)
+
+
+def _coplanar(
+    points: NDArray, triangles: NDArray, neighbors: NDArray, double: NDArray, least: float
+) -> tuple[NDArray[np.intp], int]:
+    """(m,) the face that each triangle is part of, and how many there are.
+
+    Neighbors are in one plane where the corner of the smaller one is in the plane of the larger. What is joined so but
+    is not in one plane after all, such as a fine rounding, stays apart.
+    """
+    lengths = np.linalg.norm(double, axis=1)
+    triangle, side = np.divmod(np.arange(neighbors.size), 3)
+    other = neighbors.ravel()
+    larger = lengths[triangle] >= lengths[other]
+    triangle, other, side = triangle[larger], other[larger], side[larger]
+    corners = triangles[other]
+    shared = (corners == triangles[triangle, side][:, None]) | (corners == triangles[triangle, (side + 1) % 3][:, None])
+    apart = points[corners[np.arange(len(other)), shared.argmin(axis=1)]] - points[triangles[triangle, 0]]
+    unit = double / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    same_side = np.einsum("ij,ij->i", double[triangle], double[other]) >= 0.0
+    flat = same_side & (np.abs(np.einsum("ij,ij->i", unit[triangle], apart)) <= least)
+    face, count = connected_components(len(triangles), triangle[flat], other[flat])
+    order = np.argsort(lengths, kind="stable")
+    largest = np.empty(count, np.intp)
+    largest[face[order]] = order  # the last one written is the largest
+    base = largest[face]
+    offsets = points[triangles] - points[triangles[base, 0]][:, None]
+    off = np.abs(np.einsum("ij,ikj->ik", unit[base], offsets)).max(axis=1)
+    bent = np.zeros(count, bool)
+    bent[face[off > 4.0 * least]] = True
+    label = np.where(bent[face], count + np.arange(len(face)), face)
+    _, label = np.unique(label, return_inverse=True)
+    return label.ravel(), int(label.max()) + 1

@@ -1,0 +1,198 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether a body stands: its support polygon and where the center of mass is over it.
+
+A rigid body at rest on a plane stands if the foot of the plumb line through its center is inside the convex hull of its
+contact points, the support polygon. The margin is the foot's distance from the nearest edge; about that edge the body
+tips when the ground is tilted by more than atan(margin / height of the center).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..mesh.convex_hull import convex_polygon
+
+CONTACT_RTOL = 1e-6  # of the body's extent: points that high above the lowest one touch the ground
+
+
+@dataclass(frozen=True, eq=False)
+class Support:
+    """How a body stands on the ground, in the unit and the frame of its points.
+
+    Attributes
+    ----------
+    polygon : (k, 3) array
+        Corners of the support polygon on the ground, counter-clockwise seen from above; two of a line, one of a point.
+    foot : (3,) array
+        The point of the ground below the center of mass.
+    height : float
+        Of the center above the ground.
+    margin : float
+        Distance of the foot from the nearest edge, negative where the foot is outside the polygon.
+    direction : (3,) array
+        Unit vector on the ground: over the nearest edge, where the body tips first or falls to.
+    up : (3,) array
+        Unit vector against gravity.
+
+    Examples
+    --------
+    >>> from body_moments.core.statics import find_support
+    >>> corners = [[x, y, z] for x in (0.0, 4.0) for y in (0.0, 2.0) for z in (0.0, 1.0)]
+    >>> support = find_support(corners, center=[1.5, 1.5, 0.5])
+    >>> support.stands, support.margin, support.direction.tolist(), round(support.tipping_angle, 6)
+    (True, 0.5, [0.0, 1.0, 0.0], 0.785398)
+    """
+
+    polygon: NDArray[np.float64]
+    foot: NDArray[np.float64]
+    height: float
+    margin: float
+    direction: NDArray[np.float64]
+    up: NDArray[np.float64]
+
+    @property
+    def stands(self) -> bool:
+        """Whether the foot is inside the polygon. A body balanced on an edge, a line or a point does not stand."""
+        return self.margin > 0.0
+
+    @property
+    def tipping_angle(self) -> float:
+        """By how much the ground can be tilted before the body tips, in radians; negative where it tips by itself."""
+        return atan2(self.margin, self.height)
+
+
+def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
+    """Return two directions on the ground and the one up, as columns of a rotation.
+
+    Parameters
+    ----------
+    down : (3,) array_like
+        The direction of gravity, of any length but zero.
+
+    Returns
+    -------
+    (3, 3) array
+
+    Examples
+    --------
+    >>> from body_moments.core.statics.support import ground_axes
+    >>> ground_axes([0.0, 0.0, -9.81])[:, 2].tolist()
+    [0.0, 0.0, 1.0]
+    """
+    up = -np.asarray(down, np.float64)
+    up = up / np.linalg.norm(up)
+    first = np.eye(3)[np.argmin(np.abs(up))]
+    first = first - (first @ up) * up
+    first = first / np.linalg.norm(first)
+    return np.stack([first, np.cross(up, first), up], axis=1)
+
+
+def find_support(
+    points: ArrayLike, center: ArrayLike, down: ArrayLike = (0.0, 0.0, -1.0), tolerance: float = CONTACT_RTOL
+) -> Support:
+    """Find the support polygon of a body on the ground below it.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like
+        Of the body; the corners of its convex hull are enough. The ground goes through the lowest of them.
+    center : (3,) array_like
+        Center of mass.
+    down : (3,) array_like
+        Direction of gravity.
+    tolerance : float
+        Of the largest extent of the points: what is higher above the ground does not touch it.
+
+    Returns
+    -------
+    Support
+
+    Examples
+    --------
+    >>> from body_moments.core.statics import find_support
+    >>> corners = [[x, y, z] for x in (0.0, 4.0) for y in (0.0, 2.0) for z in (0.0, 1.0)]
+    >>> find_support(corners, center=[2.0, 1.0, 0.5], down=[1.0, 0.0, 0.0]).height
+    2.0
+    """
+    points, center = np.asarray(points, np.float64), np.asarray(center, np.float64)
+    axes = ground_axes(down)
+    local = (points - center) @ axes
+    low = float(local[:, 2].min())
+    contacts = local[local[:, 2] <= low + tolerance * float(np.ptp(points, axis=0).max())]
+    return _support(contacts[:, :2], -low, center, axes)
+
+
+def support_of_contacts(contacts: ArrayLike, center: ArrayLike, down: ArrayLike = (0.0, 0.0, -1.0)) -> Support:
+    """Find the support polygon of given contact points, at whatever heights: hands on a wall, feet on stairs.
+
+    Parameters
+    ----------
+    contacts : (n, 3) array_like
+        At least one. Their projections along gravity count.
+    center : (3,) array_like
+    down : (3,) array_like
+
+    Returns
+    -------
+    Support
+        On the ground through the lowest contact.
+
+    Examples
+    --------
+    >>> from body_moments.core.statics.support import support_of_contacts
+    >>> support = support_of_contacts([[0, 0, 0], [2, 0, 1], [0, 2, 0]], center=[3.0, -1.0, 2.0])
+    >>> support.stands, round(support.margin, 6)
+    (False, -1.414214)
+    """
+    center = np.asarray(center, np.float64)
+    axes = ground_axes(down)
+    local = (np.asarray(contacts, np.float64) - center) @ axes
+    return _support(local[:, :2], -float(local[:, 2].min()), center, axes)
+
+
+def _support(contacts: NDArray, height: float, center: NDArray, axes: NDArray) -> Support:
+    """contacts: (n, 2) on the ground, from the foot."""
+    corners = contacts[convex_polygon(contacts)]
+    margin, direction = polygon_margin(corners)
+    polygon = np.concatenate([corners, np.full((len(corners), 1), -height)], axis=1) @ axes.T + center
+    return Support(polygon, center - height * axes[:, 2], height, margin, axes[:, :2] @ direction, axes[:, 2])
+
+
+def polygon_margin(corners: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
+    """Return how far the origin is inside a convex polygon, and the unit vector over the nearest edge.
+
+    Parameters
+    ----------
+    corners : (k, 2) array
+        Counter-clockwise.
+
+    Returns
+    -------
+    margin : float
+        Distance from the nearest edge; outside, minus the distance from the polygon.
+    direction : (2,) array
+        From inside straight over that edge; from outside away from the polygon.
+    """
+    along = np.roll(corners, -1, axis=0) - corners
+    lengths = np.linalg.norm(along, axis=1)
+    edges = np.flatnonzero(lengths > 0.0)
+    if len(edges) > 2:
+        outward = np.stack([along[edges, 1], -along[edges, 0]], axis=1) / lengths[edges, None]
+        distances = (outward * corners[edges]).sum(axis=1)
+        nearest = int(distances.argmin())
+        if distances[nearest] >= 0.0:
+            return float(distances[nearest]), outward[nearest]
+    squares = np.where(lengths > 0.0, lengths**2, 1.0)
+    share = np.clip(-(corners * along).sum(axis=1) / squares, 0.0, 1.0)
+    closest = corners + share[:, None] * along
+    distances = np.linalg.norm(closest, axis=1)
+    nearest = int(distances.argmin())
+    if distances[nearest] > 0.0:
+        return -float(distances[nearest]), -closest[nearest] / distances[nearest]
+    side = along[nearest] / lengths[nearest] if lengths[nearest] > 0.0 else np.array([0.0, -1.0])
+    return 0.0, np.array([side[1], -side[0]])

@@ -1,0 +1,3 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects as links of a robot: files, collection exporters and text."""

@@ -1,0 +1,288 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""File > Export, and the exporters of collections: measured objects as URDF, SDF, MJCF, USD or glTF.
+
+The exporters of collections keep their path and options in the .blend; Blender runs them again by Export All.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, StringProperty
+from bpy.types import Context, FileHandler, Menu, Operator, UILayout
+from bpy_extras.io_utils import ExportHelper
+
+from ....core.mesh.surface import Surface
+from ....core.robots.model import Robot
+from ....core.verdict.finding import EditRefusedError, FileError, Finding, MeasureError, finding
+from ...read.links import USD_ROOT, sheared_objects, usd_path
+from ...write import reports
+from ...write.messages import sentence
+from ...write.robots import gltf, usd
+from ...write.robots.formats import robot_text
+from ...write.robots.shapes import with_primitives
+from ...write.robots.stl import write_meshes
+from ...write.whole_file import whole_file
+from . import links as scenes
+from .links import MeasuredScene
+
+LINKS = (
+    ("OBJECT", "Objects", "Each object is a link; its parent holds it by a fixed joint"),
+    ("COLLECTION", "Collections", "Each collection that holds objects itself is a link, along the world's axes"),
+)
+GEOMETRY = (
+    ("MESH", "Meshes", "Name a mesh file for each link"),
+    ("BOX", "Boxes", "The box of the same mass, center and inertia"),
+    ("ELLIPSOID", "Ellipsoids", "The ellipsoid of the same mass, center and inertia"),
+    ("CAPSULE", "Capsules", "The capsule of the same mass and center, with the inertia that comes nearest"),
+    ("NONE", "None", "Links have no geometry"),
+)
+
+
+class RobotExport(ExportHelper):
+    """What the exporters share. FORMAT: of `WRITERS`, or "gltf"."""
+
+    FORMAT = ""
+    bl_options = {"REGISTER", "PRESET"}
+
+    use_selection: BoolProperty(
+        name="Selected Objects", description="Export selected objects only, else all that are rendered", default=False
+    )
+    collection: StringProperty(name="Source Collection", options={"HIDDEN"})
+    links: EnumProperty(name="Links", description="What is one rigid body", items=LINKS, default="OBJECT")
+    geometry: EnumProperty(name="Geometry", description="What links look like and collide as", items=GEOMETRY)
+    write_meshes: BoolProperty(
+        name="Write Meshes", description="Write the mesh files that the links name beside the file", default=True
+    )
+    inertial_only: BoolProperty(
+        name="Inertials Only", description="Write mass, center and inertia of each link and nothing else", default=False
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if context.mode != "OBJECT":
+            return reports.unavailable(cls, finding("poll_object_mode"))
+        return True
+
+    def execute(self, context: Context) -> set[str]:
+        try:
+            objects = scenes.objects_to_export(context, self.collection, self.use_selection)
+            scene = scenes.measure_scene(context, objects)
+            if not scene.measured:
+                raise EditRefusedError(scene.failures[0])
+            findings = self._export(context, scene, Path(bpy.path.abspath(self.filepath)))
+        except MeasureError as error:
+            reports.report(self, reports.refusal(error))
+            return {"CANCELLED"}
+        except OSError as error:
+            reports.report(self, finding("robot_not_written", error=error.strerror or str(error)))
+            return {"CANCELLED"}
+        reports.report(self, *findings, *scenes.left_out(scene.failures, len(objects)))
+        return {"FINISHED"}
+
+    def _robot(self, context: Context, scene: MeasuredScene, name: str) -> tuple[Robot, list[Finding], dict]:
+        if self.links == "COLLECTION":
+            root = bpy.data.collections[self.collection] if self.collection else context.scene.collection
+            return scenes.collection_links(name, scene, root)
+        return scenes.object_links(name, scene)
+
+    def _export(self, context: Context, scene: MeasuredScene, path: Path) -> list[Finding]:
+        robot, findings, members = self._robot(context, scene, path.stem)
+        robot = robot if self.geometry == "MESH" else with_primitives(robot, self.geometry.lower())
+        text, found = robot_text(robot, self.FORMAT, findings, inertial_only=self.inertial_only)
+        with whole_file(path) as file:
+            file.write(text.encode("utf-8"))
+        if self.geometry == "MESH" and self.write_meshes and not self.inertial_only:
+
+            def surface(label: str) -> Surface | None:
+                return scenes.link_mesh(scene, robot.link(label), members[label])
+
+            found.append(write_meshes(robot, surface, path.parent))
+        return [finding("robot_exported", count=len(robot.links), file=path.name), *found]
+
+    def draw(self, _context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        if not self.collection:
+            layout.prop(self, "use_selection")
+        self._draw_options(layout)
+
+    def _draw_options(self, layout: UILayout) -> None:
+        layout.prop(self, "links")
+        layout.prop(self, "inertial_only")
+        column = layout.column()
+        column.enabled = not self.inertial_only
+        column.prop(self, "geometry")
+        if self.geometry == "MESH":
+            column.prop(self, "write_meshes")
+
+
+class EXPORT_SCENE_OT_body_moments_urdf(RobotExport, Operator):
+    """Export objects as links of a robot in URDF, with their exact mass, center and inertia"""
+
+    bl_idname = "export_scene.body_moments_urdf"
+    bl_label = "Export URDF"
+    FORMAT = "urdf"
+    filename_ext = ".urdf"
+    filter_glob: StringProperty(default="*.urdf", options={"HIDDEN"})
+
+
+class EXPORT_SCENE_OT_body_moments_sdf(RobotExport, Operator):
+    """Export objects as links of a model in SDFormat, with their exact mass, center and inertia"""
+
+    bl_idname = "export_scene.body_moments_sdf"
+    bl_label = "Export SDF"
+    FORMAT = "sdf"
+    filename_ext = ".sdf"
+    filter_glob: StringProperty(default="*.sdf", options={"HIDDEN"})
+
+
+class EXPORT_SCENE_OT_body_moments_mjcf(RobotExport, Operator):
+    """Export objects as bodies of a model for MuJoCo, with their exact mass, center and inertia"""
+
+    bl_idname = "export_scene.body_moments_mjcf"
+    bl_label = "Export MJCF"
+    FORMAT = "mjcf"
+    filename_ext = ".xml"
+    filter_glob: StringProperty(default="*.xml", options={"HIDDEN"})
+
+
+class GeometryExport(RobotExport):
+    """Of those that leave the geometry to Blender's own exporter, which knows objects."""
+
+    def _robot(self, context: Context, scene: MeasuredScene, name: str) -> tuple[Robot, list[Finding], dict]:
+        robot, findings, members = scenes.object_links(name, scene)
+        sheared = sheared_objects(scene.measured)
+        if sheared:
+            findings.append(finding("robot_sheared", count=len(sheared), links=sheared))
+        return robot, findings, members
+
+    def _run_exporter(self, exporter: str, path: Path, options: dict) -> None:
+        """Run Blender's own exporter on the same objects."""
+        module, name = exporter.split(".")
+        try:
+            result = getattr(getattr(bpy.ops, module), name)(filepath=str(path), collection=self.collection, **options)
+        except RuntimeError as error:
+            raise FileError("robot_geometry_not_written", error=" ".join(str(error).split())) from error
+        if "FINISHED" not in result or not path.is_file():
+            raise FileError("robot_geometry_not_written", error=exporter)
+
+
+class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
+    """Export the geometry as Blender does, and a layer of text that gives it the exact mass, center and inertia"""
+
+    bl_idname = "export_scene.body_moments_usd"
+    bl_label = "Export USD Physics"
+    FORMAT = "usd"
+    filename_ext = ".usda"
+    filter_glob: StringProperty(default="*.usda", options={"HIDDEN"})
+
+    def _export(self, context: Context, scene: MeasuredScene, path: Path) -> list[Finding]:
+        if self.inertial_only or self.geometry != "MESH":
+            return super()._export(context, scene, path)
+        robot, findings, members = self._robot(context, scene, path.stem)
+        paths = {label: usd_path(objects[0], usd.identifier) for label, objects in members.items()}
+        alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
+        if alike:
+            raise EditRefusedError("robot_names_alike", names=alike)
+        findings += usd.check(robot)
+        geometry = path.with_name(path.stem + "_geometry.usdc")
+        options = {"selected_objects_only": self.use_selection, "root_prim_path": "/" + USD_ROOT}
+        self._run_exporter("wm.usd_export", geometry, options)
+        scaled = [link.name for link in robot.roots if min(link.scale) < 0.0]
+        if scaled:
+            findings.append(finding("robot_scaled", count=len(scaled), links=scaled))
+        remarks = list(map(sentence, findings))
+        text = usd.write_over(robot, paths, "./" + geometry.name, scene.unit, remarks)
+        with whole_file(path) as file:
+            file.write(text.encode("utf-8"))
+        return [finding("robot_exported", count=len(robot.links), file=path.name), *findings]
+
+    def _draw_options(self, layout: UILayout) -> None:
+        layout.prop(self, "inertial_only")
+        column = layout.column()
+        column.enabled = not self.inertial_only
+        column.prop(self, "geometry")
+
+
+class EXPORT_SCENE_OT_body_moments_gltf(GeometryExport, Operator):
+    """Export glTF as Blender does, with rigid bodies of the exact mass, center and inertia in it"""
+
+    bl_idname = "export_scene.body_moments_gltf"
+    bl_label = "Export glTF with Rigid Bodies"
+    FORMAT = "gltf"
+    filename_ext = ".glb"
+    filter_glob: StringProperty(default="*.glb", options={"HIDDEN"})
+
+    def _export(self, context: Context, scene: MeasuredScene, path: Path) -> list[Finding]:
+        robot, findings, _ = self._robot(context, scene, path.stem)
+        options = {"use_selection": self.use_selection, "export_format": "GLB", "export_yup": True}
+        self._run_exporter("export_scene.gltf", path, options)
+        data = path.read_bytes()
+        document = gltf.read_json(data)
+        findings += gltf.add_rigid_bodies(document, robot, scene.unit)
+        with whole_file(path) as file:
+            file.write(gltf.replace_json(data, document))
+        return [finding("robot_exported", count=len(robot.links), file=path.name), *findings]
+
+    def _draw_options(self, layout: UILayout) -> None:
+        pass
+
+
+EXPORTERS = (
+    EXPORT_SCENE_OT_body_moments_urdf,
+    EXPORT_SCENE_OT_body_moments_sdf,
+    EXPORT_SCENE_OT_body_moments_mjcf,
+    EXPORT_SCENE_OT_body_moments_usd,
+    EXPORT_SCENE_OT_body_moments_gltf,
+)
+LABELS = ("URDF", "SDF", "MuJoCo (MJCF)", "USD with Mass Properties", "glTF with Rigid Bodies")
+
+
+def _file_handler(exporter: type[RobotExport], label: str) -> type[FileHandler]:
+    """What makes an exporter one of a collection."""
+    name = "IO_FH_body_moments_{}".format(exporter.FORMAT)
+    members = {
+        "bl_idname": name,
+        "bl_label": label,
+        "bl_export_operator": exporter.bl_idname,
+        "bl_file_extensions": exporter.filename_ext,
+        "poll_drop": classmethod(lambda _cls, _context: False),
+    }
+    return type(name, (FileHandler,), members)
+
+
+FILE_HANDLERS = tuple(_file_handler(exporter, label) for exporter, label in zip(EXPORTERS, LABELS))
+
+
+class TOPBAR_MT_body_moments_export(Menu):
+    """Formats of robots and engines, with exact mass properties"""
+
+    bl_idname = "TOPBAR_MT_body_moments_export"
+    bl_label = "Mass Properties"
+
+    def draw(self, _context: Context) -> None:
+        for exporter, label in zip(EXPORTERS, LABELS):
+            text = "{} ({})".format(label, exporter.filename_ext)
+            self.layout.operator(exporter.bl_idname, text=text, translate=False)
+
+
+def _menu(menu: Menu, _context: Context) -> None:
+    menu.layout.menu(TOPBAR_MT_body_moments_export.bl_idname)
+
+
+CLASSES = (*EXPORTERS, *FILE_HANDLERS, TOPBAR_MT_body_moments_export)
+
+
+def register() -> None:
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.TOPBAR_MT_file_export.append(_menu)
+
+
+def unregister() -> None:
+    bpy.types.TOPBAR_MT_file_export.remove(_menu)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

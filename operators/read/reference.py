@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What inertia is referred to, as the scene has it now: a point and axes, SI."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from bpy.types import Object, PropertyGroup, Scene
+from numpy.typing import NDArray
+
+from ...core.inertia.reference import Reference
+from ...core.numerics.float32 import shortest_decimal
+from ...core.numerics.rotations import rotation_matrix
+from ...core.verdict.finding import QueryError
+
+Point = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class ReferenceChoice:
+    """Which reference is meant, wherever it is.
+
+    Attributes
+    ----------
+    about : str
+        "CENTER", "ORIGIN", "WORLD", "CURSOR", "OBJECT" or "AXIS".
+    object : str
+        The other object's name.
+    points : tuple
+        The axis' two points, Blender units.
+    """
+
+    about: str
+    object: str = ""
+    points: tuple[Point, ...] = ()
+
+    @classmethod
+    def of(cls, settings: PropertyGroup) -> ReferenceChoice:
+        """Return what the scene's settings choose."""
+        if settings.about == "OBJECT":
+            return cls("OBJECT", settings.object.name if settings.object is not None else "")
+        if settings.about == "AXIS":
+            return cls("AXIS", points=tuple(tuple(map(shortest_decimal, p)) for p in (settings.first, settings.second)))
+        return cls(settings.about)
+
+    @property
+    def text(self) -> str:
+        """JSON, to be read by `parse`."""
+        entry: dict = {"about": self.about.lower()}
+        if self.object:
+            entry["object"] = self.object
+        if self.points:
+            entry["points"] = self.points
+        return json.dumps(entry, ensure_ascii=False)
+
+    @classmethod
+    def parse(cls, text: object) -> ReferenceChoice | None:
+        """Return what `text` has written; None for anything else."""
+        try:
+            entry = json.loads(str(text))
+            points = tuple(tuple(map(float, point)) for point in entry.get("points", ()))
+            return cls(str(entry["about"]).upper(), str(entry.get("object", "")), points)
+        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+            return None
+
+    def resolve(self, owner: bpy.types.ID, scene: Scene, center: NDArray) -> Reference:
+        """Return the frame, SI, world axes.
+
+        Parameters
+        ----------
+        owner : Object or Collection
+            What was measured.
+        scene : Scene
+        center : (3,) array
+            Its center of mass, m.
+
+        Raises
+        ------
+        QueryError
+            Where there is no such frame.
+        """
+        unit = shortest_decimal(scene.unit_settings.scale_length)
+        if self.about == "CENTER":
+            return Reference(np.asarray(center, np.float64))
+        if self.about == "ORIGIN" and isinstance(owner, Object):
+            return _frame(owner.matrix_world, unit)
+        if self.about == "CURSOR":
+            return _frame(scene.cursor.matrix, unit)
+        if self.about == "OBJECT":
+            other = bpy.data.objects.get(self.object)
+            if other is None:
+                raise QueryError("reference_object_missing")
+            return _frame(other.matrix_world, unit)
+        if self.about == "AXIS" and len(self.points) == 2:
+            first, second = np.array(self.points) * unit
+            return Reference.through_points(first, second)
+        return Reference(np.zeros(3))
+
+
+def _frame(matrix, unit: float) -> Reference:
+    location, turn, _scale = matrix.decompose()
+    return Reference(np.array(location[:], np.float64) * unit, rotation_matrix(turn))

@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Density as a multiplication: where it is one number, stored results follow it at once, without being measured again.
+
+Whether nothing but density or mass is different is read off the mark of the stored results: it is the digest of the
+settings as they are, with the stored density, or the stored mass, in place of the given one. So nothing is
+remembered, undo brings all of it back together, and a setting that is animated or driven, of which Blender calls no
+update function, leaves the results out of date.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from bpy.types import Context, Object, PropertyGroup, Scene
+
+from ...core.numerics.float32 import shortest_decimal
+from ...core.verdict.finding import EditRefusedError, Finding, finding
+from ..read.fingerprint import VERSION, given_density, settings_hash, settings_hash_with
+from ..settings import hooks
+from ..settings.density import default_density
+from ..write import properties
+from . import marks, reference, staleness
+
+DEFAULTS = {  # what is noted where nobody has set a density, by the setting
+    "density": finding("density_default_kept"),
+    "linear_density": finding("linear_density_default_kept"),
+}
+OF_DEFAULT_DENSITY = frozenset(
+    {"density_defaulted", "linear_density_defaulted", *(note.code for note in DEFAULTS.values())}
+)
+
+
+def follow_density(obj: Object, scene: Scene) -> None:
+    """Store what the object's settings now make of its results, where these differ by a factor alone. Else they stay,
+    and are out of date.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    scene : bpy.types.Scene
+        Whose unit scale and default density count.
+    """
+    mark = marks.parse(marks.of_results(obj))
+    if mark is None or mark.version != VERSION or "body_density_from" in obj or not _can_store(obj):
+        return
+    numbers = properties.numbers(obj)
+    extent = None if numbers is None else properties.optional(obj, "body_length") or numbers[2][0]
+    if not extent or not numbers[0][0] > 0.0:
+        return
+    mass = numbers[0][0]
+    if mark.settings not in (
+        settings_hash_with(obj, scene, mass / extent, None),
+        settings_hash_with(obj, scene, None, mass),
+    ):
+        return
+    settings = obj.body_moments
+    is_mass_given = settings.mass_from == "MASS"
+    density = shortest_decimal(settings.mass) / extent if is_mass_given else given_density(obj, scene)
+    if not 0.0 < density * extent / mass < float("inf") or not isfinite(density * extent):
+        return
+    properties.store_scaled(
+        obj,
+        0.0 if settings.kind == "WIRE" else density,
+        density * extent,
+        _findings(obj, scene),
+        ":".join(mark._replace(settings=settings_hash(obj, scene))),
+    )
+    staleness.replace_mark(obj, ":".join(mark))
+    reference.follow(obj, scene, reference.stored_choice(obj))
+
+
+def _can_store(obj: Object) -> bool:
+    try:
+        properties.require_storable(obj)
+    except EditRefusedError:
+        return False
+    return True
+
+
+def _findings(obj: Object, scene: Scene) -> list[Finding]:
+    """The stored findings, with a note where nobody has set the density."""
+    settings = obj.body_moments
+    kept = [found for found in properties.findings(obj) if found.code not in OF_DEFAULT_DENSITY]
+    if settings.mass_from == "MASS":
+        return kept
+    name = "linear_density" if settings.kind == "WIRE" else "density"
+    if settings.is_property_set(name) or name == "density" and default_density(scene) is not None:
+        return kept
+    return [*kept, DEFAULTS[name]]
+
+
+def _on_density(settings: PropertyGroup, context: Context) -> None:
+    if isinstance(settings.id_data, Object) and context.scene is not None:
+        follow_density(settings.id_data, context.scene)
+
+
+def _on_default_density(settings: PropertyGroup, _context: Context) -> None:
+    for obj in settings.id_data.objects:
+        if not obj.body_moments.is_property_set("density"):
+            follow_density(obj, settings.id_data)
+
+
+def register() -> None:
+    """Follow densities."""
+    hooks.on_density_change.append(_on_density)
+    hooks.on_default_density_change.append(_on_default_density)
+
+
+def unregister() -> None:
+    """Follow them no more."""
+    hooks.on_density_change.remove(_on_density)
+    hooks.on_default_density_change.remove(_on_default_density)

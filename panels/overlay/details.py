@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is drawn of single objects: faults and support polygons, as colored segments and triangles in the world."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from bpy.types import Context, Object
+from numpy.typing import NDArray
+
+from ...core.statics.support import Support
+from ...operators.session import faults, stability
+from ...operators.settings.overlay import BodyMomentsOverlaySettings
+from . import appearance as look
+from .bodies import drawn_objects
+
+FILL = 0.25  # opacity of faces
+ARROW = 0.12  # length of the tipping arrow's head, of the support polygon's extent
+Colored = tuple[NDArray[np.float64], NDArray[np.float32]]
+
+
+@dataclass(frozen=True, eq=False)
+class Detail:
+    """segments: (k, 2, 3) and (k, 4) colors; triangles: (l, 3, 3) and (l, 4)."""
+
+    segments: Colored
+    triangles: Colored
+
+
+def objects_details(context: Context, settings: BodyMomentsOverlaySettings) -> Iterator[Detail]:
+    """Yield what is switched on of each drawn object."""
+    if not (settings.show_faults or settings.show_support):
+        return
+    for obj in drawn_objects(context, settings.show_all):
+        if settings.show_faults and (found := faults.of_object(obj)) is not None:
+            yield _faults(obj, found)
+        if settings.show_support and (support := stability.support(obj, context.scene)) is not None:
+            yield support_detail(support)
+
+
+def _faults(obj: Object, found: faults.Faults) -> Detail:
+    matrix = np.array(obj.matrix_world, np.float64)
+    edges, triangles = (shape @ matrix[:3, :3].T + matrix[:3, 3] for shape in (found.edges, found.triangles))
+    return Detail(_tinted(edges, look.FAULT), _tinted(triangles, look.FAULT, FILL))
+
+
+def support_detail(support: Support) -> Detail:
+    """Draw the support polygon, filled where the body stands, and an arrow from the foot to where it tips."""
+    color = look.SUPPORT if support.stands else look.TIPS
+    corners, foot = support.polygon, support.foot
+    outline = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
+    fan = np.stack([np.broadcast_to(corners[0], corners[2:].shape), corners[1:-1], corners[2:]], axis=1)
+    extent = float(np.linalg.norm(np.ptp(np.concatenate([corners, [foot]]), axis=0)))
+    tip = foot + max(abs(support.margin), 2.0 * ARROW * extent) * support.direction
+    side = np.cross(support.direction, support.up) * ARROW * extent / 2.0
+    back = tip - ARROW * extent * support.direction
+    arrow = np.array([[foot, tip], [tip, back + side], [tip, back - side]])
+    return Detail(
+        _tinted(np.concatenate([outline, arrow]), color), _tinted(fan if support.stands else fan[:0], color, FILL)
+    )
+
+
+def _tinted(shape: NDArray, color: NDArray, opacity: float = 1.0) -> Colored:
+    return shape, np.tile(color * (1.0, 1.0, 1.0, opacity), (len(shape), 1)).astype(np.float32)

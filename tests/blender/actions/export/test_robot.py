@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""File > Export and the exporters of collections: files of robots from the scene."""
+
+import json
+import re
+import struct
+from xml.etree import ElementTree
+
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+import numpy as np
+from body_moments.core.inertia.mass_properties import combine
+from body_moments.core.numerics.rotations import rotation_matrix
+from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.write.robots import gltf
+
+from tests.blender.objects import add, mesh_body, only
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def measured(obj):
+    return measure_object(obj, bpy.context.evaluated_depsgraph_get())
+
+
+def pair():
+    """A body with a child that is scaled, and one apart."""
+    upper = add(mesh_body("Upper"), "Upper", (5, 3, -2), (0.3, 0.4, 0.5))
+    fore = add(mesh_body("Fore"), "Fore.001", (1, 2, 3), (0.0, 0.0, 0.4), (2, 2, 2))
+    fore.parent = upper
+    tool = add(mesh_body("Tool"), "Tool", (0, 0, 4))
+    bpy.context.view_layer.update()
+    return upper, fore, tool
+
+
+def whole(*objects):
+    """What objects are together, along the axes of the first."""
+    bodies = [measured(obj) for obj in objects]
+    return combine([body.mass_moments for body in bodies]).in_frame(bodies[0].rotation, bodies[0].location)
+
+
+def tensor(inertia, quaternion):
+    turn = rotation_matrix(quaternion)
+    return (turn * np.asarray(inertia)) @ turn.T
+
+
+def export(name, path, **options):
+    return getattr(bpy.ops.export_scene, "body_moments_" + name)(filepath=str(path), **options)
+
+
+def test_a_file_has_its_meshes_beside_it(tmp_path):
+    pair()
+    assert export("urdf", tmp_path / "robot.urdf") == {"FINISHED"}
+    root = ElementTree.parse(tmp_path / "robot.urdf").getroot()
+    assert root.get("name") == "robot" and len(root.findall("link")) == 4
+    for mesh in root.iter("mesh"):
+        assert (tmp_path / mesh.get("filename")).stat().st_size == 84 + 50 * 20
+
+
+def test_selected_objects_of_a_format_without_meshes(tmp_path):
+    upper, fore, tool = pair()
+    only(tool)
+    export("sdf", tmp_path / "tool.sdf", use_selection=True, geometry="BOX")
+    root = ElementTree.parse(tmp_path / "tool.sdf").getroot()
+    assert [link.get("name") for link in root.iter("link")] == ["Tool"] and not [*tmp_path.glob("*/")]
+    sides = np.array(root.find(".//box/size").text.split(), float)
+    body = measured(tool).in_object_frame()
+    moments = body.mass / 12.0 * (sides @ sides - sides * sides)
+    assert close(moments, body.principal.moments, 1e-13)
+
+
+def test_collections_are_links_and_hold_those_within(tmp_path):
+    upper, fore, tool = pair()
+    outer, inner = bpy.data.collections.new("Arm"), bpy.data.collections.new("Hand")
+    bpy.context.scene.collection.children.link(outer)
+    outer.children.link(inner)
+    for obj, collection in ((upper, outer), (fore, outer), (tool, inner)):
+        bpy.context.scene.collection.objects.unlink(obj)
+        collection.objects.link(obj)
+    export("mjcf", tmp_path / "arm.xml", links="COLLECTION")
+    root = ElementTree.parse(tmp_path / "arm.xml").getroot()
+    arm = root.find("worldbody/body")
+    assert (arm.get("name"), arm.find("body").get("name")) == ("Arm", "Hand")
+    body = combine([measured(obj).mass_moments for obj in (upper, fore)])
+    inertial = arm.find("inertial")
+    assert close(float(inertial.get("mass")), body.mass, 1e-14)
+    assert close(np.array(inertial.get("pos").split(), float), body.center, 1e-14)
+    found = tensor(*(np.array(inertial.get(key).split(), float) for key in ("diaginertia", "quat")))
+    assert np.abs(found - body.inertia).max() < 1e-14 * np.abs(body.inertia).max()
+    assert (tmp_path / "meshes" / "arm.stl").stat().st_size == 84 + 2 * 50 * 20
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.001])
+def test_usd_is_blenders_geometry_under_a_layer_of_masses(tmp_path, unit):
+    bpy.context.scene.unit_settings.scale_length = unit
+    upper, fore, tool = pair()
+    assert export("usd", tmp_path / "robot.usda") == {"FINISHED"}
+    assert (tmp_path / "robot_geometry.usdc").is_file()
+    text = (tmp_path / "robot.usda").read_text(encoding="utf-8")
+    assert "@./robot_geometry.usdc@" in text and "metersPerUnit = {!r}\n".format(unit) in text
+    assert text.count("PhysicsMassAPI") == 2 and "Fore_001" not in text  # a part of Upper's body
+    body = whole(upper, fore)
+    prim = text[text.index('over "Upper"') :]
+    center = np.array(re.search(r"centerOfMass = \((.*)\)", prim)[1].split(","), float)
+    assert close(center, body.center / unit, 1e-6)
+    xx, yy, zz, xy, xz, yz = map(float, re.search(r"newton:inertia = \[(.*)\]", prim)[1].split(","))
+    found = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) * unit**2
+    assert np.abs(found - body.inertia).max() < 1e-13 * np.abs(body.inertia).max()
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.001])
+def test_gltf_has_its_bodies_in_the_axes_of_its_nodes(tmp_path, unit):
+    """The node's own matrix puts center and tensor where they are in the world, turned to y up."""
+    bpy.context.scene.unit_settings.scale_length = unit
+    upper, fore, tool = pair()
+    assert export("gltf", tmp_path / "robot.glb") == {"FINISHED"}
+    document = gltf.read_json((tmp_path / "robot.glb").read_bytes())
+    nodes = {node["name"]: node for node in document["nodes"]}
+    assert {*document["extensionsUsed"]} >= {"KHR_physics_rigid_bodies", "OMI_physics_body"}
+    assert "extensions" not in nodes["Fore.001"]
+    motion = nodes["Upper"]["extensions"]["KHR_physics_rigid_bodies"]["motion"]
+    assert nodes["Upper"]["extensions"]["OMI_physics_body"]["motion"] == {"type": "dynamic", **motion}
+    world = combine([measured(obj).mass_moments for obj in (upper, fore)])
+    y_up = np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]])
+    x, y, z, w = nodes["Upper"]["rotation"]
+    turn = rotation_matrix([w, x, y, z])
+    center = turn @ motion["centerOfMass"] + nodes["Upper"]["translation"]
+    assert close(center, y_up @ world.center / unit, 1e-6) and close(motion["mass"], world.mass, 1e-14)
+    x, y, z, w = motion["inertiaOrientation"]
+    found = turn @ tensor(motion["inertiaDiagonal"], [w, x, y, z]) @ turn.T * unit**2
+    truth = y_up @ world.inertia @ y_up.T
+    assert np.abs(found - truth).max() < 1e-6 * np.abs(truth).max()
+
+
+def test_the_rest_of_a_glb_stays_to_the_bit():
+    binary = struct.pack("<II", 4, 0x004E4942) + b"\1\2\3\4"
+    text = json.dumps({"nodes": [{"name": "ü"}]}).encode()
+    text += b" " * (-len(text) % 4)
+    chunk = struct.pack("<II", len(text), 0x4E4F534A) + text
+    data = struct.pack("<4sII", b"glTF", 2, 12 + len(chunk) + len(binary)) + chunk + binary
+    changed = gltf.replace_json(data, {**gltf.read_json(data), "extensionsUsed": ["A"]})
+    assert changed.endswith(binary) and struct.unpack_from("<I", changed, 8)[0] == len(changed)
+    assert gltf.read_json(changed) == {"nodes": [{"name": "ü"}], "extensionsUsed": ["A"]} and len(changed) % 4 == 0
+
+
+def test_a_collection_remembers_its_exporter_and_runs_it_again(tmp_path):
+    upper, fore, tool = pair()
+    collection = bpy.data.collections.new("Robot")
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(tool)
+    layer = bpy.context.view_layer.layer_collection.children["Robot"]
+    bpy.context.view_layer.active_layer_collection = layer
+    assert bpy.ops.collection.exporter_add(name="IO_FH_body_moments_urdf") == {"FINISHED"}
+    options = collection.exporters[0].export_properties
+    options.filepath, options.inertial_only = str(tmp_path / "tool.urdf"), True
+    assert bpy.ops.collection.export_all() == {"FINISHED"}
+    root = ElementTree.parse(tmp_path / "tool.urdf").getroot()
+    assert [link.get("name") for link in root.iter("link")] == ["Tool"] and root.find("link/visual") is None
+
+
+def test_nothing_to_export_and_nowhere_to_write_are_refused(tmp_path):
+    with pytest.raises(RuntimeError, match="no link"):
+        export("urdf", tmp_path / "robot.urdf")
+    pair()
+    with pytest.raises(RuntimeError, match="cannot be written"):
+        export("urdf", tmp_path / "missing" / "robot.urdf")
+    assert not [*tmp_path.iterdir()]

@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inertia about any reference of the scene: shown, stored, copied, and moments about it."""
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.verdict.finding import Finding
+from body_moments.operators.read.reference import ReferenceChoice
+from body_moments.operators.session import moments as moments_table
+from body_moments.operators.session import reference
+from mathutils import Euler
+
+from tests.blender.bodies.test_assembly import box, boxes_inertia, collection
+from tests.blender.objects import only
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("registered", "scene")
+SIZE, AT, DENSITY = (1, 2, 4), (8, -4, 2), 1000
+
+
+def measured_box():
+    obj = box(bpy.context.scene.collection, SIZE, AT, DENSITY)
+    only(obj)
+    bpy.ops.object.body_moments_measure()
+    return obj
+
+
+def about(point):
+    mass, center, tensor = boxes_inertia([(DENSITY, SIZE, AT)])
+    arm = center - point
+    return tensor + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+
+
+def choose(kind, **settings):
+    chosen = bpy.context.scene.body_moments_reference
+    chosen.about = kind
+    for name, value in settings.items():
+        setattr(chosen, name, value)
+
+
+def shown(obj):
+    return reference.referred(obj, bpy.context.scene)
+
+
+def test_each_reference_is_about_its_point_and_along_its_axes():
+    obj = measured_box()
+    choose("WORLD")
+    assert np.abs(shown(obj).inertia - about((0, 0, 0))).max() <= 1e-14 * about((0, 0, 0)).max()
+    choose("CENTER")
+    assert np.abs(shown(obj).inertia - about(AT)).max() <= 1e-13 * about(AT).max()
+    choose("ORIGIN")
+    assert np.abs(shown(obj).inertia - about(AT)).max() <= 1e-13 * about(AT).max()
+    cursor = bpy.context.scene.cursor
+    choose("CURSOR")
+    cursor.location = (1, 2, 3)
+    assert np.abs(shown(obj).inertia - about((1, 2, 3))).max() <= 1e-14 * about((1, 2, 3)).max()
+    cursor.rotation_euler = (0, 0, np.pi / 2)
+    swapped = about((1, 2, 3))[[1, 0, 2]][:, [1, 0, 2]] * [[1, -1, 1], [-1, 1, -1], [1, -1, 1]]
+    assert np.abs(shown(obj).inertia - swapped).max() <= 1e-6 * swapped.max()
+    other = bpy.data.objects.new("Other", None)
+    bpy.context.scene.collection.objects.link(other)
+    other.location, other.rotation_euler = (5, 0, 0), (0.3, 0.2, 0.1)
+    bpy.context.view_layer.update()
+    choose("OBJECT", object=other)
+    turn = np.array(Euler((0.3, 0.2, 0.1)).to_matrix())
+    truth = turn.T @ about((5, 0, 0)) @ turn
+    assert np.abs(shown(obj).inertia - truth).max() <= 1e-6 * truth.max()
+    other.location.x = 6.0
+    bpy.context.view_layer.update()
+    assert close(shown(obj).reference.origin[0], 6.0, 1e-14)  # it follows
+    choose("AXIS", first=(0, 0, 1), second=(3, 4, 1))
+    along = np.array([0.6, 0.8, 0.0])
+    assert close(shown(obj).about_z, along @ about((0, 0, 1)) @ along, 1e-13)
+    choose("AXIS", second=(0, 0, 1))
+    assert isinstance(shown(obj), Finding) and shown(obj).code == "axis_points_coincide"
+    choose("OBJECT", object=None)
+    assert shown(obj).code == "reference_object_missing"
+
+
+def test_what_is_stored_follows_the_next_measurement():
+    obj = measured_box()
+    choose("AXIS", first=(0, 0, 0), second=(0, 0, 2))
+    assert bpy.ops.object.body_moments_store_reference() == {"FINISHED"}
+    truth = about((0, 0, 0))
+    assert close(obj["body_axis_inertia"], truth[2, 2], 1e-14)
+    rotation = np.array(shown(obj).reference.axes)
+    entries = (rotation.T @ truth @ rotation)[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    assert np.abs(np.array(obj["body_reference_inertia"].to_list()) - entries).max() <= 1e-14 * entries.max()
+    assert len(obj["body_reference_error_bound"]) == 4
+    assert ReferenceChoice.parse(obj["body_reference"]).points == ((0, 0, 0), (0, 0, 2))
+    choose("WORLD")
+    obj.body_moments.density = 2.0 * DENSITY
+    bpy.ops.object.body_moments_measure()
+    assert close(obj["body_axis_inertia"], 2.0 * truth[2, 2], 1e-14)
+    bpy.ops.object.body_moments_store_reference()
+    assert "body_axis_inertia" not in obj and ReferenceChoice.parse(obj["body_reference"]).about == "WORLD"
+    bpy.ops.object.body_moments_clear()
+    assert "body_reference" not in obj
+
+
+def test_an_assembly_is_referred_too():
+    root = collection()
+    box(root, SIZE, AT, DENSITY)
+    layers = bpy.context.view_layer.layer_collection.children
+    bpy.context.view_layer.active_layer_collection = layers[root.name]
+    bpy.ops.object.body_moments_measure_assembly()
+    choose("WORLD")
+    assert np.abs(shown(root).inertia - about((0, 0, 0))).max() <= 1e-14 * about((0, 0, 0)).max()
+
+
+def test_the_axis_comes_from_what_is_selected():
+    obj = measured_box()
+    other = box(bpy.context.scene.collection, (1, 1, 1), (0, 0, 1), name="Other")
+    only(obj, other)
+    assert bpy.ops.object.body_moments_axis_from_selection() == {"FINISHED"}
+    chosen = bpy.context.scene.body_moments_reference
+    assert chosen.about == "AXIS" and tuple(chosen.first) == (0, 0, 1) and tuple(chosen.second) == AT
+    only(obj)
+    with pytest.raises(RuntimeError, match="1 points are selected"):
+        bpy.ops.object.body_moments_axis_from_selection()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for index in (0, 7):
+        obj.data.vertices[index].select = True
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.object.body_moments_axis_from_selection() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert close(chosen.first, (7.5, -5, 0), 1e-6) and close(chosen.second, (8.5, -3, 4), 1e-6)
+
+
+def test_moments_of_any_order_are_about_the_reference():
+    obj = measured_box()
+    settings = bpy.context.scene.body_moments
+    bpy.ops.object.body_moments_compute_moments()
+    settings.moments_about = "REFERENCE"
+    bpy.context.scene.cursor.location = (8, -4, 0)
+    choose("CURSOR")
+    degrees, missing = moments_table.current_numbers(obj, bpy.context.scene)
+    assert missing is None
+    exact = {label: float(value) for degree in degrees for label, _, value in degree.rows}
+    assert close(exact["z"], 16.0, 1e-14) and close(exact["z²"], 8 * 16 / 3, 1e-14)
+    bpy.context.scene.cursor.location.z = 2.0
+    degrees, _ = moments_table.current_numbers(obj, bpy.context.scene)
+    exact = {label: float(value) for degree in degrees for label, _, value in degree.rows}
+    assert close(exact["z²"], 8 * 4 / 3, 1e-13)
+
+
+def test_it_is_copied_with_its_bounds(capsys):
+    measured_box()
+    choose("AXIS", first=(0, 0, 0), second=(0, 0, 2))
+    assert bpy.ops.object.body_moments_copy_reference() == {"FINISHED"}
+    text = capsys.readouterr().out
+    assert "about the axis (kg·m²) " + repr(float(about((0, 0, 0))[2, 2]))[:12] in text and "rounding" in text

@@ -1,0 +1,204 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The buttons beside warnings: each does its remedy in one step, and nothing else; accepted findings are notes."""
+
+import bpy
+import pytest
+
+from tests.blender.objects import add, mesh_body, only
+from tests.blender.panels.test_panel import drawn, findings_of, labels
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def boxes(*sizes, reverse=()):
+    """A mesh of boxes about one center, with some faces reversed."""
+    import bmesh  # is there once bpy is
+
+    mesh, built = bpy.data.meshes.new("Boxes"), bmesh.new()
+    for size in sizes:
+        bmesh.ops.create_cube(built, size=size)
+    built.faces.ensure_lookup_table()
+    bmesh.ops.reverse_faces(built, faces=[built.faces[index] for index in reverse])
+    built.to_mesh(mesh)
+    built.free()
+    return mesh
+
+
+def buttons(record=None):
+    return [entry[1] for entry in record or drawn() if entry[0] == "operator"]
+
+
+def orders(mesh):
+    return [tuple(face.vertices) for face in mesh.polygons]
+
+
+def test_reversed_faces_are_those_that_were_measured_as_reversed_and_a_cavity_stays_one():
+    """Flipped faces of an outer box, all of a second box beside it, and a cavity that is right as it is."""
+    import bmesh
+
+    mesh = boxes(2.0, 1.0, 4.0, reverse=[0, *range(6, 12)])
+    for vertex in mesh.vertices[16:]:
+        vertex.co.x += 10.0
+    right = orders(mesh)
+    mesh.flip_normals()
+    right_of_third = orders(mesh)[12:]
+    mesh.flip_normals()
+    inside_out = bmesh.new()
+    inside_out.from_mesh(mesh)
+    inside_out.faces.ensure_lookup_table()
+    bmesh.ops.reverse_faces(inside_out, faces=inside_out.faces[12:])
+    inside_out.to_mesh(mesh)
+    inside_out.free()
+    obj = add(mesh, location=(1.0, 2.0, 3.0), scale=(1.0, -2.0, 1.0))
+    bpy.ops.object.body_moments_measure()
+    volume = obj["body_volume"]
+    assert close(volume, 2.0 * (8.0 - 1.0 + 64.0), rel=1e-12)
+    assert findings_of(obj, "warning") == ["flipped_faces", "inverted_components"]
+    assert "object.body_moments_recalculate_outside" in buttons()
+    assert bpy.ops.object.body_moments_recalculate_outside() == {"FINISHED"}
+    assert findings_of(obj, "warning") == [] and close(obj["body_volume"], volume, rel=1e-12)
+    assert {frozenset(face) for face in orders(mesh)[6:12]} == {frozenset(face) for face in right[6:12]}
+    assert [set(face) for face in orders(mesh)[12:]] == [set(face) for face in right_of_third]
+    assert obj["body_method"] == "exact"
+    before = orders(mesh)
+    assert bpy.ops.object.body_moments_recalculate_outside() == {"CANCELLED"}
+    assert orders(mesh) == before
+
+
+def test_a_mesh_that_its_modifiers_make_is_not_edited_and_the_refusal_stands_in_the_panel(reported):
+    mesh = boxes(2.0, reverse=[0])
+    obj = add(mesh)
+    obj.modifiers.new("Twice", "ARRAY")
+    before = orders(mesh)
+    assert bpy.ops.object.body_moments_recalculate_outside() == {"CANCELLED"}
+    assert orders(mesh) == before and reported.codes == ["failure", "modified_mesh"]
+    assert "“Twice”" in " ".join(labels(drawn())) and "Recalculate Outside" in labels(drawn())
+    bpy.ops.wm.body_moments_dismiss()
+    assert "“Twice”" not in " ".join(labels(drawn()))
+
+
+def test_count_as_union_and_measure_as_shell_set_the_setting_and_measure():
+    obj = add(boxes(2.0, 1.0))
+    bpy.ops.object.body_moments_measure()
+    assert findings_of(obj, "warning") == ["components_nested"] and close(obj["body_volume"], 9.0, rel=1e-12)
+    assert "object.body_moments_count_as_union" in buttons()
+    assert bpy.ops.object.body_moments_count_as_union() == {"FINISHED"}
+    assert close(obj["body_volume"], 8.0, rel=1e-6) and obj.body_moments.overlap == "UNION"
+    assert bpy.ops.object.body_moments_measure_as_shell(thickness=0.25) == {"FINISHED"}
+    assert obj["body_method"] == "shell" and close(obj["body_volume"], 0.25 * 30.0, rel=1e-6)
+
+
+def test_the_remedy_of_a_refusal_is_offered_before_anything_was_measured():
+    flat = bpy.data.meshes.new("Flat")
+    flat.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    obj = add(flat)
+    bpy.ops.object.body_moments_measure()
+    assert "object.body_moments_measure_as_shell" in buttons()
+    bpy.ops.object.body_moments_measure_as_shell(thickness=0.5)
+    assert close(obj["body_mass"], 250.0, rel=1e-6)
+
+
+def test_an_accepted_warning_is_a_note_here_in_records_and_when_measured_again():
+    from body_moments.operators.bodies.measure_object import measure_object
+    from body_moments.operators.session import staleness
+    from body_moments.operators.write import record
+
+    obj, other = add(boxes(2.0, 1.0)), add(boxes(2.0, 1.0), "Other")
+    only(obj, other)
+    bpy.ops.object.body_moments_measure()
+    bpy.context.view_layer.objects.active = obj
+    assert obj["body_warnings"]
+    assert bpy.ops.object.body_moments_accept(code="components_nested") == {"FINISHED"}
+    assert not obj["body_warnings"] and other["body_warnings"]
+    assert findings_of(obj, "warning") == [] and "components_nested" in findings_of(obj, "note")
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    assert "Accepted: 1 outward component lies" in " ".join(labels(drawn()))
+    bpy.ops.object.body_moments_measure()
+    assert findings_of(obj, "warning") == [] and findings_of(other, "warning") == ["components_nested"]
+    measurement = measure_object(obj, bpy.context.evaluated_depsgraph_get())
+    entry = record.described(measurement.findings)
+    assert entry["warnings"] == [] and [found["severity"] for found in entry["findings"]] == ["note"]
+    assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {"FINISHED"}
+    assert findings_of(obj, "warning") == ["components_nested"] and obj["body_warnings"]
+    assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {"CANCELLED"}
+
+
+def test_errors_cannot_be_accepted_away():
+    from body_moments.core.verdict.finding import Severity, finding
+    from body_moments.operators.settings.accepted import with_acceptance
+    from body_moments.operators.write.messages import severity
+
+    (marked,) = with_acceptance([finding("no_faces")], {"no_faces"})
+    assert severity(marked) == Severity.ERROR
+    (again,) = with_acceptance([marked], ())
+    assert again == finding("no_faces")
+
+
+def test_the_unit_is_asked_for_once_a_scene_and_set_at_a_click():
+    scene = bpy.context.scene
+    obj = add(boxes(60.0), location=(20.0, 0.0, 0.0))
+    obj.body_moments.density = 1240.0
+    ask = "scene.body_moments_set_millimeters"
+    assert ask not in buttons()
+    bpy.ops.object.body_moments_measure()
+    assert ask in buttons() and "60 m long and 268\u2009000 t" in " ".join(labels(drawn()))
+    assert bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"}
+    assert scene.unit_settings.length_unit == "MILLIMETERS" and close(scene.unit_settings.scale_length, 1e-3, rel=1e-6)
+    assert close(obj["body_mass"], 0.26784, rel=1e-6) and ask not in buttons()
+    assert "20 mm" in labels(drawn())
+    scene.unit_settings.scale_length = 1.0
+    bpy.ops.object.body_moments_measure()
+    assert ask not in buttons()
+
+
+def test_the_unit_is_not_asked_for_where_the_size_is_plausible_or_the_question_was_dismissed():
+    scene = bpy.context.scene
+    obj = add(boxes(60.0))
+    bpy.ops.object.body_moments_measure()
+    bpy.ops.scene.body_moments_keep_units()
+    assert "scene.body_moments_set_millimeters" not in buttons() and scene.unit_settings.scale_length == 1.0
+    for size, unit in ((60.0, 0.01), (2.0, 1.0), (4.9, 1.0)):
+        scene.body_moments.units_answered = False
+        scene.unit_settings.scale_length = unit
+        obj.data = boxes(size)
+        bpy.ops.object.body_moments_measure()
+        assert "scene.body_moments_set_millimeters" not in buttons()
+
+
+def test_what_was_left_unchanged_is_named_in_the_panel_until_the_next_action_and_can_be_selected():
+    good = [add(mesh_body(), "Good {:02d}".format(i)) for i in range(3)]
+    bad = [add(mesh_body(), "Bad {:02d}".format(i)) for i in range(20)]
+    for obj in bad:
+        obj.modifiers.new("Cast", "CAST")
+    only(*good, *bad)
+    bpy.ops.object.body_moments_origin_to_center()
+    shown = " ".join(labels(drawn()))
+    assert "Origin to Center of Mass" in shown and "Bad 07: " in shown and "Bad 08: " not in shown
+    assert "and 12 more" in shown
+    assert bpy.ops.object.body_moments_select_refused() == {"FINISHED"}
+    assert {*bpy.context.view_layer.objects.selected} == {*bad}
+    only(*good)
+    bpy.ops.object.body_moments_add_empty()
+    assert "Bad" not in " ".join(labels(drawn()))
+
+
+def test_all_wrong_origins_of_rigid_bodies_are_named_and_selected_not_three():
+    bodies = [add(mesh_body(), "Body {:03d}".format(i)) for i in range(12)]
+    only(*bodies)
+    bpy.ops.object.body_moments_set_rigid_body_mass(add=True)
+    assert "“Body 007”, and 4 more" in " ".join(labels(drawn()))
+    assert "object.body_moments_axes_to_principal" in buttons()
+    bpy.ops.object.select_all(action="DESELECT")
+    bpy.ops.object.body_moments_select_refused()
+    assert {*bpy.context.view_layer.objects.selected} == {*bodies}
+
+
+def test_a_report_of_many_names_those_with_warnings(reported):
+    several = [add(boxes(2.0, 1.0), "Nested {:d}".format(i)) for i in range(3)]
+    only(add(mesh_body(), "Fine"), *several)
+    bpy.ops.object.body_moments_measure()
+    assert sorted(reported.values("with_warnings")["objects"]) == ["Nested 0", "Nested 1", "Nested 2"]
+    shown = " ".join(labels(drawn()))
+    assert "Nested 2: 1 outward component" in shown

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inertia about any reference: against exact rationals, far away and tiny, within its bounds; both ways agree."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core.inertia import MassProperties, Reference
+from body_moments.core.moments import Measure, Moments
+from body_moments.core.moments.monomials import monomials
+from body_moments.core.verdict.finding import QueryError
+
+from tests.close import close
+
+
+def box(size, center, mass=1):
+    """(Moments about a point that is not the center, exact function of (point) → tensor) of a solid box."""
+    size, center = [Fraction(x) for x in size], [Fraction(x) for x in center]
+    second = [[Fraction(0)] * 3 for _ in range(3)]
+    for i in range(3):
+        second[i][i] = Fraction(mass) * size[i] ** 2 / 12
+
+    def tensor(point):
+        arm = [c - Fraction(p) for c, p in zip(center, point)]
+        whole = [[second[i][j] + Fraction(mass) * arm[i] * arm[j] for j in range(3)] for i in range(3)]
+        trace = sum(whole[i][i] for i in range(3))
+        return np.array([[float((trace if i == j else 0) - whole[i][j]) for j in range(3)] for i in range(3)])
+
+    raw = np.zeros(20)
+    for k, (p, q, r) in enumerate(monomials(3).tolist()):
+        value = Fraction(mass)
+        for n, length in zip((p, q, r), size):
+            value *= 0 if n % 2 else length**n / (2**n * (n + 1))
+        raw[k] = float(value)
+    return Moments(raw, np.array(center, float), Measure.MASS, np.abs(raw) * 1e-16), tensor
+
+
+@pytest.mark.parametrize(
+    "size, center, point",
+    [
+        ((1, 2, 4), (0, 0, 0), (0, 0, 0)),
+        ((1, 2, 4), (8, -3, 5), (1, 1, 1)),
+        ((1, 2, 4), (4096, -8192, 2048), (0, 0, 0)),
+        ((1e-6, 2e-6, 4e-6), (1e-5, 0, 0), (0, 3e-5, 0)),
+        ((1, 2, 4), (4096, -8192, 2048), (4097, -8192, 2048)),
+    ],
+)
+def test_the_tensor_about_a_point_is_exact_within_its_bound(size, center, point):
+    moments, tensor = box(size, center, 3)
+    moments = moments.about_point(np.array(center, float) + np.array(size, float))
+    reference, truth = Reference(np.array(point, float)), tensor(point)
+    properties = MassProperties.from_moments(moments)
+    for referred in (reference.refer(properties), reference.refer_moments(moments)):
+        error = np.linalg.norm(referred.inertia - truth)
+        assert (
+            error
+            <= referred.rounding_error["inertia"]
+            <= 1e-11 * np.linalg.norm(truth) + 1e-9 * np.linalg.norm(properties.inertia)
+        )
+        arm = np.array([float(Fraction(c) - Fraction(p)) for c, p in zip(center, point)])
+        assert np.linalg.norm(referred.center - arm) <= referred.rounding_error["center"]
+
+
+def test_axes_turn_the_tensor_and_both_ways_agree():
+    moments, tensor = box((1, 2, 4), (8, -3, 5), 3)
+    axes = np.array([[2, -1, 2], [2, 2, -1], [-1, 2, 2]]) / 3.0
+    reference = Reference(np.array([1.0, 2.0, 3.0]), axes)
+    truth = axes.T @ tensor((1, 2, 3)) @ axes
+    first, second = reference.refer(MassProperties.from_moments(moments)), reference.refer_moments(moments)
+    assert np.abs(first.inertia - truth).max() <= 1e-14 * truth.max()
+    assert np.abs(second.inertia - truth).max() <= 1e-14 * truth.max()
+    assert close(first.center, axes.T @ [7.0, -5.0, 2.0], 1e-14) and first.mass == second.mass == 3.0
+
+
+def test_float32_coordinates_move_with_the_arm():
+    moments, _ = box((1, 2, 4), (8, -3, 5), 3)
+    moved = Moments(moments.raw, moments.about, Measure.MASS, moments.rounding_error, np.abs(moments.raw) * 1e-6)
+    near, far = Reference(moments.about), Reference(moments.about + [1000.0, 0.0, 0.0])
+    for refer in (lambda at: at.refer(MassProperties.from_moments(moved)), lambda at: at.refer_moments(moved)):
+        small, large = refer(near).input_error["inertia"], refer(far).input_error["inertia"]
+        assert large > 1e5 * small > 0.0
+
+
+def test_an_axis_through_two_points():
+    moments, tensor = box((1, 2, 4), (8, -3, 5), 3)
+    reference = Reference.through_points((1, 1, 1), (3, 2, 3))
+    along = np.array([2, 1, 2]) / 3.0
+    assert close(reference.axes[:, 2], along, 1e-15) and np.linalg.det(reference.axes) > 0.999
+    assert np.abs(reference.axes.T @ reference.axes - np.eye(3)).max() < 1e-15
+    referred = reference.refer(MassProperties.from_moments(moments))
+    assert close(referred.about_z, along @ tensor((1, 1, 1)) @ along, 1e-14)
+    arm = np.array([7.0, -4.0, 4.0])
+    assert close(referred.distance_from_z, np.linalg.norm(np.cross(arm, along)), 1e-14)
+    assert close(referred.radius_about_z, np.sqrt(referred.about_z / 3.0), 1e-15)
+    for second in ((1, 1, 1), (1 + 1e-7, 1, 1), (np.nan, 0, 0)):
+        with pytest.raises(QueryError):
+            Reference.through_points((1, 1, 1), second)

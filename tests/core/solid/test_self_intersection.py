@@ -1,0 +1,176 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shells that go through themselves are found and weighed; bodies that do not are proved, or raise no alarm."""
+
+import numpy as np
+import pytest
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.solid import self_intersection
+from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.verdict.health import Intersection
+
+from tests.close import close
+from tests.core.bodies import box, inverted, joined, moved, rotation, sphere, split, surface, torus, welded, without
+from tests.core.findings import codes, only
+from tests.core.shapes import L_PRISM, STEPPED
+
+
+def bar(turn, sections=90, sides=12, radius=0.2):
+    """A round bar bent about the z axis by so many full turns."""
+    around = np.linspace(0.0, 2.0 * np.pi * turn, sections + 1)
+    side = np.arange(sides) * 2.0 * np.pi / sides
+    distance, height = 1.0 + radius * np.cos(side), np.tile(radius * np.sin(side), (sections + 1, 1))
+    points = np.stack([np.cos(around)[:, None] * distance, np.sin(around)[:, None] * distance, height], axis=-1)
+    i, j = (k.ravel() for k in np.meshgrid(np.arange(sections), np.arange(sides), indexing="ij"))
+    after = (j + 1) % sides
+    mantle = np.stack([i * sides + j, (i + 1) * sides + j, (i + 1) * sides + after, i * sides + after], axis=1)
+    ends = [(0, k, k + 1) for k in range(1, sides - 1)]
+    far = [(sections * sides, sections * sides + k + 1, sections * sides + k) for k in range(1, sides - 1)]
+    return points.reshape(-1, 3), np.concatenate([split(mantle), ends, far])
+
+
+def pushed(far, level=2):
+    """A ball of which one vertex is pushed through the other side."""
+    points, triangles = sphere(level)
+    points[0] *= -far
+    return points, triangles
+
+
+def twice_around(count=24, rings=12):
+    """A closed surface that goes around its center twice, all its faces outward: two balls, branched at the poles."""
+    longitude = np.arange(2 * count) * 2.0 * np.pi / count
+    latitude = np.linspace(-np.pi / 2.0, np.pi / 2.0, rings + 1)[1:-1]
+    points = [[np.cos(b) * np.cos(a), np.cos(b) * np.sin(a), np.sin(b)] for b in latitude for a in longitude]
+    width, south, north = 2 * count, len(points), len(points) + 1
+    i, j = (k.ravel() for k in np.meshgrid(np.arange(rings - 2), np.arange(width), indexing="ij"))
+    after = (j + 1) % width
+    belt = np.stack([i * width + j, i * width + after, (i + 1) * width + after, (i + 1) * width + j], axis=1)
+    top = (rings - 2) * width
+    caps = [(south, (k + 1) % width, k) for k in range(width)]
+    caps += [(north, top + k, top + (k + 1) % width) for k in range(width)]
+    return np.array([*points, [0, 0, -1], [0, 0, 1]]), np.concatenate([split(belt), caps])
+
+
+def hull(seed, count=30):
+    """A random convex body: the faces that all points are on one side of."""
+    points = np.random.default_rng(seed).normal(size=(count, 3)) ** 3
+    triple = np.array([(i, j, k) for i in range(count) for j in range(i) for k in range(j)])
+    a, b, c = (points[triple[:, k]] for k in range(3))
+    normal = np.cross(b - a, c - a)
+    height = np.einsum("tj,nj->tn", normal, points) - np.einsum("tj,tj->t", normal, a)[:, None]
+    height[np.arange(len(triple))[:, None], triple] = 0.0
+    below, above = (height <= 0.0).all(axis=1), (height >= 0.0).all(axis=1)
+    return points, np.concatenate([triple[below], triple[above][:, ::-1]])
+
+
+CORNER = np.eye(4, 3, -1), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])  # the middle of whose box is outside
+
+
+@pytest.mark.parametrize(
+    "part",
+    [box(), sphere(3), CORNER, moved(box(), [[1, 5, 0], [0, 1, 7], [0, 0, 1]]), *(hull(seed) for seed in range(6))],
+)
+@pytest.mark.parametrize("scale", [1e-8, 1.0, 1e8])
+@pytest.mark.parametrize("turned", [False, True])
+def test_convex_bodies_are_proved(part, scale, turned):
+    part = moved(inverted(part) if turned else part, scale * rotation(7), (3 * scale, -5 * scale, scale))
+    result = measure_solid(surface(part))
+    assert result.health.self_intersection is Intersection.EXCLUDED
+    assert codes(result) == (["inverted_components"] if turned else [])
+
+
+def test_a_surface_that_goes_around_its_center_twice_is_not_proved_but_found():
+    result = measure_solid(surface(twice_around()))
+    assert result.health.self_intersection is Intersection.FOUND
+    assert only(result).code == "self_intersection" and close(only(result).values["share"], 0.5, rel=0.02)
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("turn, share", [(1.1, 0.1 / 1.1), (1.5, 0.5 / 1.5), (2.5, 1.5 / 2.5), (0.97, 0.0), (1.0, 0.0)])
+def test_a_bar_that_is_bent_past_a_full_ring_counts_twice_where_it_meets_itself(turn, share, dtype, scale):
+    for seed in range(3):
+        part = moved(bar(turn), scale * rotation(seed), (2 * scale, scale, -3 * scale))
+        result = measure_solid(surface(part, dtype))
+        assert result.method == "exact"
+        if share:
+            assert result.health.self_intersection is Intersection.FOUND and codes(result)[0] == "self_intersection"
+            assert close(result.findings[0].values["share"], share, rel=0.15)
+        else:
+            assert result.health.self_intersection is Intersection.NOT_FOUND and not result.findings
+
+
+@pytest.mark.parametrize("far, share", [(1.5, 6.3e-4), (2.0, 3.4e-3), (3.0, 1.5e-2)])
+def test_a_vertex_pushed_through_the_other_side_is_found(far, share):
+    """Shares: of 200,000 lines."""
+    for seed in range(8):
+        result = measure_solid(surface(moved(pushed(far), rotation(seed))))
+        assert result.method == "exact" and result.health.self_intersection is Intersection.FOUND
+        assert only(result).code == "self_intersection" and close(only(result).values["share"], share, rel=0.5)
+
+
+def test_a_region_that_hardly_counts_is_a_note():
+    """Two ends of a long bar that just meet."""
+    part = bar(1.0 + 2e-6, 400)
+    result = measure_solid(surface(moved(part, rotation(1))))
+    assert codes(result) in ([], ["self_intersection_slightly"])
+    part = bar(1.0 + 5e-5, 400)
+    result = measure_solid(surface(moved(part, rotation(1))))
+    assert only(result).code == "self_intersection_slightly" and 1e-5 < only(result).values["share"] < 1e-4
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        torus(),
+        torus(48, 32),
+        L_PRISM,
+        STEPPED,
+        box((0, 0, 0), (1, 1, 1e-5)),
+        box((0, 0, 0), (1, 1e-4, 1e-4)),
+        welded(joined(box(), box((1, 0, 0), (2, 1, 1)))),  # a face in common
+        joined(box(), box((1, 0, 0), (2, 1, 1))),
+        joined(box((-2, -2, -2), (2, 2, 2)), inverted(sphere(2))),
+        without(torus(), 5),
+        joined(torus(), moved(torus(), [[1, 0, 0], [0, 0, -1], [0, 1, 0]], (1, 0, 0))),  # linked
+    ],
+)
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_ordinary_bodies_raise_no_alarm(part, dtype):
+    for seed in (None, 1, 2):
+        turned = part if seed is None else moved(part, rotation(seed), (4, 5, 6))
+        result = measure_solid(surface(turned, dtype))
+        assert result.health.self_intersection in (Intersection.NOT_FOUND, Intersection.EXCLUDED)
+        assert not [code for code in codes(result) if code.startswith("self_")]
+
+
+def test_each_component_is_looked_at_by_itself():
+    """What two components have in common is reported as that, and none of them goes through itself."""
+    result = measure_solid(surface(joined(torus(), moved(torus(), offset=(0.4, 0, 0)))))
+    assert codes(result) == ["components_overlap"] and result.health.self_intersection is Intersection.NOT_FOUND
+    result = measure_solid(
+        surface(joined(bar(1.2), moved(box(), offset=(5, 0, 0)), inverted(moved(bar(1.2), offset=(0, 5, 0)))))
+    )
+    assert codes(result) == ["inverted_components", "self_intersection"]
+    (found,) = [item for item in result.findings if item.code == "self_intersection"]
+    each = measure_solid(surface(bar(1.2))).volume.total
+    assert close(found.values["share"], 2.0 * each * 0.2 / 1.2 / (2.0 * each + 1.0), rel=0.2)
+
+
+def test_the_order_of_faces_and_points_changes_nothing():
+    points, triangles = moved(bar(1.1), rotation(5))
+    rng = np.random.default_rng(0)
+    order = rng.permutation(len(points))
+    number = np.argsort(order)
+    shuffled = Surface.from_triangles(points[order], number[triangles][rng.permutation(len(triangles))])
+    first, second = (only(measure_solid(body)).values["share"] for body in (surface((points, triangles)), shuffled))
+    assert close(first, second, rel=1e-12)
+
+
+def test_what_was_not_looked_at_is_a_note(monkeypatch):
+    monkeypatch.setattr(self_intersection, "MAX_UNSURE_LINES", -1.0)
+    result = measure_solid(surface(torus()))
+    assert only(result).code == "self_intersection_unchecked" and result.method == "exact"
+    assert result.health.self_intersection is Intersection.NOT_CHECKED
+    assert measure_solid(surface(torus()), shell=True).health.self_intersection is Intersection.NOT_CHECKED
+    assert not measure_solid(surface(torus()), shell=True).findings

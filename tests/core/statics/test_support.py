@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Support polygons: boxes, wedges and tables that stand, lean and fall, under gravity along any direction."""
+
+from itertools import product
+from math import atan2, hypot, pi
+
+import numpy as np
+import pytest
+from body_moments.core.statics.support import find_support, ground_axes, support_of_contacts
+
+from tests.close import close
+
+EXACT = 1e-12
+BOX = np.array(list(product((0.0, 4.0), (0.0, 2.0), (0.0, 6.0))))
+TURN = np.linalg.qr(np.random.default_rng(4).standard_normal((3, 3)))[0]
+
+
+@pytest.mark.parametrize("size", [1e-9, 1.0, 1e7])
+@pytest.mark.parametrize("turn", [np.eye(3), TURN], ids=["upright", "turned"])
+def test_a_box_stands_by_its_narrow_side(turn, size):
+    down = turn @ (0.0, 0.0, -1.0)
+    support = find_support(size * BOX @ turn.T, size * turn @ (2.0, 1.25, 3.0), down)
+    assert support.stands and len(support.polygon) == 4
+    assert close(support.margin, 0.75 * size, EXACT)
+    assert close(support.height, 3.0 * size, EXACT)
+    assert close(support.tipping_angle, atan2(0.75, 3.0), EXACT)
+    assert np.abs(support.direction - turn @ (0.0, 1.0, 0.0)).max() < EXACT
+    assert np.abs(support.foot - size * turn @ (2.0, 1.25, 0.0)).max() < EXACT * size * 6.0
+
+
+def test_corners_go_counter_clockwise_seen_from_above():
+    corners = find_support(BOX, (2.0, 1.0, 3.0)).polygon
+    x, y = corners[:, 0], corners[:, 1]
+    assert close((x * np.roll(y, -1) - np.roll(x, -1) * y).sum() / 2.0, 8.0, EXACT)
+
+
+def test_a_wedge_tips_over_its_edge():
+    """A leaning prism whose center is beyond its base by 1/4."""
+    wedge = np.array([(x, y, z) for y in (0.0, 1.0) for x, z in ((0.0, 0.0), (1.0, 0.0), (2.5, 2.0), (1.5, 2.0))])
+    center = np.array([1.25, 0.5, 1.0])
+    support = find_support(wedge, center)
+    assert not support.stands
+    assert close(support.margin, -0.25, EXACT)
+    assert close(support.tipping_angle, -atan2(0.25, 1.0), EXACT)
+    assert close(support.direction, [1.0, 0.0, 0.0], EXACT)
+    assert find_support(wedge - (0.0, 0.0, 5.0), center - (0.3, 0.0, 5.0)).stands
+
+
+def test_a_fall_over_a_corner_goes_away_from_it():
+    support = find_support(BOX, (7.0, 6.0, 3.0))
+    assert close(support.margin, -5.0, EXACT)
+    assert np.abs(support.direction - (0.6, 0.8, 0.0)).max() < EXACT
+
+
+def test_a_table_stands_on_what_is_between_its_legs():
+    legs = np.array([(x, y, 0.0) for x in (0.0, 2.0) for y in (0.0, 1.0)])
+    top = np.array([(x, y, 1.0) for x in (-1.0, 3.0) for y in (-1.0, 2.0)])
+    points = np.concatenate([legs, top])
+    assert close(find_support(points, (1.0, 0.5, 1.0)).margin, 0.5, EXACT)
+    assert not find_support(points, (2.5, 0.5, 1.0)).stands
+
+
+def test_tolerance_is_relative_to_the_body():
+    for size in (1e-6, 1.0, 1e6):
+        raised = size * BOX + np.where(BOX[:, :1] > 0.0, (0.0, 0.0, 1e-4 * size), 0.0)
+        center = size * np.array([2.0, 1.0, 3.0])
+        assert len(find_support(raised, center).polygon) == 2
+        assert len(find_support(raised, center, tolerance=1e-4).polygon) == 4
+
+
+def test_what_balances_on_an_edge_or_a_point_does_not_stand():
+    on_edge = np.array([(0, 0, 0), (0, 2, 0), (1, 0, 1), (1, 2, 1), (-1, 0, 1), (-1, 2, 1)], float)
+    support = find_support(on_edge, (0.0, 1.0, 0.6))
+    assert support.margin == 0.0 and not support.stands
+    support = find_support(on_edge, (0.0, 3.0, 0.6))
+    assert close(support.margin, -1.0, EXACT)
+    on_point = np.array([(0, 0, 0), (1, 0, 1), (-1, 1, 1), (-1, -1, 1)], float)
+    support = find_support(on_point, (0.3, 0.4, 0.5))
+    assert close(support.margin, -0.5, EXACT)
+    assert np.abs(support.direction - (0.6, 0.8, 0.0)).max() < EXACT
+    assert not find_support(on_point, (0.0, 0.0, 0.5)).stands
+
+
+def test_the_margin_of_a_disc_is_that_of_its_polygon():
+    count = 2000
+    angles = 2.0 * pi / count * np.arange(count)
+    rim = np.stack([np.cos(angles), np.sin(angles), np.zeros(count)], axis=1)
+    points = np.concatenate([rim, rim + (0.0, 0.0, 1.0), 0.5 * rim])
+    support = find_support(points, (0.0, 0.0, 0.5))
+    assert len(support.polygon) == count
+    assert close(support.margin, np.cos(pi / count), EXACT)
+
+
+def test_contacts_at_several_heights_count_by_their_plumb_lines():
+    support = support_of_contacts([(0, 0, 0), (2, 0, 1), (2, 2, -1), (0, 2, 5)], (0.5, 1.0, 3.0))
+    assert close(support.margin, 0.5, EXACT) and close(support.height, 4.0, EXACT)
+    assert close(support.direction, (-1.0, 0.0, 0.0), EXACT)
+
+
+@pytest.mark.parametrize("down", [(0, 0, -9.81), (1, 2, 3), (0, 1e-9, 0)])
+def test_axes_of_the_ground_are_a_rotation_with_up(down):
+    axes = ground_axes(down)
+    assert np.abs(axes.T @ axes - np.eye(3)).max() < EXACT
+    assert close(np.linalg.det(axes), 1.0, EXACT)
+    assert np.abs(axes[:, 2] + np.array(down) / hypot(*down)).max() < EXACT
