@@ -112,7 +112,7 @@ def threshold_body(
     margin = 0 if background is None else 1
     shape = np.array(samples.shape) + 2 * margin
     if (shape < 2).any():
-        raise ValueError("a grid needs two samples along each axis")
+        raise ValueError("two samples per axis")
     about = (shape - 1) // 2 - margin
     sums = _Sums(order, with_density, preview)
     clipped, cut = False, []

@@ -228,7 +228,7 @@ def test_nothing_inside_everything_inside_and_bad_samples():
     with pytest.raises(MeasureError) as refused:
         threshold_body(samples, 0.5)
     assert refused.value.finding.code == "density_non_finite"
-    with pytest.raises(ValueError, match="two samples"):
+    with pytest.raises(ValueError, match="two samples per axis"):
         threshold_body(np.ones((1, 4, 4)), 0.5)
 
 
