@@ -8,7 +8,8 @@ import bpy
 
 from ...core.measurement import Measurement
 from ...core.numerics.float32 import shortest_decimal
-from ..read.links import link_surface
+from ...core.verdict.finding import MeasureError
+from ..read import read_object
 from ..write.thumbnail import thumbnail
 
 
@@ -16,11 +17,12 @@ def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | 
     """The picture of a measured object, None of what shows no faces. unit: meters per unit, else the scene's."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
     unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
-    surface = link_surface(obj, depsgraph, measurement, unit)
-    if surface is None:
+    try:
+        surface = read_object(obj, depsgraph, edges=False).join()
+    except MeasureError:  # such as a grid of densities
         return None
     triangles = surface.all_triangles()[0]
-    properties = measurement.in_object_frame()
     if not len(triangles):
         return None
-    return thumbnail(surface.points, triangles, properties.center, properties.principal.axes)
+    properties = measurement.mass_properties
+    return thumbnail(surface.points * unit, triangles, properties.center, properties.principal.axes)

@@ -112,6 +112,7 @@ def test_the_report_is_one_page_whose_names_are_text(tmp_path):
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 DRIVE = """
 <script>
+{
 const rows=()=>[...document.querySelectorAll("tbody tr")].filter(row=>!row.hidden);
 const names=()=>rows().map(row=>row.cells[2].textContent);
 const told=[document.title,rows().length];
@@ -122,6 +123,7 @@ told.push(names());text.value="";text.dispatchEvent(new Event("input"));
 const status=document.getElementById("status");status.value="timeout";status.dispatchEvent(new Event("change"));
 told.push(rows().length);told.push([...document.images].every(image=>image.naturalWidth>0));
 document.body.innerHTML="<pre></pre>";document.querySelector("pre").textContent=JSON.stringify(told);
+}
 </script>
 """
 
