@@ -119,7 +119,19 @@ def _similar(argv: list[str], channel: int, _file_needed: bool) -> int:
     return SOME_FAILED if failures or not is_written else ALL_MEASURED
 
 
-_COMMANDS: dict[str, Callable[[list[str], int, bool], int]] = {"similar": _similar, "child": _serve}
+def _audit(argv: list[str], channel: int, _file_needed: bool) -> int:
+    """Check robot descriptions."""
+    from .command import audit, output
+
+    options = audit.parse(argv)
+    text, faults, internal = audit.answer(options)
+    is_written = output.written([text], options.output, channel)
+    if internal:
+        return INTERNAL_ERROR
+    return SOME_FAILED if faults or not is_written else ALL_MEASURED
+
+
+_COMMANDS: dict[str, Callable[[list[str], int, bool], int]] = {"similar": _similar, "audit": _audit, "child": _serve}
 
 
 def _load_settings() -> None:

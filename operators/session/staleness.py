@@ -29,6 +29,7 @@ from collections.abc import Callable, Iterable
 import bpy
 from bpy.types import Context, Depsgraph, Object, Scene
 
+from ...core.verdict.method import Verdict
 from ..read.fingerprint import VERSION, has_transform, matrix_hash, scale_hash, settings_hash, shape_digest
 from ..read.quiet import paused
 from . import handlers, marks, updates
@@ -37,8 +38,8 @@ from .cache import SessionCache
 _edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
 _shapes: dict[str, bytes] = {}  # mark → digest of what was shown when it was stored: copies of an object share both
 _resolved: dict[int, int] = {}  # session uid → up to which update is noted what it means
-# of what is no object's own body, by method: what compares its results with an object
-reasons_by_method: dict[str, Callable[[Object], str | None]] = {}
+# of what is no object's own body, by the type of its object: what compares its results with what it is now
+reasons_by_type: dict[str, Callable[[Object], str | None]] = {}
 
 
 # ---------------------------------------------------------------- What was stored just now
@@ -162,9 +163,8 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
     mark = marks.parse(marks.of_results(obj))
     if mark is None or mark.version != VERSION:
         return "stale_fingerprint" if "body_mass" in obj else None
-    reason_of = reasons_by_method.get(str(obj.get("body_method", "")))
-    if reason_of is not None:
-        return reason_of(obj)
+    if obj.get("body_method") == Verdict.ASSEMBLY and obj.type in reasons_by_type:
+        return reasons_by_type[obj.type](obj)
     if mark.settings != settings_hash(obj, scene):
         return "stale_settings"
     if _has_new_geometry(obj, mark):

@@ -1296,6 +1296,44 @@ MESSAGES: dict[str, Message] = {
     "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ Rigs
+    "no_active_armature": _error("The active object is not an armature. Select one."),
+    "armature_in_edit_mode": _error("The armature is in Edit Mode. Leave it."),
+    "armature_not_editable": _error("The armature cannot be put into its rest pose. Make it local."),
+    "no_deforming_bones": _error("No bone deforms meshes. Make those that do deforming bones."),
+    "bone_missing": _error("Its parent bone “{bone}” does not exist. Choose another one."),
+    "rig_without_parts": _error(
+        "The armature deforms no mesh that can be measured, and nothing is parented to its bones. Add an Armature "
+        "modifier to the mesh."
+    ),
+    "bone_part_impossible": _error("No body has the moments of the bone's part: {cause} Check weights and normals."),
+    "bone_parts_impossible": _warning(
+        "{count} bone has a part whose moments no body has: {names}. Check weights and normals.",
+        "{count} bones have parts whose moments no body has: {names}. Check weights and normals.",
+    ),
+    "unweighted_vertices": _warning(
+        "{count} of {total} vertices has no weight on a deforming bone; faces with such vertices alone go with the "
+        "nearest bone. Assign weights.",
+        "{count} of {total} vertices have no weight on a deforming bone; faces with such vertices alone go with the "
+        "nearest bone. Assign weights.",
+    ),
+    "rig_open_mesh": _warning(
+        "The mesh cannot be closed; each bone's part is closed at its own cuts. Repair the mesh."
+    ),
+    "rig_wall_thin": _note("The wall counts as a thin sheet: area times thickness."),
+    "rig_mean_density": _warning("The density varies; every bone's part has the mean density of the mesh."),
+    "bones_measured": _note(
+        "{armature}: {mass:.7g} kg in the parts of {count} bone",
+        "{armature}: {mass:.7g} kg in the parts of {count} bones",
+    ),
+    "physics_rig_created": _note(
+        "Created {count} rigid body and {joints} joints", "Created {count} rigid bodies and {joints} joints"
+    ),
+    "physics_rig_too_light": _error(
+        "Rigid bodies weigh {limit:.3g} kg at least, and these parts less: {names}. Scale the character, or set masses."
+    ),
+    "rig_center_added": _note("Added the center of mass of “{armature}”, which follows its pose"),
+    "stale_rig": _warning("Bones, settings or objects changed"),
     # ------------------------------------------------------------------ References
     "axis_points_coincide": _error("The two points of the axis are too near to each other. Move one of them."),
     "axis_needs_two_points": _error("{count} points are selected. Select two vertices, or two objects."),
@@ -1607,6 +1645,103 @@ MESSAGES: dict[str, Message] = {
     "usd_inertia_too_small": _warning(
         "The inertia of {links} is too small for the single precision of PhysicsMassAPI. Read newton:inertia, or use "
         "a stage in smaller units."
+    ),
+    # ------------------------------------------------------------------ Audit of robot descriptions: files
+    "xml_entities": _error("The file declares a document type, with which entities could be declared. Remove it."),
+    "xml_too_large": _error("The file nests more than {depth} elements or has more than {elements}."),
+    "xml_invalid": _error("The file is not XML: {error}."),
+    "usda_invalid": _error("The file is not text of USD (line {line})."),
+    "usd_not_text": _error("Only the text form of USD is read. Convert the file to .usda with usdcat."),
+    "description_unknown": _error("The file is no robot description. Its first element is {tag}."),
+    "description_without_links": _error("The file has no links."),
+    "description_too_large": _error("The file is larger than {limit} MB, or has too many links."),
+    "description_number": _warning("Numbers cannot be read: “{text}”."),
+    "mesh_on_network": _warning("A mesh is on a network, and was not loaded: {name}. Download it."),
+    "mesh_outside": _warning(
+        "A mesh is outside of the folders that may be read: {name}. Name its folder with --root, or allow all with "
+        "--allow-outside."
+    ),
+    "mesh_missing": _warning("A mesh was not found: {name}. Name the folder of its package with --root."),
+    "mesh_unreadable": _warning("A mesh is of a kind that is not read: {name}. Convert it to one of {suffixes}."),
+    "mesh_damaged": _warning("A mesh cannot be read: {name} ({error})."),
+    "mesh_too_large": _warning("A mesh is too large: {name}."),
+    "mesh_empty": _warning("A mesh has no triangles: {name}."),
+    "audit_done": _note("{links} links: {errors} errors, {warnings} warnings, {notes} notes"),
+    "usage_repair_folder": _error("--repair: {path} is no folder"),
+    "usage_repair_same": _error("--repair: {path} is the folder of a file that is read. Choose another one"),
+    "audit_copies_alike": _error("Two files have one name: {name}. Audit them one at a time, or choose other folders."),
+    "audit_not_written": _error("The file cannot be written: {error}."),
+    "audit_copy_not_replaced": _error("{path} exists and is no copy of ours. Choose another folder."),
+    # ------------------------------------------------------------------ Audit: what no body can have
+    "inertial_missing": _warning("No inertial. Readers differ: some take 1 kg, some none. Add mass and inertia."),
+    "inertial_not_finite": _error("Mass, center or inertia is not a number."),
+    "inertial_mass_not_positive": _error("The mass is {mass:.6g} kg."),
+    "inertial_not_positive": _error("Impossible: the inertia has a principal moment of {moment:.6g} kg·m²."),
+    "inertial_triangle": _error(
+        "Impossible: the largest principal moment exceeds the sum of the others by {excess:percent}."
+    ),
+    "inertial_triangle_slightly": _warning(
+        "The largest principal moment exceeds the sum of the others by {excess:percent}, as rounding does. Some "
+        "readers refuse it; state more digits."
+    ),
+    "inertial_center_outside": _error("Impossible: the center of mass is {distance:length} outside of the geometry."),
+    "inertial_spread_outside": _error(
+        "Impossible: with this inertia, mass lies outside of the geometry (variance {factor:.3g} times too large)."
+    ),
+    # ------------------------------------------------------------------ Audit: the change that makes it right
+    "audit_uniform_instead": _warning("Repaired as an even filling of the geometry with the stated mass."),
+    "audit_not_uniform": _note(
+        "Not an even filling of the geometry: {factor:.4g} times its inertia, the center {distance:length} from its."
+    ),
+    "audit_density": _warning("The density is {density:.3g} kg/m³. Check mass and mesh."),
+    "audit_mass_and_inertia_unit": _warning(
+        "The density is {density:.3g} kg/m³. Multiply mass and inertia by {factor:g}."
+    ),
+    "audit_mass_unit": _warning("Multiply the mass by {factor:g}: it then agrees with the geometry."),
+    "audit_inertia_unit": _warning("Multiply the inertia by {factor:g}: it then agrees with the geometry."),
+    "audit_center_unit": _warning("Multiply the center of mass by {factor:g}: it then agrees with the geometry."),
+    "audit_length_unit": _warning(
+        "Multiply the lengths of the inertial by {factor:g}, its inertia by the square: it then agrees with the "
+        "geometry."
+    ),
+    "audit_mesh_unit": _warning("Scale the mesh by {factor:g}: the inertial then agrees with it."),
+    "audit_inertia_of_unit_mass": _warning("The inertia is that of 1 kg. Multiply it by the mass, {factor:.6g}."),
+    "audit_inertia_of_unit_density": _warning(
+        "The inertia is that of density 1. Multiply it by the density, {factor:.6g}."
+    ),
+    "audit_inertia_about_origin": _warning(
+        "The inertia is about the origin of the link. State it about the center of mass."
+    ),
+    "audit_inertia_about_mesh_origin": _warning(
+        "The inertia is about the origin of the mesh. State it about the center of mass."
+    ),
+    "audit_inertia_shifted_twice": _warning(
+        "The inertia was shifted away from the center of mass with the wrong sign. Add the parallel-axis term."
+    ),
+    "audit_angles_in_degrees": _warning("The angles of the inertial are in degrees. State them in radians."),
+    "audit_angles_in_radians": _warning("The angles of the inertial are in radians. State them in degrees."),
+    "audit_shape_angles_in_degrees": _warning(
+        "The angles of the geometry are in degrees: in radians it agrees with the inertial. State them in radians."
+    ),
+    "audit_quaternion_order": _warning("The quaternion of the inertial is in the other order. Move w to its place."),
+    "audit_frame_transposed": _warning("The rotation of the inertial is the inverse of what it should be. Invert it."),
+    "audit_frame_not_meant": _warning(
+        "The inertia is along the axes of the link, though the inertial is rotated. Remove the rotation."
+    ),
+    "audit_products_sign": _warning(
+        "Products of inertia have the wrong sign: {products}. Entries of the tensor are negative integrals; change it."
+    ),
+    "audit_center_sign": _warning("The center of mass has the wrong sign along {axes}. Change it."),
+    "audit_mirrored": _warning("The inertial is that of the mirror image along {axis}. Mirror it."),
+    "audit_axes_swapped": _warning("The axes of the inertia are swapped. Put them in the order {order}."),
+    "audit_center_axes_swapped": _warning("The axes of the center of mass are swapped. Put them in the order {order}."),
+    "audit_all_axes_swapped": _warning("The axes of the inertial are swapped. Put them in the order {order}."),
+    "audit_diagonal_swapped": _warning("The diagonal of the inertia is swapped. Put it in the order {order}."),
+    "audit_products_swapped": _warning("The products of inertia are swapped. Put ixy, ixz and iyz in their places."),
+    "audit_frame_turned": _warning("The inertial is turned by 90 degrees about {axis}. Turn it back."),
+    "audit_tensor_turned": _warning("The inertia is turned by 90 degrees about {axis}. Turn it back."),
+    "audit_axes_transposed": _warning(
+        "The principal axes were taken as rows for columns. Put the tensor together with their transpose."
     ),
 }
 

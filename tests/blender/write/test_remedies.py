@@ -66,6 +66,7 @@ NOUNS = (
         "Python",
     ),
     *("NumPy", "OUT", "STL", "NRRD0001", "NRRD0005"),
+    *("URDF", "SDF", "MJCF", "MuJoCo", "USD", "PhysicsMassAPI", "XML"),
 )
 
 
