@@ -1590,6 +1590,22 @@ MESSAGES: dict[str, Message] = {
     "objects_tip": _warning("{names} tips over", "{names} tip over"),
     "laid_on_ground": _note("Laid {count} object on the ground", "Laid {count} objects on the ground"),
     "already_on_ground": _note("already on the ground"),
+    "poll_object_or_pose_mode": _note("Switch to Object Mode or Pose Mode"),
+    "progress_balance": _note("Following the center of mass: {share:percent}. Esc to cancel"),
+    "canceled_balance": _warning("Canceled: nothing was changed"),
+    "no_such_collection": _error("There is no collection “{collection}”. Choose another one."),
+    "balance_group_without_contacts": _error("“{collection}” has no object with a surface. Choose another collection."),
+    "balance_group_empty_group": _error(
+        "Nothing to follow. Select objects with a surface, or an armature that deforms some."
+    ),
+    "balance_group_without_mass": _error("Together the objects have no mass. Set their densities."),
+    "balance_group_made": _note(
+        "“{empty}” has {count} key of the center of mass; objects: {objects_count}",
+        "“{empty}” has {count} keys of the center of mass; objects: {objects_count}",
+    ),
+    "balance_group_inside": _note(
+        "It is over the support polygon at {count} of {total} frames",
+    ),
     "panel_stability_unknown": _note("Stability has not been computed."),
     "panel_stability_stale": _note("The geometry has changed. Check again."),
     # ------------------------------------------------------------------ Robots: what a format cannot say
