@@ -50,7 +50,7 @@ PARTS = (
         for name in ("origin", "principal_axes", "align", "empty", "cursor", "orientation", "rigid_body", "balance")
     ),
     *("actions.statics." + name for name in ("stability", "rest_on_ground", "balance_group")),
-    "actions.export.robot",
+    *("actions.export." + name for name in ("robot", "copy_inertial", "primitive", "audit")),
     *("actions.rig." + name for name in ("measure", "physics", "center")),
     *("actions.shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",
