@@ -248,4 +248,11 @@ TEXTS = {
     "Select These Objects": "Diese Objekte auswählen",
     "Set Material": "Material setzen",
     "Material to take the density from": "Material, von dem die Dichte genommen wird",
+    "Set Rigid Body Mass": "Starrkörpermasse setzen",
+    "Add Rigid Bodies": "Starrkörper hinzufügen",
+    "Store Inertia about Reference": "Trägheit um Bezug speichern",
+    "Keep Units": "Einheiten behalten",
+    "Set Units to Millimeters": "Einheiten auf Millimeter setzen",
+    "Measure Again": "Neu messen",
+    "Cursor to Center of Assembly": "Cursor auf Mittelpunkt der Baugruppe",
 }

@@ -188,8 +188,22 @@ MESSAGES = {
     "objects_tip": ("{names} kippt um", "{names} kippen um"),
     "laid_on_ground": ("{count} Objekt auf den Boden gelegt", "{count} Objekte auf den Boden gelegt"),
     "already_on_ground": ("schon auf dem Boden",),
+    "poll_object_or_pose_mode": ("In den Objektmodus oder Posenmodus wechseln",),
     "progress_balance": ("Massenmittelpunkt wird verfolgt: {share:percent}. Esc zum Abbrechen",),
     "canceled_balance": ("Abgebrochen: nichts wurde geändert",),
+    "no_such_collection": ("Es gibt keine Sammlung „{collection}“. Eine andere wählen.",),
+    "balance_group_without_contacts": (
+        "„{collection}“ hat kein Objekt mit einer Oberfläche. Eine andere Sammlung wählen.",
+    ),
+    "balance_group_empty_group": (
+        "Nichts, dem zu folgen wäre. Objekte mit einer Oberfläche auswählen oder eine Armatur, die welche verformt.",
+    ),
+    "balance_group_without_mass": ("Zusammen haben die Objekte keine Masse. Ihre Dichten setzen.",),
+    "balance_group_made": (
+        "„{empty}“ hat {count} Schlüsselbild des Massenmittelpunkts; Objekte: {objects_count}",
+        "„{empty}“ hat {count} Schlüsselbilder des Massenmittelpunkts; Objekte: {objects_count}",
+    ),
+    "balance_group_inside": ("Er liegt bei {count} von {total} Bildern über dem Standpolygon",),
     "panel_stability_unknown": ("Die Standfestigkeit wurde nicht berechnet.",),
     "panel_stability_stale": ("Die Geometrie hat sich geändert. Prüfen Sie noch einmal.",),
     "robot_links_left_out": (
@@ -235,6 +249,10 @@ MESSAGES = {
     "robot_geometry_not_written": ("Blenders Exporter ist gescheitert: {error}.",),
     "robot_not_written": ("Die Datei lässt sich nicht schreiben: {error}.",),
     "robot_copied": ("Inertial von {count} Glied kopiert.", "Inertials von {count} Gliedern kopiert."),
+    "primitives_added": ("{count} Form hinzugefügt", "{count} Formen hinzugefügt"),
+    "primitive_has_parent": (
+        "Es hat ein Elternobjekt oder ist verknüpft. Das Elternobjekt lösen, um es zu simulieren.",
+    ),
     "robot_meshes_written": ("{count} Netz nach {folder} geschrieben.", "{count} Netze nach {folder} geschrieben."),
     "mjcf_inertia_too_small": (
         "MuJoCo weist einen bewegten Körper mit einer Masse oder einem Hauptmoment unter {limit:g} kg oder kg·m² "

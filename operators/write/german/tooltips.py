@@ -222,7 +222,6 @@ TEXTS = {
     "Add or remove a preset of the active object's settings": (
         "Eine Voreinstellung aus den Einstellungen des aktiven Objekts hinzufügen oder entfernen"
     ),
-    "Name of the preset, used to make the path name": "Name der Voreinstellung, aus dem der Pfad entsteht",
     "Reverse the faces of the active mesh that were measured as reversed: flipped ones, and those of components "
     "that are inside out. Cavities keep facing inward. Other objects that use the mesh change too": (
         "Die Flächen des aktiven Netzes umdrehen, die umgedreht gemessen wurden: verdrehte und die umgestülpter "
@@ -319,7 +318,24 @@ TEXTS = {
     "Each object is a link; its parent holds it by a fixed joint": (
         "Jedes Objekt ist ein Glied; sein Elternobjekt hält es mit einem festen Gelenk"
     ),
-    "Each collection that holds objects itself is a link, along the world's axes": (
-        "Jede Sammlung, die selbst Objekte hält, ist ein Glied, entlang der Weltachsen"
+    "The ellipsoid of the same mass, center and inertia": (
+        "Das Ellipsoid von gleicher Masse, gleichem Mittelpunkt und gleicher Trägheit"
+    ),
+    "The capsule of the same mass and center, with the inertia that comes nearest": (
+        "Die Kapsel von gleicher Masse und gleichem Mittelpunkt mit der nächsten Trägheit"
+    ),
+    "Write the mesh files that the links name beside the file": (
+        "Die Netzdateien, die die Glieder nennen, neben die Datei schreiben"
+    ),
+    "Write mass, center and inertia of each link and nothing else": (
+        "Masse, Mittelpunkt und Trägheit jedes Glieds schreiben und sonst nichts"
+    ),
+    "Export objects as bodies of a model for MuJoCo, with their exact mass, center and inertia": (
+        "Objekte als Körper eines Modells für MuJoCo exportieren, mit exakter Masse, exaktem Mittelpunkt und "
+        "exakter Trägheit"
+    ),
+    "Export objects as links of a model in SDFormat, with their exact mass, center and inertia": (
+        "Objekte als Glieder eines Modells in SDFormat exportieren, mit exakter Masse, exaktem Mittelpunkt und "
+        "exakter Trägheit"
     ),
 }

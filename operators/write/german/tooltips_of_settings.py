@@ -4,26 +4,6 @@
 
 # Texts of the interface, as they stand in the source → German
 TEXTS = {
-    "The ellipsoid of the same mass, center and inertia": (
-        "Das Ellipsoid von gleicher Masse, gleichem Mittelpunkt und gleicher Trägheit"
-    ),
-    "The capsule of the same mass and center, with the inertia that comes nearest": (
-        "Die Kapsel von gleicher Masse und gleichem Mittelpunkt mit der nächsten Trägheit"
-    ),
-    "Write the mesh files that the links name beside the file": (
-        "Die Netzdateien, die die Glieder nennen, neben die Datei schreiben"
-    ),
-    "Write mass, center and inertia of each link and nothing else": (
-        "Masse, Mittelpunkt und Trägheit jedes Glieds schreiben und sonst nichts"
-    ),
-    "Export objects as bodies of a model for MuJoCo, with their exact mass, center and inertia": (
-        "Objekte als Körper eines Modells für MuJoCo exportieren, mit exakter Masse, exaktem Mittelpunkt und "
-        "exakter Trägheit"
-    ),
-    "Export objects as links of a model in SDFormat, with their exact mass, center and inertia": (
-        "Objekte als Glieder eines Modells in SDFormat exportieren, mit exakter Masse, exaktem Mittelpunkt und "
-        "exakter Trägheit"
-    ),
     "Export objects as links of a robot in URDF, with their exact mass, center and inertia": (
         "Objekte als Glieder eines Roboters in URDF exportieren, mit exakter Masse, exaktem Mittelpunkt und exakter "
         "Trägheit"
@@ -256,4 +236,41 @@ TEXTS = {
     "Density in g/cm³. At 0, the density of the object is used": "Dichte in g/cm³. Bei 0 gilt die Dichte des Objekts",
     "Density in lb/in³. At 0, the density of the object is used": "Dichte in lb/in³. Bei 0 gilt die Dichte des Objekts",
     "Density in lb/ft³. At 0, the density of the object is used": "Dichte in lb/ft³. Bei 0 gilt die Dichte des Objekts",
+    "Height of the ground, against gravity from the world origin": (
+        "Höhe des Bodens, gegen die Schwerkraft vom Weltursprung aus"
+    ),
+    "Collection whose objects are followed. If empty, the selected objects": (
+        "Sammlung, deren Objekten gefolgt wird. Leer: die ausgewählten Objekte"
+    ),
+    "What is that near to the ground touches it. 0 for 1% of the size of the contact objects": (
+        "Was dem Boden so nah ist, berührt ihn. 0 für 1 % der Größe der Kontaktobjekte"
+    ),
+    "Collection whose objects can touch the ground, such as feet. What of them is near the ground spans the support "
+    "polygon. If empty, there is none": (
+        "Sammlung, deren Objekte den Boden berühren können, etwa Füße. Was davon dem Boden nah ist, spannt das "
+        "Standpolygon auf. Leer: keines"
+    ),
+    "Follow the common center of mass of the selected objects, of a collection, or of the meshes that the selected "
+    "armatures deform, over the frame range. Adds an empty with keys, and draws the path": (
+        "Dem gemeinsamen Massenmittelpunkt der ausgewählten Objekte, einer Sammlung oder der Netze, die die "
+        "ausgewählten Armaturen verformen, über den Bildbereich folgen. Fügt ein Empty mit Schlüsselbildern hinzu "
+        "und zeichnet den Pfad"
+    ),
+    "Each collection with all that it holds is a link, along the world's axes": (
+        "Jede Sammlung mit allem, was sie hält, ist ein Glied, entlang der Weltachsen"
+    ),
+    "Add a simple shape with the mass, center of mass and inertia of each selected object": (
+        "Für jedes ausgewählte Objekt eine einfache Form mit gleicher Masse, gleichem Massenmittelpunkt und "
+        "gleicher Trägheit hinzufügen"
+    ),
+    "Make the shape an active rigid body with the mass, and the object its child": (
+        "Die Form zu einem aktiven Starrkörper mit der Masse machen und das Objekt zu ihrem Kind"
+    ),
+    "Measure the selected objects and copy mass, center and inertia along their own axes as text": (
+        "Die ausgewählten Objekte messen und Masse, Mittelpunkt und Trägheit entlang ihrer eigenen Achsen als Text "
+        "kopieren"
+    ),
+    "The capsule of the same mass and center, and of the inertia that comes nearest": (
+        "Die Kapsel von gleicher Masse und gleichem Mittelpunkt mit der nächsten Trägheit"
+    ),
 }
