@@ -16,7 +16,7 @@ from ....core.mesh.surface import Surface, join_surfaces
 from ....core.numerics.float32 import shortest_decimal
 from ....core.robots.model import Inertial, Joint, Link, Robot, Shape
 from ....core.verdict.finding import EditRefusedError, Finding, finding
-from ...bodies.measure_object import measure_object
+from ...bodies.many import measured_in_turn
 from ...read import measurable
 from ...read.links import link_entry, link_surface
 from ...write import record, reports
@@ -79,8 +79,10 @@ def measure_scene(context: Context, objects: list[Object]) -> MeasuredScene:
     depsgraph = context.evaluated_depsgraph_get()
     scene = MeasuredScene(depsgraph, shortest_decimal(context.scene.unit_settings.scale_length))
 
+    measured = measured_in_turn(objects, depsgraph)
+
     def measure(obj: Object) -> bool:
-        scene.measured[obj] = measure_object(obj, depsgraph)
+        scene.measured[obj] = measured(obj).measurement
         return True
 
     _, scene.failures = selection.apply_to_all(objects, measure)
