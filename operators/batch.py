@@ -16,12 +16,11 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
-import io
 import os
 import sys
 import traceback
 from collections.abc import Callable
-from contextlib import redirect_stdout, suppress
+from contextlib import suppress
 from pathlib import Path
 
 PACKAGE = "body_moments"  # the add-on's name when this file is run as a script
@@ -55,59 +54,94 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
 
 def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
     """Do what is asked for, and return the exit code."""
-    from .command import arguments, similar
+    from .command import output
+    from .command.parser import HelpRequested
 
-    printed = io.StringIO()
     try:
-        with redirect_stdout(printed):
-            if argv[:1] == ["similar"]:
-                return _similar(similar.parse(argv), channel)
-            options = arguments.parse(argv, file_needed)
+        return _COMMANDS.get("".join(argv[:1]), _measure)(argv, channel, file_needed)
+    except HelpRequested as asked:
+        return ALL_MEASURED if output.written(asked.args, None, channel) else SOME_FAILED
     except SystemExit as ended:
-        # the help, where it was asked for
-        return int(ended.code or ALL_MEASURED) if _write_result(printed.getvalue(), None, channel) else SOME_FAILED
+        return int(ended.code or ALL_MEASURED)
 
-    from .command import results
+
+def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
+    """Measure files by way of children, or in this process."""
+    from .command import arguments, supervised
+
+    options = arguments.parse(argv, file_needed)
+    if (options.files or options.manifest) and not options.no_supervisor:
+        bpy = sys.modules.get("bpy")
+        return supervised.measure(options, channel, bpy.data.filepath if bpy else None)
+    _load_settings()
+
+    from .command import checks, output, results
     from .command.run import Run
     from .write.documents import FORMATS
 
+    checks.check(options)
     run = Run(options)
     run.measure()
-    text = FORMATS[options.format](run.documents)
     check = results.guard("output", options.output in options.forced)
-    is_written = _write_result(text, options.output, channel, check)
+    is_written = output.written(FORMATS[options.format](run.documents), options.output, channel, check)
     if run.internal_errors:
         return INTERNAL_ERROR
     return SOME_FAILED if run.errors or not is_written else ALL_MEASURED
 
 
-def _similar(options, channel: int) -> int:
+def _serve(argv: list[str], channel: int, _file_needed: bool) -> int:
+    """Be a child of the supervisor. Ends the process."""
+    _load_settings()
+
+    from .command import child
+
+    try:
+        child.serve(argv[1:], channel)
+    except BaseException:
+        traceback.print_exc()
+        os._exit(INTERNAL_ERROR)
+    os._exit(ALL_MEASURED)
+
+
+def _similar(argv: list[str], channel: int, _file_needed: bool) -> int:
     """Compare what was measured, and print the nearest."""
     from ..core.verdict.finding import MeasureError
-    from .command import similar
+    from .command import output, similar
     from .write.terminal import tell
 
+    options = similar.parse(argv)
     try:
         text, failures = similar.answer(options)
     except MeasureError as error:
         tell(error)
         return WRONG_USAGE
-    is_written = _write_result(text, None, channel)
+    is_written = output.written([text], None, channel)
     return SOME_FAILED if failures or not is_written else ALL_MEASURED
 
 
-def _write_result(text: str, path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> bool:
-    """Whether a result could be written; the reason goes to the standard error where it could not."""
-    from ..core.verdict.finding import finding
-    from .command import output
-    from .write.terminal import tell
+def _audit(argv: list[str], channel: int, _file_needed: bool) -> int:
+    """Check robot descriptions."""
+    from .command import audit, output
 
-    try:
-        output.write(text, path, channel, check)
-    except OSError as error:
-        tell(finding("usage_result_not_written", error=error.strerror or str(error)))
-        return False
-    return True
+    options = audit.parse(argv)
+    text, faults, internal = audit.answer(options)
+    is_written = output.written([text], options.output, channel)
+    if internal:
+        return INTERNAL_ERROR
+    return SOME_FAILED if faults or not is_written else ALL_MEASURED
+
+
+_COMMANDS: dict[str, Callable[[list[str], int, bool], int]] = {"similar": _similar, "audit": _audit, "child": _serve}
+
+
+def _load_settings() -> None:
+    """The settings that objects carry, where the add-on is not registered."""
+    import bpy
+
+    from .settings import properties
+
+    if not hasattr(bpy.types.Object, PACKAGE):
+        properties.register()
 
 
 def register() -> None:
@@ -161,15 +195,13 @@ def _run() -> int:
     _load_package()
     output = importlib.import_module(PACKAGE + ".operators.command.output")
     channel = output.claim_stdout()  # first of all: importing bpy may print
-    import bpy
-
     words = sys.argv
-    if not bpy.app.module:  # Blender leaves to a script what follows "--"
+    bpy = sys.modules.get("bpy")
+    in_blender = bpy is not None and not bpy.app.module
+    if in_blender:  # it leaves to a script what follows "--"
         words = words[words.index("--") :] if "--" in words else words[:1]
-    if not hasattr(bpy.types.Object, "body_moments"):
-        importlib.import_module(PACKAGE + ".operators.settings.properties").register()
     batch = importlib.import_module(PACKAGE + ".operators.batch")
-    return batch.main(words[1:], channel=channel, file_needed=bpy.app.module)
+    return batch.main(words[1:], channel=channel, file_needed=not in_blender)
 
 
 def _load_package() -> None:

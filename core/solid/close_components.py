@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from ..mesh.edges import Edges, consistent_orientation, find_edges, group_components
 from ..mesh.surface import normals
 from ..numerics.graph import connected_components
-from ..verdict.finding import finding
+from ..verdict.finding import Finding, finding
 from .holes import BoundaryLoops, as_vertex_pairs, find_loops, join_sides, side_ends, vertex_pairs
 from .repaired_mesh import NO_INDICES, FoldedLoops, RepairedMesh, ZeroAreaLoops
+from .shared_walls import wall_links
 
 
 def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -47,7 +48,8 @@ def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Decide which faces of each part to turn so that they agree, and group parts into components."""
     edges, gaps, count = mesh.state.edges, mesh.state.gaps, len(mesh.triangles)
-    first, second = edges.manifold_side_pairs()
+    pairs, walls = edges.manifold_side_pairs(), wall_links(mesh.points, edges, mesh.triangles, mesh.face)
+    first, second = (np.concatenate(sides) for sides in zip(pairs, walls))
     misoriented = edges.upward[first] == edges.upward[second]
     a = np.concatenate([first, gaps.first]) // 3
     b = np.concatenate([second, gaps.second]) // 3
@@ -64,6 +66,7 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         report = replace(report, inconsistent_edges=int(np.count_nonzero(misoriented)), defective_elements=elements)
     return replace(
         mesh,
+        findings=_without_walls(mesh, np.concatenate(walls)),
         flipped=flipped,
         component=component,
         number=number,
@@ -72,6 +75,18 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         report=report,
         state=replace(mesh.state, one_sided=is_open),
     )
+
+
+def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Finding, ...]:
+    """The findings, without copies of faces that are the walls of two bodies. sides: at such walls."""
+    walls, findings = np.unique(mesh.face[sides // 3]), []
+    for item in mesh.findings:
+        if len(walls) and item.code.startswith("duplicate_faces_counted"):
+            left = np.setdiff1d(item.elements, walls)
+            item = replace(item, values={**item.values, "count": len(left)}, elements=left)
+        if item.values.get("count") != 0:
+            findings.append(item)
+    return tuple(findings)
 
 
 def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:

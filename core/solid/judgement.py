@@ -111,7 +111,7 @@ def judge(
     else:
         verdict = Verdict.REORIENTED if len(flipped) or len(inverted) else Verdict.EXACT
     findings: list[Finding] = []
-    if mesh.max_displacement > 0.0:
+    if mesh.max_displacement > _float32_step(checked.surface):  # less is how the same place is written twice
         findings.append(_weld_finding(mesh.max_displacement, checked.size, given.area.total, volume.total))
     findings += [_of_input(item, checked.vertices) for item in mesh.findings]
     if len(flipped):
@@ -192,6 +192,12 @@ def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
     """The finding with edges in the input's vertices, where those of no face were left out before."""
     edges = np.ndim(item.elements) == 2
     return replace(item, elements=vertices[item.elements]) if edges and vertices is not None else item
+
+
+def _float32_step(surface: Surface) -> float:
+    """How far the same place may be from itself in float32: a step of the largest coordinate along each axis."""
+    largest = np.minimum(np.abs(surface.box).max(axis=0), 2.0**127)
+    return float(np.linalg.norm(np.spacing(largest.astype(np.float32)).astype(np.float64)))
 
 
 def _weld_finding(displacement: float, size: float, area: float, volume: float) -> Finding:

@@ -1,39 +1,48 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of the command line. They are a public contract: an unknown or impossible one ends
-with exit code 2.
+"""The options of `measure`. They are a public contract: an unknown or impossible one ends with exit code 2.
+
+Standard library only: the process that supervises others may have neither numpy nor Blender. What needs these is looked
+at in `checks.py`, by the process that measures.
 """
 
 from __future__ import annotations
 
 import argparse
-import math
-import os
-from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
+from typing import Any, NoReturn
 
-import bpy
-
-from ...core.density.spline_tables import MAX_ORDER as MAX_SPLINE_ORDER
-from ...core.polyhedron import MAX_ORDER
-from ...core.verdict.finding import MeasureError, finding
-from ..settings.limits import scan_limits
+from ...core.verdict.finding import finding
 from ..write.documents import FORMATS, FRAMES, ROBOT_FORMATS
-from . import fourier, inputs, output, results
+from . import option_types as types
+from .output import is_stdout
 from .parser import Parser
 
 DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
+DEFAULT_TIMEOUT = 1800.0  # seconds for one file
+TARGETS = ("output", "fourier")  # options whose files are written
+
+# What changes no number: two runs that differ in these alone have the same records.
+_OF_RUNS = {
+    *("command", "files", "format", "output", "force", "forced", "jobs", "timeout", "memory_mb", "range", "manifest"),
+    *("resume", "no_supervisor", "blender"),
+}
+_PATHS = ("output", "fourier", "q", "manifest")
+_TRIPLES = ("spacing", "origin")
 
 _EPILOG = """\
 FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz or .fbx, or an array or
-scan of densities: .npy, .npz, .nrrd, .nhdr, .nii, .nii.gz, or .raw if called NAME_XxYxZ_TYPE.raw.
-Without one, the file that Blender has open is measured. All numbers are SI: kilograms and meters.
-`similar LIBRARY --to NAME` in the place of `measure` compares bodies measured with --signature.
+scan of densities: .npy, .npz, .nrrd, .nhdr, .nii, .nii.gz, or .raw if called NAME_XxYxZ_TYPE.raw;
+or a folder, whose files of these kinds are measured, those in its folders too. Without one, the file
+that Blender has open is measured. All numbers are SI: kilograms and meters.
+Files are measured by child processes, so that none of them can end the others: what crashes, hangs
+or takes too much memory has a record that says so.
+In the place of `measure`: `similar LIBRARY --to NAME` compares bodies measured with --signature;
+`manifest`, `merge`, `to-csv`, `summary`, `compare` and `report` prepare and gather many results.
 BODY_MOMENTS_LIMITS in the environment changes what an array or scan may ask for, such as
 samples=2e10,unpacked_bytes=1e10,entries=5000,header_bytes=1e7.
 exit code: 0 all measured, 1 something is listed under errors or the result cannot be written,
-2 wrong usage, 3 interrupted, 70 a fault of the program"""
+2 wrong usage, 3 interrupted (--resume goes on), 70 a fault of the program"""
 
 
 def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
@@ -43,42 +52,78 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     """
     parser = _parser()
     options = parser.parse_intermixed_args(_join_negative_values(argv))
-    if file_needed and not options.files:
-        parser.error(str(finding("usage_file_needed")))
+    has_files = bool(options.files or options.manifest)
+    if file_needed and not has_files:
+        fail(finding("usage_file_needed"))
     if options.format in ROBOT_FORMATS:
         if len(options.files) > 1:
-            parser.error(str(finding("robot_one_file", count=len(options.files))))
+            fail(finding("robot_one_file", count=len(options.files)))
         options.frame = "object"  # of the links
-    if options.meshes and (options.output is None or output.is_stdout(options.output)):
-        parser.error(str(finding("usage_meshes_need_output")))
+    if options.meshes and (options.output is None or is_stdout(options.output)):
+        fail(finding("usage_meshes_need_output"))
     if options.surface_moments and options.order is None:
         options.order = DEFAULT_ORDER
-    try:
-        options.limits = replace(scan_limits(), allow_outside=options.allow_outside)
-        for name in ("output", "fourier"):
-            _check_target(name, getattr(options, name), parser)
-        fourier.check(options, parser)
-        _keep_files(options, parser)
-    except MeasureError as error:
-        parser.error(str(error))
-    except OSError as error:  # a name that is too long, a folder that may not be entered
-        parser.error(str(finding("usage_path", path=str(error.filename), error=error.strerror)))
+    if options.no_supervisor or not has_files:
+        for name in ("jobs", "memory_mb", "timeout", "blender"):
+            if getattr(options, name) is not None:
+                fail(finding("usage_needs_supervisor", option=name.replace("_", "-")))
+        if options.resume:
+            fail(finding("usage_needs_supervisor", option="resume"))
+    if options.resume and options.output is None:
+        fail(finding("usage_resume_output"))
+    _check_fourier(options)
+    options.forced = []
     return options
 
 
-def _check_target(option: str, target: Path | None, parser: argparse.ArgumentParser) -> None:
-    """Ends with a message where no file can be written, while nothing is measured yet."""
-    if target is None or output.is_stdout(target):
+def fail(reason: object) -> NoReturn:
+    """End as for any wrong usage: SystemExit(2), with a message on the standard error."""
+    _parser().error(str(reason))
+
+
+def as_record(options: argparse.Namespace) -> dict[str, Any]:
+    """The options as plain values for JSON, without the files, to be read by `from_record`."""
+    kept = {name: value for name, value in vars(options).items() if name not in ("files", "manifest")}
+    kept["forced"] = [str(path) for path in options.forced]
+    return {name: str(value) if isinstance(value, Path) else value for name, value in kept.items()}
+
+
+def from_record(record: dict[str, Any]) -> argparse.Namespace:
+    """The options that `as_record` has made plain."""
+    options = argparse.Namespace(**{**record, "files": [], "manifest": None})
+    for name in _PATHS:
+        if getattr(options, name) is not None:
+            setattr(options, name, Path(getattr(options, name)))
+    options.forced = [Path(path) for path in options.forced]
+    for name in _TRIPLES:
+        if getattr(options, name) is not None:
+            setattr(options, name, tuple(getattr(options, name)))
+    return options
+
+
+def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
+    """Those options that change what is measured."""
+    more = {"format": options.format} if options.format in ROBOT_FORMATS else {}
+    return {name: value for name, value in as_record(options).items() if name not in _OF_RUNS} | more
+
+
+def _check_fourier(options: argparse.Namespace) -> None:
+    """Ends with a message where the options of the transform do not go together."""
+    target = options.fourier
+    if target is None:
+        for name in ("q", "grid", "qmax"):
+            if getattr(options, name) is not None:
+                fail(finding("usage_needs_fourier", option=name))
         return
-    if not target.parent.is_dir():
-        parser.error(str(finding("usage_folder_missing", option=option, folder=str(target.parent))))
-    if target.is_dir():
-        parser.error(str(finding("usage_is_folder", option=option, path=str(target))))
-    with suppress(FileNotFoundError):
-        os.stat(target)
-    folder = Path(os.path.realpath(target)).parent
-    if not (target.exists() and not target.is_file() or os.access(folder, os.W_OK)):
-        parser.error(str(finding("usage_folder_read_only", option=option, folder=str(folder))))
+    if (options.q is None) == (options.grid is None):
+        fail(finding("usage_fourier_points"))
+    if (options.grid is None) != (options.qmax is None):
+        fail(finding("usage_grid_and_qmax"))
+    if len(options.files) > 1 or len(options.object or ()) > 1:
+        fail(finding("usage_fourier_one_object"))
+    for first, second in ((target, options.q), (target, options.output), (options.output, options.q)):
+        if first is not None and second is not None and first.resolve() == second.resolve():
+            fail(finding("usage_path_twice", path=str(first)))
 
 
 def _join_negative_values(argv: list[str]) -> list[str]:
@@ -90,38 +135,6 @@ def _join_negative_values(argv: list[str]) -> list[str]:
         else:
             joined.append(word)
     return joined
-
-
-def _keep_files(options: argparse.Namespace, parser: argparse.ArgumentParser) -> None:
-    """Ends with a message where a result would be written over a file that is read, or, without --force, over one that
-    is not a result of ours. `options.forced`: those of the targets that --force is about.
-    """
-    options.forced = []
-    # Also the file that is open, whether or not it is measured, and that of the wave vectors.
-    read = [path for path in (*options.files, bpy.data.filepath, options.q) if path and os.path.exists(path)]
-    replaced = []
-    for name in ("output", "fourier"):
-        target = getattr(options, name)
-        if target is None or not target.exists() or output.is_stdout(target):
-            continue
-        if any(os.path.samefile(path, target) for path in read):
-            parser.error(str(finding("usage_overwrites_input", option=name, path=str(target))))
-        try:
-            if results.replaceable(target, name):
-                continue
-            empty = results.is_empty(target)
-        except OSError as error:
-            parser.error(str(finding("usage_not_replaceable", option=name, path=str(target), error=error.strerror)))
-        if not (empty or options.force):
-            parser.error(str(finding("usage_foreign_file", option=name, path=str(target))))
-        replaced.append((target, name))
-        if not empty:
-            options.forced.append(target)
-    # Opening what is measured takes its time, and only here does it matter what that reads.
-    for path in inputs.files_read(options.files) if replaced else ():
-        for target, name in replaced:
-            if target.samefile(path):
-                parser.error(str(finding("usage_overwrites_dependency", option=name, path=str(target))))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -139,6 +152,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_settings(parser)
     _add_of_files(parser)
     _add_results(parser)
+    _add_supervision(parser)
     return parser
 
 
@@ -161,13 +175,13 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
     add("--kind", choices=("solid", "shell"), help="(each object's setting, or solid)")
     add(
         "--thickness",
-        type=_positive,
+        type=types.positive,
         metavar="T",
         help="of a shell, in meters (each object's setting)",
     )
     group = parser.add_mutually_exclusive_group()
-    group.add_argument("--density", type=_positive, metavar="D", help="kg/m³ (each object's setting, or 1000)")
-    group.add_argument("--mass", type=_positive, metavar="M", help="kg, for each object")
+    group.add_argument("--density", type=types.positive, metavar="D", help="kg/m³ (each object's setting, or 1000)")
+    group.add_argument("--mass", type=types.positive, metavar="M", help="kg, for each object")
     add(
         "--overlap",
         choices=("signed", "union"),
@@ -181,31 +195,31 @@ def _add_of_files(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add(
         "--unit-scale",
-        type=_positive,
+        type=types.positive,
         metavar="S",
         help="meters per unit in files that carry no unit: .stl, .obj, .ply, arrays (1)",
     )
     add(
         "--spacing",
-        type=_spacing,
+        type=types.spacing,
         metavar="X,Y,Z",
         help="arrays: how far samples are apart (the header's, or 1)",
     )
     add(
         "--origin",
-        type=_triple,
+        type=types.triple,
         metavar="X,Y,Z",
         help="arrays: where the first sample stands (the header's, or 0)",
     )
     add(
         "--spline-order",
-        type=_spline_order,
+        type=types.spline_order,
         metavar="K",
         help="arrays: the samples are the coefficients of a spline of this order: 1 voxels, 2 trilinear, 4 cubic (1)",
     )
     add(
         "--density-scale",
-        type=_positive,
+        type=types.positive,
         metavar="S",
         help="arrays: kg/m³ where a sample is 1 (1)",
     )
@@ -227,16 +241,29 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
     )
     add(
         "--order",
-        type=_order,
+        type=types.order,
         metavar="N",
-        help="add volume moments up to this order, at most {}, about the frame's origin".format(MAX_ORDER),
+        help="add volume moments up to this order, at most {}, about the frame's origin".format(types.MAX_ORDER),
     )
     add(
         "--surface-moments",
         action="store_true",
         help="add area moments too (up to --order, or {})".format(DEFAULT_ORDER),
     )
-    fourier.add_options(parser, _positive)
+    add(
+        "--fourier",
+        type=Path,
+        metavar="OUT.npz",
+        help="write the Fourier transform of the one object: q, and F = ∫exp(-i q·x)dV in m³, in the frame",
+    )
+    add("--q", type=Path, metavar="Q.npy", help="at these wave vectors: rows of 3 numbers, in rad/m")
+    add(
+        "--grid",
+        type=types.frequencies,
+        metavar="N",
+        help="or on a grid of N³ of them: (j - h) Q / h along each axis, with h = N // 2 and j from 0 to N - 1",
+    )
+    add("--qmax", type=types.positive, metavar="Q", help="the largest along each axis of the grid, in rad/m")
     add(
         "--pose",
         action="store_true",
@@ -249,7 +276,7 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
     )
     add(
         "--format",
-        type=_format,
+        type=types.format_name,
         default="json",
         metavar="{" + ",".join(FORMATS) + "}",
         help="(json)",
@@ -268,7 +295,8 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
     add(
         "--force",
         action="store_true",
-        help="--output and --fourier may replace any file that is not read (only results of body_moments)",
+        help="--output and --fourier may replace any file that is not read (only results of body_moments; an older "
+        "result at --output is kept as PATH.old)",
     )
     add(
         "--write",
@@ -277,52 +305,33 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _positive(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not (0.0 < value < math.inf):
-        raise argparse.ArgumentTypeError(str(finding("usage_not_positive", text=text)))
-    return value
-
-
-def _triple(text: str) -> tuple[float, ...]:
-    try:
-        values = tuple(float(word) for word in text.split(","))
-    except ValueError:
-        values = ()
-    if len(values) != 3 or not all(map(math.isfinite, values)):
-        raise argparse.ArgumentTypeError(str(finding("usage_not_triple", text=text)))
-    return values
-
-
-def _spacing(text: str) -> tuple[float, ...]:
-    values = _triple(text)
-    if min(values) <= 0.0:
-        raise argparse.ArgumentTypeError(str(finding("usage_not_positive_triple", text=text)))
-    return values
-
-
-def _spline_order(text: str) -> int:
-    if text not in {str(order) for order in range(1, MAX_SPLINE_ORDER + 1)}:
-        raise argparse.ArgumentTypeError(str(finding("usage_spline_order", text=text, limit=MAX_SPLINE_ORDER)))
-    return int(text)
-
-
-def _order(text: str) -> int:
-    try:
-        value = int(text)
-    except ValueError:
-        value = -1
-    if value < 0:
-        raise argparse.ArgumentTypeError(str(finding("usage_order", text=text, limit=MAX_ORDER)))
-    if value > MAX_ORDER:
-        raise argparse.ArgumentTypeError(str(finding("usage_order_too_high", text=text, limit=MAX_ORDER)))
-    return value
-
-
-def _format(text: str) -> str:
-    if text not in FORMATS:
-        raise argparse.ArgumentTypeError(str(finding("usage_format_unknown", text=text, formats=", ".join(FORMATS))))
-    return text
+def _add_supervision(parser: argparse.ArgumentParser) -> None:
+    """How many files are measured."""
+    add = parser.add_argument
+    add("--manifest", type=Path, metavar="LIST", help="measure the files of a list that `manifest` has made")
+    add("--range", type=types.file_range, metavar="A:B", help="of the files, only numbers A to B - 1, counted from 0")
+    add("--jobs", type=types.count, metavar="N", help="how many processes measure files (one for each core)")
+    add(
+        "--timeout",
+        type=types.positive,
+        metavar="SECONDS",
+        help="how long one file may take ({:g})".format(DEFAULT_TIMEOUT),
+    )
+    add(
+        "--memory-mb",
+        type=types.positive,
+        metavar="M",
+        help="how much memory one file may take (its part of 80 %% of this machine's)",
+    )
+    add(
+        "--resume",
+        action="store_true",
+        help="go on with an earlier run of the same --output: files that are recorded in its journal and unchanged "
+        "are not measured again",
+    )
+    add("--blender", metavar="PATH", help="the Blender that measures (this one, or the bpy module)")
+    add(
+        "--no-supervisor",
+        action="store_true",
+        help="measure in this process, which a damaged file may end",
+    )

@@ -7,7 +7,7 @@ from __future__ import annotations
 import signal
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from ...core.verdict.finding import finding
 from ..write.terminal import tell
@@ -45,6 +45,31 @@ def check_interruption() -> None:
         raise KeyboardInterrupt
 
 
+@contextmanager
+def stopped_by_signals() -> Iterator[None]:
+    """Within the block the signals that ask a process to end raise KeyboardInterrupt too, and of all of them only the
+    first does: what it stops is not disturbed while it cleans up.
+    """
+    names = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
+    numbers = [getattr(signal, name) for name in names if hasattr(signal, name)]
+    before = {}
+
+    def stop(number: int, frame: object) -> None:
+        for other in before:
+            signal.signal(other, signal.SIG_IGN)
+        _interrupt(number, frame)
+
+    with suppress(ValueError):  # only the main thread can handle signals
+        for number in numbers:
+            if signal.getsignal(number) != signal.SIG_IGN:
+                before[number] = signal.signal(number, stop)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
 def _interrupt(_number: int, _frame: object) -> None:
     global _requested
     _requested = True
@@ -61,4 +86,8 @@ class Progress:
         self._samples += samples
         if time.monotonic() >= self._due:
             self._due = time.monotonic() + PERIOD
-            tell(self._file, finding("progress_samples", count=self._samples))
+            self.tell(self._samples)
+
+    def tell(self, samples: int) -> None:
+        """Report that so many samples have been read."""
+        tell(self._file, finding("progress_samples", count=samples))

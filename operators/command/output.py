@@ -13,9 +13,11 @@ from __future__ import annotations
 import io
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from ...core.verdict.finding import finding
+from ..write.terminal import tell
 from ..write.whole_file import whole_file
 
 _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may not be 1 any more
@@ -55,16 +57,27 @@ def is_stdout(path: Path) -> bool:
     return str(path) in _STDOUT
 
 
-def write(text: str, path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> None:
+def write(parts: Iterable[str], path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> None:
     """Write a result to `path`, or to a descriptor where it is None. check: as in `whole_file`. Raises OSError."""
     # A file name that is not UTF-8 holds lone surrogates. Escaped so, they are what JSON writes for
     # them.
-    data = text.encode("utf-8", "backslashreplace")
+    pieces = (part.encode("utf-8", "backslashreplace") for part in parts)
     if path is None or is_stdout(path):
-        _write_all(channel, data)
+        for piece in pieces:
+            _write_all(channel, piece)
     else:
         with whole_file(path, check) as file:
-            file.write(data)
+            file.writelines(pieces)
+
+
+def written(parts: Iterable[str], path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> bool:
+    """Whether a result could be written; the reason goes to the standard error where it could not."""
+    try:
+        write(parts, path, channel, check)
+    except OSError as error:
+        tell(finding("usage_result_not_written", error=error.strerror or str(error)))
+        return False
+    return True
 
 
 def _write_all(channel: int, data: bytes) -> None:

@@ -10,8 +10,15 @@ from typing import NoReturn
 from ..write.terminal import visible
 
 
+class HelpRequested(Exception):
+    """Raised for --help, with its text."""
+
+
 class Parser(argparse.ArgumentParser):
-    """One that shows control characters."""
+    """One that shows control characters, and leaves it to its caller where the help goes."""
+
+    def print_help(self, file: object = None) -> NoReturn:
+        raise HelpRequested(self.format_help())
 
     def error(self, message: str) -> NoReturn:
         super().error(visible(message))

@@ -12,13 +12,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ...core.verdict.finding import finding
-from ..write.documents import SCHEMA, to_csv
-from ..write.robots.text import is_ours
-from ..write.spectrum import ARRAYS
+from ..write.documents import SCHEMA, SPECTRUM_ARRAYS, to_csv
+from ..write.robots.marker import is_ours
 
 _HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
 _DOCUMENT = re.compile(rb'\s*\[?\s*\{\s*"schema"\s*:\s*"' + re.escape(SCHEMA.encode()) + rb'"')
-_COLUMNS = next(csv.reader([to_csv([])]))
+_COLUMNS = next(csv.reader(to_csv([])))
 _LAST = 2  # of them stand at the end, behind those that only some records have
 
 
@@ -50,7 +49,7 @@ def _is_result(path: Path, option: str) -> bool:
     try:
         if option == "fourier":
             with zipfile.ZipFile(path) as arrays:
-                return sorted(arrays.namelist()) == sorted(name + ".npy" for name in ARRAYS)
+                return sorted(arrays.namelist()) == sorted(name + ".npy" for name in SPECTRUM_ARRAYS)
         with open(path, "rb") as file:
             head = file.read(_HEAD)
         return (

@@ -14,8 +14,7 @@ import os
 import re
 import sys
 from argparse import Namespace
-from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -30,8 +29,7 @@ from ...core.verdict.method import Source
 from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
 from ..bodies.shape import NoShapeError, shape_of
-from ..read import measurable, measurable_objects
-from ..read.total_caveats import boolean_operands, left_out_reasons, open_body_caveats, total_caveats
+from ..read.total_caveats import boolean_operands, open_body_caveats, total_caveats
 from ..session.staleness import mark_up_to_date
 from ..settings import properties as settings
 from ..settings.density import unset_density
@@ -43,11 +41,13 @@ from ..write.terminal import tell
 from . import fourier, robots
 from .files import BLEND, UNITLESS, file_suffix, open_file
 from .interruption import Progress, check_interruption
+from .objects import failure, objects_to_measure, other_scenes, why_nothing
 from .references import blocked_scripts, missing_links
 from .saving import Place, reserved
 from .scripts import scripts_of_open_file
 
 _OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale")
+_STATUSES = {"file_missing": "missing", "file_version_unsupported": "unsupported_version"}
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 
 
@@ -55,14 +55,18 @@ _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 class Run:
     """One command line at work.
 
-    documents: one for each file, in order. internal_errors: how many of their errors are our own.
+    threads: that a measurement may use. progress: what counts the samples read from a file. documents: one for each
+    file, in order. internal_errors: how many of their errors are our own.
     """
 
     options: Namespace
+    threads: int = THREADS
+    progress: Callable[[str], Callable[[int], None]] = Progress
     documents: list[dict[str, Any]] = field(default_factory=list)
     internal_errors: int = 0
 
     def __post_init__(self) -> None:
+        self._status: str | None = None  # of the document under way, where it is not just that of its errors
         measure_options = {
             name: getattr(self.options, name) for name in ("kind", "density", "mass", "thickness", "overlap")
         }
@@ -70,20 +74,21 @@ class Run:
             **measure_options,
             order=self.options.order,
             surface=self.options.surface_moments,
-            threads=THREADS,
+            threads=self.threads,
         )
 
     def measure(self) -> None:
         """Measure every file that was named, or else the one that is open."""
         for path in self.options.files or [None]:
-            self.documents.append(self._document(path))
+            self.documents.append(self.document(path))
 
     @property
     def errors(self) -> int:
         """How many entries the documents have under `errors`."""
         return sum(len(document["errors"]) for document in self.documents)
 
-    def _document(self, path: str | None) -> dict[str, Any]:
+    def document(self, path: str | None) -> dict[str, Any]:
+        """Measure one file, or what is open, and return its document."""
         file = path or bpy.data.filepath or _requested_file()
         with self._place(path) as place:
             found = self._measured(path, file, place)
@@ -102,6 +107,7 @@ class Run:
     def _measured(self, path: str | None, file: str | None, place: Place | None) -> dict[str, Any]:
         measured: list[tuple[str, bpy.types.Object, Measurement]] = []
         objects, errors, caveats, left_out = [], [], [], []
+        self._status = None
         try:
             if path is not None and scans.scan_suffix(path):
                 objects, measured, errors = self._measure_array_file(path)
@@ -111,8 +117,8 @@ class Run:
                 # Not by way of the scene, whose unit scale is a float32 with limits.
                 unit = (self.options.unit_scale or 1.0) if _unitless(path) else None
                 wanted = replace(self._measure_options, unit_scale=unit)
-                chosen, left_out, errors = _objects_to_measure(self.options.object, self.options.all)
-                errors += [_error(None, reason) for reason in (*unresolved, *missing_links())]
+                chosen, left_out, errors = objects_to_measure(self.options.object, self.options.all)
+                errors += [failure(None, reason) for reason in (*unresolved, *missing_links())]
                 of_file = (
                     *_unit_findings(path, self.options.unit_scale),
                     *_unused_array_options(self.options),
@@ -125,7 +131,7 @@ class Run:
                     try:
                         one, entry = self._measure_record(label, obj, wanted, (*of_file, *cut), errors)
                     except MeasureError as refusal:
-                        errors.append(_error(label, refusal.finding))
+                        errors.append(failure(label, refusal.finding))
                     except Exception as error:
                         errors.append(self._internal_error(label, error))
                     else:
@@ -135,16 +141,17 @@ class Run:
                 caveats += open_body_caveats((label, one.method) for label, _, one in measured)
                 if self.options.object is None:  # else whoever named them knows what they count
                     caveats += total_caveats([obj for _, obj, _ in measured], bpy.context.view_layer)
-                    caveats += _other_scenes(bpy.context.scene)
+                    caveats += other_scenes(bpy.context.scene)
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
                 if not objects and not errors:
-                    errors.append(_error(None, _why_nothing(len(left_out))))
+                    errors.append(failure(None, why_nothing(len(left_out))))
             if self.options.write:
                 errors.extend(self._store(path, measured, wanted))
                 caveats += _save(place, file)
         except MeasureError as refusal:
-            errors.append(_error(None, refusal.finding))
+            errors.append(failure(None, refusal.finding))
+            self._status = _STATUSES.get(refusal.finding.code)
         except Exception as error:
             errors.append(self._internal_error(None, error))
         for one in errors:
@@ -158,6 +165,7 @@ class Run:
             file=file,
             blender=".".join(map(str, bpy.app.version)),
             frame=self.options.frame,
+            status=self._status,
         )
         return robots.complete(made, measured, self.options)
 
@@ -179,7 +187,7 @@ class Run:
             if order is None:
                 raise
             measurement, more, of_shape = self._measure(obj, replace(measure_options, order=None, surface=False))
-            errors.append(_error(label, finding("moments_unavailable", cause=refusal.finding.as_record())))
+            errors.append(failure(label, finding("moments_unavailable", cause=refusal.finding.as_record())))
             order = None
         surface = measurement.area_moments if self.options.surface_moments and order is not None else None
         findings = (
@@ -209,9 +217,9 @@ class Run:
         """
         name = os.path.basename(path)[: -len(scans.scan_suffix(path))]
         names = [name] if self.options.object is None else self.options.object
-        errors = [_error(measurement, finding("object_not_in_file")) for measurement in names if measurement != name]
+        errors = [failure(measurement, finding("object_not_in_file")) for measurement in names if measurement != name]
         if self.options.fourier:
-            errors.append(_error(None, finding("fourier_of_array")))
+            errors.append(failure(None, finding("fourier_of_array")))
         if name not in names:
             return [], [], errors
         taken = {
@@ -219,9 +227,10 @@ class Run:
         }
         array = ArrayOptions(**{measurement: value for measurement, value in taken.items() if value is not None})
         try:
-            measurement = measure_array(path, name, array, self._measure_options, Progress(path))
+            measurement = measure_array(path, name, array, self._measure_options, self.progress(path))
         except MeasureError as refusal:
-            return [], [], [*errors, _error(None, refusal.finding)]
+            self._status = _STATUSES.get(refusal.finding.code)
+            return [], [], [*errors, failure(None, refusal.finding)]
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
         surface = measurement.area_moments if self.options.surface_moments else None
         shapeless = [finding("shape_of_grid")] if requested else []
@@ -249,7 +258,7 @@ class Run:
         its record.
         """
         if len(chosen) != 1:
-            yield _error(None, finding("fourier_object_count", count=len(chosen)))
+            yield failure(None, finding("fourier_object_count", count=len(chosen)))
             return
         if not objects:
             return  # the reason is among the errors already
@@ -257,9 +266,9 @@ class Run:
         try:
             record.add_findings(entry, fourier.write(obj, self.options, measure_options))
         except MeasureError as refusal:
-            yield _error(label, finding("fourier_failed", cause=refusal.finding.as_record()))
+            yield failure(label, finding("fourier_failed", cause=refusal.finding.as_record()))
         except OSError as error:
-            yield _error(label, finding("fourier_not_written", error=error.strerror or str(error)))
+            yield failure(label, finding("fourier_not_written", error=error.strerror or str(error)))
         except Exception as error:
             yield self._internal_error(label, error)
 
@@ -291,7 +300,7 @@ class Run:
     def _internal_error(self, name: str | None, error: Exception) -> dict[str, Any]:
         reason = internal_error.finding_of(error)
         self.internal_errors += reason.code == internal_error.CODE
-        return _error(name, reason)
+        return failure(name, reason)
 
     def _store(
         self,
@@ -311,66 +320,10 @@ class Run:
                 store(obj, one)
                 settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
             except MeasureError as refusal:
-                yield _error(label, refusal.finding)
+                yield failure(label, refusal.finding)
             except Exception as error:
                 yield self._internal_error(label, error)
         mark_up_to_date(bpy.context, [obj for _, obj, _ in measured])
-
-
-def _error(name: str | None, reason: Finding) -> dict[str, Any]:
-    """An entry of `errors`, or of `left_out`."""
-    return {"name": name, "reason": str(reason)}
-
-
-def _why_nothing(left_out: int) -> Finding:
-    """Why a file without errors has no records."""
-    return finding("nothing_rendered", count=left_out) if left_out else finding("no_measurable_object")
-
-
-def _objects_to_measure(
-    names: list[str] | None, everything: bool
-) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]], list[dict[str, Any]]]:
-    """The objects to measure, each under a name of its own; those that are left out, with the reason; and an error for
-    each name of none. everything: nothing is left out.
-
-    What the view layer excludes is among them where another one renders it: reading it reports the reason.
-    """
-    scene, layer = bpy.context.scene, bpy.context.view_layer
-    same = Counter(obj.name for obj in scene.objects)
-    # A linked object may have a local one's name; the full name has the library too.
-    labels = {obj: obj.name if same[obj.name] == 1 else obj.name_full for obj in scene.objects}
-    if names is None:
-        candidates = {*measurable_objects(layer), *_excluded(scene, layer)}
-        reasons = {} if everything else left_out_reasons(scene, layer)
-        chosen = [(label, obj) for obj, label in labels.items() if obj in candidates and obj not in reasons]
-        left_out = [_error(labels[obj], reason) for obj, reason in reasons.items() if obj in candidates]
-        return chosen, left_out, []
-    chosen, errors = [], []
-    for name in names:
-        matches = [(label, obj) for obj, label in labels.items() if label == name]
-        matches = matches or [(label, obj) for obj, label in labels.items() if obj.name == name]
-        chosen += [pair for pair in matches if pair not in chosen]
-        if not matches:
-            errors.append(_error(name, finding("object_not_in_scene")))
-    return chosen, [], errors
-
-
-def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.types.Object]:
-    """The scene's measurable objects outside of its view layer, but for the members of instanced
-    collections, which the instancers' records hold.
-    """
-    instancers = [obj for obj in scene.objects if obj.instance_type == "COLLECTION"]
-    instanced = {obj.instance_collection for obj in instancers} - {None}
-    members = {member for collection in instanced for member in collection.all_objects}
-    return {obj for obj in {*scene.objects} - {*layer.objects} - members if measurable(obj)}
-
-
-def _other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
-    """That a file holds more than its open scene, where it does."""
-    here = {*scene.objects}
-    other_scenes = [other.name for other in bpy.data.scenes if any(measurable(obj) for obj in {*other.objects} - here)]
-    if other_scenes:
-        yield finding("other_scenes", scene=scene.name, scenes=other_scenes)
 
 
 def _requested_file() -> str | None:

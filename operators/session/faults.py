@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..bodies.measure_object import Measured
 from ..read import Reading
-from . import staleness
+from . import updates
 from .cache import SessionCache
 
 MAX_DRAWN = 20000  # edges, and triangles, of an object
@@ -28,13 +28,13 @@ class Faults:
         Boundary, non-manifold and inconsistent edges.
     triangles : (l, 3, 3) array
         Of flipped, duplicate and zero-area faces.
-    changes : int
-        How often the geometry had changed.
+    change : int
+        The last update of the geometry.
     """
 
     edges: NDArray[np.float64]
     triangles: NDArray[np.float64]
-    changes: int
+    change: int
 
 
 _faults: SessionCache[Faults] = SessionCache()
@@ -58,13 +58,13 @@ def remember(obj: Object, measured: Measured) -> None:
     _faults[obj] = Faults(
         points[np.concatenate(pairs)[:MAX_DRAWN]],
         points[triangles[faulty][:MAX_DRAWN]],
-        staleness.geometry_changes(obj),
+        updates.last_change_of_geometry(obj),
     )
 
 
 def of_object(obj: Object) -> Faults | None:
     """Return the faults of an object, None where there are none or its geometry has changed since."""
     faults = _faults.get(obj)
-    if faults is None or faults.changes != staleness.geometry_changes(obj):
+    if faults is None or faults.change != updates.last_change_of_geometry(obj):
         return None
     return faults

@@ -21,7 +21,8 @@ from ...core.statics.resting import RestingPoses, resting_poses
 from ...core.statics.support import Support, find_support
 from ...core.verdict.finding import Finding, MeasureError
 from ..bodies.hull import object_hull
-from . import handlers, staleness
+from ..read.fingerprint import shape_digest
+from . import handlers, updates
 from .cache import SessionCache
 from .shown import shown_body
 
@@ -30,11 +31,14 @@ SAME_SHAPE_RTOL = 1e-5  # of scales and of centers: what float32 matrices change
 
 @dataclass(eq=False)
 class _Remembered:
-    """hull: in the object's coordinates. changes: how often its geometry had changed then. shape: (4, 3) the scale and
-    the center that `poses` are for. support: after which change of which scene."""
+    """hull: in the object's coordinates. change: the last update of its geometry; edit: one that changed it. digest: of what it showed, None of
+    large meshes. shape: (4, 3) the scale and the center that `poses` are for. support: after which change of which
+    scene."""
 
     hull: ConvexHull
-    changes: int
+    change: int
+    digest: bytes | None
+    edit: int = 0
     shape: NDArray | None = None
     poses: RestingPoses | Finding | None = None
     support_key: tuple = ()
@@ -54,7 +58,7 @@ def down(scene: Scene) -> NDArray[np.float64]:
 def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     """Compute and remember the hull of an object as it is evaluated. MeasureError where it has none."""
     hull = object_hull(obj, depsgraph)
-    _remembered[obj] = _Remembered(hull, staleness.geometry_changes(obj))
+    _remembered[obj] = _Remembered(hull, updates.last_change_of_geometry(obj), shape_digest(obj, depsgraph))
     handlers.count_change()
     return hull
 
@@ -67,7 +71,17 @@ def is_known(obj: Object) -> bool:
 def is_stale(obj: Object) -> bool:
     """Return whether the geometry has changed since."""
     remembered = _remembered.get(obj)
-    return remembered is not None and remembered.changes != staleness.geometry_changes(obj)
+    if remembered is None or (change := updates.last_change_of_geometry(obj)) == remembered.change:
+        return False
+    if change == remembered.edit:
+        return True
+    # Blender also reports what is no edit, such as a setting, and undo may have brought the shape back.
+    depsgraph = bpy.context.view_layer.depsgraph
+    if remembered.digest is None or depsgraph is None or shape_digest(obj, depsgraph) != remembered.digest:
+        remembered.edit = change
+        return True
+    remembered.change = change
+    return False
 
 
 def forget(obj: Object) -> None:

@@ -44,7 +44,7 @@ class BillRow:
 
 def bill_csv(rows: Iterable[BillRow]) -> str:
     """Return the table as CSV, SI units, inertia about each member's own center of mass along the world axes."""
-    return table(COLUMNS, (_cells(row) for row in rows))
+    return "".join(table(COLUMNS, (_cells(row) for row in rows)))
 
 
 def _cells(row: BillRow) -> dict[str, object]:

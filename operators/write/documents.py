@@ -12,7 +12,7 @@ import csv
 import io
 import json
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 SCHEMA = "body-moments/1"
@@ -22,6 +22,9 @@ STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version"
 
 # The inertia tensor's six entries, in the order in which they are stored on an object.
 TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2))
+
+# What the file of a Fourier transform holds.
+SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
 
 # An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break,
 # so none matches.
@@ -63,46 +66,73 @@ def document(
     }
 
 
-def to_json(documents: Sequence[dict[str, Any]]) -> str:
+def failed_document(file: str, reason: str, status: str, *, blender: str | None, frame: str) -> dict[str, Any]:
+    """That of a file of which nothing was measured, for one reason."""
+    total: dict[str, Any] = {"mass": 0.0, "volume": 0.0, "area": 0.0}
+    total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry"))
+    total |= {"findings": [], "warnings": [], "notes": []}
+    errors = [{"name": None, "reason": reason}]
+    return document([], total, errors, file=file, blender=blender, frame=frame, status=status)
+
+
+def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     """One document as itself, several as an array, indented for a reader with each row of numbers
     on one line.
     """
-    value = documents[0] if len(documents) == 1 else list(documents)
-    text = json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False)
-    return _NUMBER_ROWS.sub(lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text) + "\n"
+    waiting = ""
+    for number, entry in enumerate(documents):
+        text = json.dumps(entry, indent=2, ensure_ascii=False, allow_nan=False)
+        text = _NUMBER_ROWS.sub(lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text)
+        if number:
+            yield ("[\n" if number == 1 else "") + _indented(waiting) + ",\n"
+        waiting = text
+        several = number > 0
+    if not waiting:
+        yield "[]\n"
+    else:
+        yield _indented(waiting) + "\n]\n" if several else waiting + "\n"
 
 
-def to_json_lines(documents: Iterable[dict[str, Any]]) -> str:
+def _indented(text: str) -> str:
+    return "  " + text.replace("\n", "\n  ")
+
+
+def to_json_lines(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     """One document a line."""
-    return "".join(json.dumps(entry, ensure_ascii=False, allow_nan=False) + "\n" for entry in documents)
+    for entry in documents:
+        yield json.dumps(entry, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def to_csv(documents: Iterable[dict[str, Any]]) -> str:
+def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     """One row an object under one header. What could not be measured is a row too, with its reason
-    under `error`, and so is what was left out, with its reason under `left_out`.
+    under `error`, and so is what was left out, with its reason under `left_out`. documents: gone through twice.
 
     Spreadsheets take text that begins with =, +, -, @ and the like for a formula. It gets an apostrophe before it, and
     so does text that has one there already: whoever reads a text removes one apostrophe from its start.
     """
-    records = []
-    for file_document in documents:
-        place = {"file": file_document["file"], "frame": file_document["frame"]}
-        records += [{**place, **_columns(entry)} for entry in file_document["objects"]]
-        for column, entries in (("left_out", file_document["left_out"]), ("error", file_document["errors"])):
-            records += [{**place, "name": entry["name"], column: entry["reason"]} for entry in entries]
-    header = list(
-        dict.fromkeys(
-            [*_COLUMNS, *(name for row in records for name in row if name not in _LAST_COLUMNS), *_LAST_COLUMNS]
-        )
-    )
-    return table(header, records)
+    names = dict.fromkeys(_COLUMNS)
+    for row in _rows(documents):
+        names.update(dict.fromkeys(name for name in row if name not in _LAST_COLUMNS))
+    header = [*names, *_LAST_COLUMNS]
+    yield from table(header, _rows(documents))
 
 
-def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> str:
+def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:
     """CSV with these columns: a row for each mapping, whose missing entries stay empty. Text is written as `to_csv`
     says."""
-    cells = ([_cell(row.get(name, "")) for name in header] for row in rows)
-    return "".join(map(_line, (header, *cells)))
+    yield _line(header)
+    for row in rows:
+        yield _line(_cell(row.get(name, "")) for name in header)
+
+
+def _rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+    for file_document in documents:
+        place = {"file": file_document["file"], "frame": file_document["frame"]}
+        for entry in file_document["objects"]:
+            yield {**place, **_columns(entry)}
+        for column, entries in (("left_out", file_document["left_out"]), ("error", file_document["errors"])):
+            for entry in entries:
+                yield {**place, "name": entry["name"], column: entry["reason"]}
 
 
 _COLUMNS = (
@@ -173,9 +203,10 @@ def _cell(value: Any) -> Any:
     return value
 
 
-def to_robot(documents: Iterable[dict[str, Any]]) -> str:
+def to_robot(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     """What the process that measured has written of one file in a format of robots."""
-    return "".join(file_document.get("robot", "") for file_document in documents)
+    return (file_document.get("robot", "") for file_document in documents)
 
 
+# From documents, which may be gone through twice, to pieces of text.
 FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv, **dict.fromkeys(ROBOT_FORMATS, to_robot)}

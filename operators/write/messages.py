@@ -830,7 +830,7 @@ MESSAGES: dict[str, Message] = {
     "nrrd_data_file_missing": _error("The data file “{file:.80s}” is missing."),
     "nrrd_data_file_outside": _error(
         "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you trust the header, "
-        "use the command line's --allow-outside."
+        "turn on Allow Outside, or use --allow-outside."
     ),
     "file_exceeds_limit": _error(
         "“{file}” exceeds a limit: {count} {name} of at most {limit}. If you trust the file, set the environment "
@@ -1214,6 +1214,29 @@ MESSAGES: dict[str, Message] = {
     "scene_never_saved": _error("The scene was never saved; --write has no file. Save it first."),
     "out_of_memory": _error("Too little memory. Measure it alone, reduce it, or use a larger machine."),
     "interrupted": _error("interrupted; the result was not written"),
+    "interrupted_resumable": _error(
+        "interrupted after {done} of {total} files; the result was not written. Run the same with --resume to go on"
+    ),
+    "file_crashed": _error(
+        "Blender crashed on the file ({how}), {count} times. Open it in Blender, save it again, or leave it out.",
+    ),
+    "file_timed_out": _error(
+        "The file took longer than {seconds:g} s. Use a longer --timeout, or open it in Blender to see why."
+    ),
+    "file_took_memory": _error(
+        "The file took more than {megabytes:.0f} MB of memory. Use a larger --memory-mb, fewer --jobs, or reduce it."
+    ),
+    "file_version_unsupported": _error(
+        "This Blender ({blender}) cannot read the file, which was saved by Blender {version}. Use a Blender that can."
+    ),
+    "file_newer_version": _warning(
+        "The file was saved by a newer Blender ({version}) than this one ({blender}), which may have lost some of it. "
+        "Use that Blender."
+    ),
+    "progress_files": _note("{done} of {total} files, {rate:.3g} per second, {left} left, {failed} not ok"),
+    "progress_started": _note("{done} of {total} files"),
+    "progress_done": _note("{count} file in {seconds:.1f} s: {counts}", "{count} files in {seconds:.1f} s: {counts}"),
+    "children_failed": _error("no process that measures can be started: {reason}"),
     "scripts_allowed": _warning(
         "Blender was allowed to run the scripts of the file, which may have changed it: {names}. Start Blender with "
         "-Y, or name the file after “measure”."
@@ -1261,6 +1284,17 @@ MESSAGES: dict[str, Message] = {
     "usage_fourier_one_object": _error("argument --fourier: takes one object of one FILE"),
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
+    "usage_range": _error("{text!r} is not A:B, two whole numbers with A no larger than B"),
+    "usage_needs_supervisor": _error("argument --{option}: applies to FILEs that are measured by other processes"),
+    "usage_resume_output": _error("argument --resume: needs the --output of the run to go on with"),
+    "usage_no_blender": _error("No module named 'bpy' is here. Use --blender PATH, or install it"),
+    "usage_busy": _error("argument --output: another run is writing {path}. Wait for its end, or use another name"),
+    "usage_old_foreign": _error(
+        "argument --output: {path} is in the way of the older result, and is none itself. Move it, or use --force"
+    ),
+    "folder_without_files": _error("No file that can be measured is in the folder {folder}. Name files"),
+    "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
+    "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
     # ------------------------------------------------------------------ References
     "axis_points_coincide": _error("The two points of the axis are too near to each other. Move one of them."),
@@ -1573,6 +1607,103 @@ MESSAGES: dict[str, Message] = {
     "usd_inertia_too_small": _warning(
         "The inertia of {links} is too small for the single precision of PhysicsMassAPI. Read newton:inertia, or use "
         "a stage in smaller units."
+    ),
+    # ------------------------------------------------------------------ Audit of robot descriptions: files
+    "xml_entities": _error("The file declares a document type, with which entities could be declared. Remove it."),
+    "xml_too_large": _error("The file nests more than {depth} elements or has more than {elements}."),
+    "xml_invalid": _error("The file is not XML: {error}."),
+    "usda_invalid": _error("The file is not text of USD (line {line})."),
+    "usd_not_text": _error("Only the text form of USD is read. Convert the file to .usda with usdcat."),
+    "description_unknown": _error("The file is no robot description. Its first element is {tag}."),
+    "description_without_links": _error("The file has no links."),
+    "description_too_large": _error("The file is larger than {limit} MB, or has too many links."),
+    "description_number": _warning("Numbers cannot be read: “{text}”."),
+    "mesh_on_network": _warning("A mesh is on a network, and was not loaded: {name}. Download it."),
+    "mesh_outside": _warning(
+        "A mesh is outside of the folders that may be read: {name}. Name its folder with --root, or allow all with "
+        "--allow-outside."
+    ),
+    "mesh_missing": _warning("A mesh was not found: {name}. Name the folder of its package with --root."),
+    "mesh_unreadable": _warning("A mesh is of a kind that is not read: {name}. Convert it to one of {suffixes}."),
+    "mesh_damaged": _warning("A mesh cannot be read: {name} ({error})."),
+    "mesh_too_large": _warning("A mesh is too large: {name}."),
+    "mesh_empty": _warning("A mesh has no triangles: {name}."),
+    "audit_done": _note("{links} links: {errors} errors, {warnings} warnings, {notes} notes"),
+    "usage_repair_folder": _error("--repair: {path} is no folder"),
+    "usage_repair_same": _error("--repair: {path} is the folder of a file that is read. Choose another one"),
+    "audit_copies_alike": _error("Two files have one name: {name}. Audit them one at a time, or choose other folders."),
+    "audit_not_written": _error("The file cannot be written: {error}."),
+    "audit_copy_not_replaced": _error("{path} exists and is no copy of ours. Choose another folder."),
+    # ------------------------------------------------------------------ Audit: what no body can have
+    "inertial_missing": _warning("No inertial. Readers differ: some take 1 kg, some none. Add mass and inertia."),
+    "inertial_not_finite": _error("Mass, center or inertia is not a number."),
+    "inertial_mass_not_positive": _error("The mass is {mass:.6g} kg."),
+    "inertial_not_positive": _error("Impossible: the inertia has a principal moment of {moment:.6g} kg·m²."),
+    "inertial_triangle": _error(
+        "Impossible: the largest principal moment exceeds the sum of the others by {excess:percent}."
+    ),
+    "inertial_triangle_slightly": _warning(
+        "The largest principal moment exceeds the sum of the others by {excess:percent}, as rounding does. Some "
+        "readers refuse it; state more digits."
+    ),
+    "inertial_center_outside": _error("Impossible: the center of mass is {distance:length} outside of the geometry."),
+    "inertial_spread_outside": _error(
+        "Impossible: with this inertia, mass lies outside of the geometry (variance {factor:.3g} times too large)."
+    ),
+    # ------------------------------------------------------------------ Audit: the change that makes it right
+    "audit_uniform_instead": _warning("Repaired as an even filling of the geometry with the stated mass."),
+    "audit_not_uniform": _note(
+        "Not an even filling of the geometry: {factor:.4g} times its inertia, the center {distance:length} from its."
+    ),
+    "audit_density": _warning("The density is {density:.3g} kg/m³. Check mass and mesh."),
+    "audit_mass_and_inertia_unit": _warning(
+        "The density is {density:.3g} kg/m³. Multiply mass and inertia by {factor:g}."
+    ),
+    "audit_mass_unit": _warning("Multiply the mass by {factor:g}: it then agrees with the geometry."),
+    "audit_inertia_unit": _warning("Multiply the inertia by {factor:g}: it then agrees with the geometry."),
+    "audit_center_unit": _warning("Multiply the center of mass by {factor:g}: it then agrees with the geometry."),
+    "audit_length_unit": _warning(
+        "Multiply the lengths of the inertial by {factor:g}, its inertia by the square: it then agrees with the "
+        "geometry."
+    ),
+    "audit_mesh_unit": _warning("Scale the mesh by {factor:g}: the inertial then agrees with it."),
+    "audit_inertia_of_unit_mass": _warning("The inertia is that of 1 kg. Multiply it by the mass, {factor:.6g}."),
+    "audit_inertia_of_unit_density": _warning(
+        "The inertia is that of density 1. Multiply it by the density, {factor:.6g}."
+    ),
+    "audit_inertia_about_origin": _warning(
+        "The inertia is about the origin of the link. State it about the center of mass."
+    ),
+    "audit_inertia_about_mesh_origin": _warning(
+        "The inertia is about the origin of the mesh. State it about the center of mass."
+    ),
+    "audit_inertia_shifted_twice": _warning(
+        "The inertia was shifted away from the center of mass with the wrong sign. Add the parallel-axis term."
+    ),
+    "audit_angles_in_degrees": _warning("The angles of the inertial are in degrees. State them in radians."),
+    "audit_angles_in_radians": _warning("The angles of the inertial are in radians. State them in degrees."),
+    "audit_shape_angles_in_degrees": _warning(
+        "The angles of the geometry are in degrees: in radians it agrees with the inertial. State them in radians."
+    ),
+    "audit_quaternion_order": _warning("The quaternion of the inertial is in the other order. Move w to its place."),
+    "audit_frame_transposed": _warning("The rotation of the inertial is the inverse of what it should be. Invert it."),
+    "audit_frame_not_meant": _warning(
+        "The inertia is along the axes of the link, though the inertial is rotated. Remove the rotation."
+    ),
+    "audit_products_sign": _warning(
+        "Products of inertia have the wrong sign: {products}. Entries of the tensor are negative integrals; change it."
+    ),
+    "audit_center_sign": _warning("The center of mass has the wrong sign along {axes}. Change it."),
+    "audit_mirrored": _warning("The inertial is that of the mirror image along {axis}. Mirror it."),
+    "audit_axes_swapped": _warning("The axes of the inertia are swapped. Put them in the order {order}."),
+    "audit_center_axes_swapped": _warning("The axes of the center of mass are swapped. Put them in the order {order}."),
+    "audit_all_axes_swapped": _warning("The axes of the inertial are swapped. Put them in the order {order}."),
+    "audit_diagonal_swapped": _warning("The diagonal of the inertia is swapped. Put it in the order {order}."),
+    "audit_products_swapped": _warning("The products of inertia are swapped. Put ixy, ixz and iyz in their places."),
+    "audit_frame_turned": _warning("The inertial is turned by 90 degrees about {axis}. Turn it back."),
+    "audit_tensor_turned": _warning("The inertia is turned by 90 degrees about {axis}. Turn it back."),
+    "audit_axes_transposed": _warning(
+        "The principal axes were taken as rows for columns. Put the tensor together with their transpose."
     ),
 }
 

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.fourier.spectrum import Spectrum
+from .documents import SPECTRUM_ARRAYS
 from .whole_file import whole_file
 
-ARRAYS = ("q", "F", "error", "input", "method", "frame")  # what a file holds
 IMAGE_MARK = "body_fourier"  # on the images that are ours to overwrite: their name
 DECADES = 6.0  # from white to black
 SLICE_GAP = 2  # pixels between slices
@@ -29,7 +29,7 @@ def save(path: Path, spectrum: Spectrum, frame: str, check: Callable[[Path], Non
             file,
             **dict(
                 zip(
-                    ARRAYS,
+                    SPECTRUM_ARRAYS,
                     (spectrum.q, spectrum.values, spectrum.error, spectrum.input_error, spectrum.method, frame),
                     strict=True,
                 )

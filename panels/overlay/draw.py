@@ -152,9 +152,9 @@ def _line_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
 def _discs(bodies: Bodies, view: View, with_digits: bool) -> tuple[Batch, ...]:
     if not len(bodies):
         return ()
-    points, colors = lines.disc_triangles(bodies, view, _scale(), with_digits)
+    points, colors, triangles = lines.disc_triangles(bodies, view, _scale(), with_digits)
     shader = gpu.shader.from_builtin("FLAT_COLOR")
-    return (batch_for_shader(shader, "TRIS", {"pos": points, "color": colors}),)
+    return (batch_for_shader(shader, "TRIS", {"pos": points, "color": colors}, indices=triangles),)
 
 
 # ---------------------------------------------------------------- Drawing it
@@ -185,7 +185,7 @@ def _draw_batches(drawn: _Drawn, view: View) -> None:
     scale = _scale()
     gpu.state.depth_test_set("NONE")
     for batch in drawn.fills:
-        batch.draw(gpu.shader.from_builtin("FLAT_COLOR"))
+        _draw_batch(batch, gpu.shader.from_builtin("FLAT_COLOR"))
     uniform = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     colored = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
     for batch, depth, opacity in zip(drawn.lines, ("NONE", "LESS_EQUAL"), (look.BEHIND, 1.0)):
@@ -196,10 +196,14 @@ def _draw_batches(drawn: _Drawn, view: View) -> None:
             shader.uniform_float("lineWidth", scale * width)
             if shader is uniform:
                 shader.uniform_float("color", (*look.DARK[:3], 0.6 * opacity))
-            batch.draw(shader)
+            _draw_batch(batch, shader)
     gpu.state.depth_test_set("NONE")
     for batch in drawn.discs:
-        batch.draw(gpu.shader.from_builtin("FLAT_COLOR"))
+        _draw_batch(batch, gpu.shader.from_builtin("FLAT_COLOR"))
+
+
+def _draw_batch(batch: Batch, shader: gpu.types.GPUShader) -> None:
+    batch.draw(shader)
 
 
 # ---------------------------------------------------------------- Switching it on

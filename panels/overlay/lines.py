@@ -37,7 +37,7 @@ def _colored(segments: NDArray, bodies: Bodies) -> Segments:
 
 def disc_triangles(
     bodies: Bodies, view: View, scale: float, with_digits: bool
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]]:
     """Make the discs at the centers, and the digits at the ends of the axes.
 
     Parameters
@@ -51,25 +51,30 @@ def disc_triangles(
 
     Returns
     -------
-    points, colors : (3 k, 3) and (3 k, 4) arrays
-        Triangles, the nearest bodies last.
+    points, colors : (k, 3) and (k, 4) arrays
+    triangles : (l, 3) array
+        The nearest bodies last.
     """
     order = np.argsort(-view.depths(bodies.centers), kind="stable")
     centers, verdicts = bodies.centers[order], bodies.verdicts[order]
-    offsets, colors = glyphs.discs()
-    points = [view.place(centers, scale * offsets[verdicts]).reshape(len(order), -1, 3)]
-    tints = [colors[verdicts]]
+    discs, count = glyphs.discs(), len(order)
+    points, colors = [view.place(centers, scale * discs.corners[verdicts])], [discs.colors[verdicts]]
+    triangles = [discs.triangles[verdicts]]
     if with_digits:
-        offsets, colors = glyphs.digits()
-        tips = centers[:, None] + (bodies.axes * bodies.gyration[:, None, :]).transpose(0, 2, 1)[order]
-        away = _digit_offsets(view.pixels(centers), view.pixels(tips.reshape(-1, 3)).reshape(-1, 3, 2), scale)
-        placed = view.place(
-            tips.reshape(-1, 3), (scale * offsets + away[:, :, None, None]).reshape(-1, *offsets.shape[1:])
+        digits = glyphs.digits()
+        tips = (centers[:, None] + (bodies.axes * bodies.gyration[:, None, :]).transpose(0, 2, 1)[order]).reshape(-1, 3)
+        away = _digit_offsets(view.pixels(centers), view.pixels(tips).reshape(-1, 3, 2), scale).astype(np.float32)
+        offsets = (scale * digits.corners + away[:, :, None]).reshape(3 * count, -1, 2)
+        points.append(view.place(tips, offsets).reshape(count, -1, 3))
+        colors.append(np.broadcast_to(digits.colors.reshape(1, -1, 4), (count, digits.colors.shape[1] * 3, 4)))
+        first = discs.corners.shape[1] + digits.corners.shape[1] * np.arange(3, dtype=np.int32)[:, None, None]
+        triangles.append(
+            np.broadcast_to((digits.triangles + first).reshape(1, -1, 3), (count, digits.triangles.size // 3, 3))
         )
-        points.append(placed.reshape(len(order), -1, 3))
-        tints.append(np.broadcast_to(colors.reshape(-1, 4), (len(order), colors[..., 0].size, 4)))
-    joined, tint = np.concatenate(points, axis=1), np.concatenate(tints, axis=1).repeat(3, axis=1)
-    return joined.reshape(-1, 3).astype(np.float32), np.ascontiguousarray(tint.reshape(-1, 4), np.float32)
+    placed, tints = np.concatenate(points, axis=1), np.concatenate(colors, axis=1)
+    start = placed.shape[1] * np.arange(count, dtype=np.int32)[:, None, None]
+    corners = np.concatenate(triangles, axis=1) + start
+    return placed.reshape(-1, 3), tints.reshape(-1, 4), corners.reshape(-1, 3)
 
 
 def _digit_offsets(centers: NDArray, tips: NDArray, scale: float) -> NDArray[np.float64]:

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 CIRCLE = 2.0 * np.pi / 48.0 * np.arange(49)
-DASHES = 16  # of a drop line
+RING = CIRCLE[::3]
+DASHES = 12  # of a drop line
 EDGES = np.array([[i, i | 1 << axis] for i in range(8) for axis in range(3) if not i & 1 << axis])
 CORNERS = np.array([[(i >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for i in range(8)])
 
@@ -28,7 +29,7 @@ def drop_lines(centers: NDArray, gyration: NDArray, floor: float = 0.0) -> NDArr
     feet[:, 2] = floor
     steps = np.arange(2 * DASHES).reshape(-1, 2) / (2.0 * DASHES - 1.0)
     dashes = feet[:, None, None] + steps[None, :, :, None] * (centers - feet)[:, None, None]
-    ring = np.stack([np.cos(CIRCLE), np.sin(CIRCLE), np.zeros_like(CIRCLE)], axis=1)
+    ring = np.stack([np.cos(RING), np.sin(RING), np.zeros_like(RING)], axis=1)
     ring = np.stack([ring[:-1], ring[1:]], axis=1)
     return np.concatenate(
         [dashes, feet[:, None, None] + 0.15 * gyration.max(axis=1)[:, None, None, None] * ring], axis=1

@@ -54,15 +54,21 @@ class View:
         Parameters
         ----------
         anchors : (n, 3) array
-        offsets : (n, ..., 2) array
+        offsets : (n, k, 2) array
             In pixels, right and up.
 
         Returns
         -------
-        (n, ..., 3) array
-            In the world, in the plane through the anchor that faces the view.
+        (n, k, 3) array
+            In the world, in the plane through the anchor that faces the view; of the type of the offsets.
         """
-        lengths = self.pixel_sizes(anchors)
-        ones = (1,) * (offsets.ndim - 2)
-        scaled = offsets * lengths.reshape(-1, *ones, 2)
-        return anchors.reshape(-1, *ones, 3) + scaled @ self.view[:2, :3]
+        lengths = self.pixel_sizes(anchors)[:, :, None] * self.view[:2, :3]
+        right, up = offsets[..., 0], offsets[..., 1]
+        placed = np.empty((*right.shape, 3), offsets.dtype)
+        for axis in range(3):
+            across, above, base = (
+                values.astype(offsets.dtype)[:, None]
+                for values in (lengths[:, 0, axis], lengths[:, 1, axis], anchors[:, axis])
+            )
+            placed[..., axis] = right * across + up * above + base
+        return placed

@@ -105,15 +105,29 @@ def Mesh "Tetra"
 """
 
 
+def parsed(*words):
+    """The options of a command line, as a process has them that measures by itself."""
+    from body_moments.operators.command import arguments, checks
+
+    options = arguments.parse([*map(str, words)])
+    checks.check(options)
+    return options
+
+
 def run(*words):
     """The command line in this process, with its documents; nothing is written anywhere."""
-    from body_moments.operators.command import arguments
     from body_moments.operators.command.run import Run
 
-    line = Run(arguments.parse(["measure", *map(str, words)]))
+    line = Run(parsed("measure", *words))
     line.measure()
     valid(line.documents)
     return line
+
+
+def in_process(*words):
+    """The words of a command line that measures in this process, where tests can reach into it."""
+    words = list(map(str, words))
+    return ["measure", "--no-supervisor", *words[1:]] if words[:1] == ["measure"] else words
 
 
 def document(*words):

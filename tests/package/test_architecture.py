@@ -21,7 +21,7 @@ CORE = (
 )
 OPERATORS = (
     ("settings", "write"),
-    ("read",),
+    ("read", "supervisor"),
     ("bodies", "scene"),
     ("session",),
     ("actions", "command"),

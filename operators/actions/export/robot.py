@@ -25,6 +25,7 @@ from ...write.robots.formats import robot_text
 from ...write.robots.shapes import with_primitives
 from ...write.robots.stl import write_meshes
 from ...write.whole_file import whole_file
+from .. import selection
 from . import links as scenes
 from .links import MeasuredScene
 
@@ -74,12 +75,12 @@ class RobotExport(ExportHelper):
                 raise EditRefusedError(scene.failures[0])
             findings = self._export(context, scene, Path(bpy.path.abspath(self.filepath)))
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         except OSError as error:
-            reports.report(self, finding("robot_not_written", error=error.strerror or str(error)))
+            selection.report(self, finding("robot_not_written", error=error.strerror or str(error)))
             return {"CANCELLED"}
-        reports.report(self, *findings, *scenes.left_out(scene.failures, len(objects)))
+        selection.report(self, *findings, *scenes.left_out(scene.failures, len(objects)))
         return {"FINISHED"}
 
     def _robot(self, context: Context, scene: MeasuredScene, name: str) -> tuple[Robot, list[Finding], dict]:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Clear: remove the stored results from objects. Settings stay."""
 
+from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
 from ....core.verdict.finding import finding
@@ -20,6 +21,18 @@ class OBJECT_OT_body_moments_clear(Operator):
     bl_label = "Clear Results"
     bl_options = {"REGISTER", "UNDO"}
 
+    kinds: EnumProperty(
+        name="Results",
+        description="Results that are removed",
+        options={"ENUM_FLAG"},
+        items=(
+            ("MASS", "Mass Properties", "Mass, center, inertia and findings"),
+            ("SECTION", "Section", "Section properties"),
+            ("SYMMETRY", "Symmetry", "The symmetry that was found"),
+        ),
+        default={"MASS", "SECTION", "SYMMETRY"},
+    )
+
     @classmethod
     def poll(cls, context: Context) -> bool:
         return selection.poll_selection(cls, context, any_mode=True)
@@ -34,9 +47,12 @@ class OBJECT_OT_body_moments_clear(Operator):
         def remove(obj: Object) -> bool:
             require_editable(obj)
             staleness.note_edits(obj)
-            symmetric = obj.is_property_set(SYMMETRY)
-            obj.property_unset(SYMMETRY)
-            return properties.clear(obj) | section.clear(obj) | symmetric
+            removed = "MASS" in self.kinds and properties.clear(obj)
+            removed |= "SECTION" in self.kinds and section.clear(obj)
+            if "SYMMETRY" in self.kinds and obj.is_property_set(SYMMETRY):
+                obj.property_unset(SYMMETRY)
+                removed = True
+            return removed
 
         count, failures = selection.apply_to_all(objects, remove)
         staleness.mark_up_to_date(context, objects)

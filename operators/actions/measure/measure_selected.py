@@ -8,18 +8,21 @@ from collections.abc import Generator
 from dataclasses import replace
 
 import bpy
+from bpy.props import EnumProperty
 
+from ....core.density.materials import BY_NAME
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity, finding
 from ...bodies.measure_object import Measured, measure_body
 from ...session import outcome, results
 from ...session.staleness import mark_up_to_date
 from ...settings.density import unset_density
-from ...settings.preferences import copy_defaults
+from ...settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...write import reports
 from ...write.messages import of_severity
 from ..modal import ModalSteps, redraw
 
+AS_SET = "AS_SET"
 MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
 
 
@@ -31,6 +34,37 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     PROGRESS = finding("progress_measuring")
     CANCELED = finding("canceled_measuring")
+
+    # What can be changed after the fact, in the redo panel; the objects' settings are kept as they are by default.
+    material: EnumProperty(
+        name="Material",
+        description="Material to give the objects before they are measured",
+        items=[(AS_SET, "As Set", "The density that each object's settings say"), *MATERIAL_ITEMS],
+        default=AS_SET,
+        options={"SKIP_SAVE"},
+    )
+    kind: EnumProperty(
+        name="Kind",
+        description="What the geometry of the objects represents",
+        items=(
+            (AS_SET, "As Set", "As each object's settings say"),
+            ("SOLID", "Solid", "The surface bounds a volume filled with material"),
+            ("SHELL", "Shell", "The surface is a sheet or wall of the given thickness"),
+        ),
+        default=AS_SET,
+        options={"SKIP_SAVE"},
+    )
+    overlap: EnumProperty(
+        name="Overlaps",
+        description="How overlapping or nested components of an object count",
+        items=(
+            (AS_SET, "As Set", "As each object's settings say"),
+            ("SIGNED", "Count Each Shell", "Every component counts fully"),
+            ("UNION", "Count as Union", "Components are united first"),
+        ),
+        default=AS_SET,
+        options={"SKIP_SAVE"},
+    )
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -50,11 +84,26 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         """Start with the selected objects, in edit mode those being edited; how many there are."""
         copy_defaults(context.scene)
         objects = list(context.selected_objects)
+        for obj in objects:
+            self._change_settings(obj)
         self._results: list[tuple[bpy.types.Object, Measured]] = []
         self._refusals: list[tuple[bpy.types.Object, Finding]] = []
         self._failures: list[Finding] = []
         self._steps = self._measure(objects, context.evaluated_depsgraph_get())
         return len(objects)
+
+    def _change_settings(self, obj: bpy.types.Object) -> None:
+        """Set what the redo panel says of the settings; library overrides and linked objects keep theirs."""
+        if not obj.is_editable or obj.override_library is not None:
+            return
+        settings = obj.body_moments
+        if self.kind != AS_SET:
+            settings.kind = self.kind
+        if self.overlap != AS_SET:
+            settings.overlap = self.overlap
+        if self.material != AS_SET:
+            settings.mass_from, settings.density_from = "DENSITY", "VALUE"
+            settings.density, settings.material = BY_NAME[self.material].density, self.material
 
     def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Generator[int, None, None]:
         for done, obj in enumerate(objects, 1):

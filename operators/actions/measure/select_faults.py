@@ -9,6 +9,7 @@ from dataclasses import fields
 import bmesh
 import bpy
 import numpy as np
+from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
 from ....core.measurement import Measurement
@@ -61,6 +62,21 @@ class OBJECT_OT_body_moments_select_faults(Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
+    kinds: EnumProperty(
+        name="Defects",
+        description="Kinds of defects that are selected",
+        options={"ENUM_FLAG"},
+        items=(
+            ("flipped_faces", "Flipped Faces", "Faces that were measured as reversed"),
+            ("boundary_edges", "Boundary Edges", "Edges of one face, around holes"),
+            ("non_manifold_edges", "Non-Manifold Edges", "Edges of more than two faces"),
+            ("inconsistent_edges", "Opposite Normals", "Edges whose two faces point to opposite sides"),
+            ("duplicate_faces", "Duplicate Faces", "Later copies of faces"),
+            ("degenerate_faces", "Zero-Area Faces", "Faces without area"),
+        ),
+        default={*DEFECTS},
+    )
+
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
@@ -86,7 +102,8 @@ class OBJECT_OT_body_moments_select_faults(Operator):
         def store(obj: Object) -> bool:
             staleness.note_edits(obj)
             properties.store(obj, measurements[obj])
-            if wrong := _defects_by_kind(measurements[obj]):
+            wrong = {kind: found for kind, found in _defects_by_kind(measurements[obj]).items() if kind in self.kinds}
+            if wrong:
                 faults[obj] = wrong
             return True
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
@@ -55,6 +56,11 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
     overwrite: BoolProperty(
         name="Overwrite",
         description="Replace an existing .vdb file beside the scan",
+        default=False,
+    )
+    allow_outside: BoolProperty(
+        name="Allow Outside",
+        description="Read a file of samples that the header names outside of its own folder. Only for trusted headers",
         default=False,
     )
     raw_shape: IntVectorProperty(
@@ -118,7 +124,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         return findings
 
     def _scan(self, path: Path) -> Scan:
-        limits = scan_limits()
+        limits = replace(scan_limits(), allow_outside=self.allow_outside)
         try:
             if scan_suffix(path) == ".raw" and all(self.raw_shape):
                 return read_raw(path, self.raw_shape, self.raw_type, self.raw_big_endian, limits)

@@ -6,7 +6,7 @@ from collections.abc import Generator
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty
 from bpy.types import Context, Depsgraph, Object, Operator
 from mathutils import Matrix
 
@@ -39,6 +39,25 @@ class OBJECT_OT_body_moments_add_empty(Operator):
         default=True,
     )
 
+    display: EnumProperty(
+        name="Display As",
+        description="How a new empty is drawn",
+        items=(
+            ("ARROWS", "Arrows", "Arrows along the principal axes"),
+            ("PLAIN_AXES", "Plain Axes", "Lines along the principal axes"),
+            ("SPHERE", "Sphere", "Sphere around the center of mass"),
+            ("CUBE", "Cube", "Cube along the principal axes"),
+        ),
+        default="ARROWS",
+    )
+    size: FloatProperty(
+        name="Size",
+        description="Length of the axes as a multiple of the largest radius of gyration",
+        default=1.0,
+        min=0.001,
+        soft_max=10.0,
+    )
+
     @classmethod
     def poll(cls, context: Context) -> bool:
         return selection.poll_selection(cls, context)
@@ -60,7 +79,7 @@ class OBJECT_OT_body_moments_add_empty(Operator):
                 body = snapping.snap_target(context, obj)
                 step(len(placed) + len(failures))
                 yield  # all are measured before the scene changes
-                if (yield from _place_empty(existing.get(obj), context, body, obj if self.parent else None)):
+                if (yield from self._place(existing.get(obj), context, body)):
                     findings.extend([body.finding.of_sources([obj.name])] if body.finding is not None else [])
                     placed.append(obj)
             except Exception as error:
@@ -73,10 +92,25 @@ class OBJECT_OT_body_moments_add_empty(Operator):
         done, idle = finding("empties_placed", count=len(placed)), finding("empties_in_place")
         return selection.summarize(self, len(placed), len(objects), done, failures, findings, idle)
 
+    def _place(
+        self, existing: Object | None, context: Context, body: snapping.SnapTarget
+    ) -> Generator[None, Depsgraph, bool]:
+        """Move the empty, or a new one, to the body's frame; returns whether it was elsewhere. EditRefusedError where
+        it cannot be there: then all is as it was."""
+        parent = body.obj if self.parent else None
+        if existing is not None:
+            return (yield from _moved(existing, body, parent, self.size))
+        empty = _new_empty(context, body.obj)
+        empty.empty_display_type = self.display
+        try:
+            return (yield from _moved(empty, body, parent, self.size))
+        except BaseException:
+            bpy.data.objects.remove(empty)
+            raise
+
 
 def _new_empty(context: Context, obj: Object) -> Object:
     empty = bpy.data.objects.new("{:s} Principal Frame".format(obj.name), None)
-    empty.empty_display_type = "ARROWS"
     empty.show_in_front = True  # the center of mass is mostly inside
     empty.rotation_mode = "QUATERNION"
     empty[OBJECT_KEY] = obj
@@ -91,22 +125,9 @@ def _new_empty(context: Context, obj: Object) -> Object:
     return empty
 
 
-def _place_empty(
-    existing: Object | None, context: Context, body: snapping.SnapTarget, parent: Object | None
+def _moved(
+    empty: Object, body: snapping.SnapTarget, parent: Object | None, size: float
 ) -> Generator[None, Depsgraph, bool]:
-    """Move the empty, or a new one, to the body's frame; returns whether it was elsewhere. EditRefusedError where it
-    cannot be there: then all is as it was."""
-    if existing is not None:
-        return (yield from _moved(existing, body, parent))
-    empty = _new_empty(context, body.obj)
-    try:
-        return (yield from _moved(empty, body, parent))
-    except BaseException:
-        bpy.data.objects.remove(empty)
-        raise
-
-
-def _moved(empty: Object, body: snapping.SnapTarget, parent: Object | None) -> Generator[None, Depsgraph, bool]:
     """Move the empty to the body's frame; returns whether it was elsewhere. EditRefusedError where it cannot be
     there."""
     if _follows(body.obj, empty):
@@ -124,7 +145,7 @@ def _moved(empty: Object, body: snapping.SnapTarget, parent: Object | None) -> G
         if parent is not None:
             empty.parent_type = "OBJECT"
             empty.matrix_parent_inverse = Matrix(np.linalg.inv(world(parent)))
-        empty.empty_display_size = body.size
+        empty.empty_display_size = size * body.size
         empty.matrix_world = Matrix(frame)
         yield
         if parent is not None and not _is_there(empty, body):  # a curve also lays its children along its path

@@ -14,16 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.robots.model import Pose
+from .marker import MARKER
 
-MARKER = "Body Moments: {}"  # the first line of what we write, by which an older result is known
-_HEAD = re.compile(rb"(<\?xml [^>]*>\s*<!-- |#usda 1.0\s*\(\s*\"\"\")Body Moments: \w+\s")
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _SPACES = re.compile(r"[\t\n\r]")
-
-
-def is_ours(head: bytes) -> bool:
-    """Whether this is the beginning of a file that we have written."""
-    return bool(_HEAD.match(head))
 
 
 def number(value: float) -> str:

@@ -19,7 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 from ....core.numerics.rotations import quaternion
 from ....core.robots.model import Inertial, Joint, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
-from .text import MARKER, number, unique_names
+from .marker import MARKER
+from .text import number, unique_names
 
 ROOT = "Robot"
 APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")

@@ -243,7 +243,7 @@ def test_a_wire_is_stored_recorded_and_cleared():
     entry = record(measured(obj), order=2)
     assert entry["linear_density"] == pytest.approx(1.0) and entry["density"] is None
     assert entry["moments"]["length"]["2,0,0"] == pytest.approx(np.pi, rel=1e-7)
-    json.loads(to_json([entry]))
+    json.loads("".join(to_json([entry])))
     obj.data.dimensions, obj.body_moments.kind = "2D", "SHELL"
     bpy.ops.object.body_moments_measure()
     assert "body_length" not in obj and obj["body_method"] == "NURBS shell"

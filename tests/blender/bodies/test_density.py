@@ -653,8 +653,8 @@ def test_the_record_the_report_and_the_properties_say_where_the_density_came_fro
     entry = record.record(found)
     assert entry["density_from"] == "materials: Cork 240 kg/m³, Steel 7820 kg/m³"
     document = documents.document([entry], record.total([found]), [], file=None, blender=None)
-    assert json.loads(documents.to_json([document]))["total"]["mass"] == pytest.approx(STEEL + CORK)
-    assert "materials: Cork 240 kg/m³, Steel 7820 kg/m³" in documents.to_csv([document])
+    assert json.loads("".join(documents.to_json([document])))["total"]["mass"] == pytest.approx(STEEL + CORK)
+    assert "materials: Cork 240 kg/m³, Steel 7820 kg/m³" in "".join(documents.to_csv([document]))
     bpy.ops.object.body_moments_measure()
     assert obj["body_density_from"] == entry["density_from"]
     assert obj["body_density"] == pytest.approx((STEEL + CORK) / 2)

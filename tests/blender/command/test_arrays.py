@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from body_moments.operators import batch
 
-from tests.blender.batch_files import codes, sentence
+from tests.blender.batch_files import codes, in_process, sentence
 from tests.close import close
 from tests.core.scan_files import nifti, nrrd, written
 
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 def run(tmp_path, *words):
     out = tmp_path / "out.json"
-    code = batch.main(["measure", "--output", str(out), *map(str, words)], channel=2, file_needed=True)
+    code = batch.main(in_process("measure", "--output", out, *words), channel=2, file_needed=True)
     return code, json.loads(out.read_text(encoding="utf-8"))
 
 
@@ -125,7 +125,7 @@ def test_what_cannot_be_measured_is_an_error_and_no_crash(tmp_path, data, option
 )
 def test_impossible_options_are_wrong_usage(tmp_path, words):
     np.save(tmp_path / "a.npy", box())
-    assert batch.main(["measure", str(tmp_path / "a.npy"), *words], channel=2, file_needed=True) == 2
+    assert batch.main(in_process("measure", tmp_path / "a.npy", *words), channel=2, file_needed=True) == 2
 
 
 def test_a_scene_with_a_cloud_goes_through_every_option(tmp_path):

@@ -80,7 +80,7 @@ def test_a_text_with_a_word_that_is_no_finite_number_is_refused(tmp_path, name):
 
 
 def test_the_word_is_found_wherever_blocks_of_a_text_are_cut(tmp_path, monkeypatch):
-    monkeypatch.setattr(finite, "_BLOCK", 256)
+    monkeypatch.setattr(finite.numbers, "BLOCK", 256)
     path = tmp_path / "t.obj"
     for word in ("nan", "-1.#IND", "1e999", "1" * 40):
         for before in range(300):

@@ -43,7 +43,7 @@ def main(capfd, tmp_path):
         kept = os.dup(1)
         with open(tmp_path / "standard output", "wb+") as out:
             try:
-                code = batch.main(list(map(str, words)), channel=out.fileno())
+                code = batch.main(files.in_process(*words), channel=out.fileno())
             finally:
                 os.dup2(kept, 1)
                 os.close(kept)

@@ -42,7 +42,7 @@ def main(capfd):
         with open(os.devnull, "wb") as nowhere:
             kept = os.dup(1)
             try:
-                code = batch.main(["measure", *map(str, words)], channel=nowhere.fileno())
+                code = batch.main(files.in_process("measure", *words), channel=nowhere.fileno())
             finally:
                 os.dup2(kept, 1)
                 os.close(kept)
@@ -67,7 +67,7 @@ def foreign():
     yield "array", json.dumps([ours, {"mine": 1}]).encode()
     yield "cut", json.dumps(ours).encode()[:-1]
     yield "csv", b"file,frame,name,mass\n"
-    yield "csv_edited", b"x," + documents.to_csv([]).encode()
+    yield "csv_edited", b"x," + "".join(documents.to_csv([])).encode()
 
 
 @pytest.mark.parametrize("content", [pytest.param(content, id=name) for name, content in foreign()])

@@ -11,11 +11,11 @@ pytest.importorskip("bpy")
 import bpy
 import numpy as np
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.operators.command import arguments, output
+from body_moments.operators.command import output
 from body_moments.operators.command.run import Run
 from body_moments.operators.write import documents
 
-from tests.blender.batch_files import document
+from tests.blender.batch_files import document, parsed
 from tests.blender.objects import add, mesh_body
 from tests.close import close
 
@@ -36,10 +36,10 @@ def arm(unit=1.0):
 
 
 def text(*words):
-    line = Run(arguments.parse([*map(str, words)]))
+    line = Run(parsed(*words))
     line.measure()
     assert not line.errors
-    found = documents.FORMATS[line.options.format](line.documents)
+    found = "".join(documents.FORMATS[line.options.format](line.documents))
     if line.options.output is not None:
         output.write(found, line.options.output, -1)
     return found
@@ -47,7 +47,7 @@ def text(*words):
 
 def refused(*words):
     with pytest.raises(SystemExit) as ended:
-        arguments.parse([*map(str, words)])
+        parsed(*words)
     return ended.value.code == 2
 
 

@@ -375,7 +375,7 @@ def test_a_process_that_is_ended_while_it_saves(tmp_path, number):
     path = tmp_path / "part.blend"
     files.box_file(path)
     kept = path.read_bytes()
-    words = [sys.executable, "-c", _SAVING, SCRIPT, "measure", str(path), "--write"]
+    words = [sys.executable, "-c", _SAVING, SCRIPT, "measure", "--no-supervisor", str(path), "--write"]
     with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as saving:
         while b"saving" not in (line := saving.stderr.readline()):
             assert line

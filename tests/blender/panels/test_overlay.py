@@ -79,11 +79,11 @@ def test_axes_are_as_long_as_the_radii_of_gyration(registered):
 def test_verdicts_differ_in_form_where_colors_are_not_seen(registered):
     from body_moments.panels.overlay import appearance, glyphs
 
-    triangles, colors = glyphs.discs()
-    forms = [np.round(shape, 3).tobytes() for shape in triangles]
+    discs = glyphs.discs()
+    forms = [np.round(shape, 3).tobytes() for shape in discs.corners]
     assert len(set(forms)) == len(appearance.VERDICTS)
     for verdict, color in enumerate(appearance.COLORS):
-        assert (colors[verdict] == color).all(axis=1).any()
+        assert (discs.colors[verdict] == color).all(axis=1).any()
 
 
 def test_the_body_is_drawn_where_it_is_in_the_world(scene):

@@ -244,7 +244,7 @@ def test_the_command_line_goes_on_tells_it_and_exits_with_70(tmp_path, monkeypat
     assert error["name"] == "b" and error["reason"].startswith("Internal error: RecursionError: planted (operators/")
     assert "Traceback" in capfd.readouterr().err
     with open(os.devnull, "w") as nowhere:
-        assert batch.main(["measure", path, "--output", str(result)], channel=nowhere.fileno()) == 70
+        assert batch.main(files.in_process("measure", path, "--output", result), channel=nowhere.fileno()) == 70
     assert result.read_text().count("Internal error") == 1
 
 

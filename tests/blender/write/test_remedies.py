@@ -52,6 +52,7 @@ NOUNS = (
         "Blender",
         "Boolean",
         "CT",
+        "MB",
         "Zhang",
         "Chen",
         "FILE",
@@ -65,6 +66,7 @@ NOUNS = (
         "Python",
     ),
     *("NumPy", "OUT", "STL", "NRRD0001", "NRRD0005"),
+    *("URDF", "SDF", "MJCF", "MuJoCo", "USD", "PhysicsMassAPI", "XML"),
 )
 
 

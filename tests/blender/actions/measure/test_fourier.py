@@ -265,9 +265,9 @@ def test_wrong_usage_ends_with_2_and_writes_nothing(words, tmp_path, capsys):
     names = {name: str(tmp_path / "{}.npy".format(name)) for name in ("Q", "FLAT", "NAN", "OBJECTS", "NPZ", "TEXT")}
     names["OUT"] = str(tmp_path / "out.npz")
     with pytest.raises(SystemExit) as ended:
-        from body_moments.operators.command import arguments
+        from body_moments.operators.command import arguments, checks
 
-        arguments.parse(["measure", *(names.get(word, word) for word in words)])
+        checks.check(arguments.parse(["measure", *(names.get(word, word) for word in words)]))
     assert ended.value.code == batch.WRONG_USAGE
     assert "error: " in capsys.readouterr().err
     assert sorted(path.name for path in tmp_path.iterdir()) == before

@@ -139,3 +139,15 @@ def test_a_volume_is_written_whole_or_not_at_all(tmp_path, monkeypatch, capfd):
         bpy.ops.object.body_moments_import_scan(filepath=str(path), overwrite=True)
     assert (tmp_path / "a.vdb").read_bytes() == kept
     assert sorted(one.name for one in tmp_path.iterdir()) == ["a.nii", "a.vdb"]
+
+
+def test_a_header_may_name_samples_outside_its_folder_only_where_that_is_allowed(tmp_path):
+    (tmp_path / "headers").mkdir()
+    values = samples("f4", 1)
+    (tmp_path / "a.raw").write_bytes(values.tobytes(order="F"))
+    header = "NRRD0004\ntype: float\ndimension: 3\nsizes: {} {} {}\nendian: little\nencoding: raw\nspacings: 1 1 1\n"
+    path = tmp_path / "headers" / "a.nhdr"
+    path.write_text(header.format(*values.shape) + "data file: ../a.raw\n")
+    with pytest.raises(RuntimeError, match="turn on Allow Outside"):
+        bpy.ops.object.body_moments_import_scan(filepath=str(path))
+    assert bpy.ops.object.body_moments_import_scan(filepath=str(path), allow_outside=True) == {"FINISHED"}

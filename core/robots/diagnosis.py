@@ -1,0 +1,278 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one change that makes a stated inertial that of its geometry.
+
+A link's geometry, filled evenly, has a center and an inertia for each kilogram. Where what is stated differs, each of
+a list of common mistakes is undone; what then agrees to the digits that files have is no coincidence. Where none does,
+the mass may simply lie otherwise: that is no error, and only its factor is reported.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import permutations, product
+from math import degrees, radians
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.rotations import rotation_matrix
+from ..verdict.finding import Finding, finding
+from .stated import StatedInertial, rotation_of_angles
+
+AGREES, DIFFERS = 2e-3, 1e-2  # of radius of gyration and inertia: the same; more than digits can explain
+LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, 0.0254, 1.0 / 0.0254)
+INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
+DENSITIES = (10.0, 30_000.0)  # kg/m³ of what robots are made of: foam, and more than the heaviest metal
+AXES = np.array(list(permutations(range(3))))[1:]
+OF_GEOMETRY = ("audit_mesh_unit", "audit_shape_angles_in_degrees")  # what leaves the inertial as it is
+PRODUCT_NAMES = ("xy", "xz", "yz")
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """What a link's geometry is, filled evenly.
+
+    Attributes
+    ----------
+    volume : float
+        m³.
+    center : (3,) array
+        In the link's frame, m.
+    inertia : (3, 3) array
+        About the center for each kilogram, m².
+    origins : tuple of (3,) array
+        Where its shapes have their own origins.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots.diagnosis import Reference
+    >>> ball = Reference(4.18879, np.zeros(3), 0.4 * np.eye(3))
+    >>> ball.difference(1.0, np.zeros(3), 0.4 * np.eye(3))
+    0.0
+    """
+
+    volume: float
+    center: NDArray[np.float64]
+    inertia: NDArray[np.float64]
+    origins: tuple[NDArray[np.float64], ...] = ()
+
+    def difference(self, mass: float, center: NDArray, inertia: NDArray) -> float:
+        """Return how far an inertial is from this geometry, of its radius of gyration and its inertia."""
+        radius = np.sqrt(np.trace(self.inertia) / 2.0)
+        apart = float(np.linalg.norm(center - self.center)) / radius
+        return max(apart, float(np.linalg.norm(inertia / mass - self.inertia) / np.linalg.norm(self.inertia)))
+
+    def of(self, stated: StatedInertial) -> float:
+        """Return the `difference` of what is stated."""
+        return self.difference(stated.mass, stated.center, stated.inertia)
+
+    def uniform(self, mass: float) -> StatedInertial:
+        """Return the inertial of this geometry with a mass."""
+        return StatedInertial(mass, self.center, mass * self.inertia)
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """What is wrong with an inertial.
+
+    Attributes
+    ----------
+    finding : Finding
+        The change, or a note.
+    repaired : StatedInertial or None
+        What it becomes; None where nothing of the inertial has to change.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots.diagnosis import Diagnosis
+    >>> Diagnosis(Finding("audit_inertia_unit", {"factor": 1e-6})).repaired is None
+    True
+    """
+
+    finding: Finding
+    repaired: StatedInertial | None = None
+
+
+def diagnose(
+    stated: StatedInertial, references: Sequence[Reference], otherwise: Sequence[tuple[Finding, Reference]] = ()
+) -> Diagnosis | None:
+    """Return what one change would make right, or a note about where the mass lies.
+
+    Parameters
+    ----------
+    stated : StatedInertial
+        Of positive mass and finite.
+    references : sequence of Reference
+        What the geometry may be taken as, such as visual and collision shapes.
+    otherwise : sequence of (Finding, Reference)
+        What the geometry would be if a shape were corrected.
+
+    Returns
+    -------
+    Diagnosis or None
+        None where it agrees.
+    """
+    if not references:
+        return None
+    nearest = min(references, key=lambda reference: reference.of(stated))
+    apart = nearest.of(stated)
+    if apart <= DIFFERS:
+        return _density(stated, nearest)
+    for change, reference in otherwise:
+        if reference.of(stated) < AGREES:
+            return Diagnosis(change)
+    best: tuple[float, Diagnosis] | None = None
+    for reference in references:
+        for code, values, repaired in _changes(stated, reference):
+            now = reference.of(repaired)
+            if now < AGREES and now < 0.1 * apart and (best is None or now < 0.1 * best[0]):
+                change = _with_density(finding(code, **values), stated, reference)
+                best = now, Diagnosis(change, None if change.code in OF_GEOMETRY else repaired)
+    if best is not None:
+        return best[1]
+    factor = float(np.trace(stated.inertia) / stated.mass / np.trace(nearest.inertia))
+    distance = float(np.linalg.norm(stated.center - nearest.center))
+    return Diagnosis(finding("audit_not_uniform", factor=factor, distance=distance))
+
+
+def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
+    """That mass and inertia together are a thousand times off, which only the density shows."""
+    density = stated.mass / reference.volume
+    if DENSITIES[0] <= density <= DENSITIES[1]:
+        return None
+    for factor in (1e-3, 1e3):
+        if DENSITIES[0] <= density * factor <= DENSITIES[1]:
+            repaired = stated.along_link(stated.inertia * factor, mass=stated.mass * factor)
+            return Diagnosis(finding("audit_mass_and_inertia_unit", density=density, factor=factor), repaired)
+    return Diagnosis(finding("audit_density", density=density))
+
+
+def _with_density(change: Finding, stated: StatedInertial, reference: Reference) -> Finding:
+    """Where both lengths may be wrong, the file's and the mesh's, the density decides."""
+    if change.code != "audit_length_unit":
+        return change
+    factor, density = change.values["factor"], stated.mass / reference.volume
+    other = density * factor**3  # were the mesh scaled by 1/factor
+    if not DENSITIES[0] <= density <= DENSITIES[1] and DENSITIES[0] <= other <= DENSITIES[1]:
+        return finding("audit_mesh_unit", factor=1.0 / factor)
+    return change
+
+
+Change = tuple[str, dict, StatedInertial]
+
+
+def _changes(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
+    """Each change that may make it right, with what it makes; the likelier ones first."""
+    yield from _units(stated, reference)
+    yield from _points(stated, reference)
+    yield from _frames(stated)
+    yield from _signs(stated)
+    yield from _orders(stated)
+    yield from _transposed(stated)
+
+
+def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
+    inertia, center, mass = stated.inertia, stated.center, stated.mass
+    density = mass / reference.volume
+    for factor in (1e-3, 1e3):
+        heavy = density * factor
+        if DENSITIES[0] <= heavy <= DENSITIES[1] and not DENSITIES[0] <= density <= DENSITIES[1]:
+            yield "audit_mass_unit", {"factor": factor}, replace(stated, mass=mass * factor)
+    for factor in INERTIA_UNITS:
+        yield "audit_inertia_unit", {"factor": factor}, stated.along_link(inertia * factor)
+    for factor in LENGTH_UNITS:
+        yield "audit_center_unit", {"factor": factor}, replace(stated, center=center * factor)
+    for factor in LENGTH_UNITS:
+        whole = stated.along_link(inertia * factor**2, center=center * factor)
+        yield "audit_length_unit", {"factor": factor}, whole
+    yield "audit_inertia_of_unit_mass", {"factor": mass}, stated.along_link(inertia * mass)
+    yield "audit_inertia_of_unit_density", {"factor": density}, stated.along_link(inertia * density)
+
+
+def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
+    """The inertia about another point than the center; the parallel-axis term with the wrong sign."""
+    term = stated.mass * _square(stated.center)
+    yield "audit_inertia_about_origin", {}, stated.along_link(stated.inertia - term)
+    yield "audit_inertia_shifted_twice", {}, stated.along_link(stated.inertia + term)
+    for origin in reference.origins:
+        term = stated.mass * _square(stated.center - origin)
+        changed = stated.along_link(stated.inertia - term)
+        yield "audit_inertia_about_mesh_origin", {"point": origin.tolist()}, changed
+
+
+def _square(arm: NDArray) -> NDArray[np.float64]:
+    return arm @ arm * np.eye(3) - np.outer(arm, arm)
+
+
+def _frames(stated: StatedInertial) -> Iterator[Change]:
+    """The inertial frame's rotation in other units, the other way round, or not meant."""
+    if stated.angles is not None and any(stated.angles):
+        for code, convert in (("audit_angles_in_degrees", radians), ("audit_angles_in_radians", degrees)):
+            turned = rotation_of_angles(*map(convert, stated.angles))
+            yield code, {}, replace(stated, rotation=turned)
+    if stated.quaternion is not None:
+        w, x, y, z = stated.quaternion
+        for order in ((z, w, x, y), (x, y, z, w)):
+            if any(order):
+                yield "audit_quaternion_order", {}, replace(stated, rotation=rotation_matrix(order))
+    if not np.array_equal(stated.rotation, np.eye(3)):
+        yield "audit_frame_transposed", {}, replace(stated, rotation=stated.rotation.T)
+        yield "audit_frame_not_meant", {}, replace(stated, rotation=np.eye(3))
+
+
+def _signs(stated: StatedInertial) -> Iterator[Change]:
+    rows, columns = np.array([0, 0, 1]), np.array([1, 2, 2])
+    for signs in ((-1.0, -1.0, -1.0), *sorted(product((1.0, -1.0), repeat=3), key=sum, reverse=True)[1:7]):
+        for along_link in (True, False):
+            tensor = (stated.inertia if along_link else stated.tensor).copy()
+            tensor[rows, columns] = tensor[columns, rows] = tensor[rows, columns] * signs
+            changed = stated.along_link(tensor) if along_link else replace(stated, tensor=tensor)
+            names = [name for name, sign in zip(PRODUCT_NAMES, signs) if sign < 0.0]
+            yield "audit_products_sign", {"products": names}, changed
+    for signs in list(product((1.0, -1.0), repeat=3))[1:]:
+        flipped = np.array(signs)
+        names = [axis for axis, sign in zip("xyz", signs) if sign < 0.0]
+        yield "audit_center_sign", {"axes": names}, replace(stated, center=stated.center * flipped)
+    for axis in range(3):
+        mirror = np.ones(3)
+        mirror[axis] = -1.0
+        changed = stated.along_link(stated.inertia * np.outer(mirror, mirror), center=stated.center * mirror)
+        yield "audit_mirrored", {"axis": "xyz"[axis]}, changed
+
+
+def _orders(stated: StatedInertial) -> Iterator[Change]:
+    """Axes in another order: of the tensor, of the center, of both."""
+    for order in AXES:
+        swapped = stated.inertia[np.ix_(order, order)]
+        values = {"order": "".join("xyz"[axis] for axis in order)}
+        yield "audit_axes_swapped", values, stated.along_link(swapped)
+        yield "audit_center_axes_swapped", values, replace(stated, center=stated.center[order])
+        yield "audit_all_axes_swapped", values, stated.along_link(swapped, center=stated.center[order])
+        diagonal = stated.inertia - np.diag(np.diag(stated.inertia)) + np.diag(np.diag(stated.inertia)[order])
+        yield "audit_diagonal_swapped", values, stated.along_link(diagonal)
+        # The products alone, such as ixz before ixy: xy, xz and yz are opposite to z, y and x.
+        products = np.diag(np.diag(stated.inertia)) + (swapped - np.diag(np.diag(swapped)))
+        yield "audit_products_swapped", values, stated.along_link(products)
+    turns = ((1, -1), (2, -1), (0, -1))
+    for axis, (_, sign) in enumerate(turns):  # a quarter turn: y up for z up
+        for way in (1.0, sign):
+            turn = np.eye(3)
+            first, second = (axis + 1) % 3, (axis + 2) % 3
+            turn[first, first] = turn[second, second] = 0.0
+            turn[first, second], turn[second, first] = -way, way
+            inertia, center = turn @ stated.inertia @ turn.T, turn @ stated.center
+            values = {"axis": "xyz"[axis]}
+            yield "audit_frame_turned", values, stated.along_link(inertia, center=center)
+            yield "audit_tensor_turned", values, stated.along_link(inertia)
+
+
+def _transposed(stated: StatedInertial) -> Iterator[Change]:
+    """Principal axes taken as rows for columns when the tensor was put together."""
+    moments, axes = np.linalg.eigh(stated.inertia)
+    for order in permutations(range(3)):
+        for signs in ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)):
+            rows = axes[:, order] * signs
+            tensor = rows.T @ (moments[list(order)][:, None] * rows)
+            yield "audit_axes_transposed", {}, stated.along_link(tensor)

@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What no non-negative density within a hull can have.
+
+A mass is positive. The second moments S = tr(I)/2 - I are no less than zero in any direction, which is the triangle
+inequality of the principal moments. The center lies in the convex hull. Along any direction n, in which the hull
+reaches from a to b, the variance of the mass is at most (b - mean)(mean - a) (Bhatia and Davis, Amer. Math. Monthly
+107, 2000). All of these are necessary; what breaks one is impossible, whatever the density.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..verdict.finding import Finding, finding
+from .stated import StatedInertial
+
+ROUNDING = 1e-3  # relatively: what numbers printed with few digits may break
+CENTER_RTOL = 1e-3  # of the hull's size
+SPREAD_RTOL = 5e-3
+MAX_STEPS = 200  # towards the nearest point of a hull
+DIRECTIONS = 400
+
+
+@dataclass(frozen=True, eq=False)
+class Hull:
+    """The points whose convex hull a link's mass lies in.
+
+    Attributes
+    ----------
+    points : (n, 3) array
+        Along the link's axes, m.
+
+    Examples
+    --------
+    >>> from body_moments.core.robots.plausibility import Hull
+    >>> round(Hull(np.eye(3)).distance(np.zeros(3)), 6)
+    0.57735
+    """
+
+    points: NDArray[np.float64]
+
+    @property
+    def size(self) -> float:
+        """The diagonal of the box around it."""
+        return float(np.linalg.norm(np.ptp(self.points, axis=0)))
+
+    def distance(self, point: NDArray) -> float:
+        """Return how far a point is from the hull, zero within.
+
+        Parameters
+        ----------
+        point : (3,) array
+
+        Returns
+        -------
+        float
+            A lower bound that a separating plane proves.
+
+        Notes
+        -----
+        Gilbert's algorithm (SIAM J. Control 4, 1966) with steps away from bad vertices.
+        """
+        shifted = self.points - point
+        nearest = shifted[0]
+        bound = 0.0
+        for _ in range(MAX_STEPS):
+            length = float(np.linalg.norm(nearest))
+            if length <= 1e-12 * self.size:
+                return 0.0
+            heights = shifted @ nearest
+            support = shifted[int(np.argmin(heights))]
+            bound = max(bound, float(heights.min()) / length)
+            step = nearest - support
+            square = float(step @ step)
+            if length - heights.min() / length <= 1e-9 * self.size or square == 0.0:
+                break
+            nearest = nearest - min(1.0, float(nearest @ step) / square) * step
+        return bound
+
+    def spread_limit(self, center: NDArray, directions: NDArray) -> NDArray[np.float64]:
+        """Return the largest variance along directions that mass with this center can have.
+
+        Parameters
+        ----------
+        center : (3,) array
+        directions : (k, 3) array
+            Of unit length.
+
+        Returns
+        -------
+        (k,) array
+            Zero where the center is outside.
+        """
+        heights = (self.points - center) @ directions.T
+        return np.maximum(heights.max(axis=0), 0.0) * np.maximum(-heights.min(axis=0), 0.0)
+
+
+def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
+    """Return why an inertial is that of no body, or of none within the hull.
+
+    Parameters
+    ----------
+    stated : StatedInertial
+    hull : Hull or None
+        None where the link's geometry is unknown.
+
+    Returns
+    -------
+    list of Finding
+        Empty where nothing that was tried excludes it.
+    """
+    numbers = np.concatenate([[stated.mass], stated.center, stated.inertia.ravel()])
+    if not np.isfinite(numbers).all():
+        return [finding("inertial_not_finite")]
+    if not stated.mass > 0.0:
+        return [finding("inertial_mass_not_positive", mass=float(stated.mass))]
+    moments = np.linalg.eigvalsh(stated.inertia)
+    if not moments[0] > 0.0:
+        return [finding("inertial_not_positive", moment=float(moments[0]))]
+    excess = float(moments[2] / (moments[0] + moments[1]) - 1.0)
+    if excess > ROUNDING:
+        return [finding("inertial_triangle", moments=moments.tolist(), excess=excess)]
+    findings = [finding("inertial_triangle_slightly", excess=excess)] if excess > 1e-12 else []
+    return findings if hull is None else findings + _outside(stated, hull)
+
+
+def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
+    """Of what is the inertial of a body, why it is that of none within the hull."""
+    distance = hull.distance(stated.center)
+    if distance > CENTER_RTOL * hull.size:
+        return [finding("inertial_center_outside", distance=distance)]
+    second = (np.trace(stated.inertia) / 2.0 * np.eye(3) - stated.inertia) / stated.mass
+    directions = np.concatenate([np.linalg.eigh(second)[1].T, _sphere(DIRECTIONS)])
+    variance = np.einsum("ki,ij,kj->k", directions, second, directions)
+    # The center may be off by its own tolerance.
+    slack = SPREAD_RTOL * hull.spread_limit(stated.center, directions) + CENTER_RTOL * hull.size**2
+    limit = hull.spread_limit(stated.center, directions)
+    worst = int(np.argmax((variance - limit) / (limit + slack)))
+    if variance[worst] > limit[worst] + slack[worst]:
+        factor = float(variance[worst] / max(limit[worst], slack[worst]))
+        return [finding("inertial_spread_outside", factor=factor, direction=directions[worst].tolist())]
+    return []
+
+
+def _sphere(count: int) -> NDArray[np.float64]:
+    """(count, 3) directions all around, evenly: a spiral."""
+    index = np.arange(count) + 0.5
+    height, turn = 1.0 - 2.0 * index / count, index * np.pi * (1.0 + 5.0**0.5)
+    across = np.sqrt(1.0 - height * height)
+    return np.stack([across * np.cos(turn), across * np.sin(turn), height], axis=1)

@@ -1,0 +1,233 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Robot descriptions judged by their own geometry: what their links state, beside what their meshes measure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from math import pi, radians
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.inertia.mass_properties import combine
+from ...core.mesh.surface import Surface
+from ...core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
+from ...core.robots.diagnosis import OF_GEOMETRY, Reference, diagnose
+from ...core.robots.model import Pose, Shape
+from ...core.robots.plausibility import Hull, impossible
+from ...core.robots.stated import Description, StatedInertial, StatedLink, StatedShape, rotation_of_angles
+from ...core.solid.measure_solid import measure_solid
+from ...core.verdict.finding import FileError, Finding, MeasureError, finding
+from ...core.verdict.method import Verdict
+from ..read.robots.meshes import read_mesh
+from ..read.robots.paths import Roots
+
+ROUND = 1.01  # what holds all of a round shape, whose points are only some of it
+RELIABLE = (Verdict.EXACT, Verdict.REORIENTED, Verdict.CAPPED)
+
+
+@dataclass(frozen=True, eq=False)
+class LinkAudit:
+    """What was found of one link. repaired: what its inertial should be, None where it stays."""
+
+    link: StatedLink
+    findings: tuple[Finding, ...]
+    repaired: StatedInertial | None = None
+    density: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Audit:
+    """What was found of a description."""
+
+    description: Description
+    links: tuple[LinkAudit, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """A shape that was measured: points of its hull, and moments of its volume where they are certain."""
+
+    points: NDArray[np.float64]
+    moments: Moments | None
+
+
+@dataclass
+class Auditor:
+    """Judges descriptions; a mesh is measured once, however many links name it."""
+
+    roots: Roots
+    _meshes: dict[tuple, tuple[Surface, Moments | None, Finding | None]] = field(default_factory=dict)
+
+    def audit(self, description: Description) -> Audit:
+        """Return what is wrong with each link of a description.
+
+        Parameters
+        ----------
+        description : Description
+
+        Returns
+        -------
+        Audit
+        """
+        return Audit(description, tuple(self._link(link) for link in description.links))
+
+    def _link(self, link: StatedLink) -> LinkAudit:
+        findings = list(link.findings)
+        if link.inertial is None:
+            if link.moves and not findings:
+                findings.append(finding("inertial_missing"))
+            return LinkAudit(link, tuple(findings))
+        pieces, unread = self._pieces(link.shapes)
+        findings += unread
+        points = [piece.points for found in pieces.values() for _, piece in found]
+        hull = Hull(np.concatenate(points)) if points and not unread else None
+        excluded = impossible(link.inertial, hull)
+        findings += excluded
+        if any(one.code in ("inertial_not_finite", "inertial_mass_not_positive") for one in excluded):
+            return LinkAudit(link, tuple(findings))
+        references = [] if unread else [made for found in pieces.values() if (made := _reference(found)) is not None]
+        diagnosis = diagnose(link.inertial, references, [] if unread else _turned(pieces))
+        repaired = None
+        if diagnosis is not None:
+            findings.append(diagnosis.finding)
+            repaired = diagnosis.repaired
+        wrong = any(one.code != "inertial_triangle_slightly" for one in excluded)
+        by_geometry = diagnosis is not None and diagnosis.finding.code in OF_GEOMETRY
+        if wrong and repaired is None and references and not by_geometry:
+            repaired = references[0].uniform(link.inertial.mass)
+            findings.append(finding("audit_uniform_instead"))
+        density = link.inertial.mass / references[0].volume if references else None
+        return LinkAudit(link, tuple(findings), repaired, density)
+
+    def _pieces(
+        self, shapes: Iterable[StatedShape]
+    ) -> tuple[dict[str, list[tuple[StatedShape, _Piece]]], list[Finding]]:
+        """The shapes by their roles, and why others could not be measured."""
+        pieces: dict[str, list[tuple[StatedShape, _Piece]]] = {}
+        unread: list[Finding] = []
+        for stated in shapes:
+            try:
+                piece = self._piece(stated)
+            except MeasureError as error:
+                if error.finding not in unread:
+                    unread.append(error.finding)
+                continue
+            pieces.setdefault(stated.role, []).append((stated, piece))
+        return pieces, unread
+
+    def _piece(self, stated: StatedShape) -> _Piece:
+        """In the coordinates of the shape itself."""
+        shape = stated.shape
+        if shape.kind != "mesh":
+            return _primitive(shape)
+        if stated.points is not None and stated.triangles is not None:
+            surface, moments = _measured(Surface.from_triangles(stated.points, stated.triangles))
+        else:
+            surface, moments = self._mesh(shape)
+        return _Piece(np.asarray(surface.points, np.float64), moments)
+
+    def _mesh(self, shape: Shape) -> tuple[Surface, Moments | None]:
+        key = shape.file, shape.size
+        if key not in self._meshes:
+            try:
+                surface = read_mesh(self.roots.find(shape.file)).transform(np.diag(shape.size))
+            except FileError as error:
+                self._meshes[key] = Surface(np.zeros((0, 3))), None, error.finding
+            else:
+                self._meshes[key] = *_measured(surface), None
+        surface, moments, reason = self._meshes[key]
+        if reason is not None:
+            raise FileError(reason)
+        return surface, moments
+
+
+def _measured(surface: Surface) -> tuple[Surface, Moments | None]:
+    """A surface and the moments of what it bounds, where that is certain."""
+    try:
+        solid = measure_solid(surface)
+    except MeasureError:
+        return surface, None
+    certain = Verdict(solid.method) in RELIABLE and solid.volume.raw[0] > 0.0
+    return surface, solid.volume if certain else None
+
+
+def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None:
+    """All shapes of a role, filled evenly; None where one of them bounds nothing certain."""
+    placed = []
+    for stated, piece in pieces:
+        if piece.moments is None:
+            return None
+        placed.append((piece.moments.transform(_matrix(stated.shape.pose)), 1.0))
+    try:
+        whole = combine(placed)
+    except MeasureError:
+        return None
+    origins = tuple(stated.shape.pose.position for stated, _ in pieces)
+    return Reference(whole.mass, whole.center, whole.inertia / whole.mass, origins)
+
+
+def _turned(pieces: dict[str, list[tuple[StatedShape, _Piece]]]) -> list[tuple[Finding, Reference]]:
+    """What the geometry would be, were the angles of its shapes stated in degrees."""
+    result = []
+    for found in pieces.values():
+        if any(stated.angles is not None and any(stated.angles) for stated, _ in found):
+            turned = []
+            for stated, piece in found:
+                pose = stated.shape.pose
+                if stated.angles is not None:
+                    pose = Pose(pose.position, rotation_of_angles(*map(radians, stated.angles)))
+                turned.append((replace(stated, shape=replace(stated.shape, pose=pose)), piece))
+            reference = _reference(turned)
+            if reference is not None:
+                result.append((finding("audit_shape_angles_in_degrees"), reference))
+    return result
+
+
+def _matrix(pose: Pose) -> NDArray[np.float64]:
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.position
+    return matrix
+
+
+def _primitive(shape: Shape) -> _Piece:
+    """A primitive in its own frame: volume, ∫x² dV along its axes, and points around it."""
+    if shape.kind == "box":
+        sides = np.array(shape.size)
+        corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * sides
+        volume = float(sides.prod())
+        return _Piece(corners, _moments(volume, volume * sides * sides / 12.0))
+    if shape.kind in ("sphere", "ellipsoid"):
+        axes = np.array(shape.size * 3 if shape.kind == "sphere" else shape.size)
+        volume = 4.0 / 3.0 * pi * float(axes.prod())
+        return _Piece(_ball() * axes * ROUND, _moments(volume, volume * axes * axes / 5.0))
+    radius, length = shape.size
+    turn = np.linspace(0.0, 2.0 * pi, 48, endpoint=False)
+    ring = np.stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)], axis=1) * radius * ROUND
+    end = np.array([0.0, 0.0, length / 2.0])
+    volume, across = pi * radius**2 * length, pi * radius**4 * length / 4.0
+    along = pi * radius**2 * length**3 / 12.0
+    points = np.concatenate([ring + end, ring - end])
+    if shape.kind == "capsule":
+        volume += 4.0 / 3.0 * pi * radius**3
+        across += 4.0 / 15.0 * pi * radius**5
+        along += pi * radius**3 * (4.0 / 15.0 * radius**2 + length * radius / 2.0 + length**2 / 3.0)
+        ball = _ball() * radius * ROUND
+        points = np.concatenate([ball + end, ball - end])
+    return _Piece(points, _moments(volume, np.array([across, across, along])))
+
+
+def _ball() -> NDArray[np.float64]:
+    index = np.arange(2000) + 0.5
+    height, turn = 1.0 - index / 1000.0, index * pi * (1.0 + 5.0**0.5)
+    across = np.sqrt(1.0 - height * height)
+    return np.stack([across * np.cos(turn), across * np.sin(turn), height], axis=1)
+
+
+def _moments(volume: float, second: NDArray) -> Moments:
+    raw = np.zeros(monomial_count(3))
+    raw[0] = volume
+    raw[np.diag(SECOND_MOMENT_INDEX)] = second
+    return Moments(raw, np.zeros(3), Measure.VOLUME)

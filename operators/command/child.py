@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A child of the supervisor: it measures the files that it is sent, one at a time, and answers with documents."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+from contextlib import redirect_stderr, suppress
+from typing import Any
+
+import bpy
+
+from ...core.verdict.finding import finding
+from ..supervisor.lifeline import Lifeline
+from .arguments import from_record
+from .checks import prepare
+from .inputs import files_read
+from .interruption import Progress
+from .run import Run
+
+
+def serve(words: list[str], channel: int) -> None:
+    """Work until the supervisor closes the pipe. words: the descriptor to watch, where there is one."""
+    line = Lifeline(channel, int(words[0]) if words else None)
+    messages = line.messages()
+    setup = next(messages, None)
+    if setup is None:
+        return
+    options = from_record(setup["options"])
+    said = io.StringIO()
+    try:
+        with redirect_stderr(said):
+            prepare(options)
+    except SystemExit:
+        line.answer({"usage": said.getvalue()})
+        return
+    run = Run(options, setup["threads"], lambda file: _Told(file, line))
+    line.answer({"ready": {"blender": ".".join(map(str, bpy.app.version))}})
+    for message in messages:
+        with suppress(OSError):
+            os.ftruncate(2, 0)  # what was said of the file before
+        with line.limited(setup["seconds"]):
+            if "reads" in message:
+                line.answer({"reads": [os.fspath(path) for path in files_read([message["reads"]])]})
+            else:
+                _measure(run, message["measure"], line)
+
+
+def _measure(run: Run, path: str, line: Lifeline) -> None:
+    before = run.internal_errors
+    document = run.document(path)
+    head: dict[str, Any] = {"faults": run.internal_errors - before}
+    with suppress(OSError, ValueError):
+        status = os.stat(path)
+        head |= {"size": status.st_size, "mtime_ns": status.st_mtime_ns}
+    line.answer(head, json.dumps(document, allow_nan=False).encode() + b"\n")
+
+
+class _Told(Progress):
+    """Progress that the supervisor is told of."""
+
+    def __init__(self, file: str, line: Lifeline) -> None:
+        super().__init__(file)
+        self._line = line
+
+    def tell(self, samples: int) -> None:
+        self._line.answer({"note": str(finding("progress_samples", count=samples))})

@@ -1,0 +1,43 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether the coordinates in a file are finite numbers, before Blender imports them.
+
+Blender's importers of .stl, .obj, .ply, .glb, .gltf and .fbx put 0, or the vertex before, where a coordinate is NaN,
+infinite, or too large for float32, and say nothing: a body that nobody made would be measured as exact. Files are
+mapped and looked at in blocks. Numbers that place no point (normals, colors, weights) may be anything. A file that is
+damaged otherwise is left to Blender, which says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ....core.verdict.finding import FileError
+from .fbx import check_fbx
+from .gltf import Buffers, check_gltf, unquote
+from .numbers import MAX_FLOAT32, Data, mapped
+from .ply import check_ply
+from .stl_obj import check_obj, check_stl
+
+__all__ = ["MAX_FLOAT32", "Buffers", "check_numbers", "unquote"]
+
+
+def check_numbers(path: str, kind: str) -> None:
+    """Raise FileError where a coordinate in the file is no finite number. kind: the file's suffix."""
+    check = _CHECKS.get(kind)
+    if check is None:
+        return
+    try:
+        data = mapped(path)
+    except OSError as error:
+        raise FileError("file_unreadable", error=error.strerror or str(error)) from error
+    check(data, path)
+
+
+_CHECKS: dict[str, Callable[[Data, str], None]] = {
+    ".stl": check_stl,
+    ".obj": check_obj,
+    ".ply": check_ply,
+    **dict.fromkeys((".glb", ".gltf"), check_gltf),
+    ".fbx": check_fbx,
+}

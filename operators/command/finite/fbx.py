@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Coordinates in .fbx files."""
+
+from __future__ import annotations
+
+import re
+import struct
+import zlib
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.verdict.finding import finding
+from .numbers import BLOCK, MALFORMED, OVERLAP, Data, bad_in_table, count_bytes, is_finite, refuse, suspicious
+
+_FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
+_FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
+
+
+@dataclass(frozen=True)
+class FbxNode:
+    """A node of a binary FBX file: where its properties begin, its children, and what follows it."""
+
+    name: bytes
+    properties: int
+    children: int
+    end: int
+
+
+def check_fbx(data: Data, _path: str) -> None:
+    """The vertices of meshes and of their shapes."""
+    if data[:23] != _FBX_MAGIC:
+        _check_ascii_fbx(data)
+        return
+    with suppress(*MALFORMED):
+        wide = struct.unpack_from("<I", data, 23)[0] >= 7500
+        file = FbxNode(b"", 27, 27, len(data))
+        for objects in _fbx_children(data, file, wide, b"Objects"):
+            for geometry in _fbx_children(data, objects, wide, b"Geometry"):
+                for vertices in _fbx_children(data, geometry, wide, b"Vertices"):
+                    count, first = 0, 0
+                    for begin, numbers in _fbx_array(data, vertices.properties):
+                        more, row = bad_in_table(numbers[:, None])
+                        first = first if count else (begin + row) // 3
+                        count += more
+                    refuse(count, finding("at_vertex", vertex=first))
+
+
+_FBX_ARRAY = re.compile(rb"\bVertices\s*:(?:\s*\*\d+\s*\{\s*a:)?$")
+_FBX_NUMBER = re.compile(rb"[^\s,:{}]+")
+
+
+def _check_ascii_fbx(data: Data) -> None:
+    count, first, before, done = 0, 0, 0, 0
+    begin, of_vertices = 0, False  # of the last array that was met
+    for place in suspicious(data):
+        if place < done:
+            continue
+        colon = data.rfind(b":", before, place)
+        if colon >= 0:
+            begin, before = colon + 1, colon
+            of_vertices = _FBX_ARRAY.search(data[max(0, colon - 100) : begin]) is not None
+        window = max(begin, place - OVERLAP)
+        words = _FBX_NUMBER.finditer(data[window : place + OVERLAP])
+        word = next((word for word in words if window + word.end() > place), None)
+        done = place + 1 if word is None else window + word.end()
+        if of_vertices and word is not None and not is_finite(word[0]):
+            first = first if count else count_bytes(data, b",", begin, place) // 3
+            count += 1
+    refuse(count, finding("at_vertex", vertex=first))
+
+
+def _fbx_children(data: Data, parent: FbxNode, wide: bool, name: bytes) -> Iterator[FbxNode]:
+    """Those of one name."""
+    head = struct.Struct("<QQQB" if wide else "<IIIB")
+    at = parent.children
+    while at + head.size <= parent.end:
+        end, _, length, name_length = head.unpack_from(data, at)
+        begin = at + head.size + name_length
+        if end <= at:  # nothing follows
+            return
+        if data[at + head.size : begin] == name:
+            yield FbxNode(name, begin, begin + length, end)
+        at = end
+
+
+def _fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:
+    """The numbers of an array in blocks, each with how many were before it."""
+    kind = _FBX_TYPES[data[at : at + 1]]
+    count, packed, size = struct.unpack_from("<3I", data, at + 1)
+    at += 13
+    if not packed:
+        yield 0, np.frombuffer(data, kind, count, at)
+        return
+    unpacker, rest, done = zlib.decompressobj(), b"", 0
+    for begin in range(at, at + size, BLOCK):
+        piece = data[begin : min(begin + BLOCK, at + size)]
+        while piece and done < count:
+            block = rest + unpacker.decompress(piece, BLOCK)
+            piece = unpacker.unconsumed_tail
+            whole = len(block) // kind.itemsize
+            yield done, np.frombuffer(block, kind, whole)
+            rest, done = block[whole * kind.itemsize :], done + whole

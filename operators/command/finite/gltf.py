@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Coordinates in glTF files, and the buffers that hold them."""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import re
+import struct
+from collections.abc import Iterable
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.verdict.finding import FileError, finding
+from .numbers import MALFORMED, MAX_FLOAT32, Data, bad_in_table, mapped, refuse
+
+_GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+_GLTF_FLOAT = 5126
+_OF_NODES = ("matrix", "translation", "rotation", "scale")
+
+
+def check_gltf(data: Data, path: str) -> None:
+    with suppress(*MALFORMED):
+        buffers = Buffers(data, path)
+        document = buffers.document
+        nodes = document.get("nodes", [])
+        for number, node in enumerate(nodes):
+            numbers = [one for key in _OF_NODES for one in node.get(key, ())]
+            refuse(_bad_numbers(numbers), finding("at_node", node=node.get("name") or str(number)))
+        for number, mesh in _placing_accessors(document).items():
+            accessor = document["accessors"][number]
+            count, first = _bad_in_accessor(buffers, accessor)
+            if mesh is None:
+                place = finding("at_accessor", accessor=number, element=first)
+            else:
+                place = finding("at_mesh_vertex", mesh=mesh, vertex=first)
+            refuse(count + _bad_numbers([*accessor.get("min", ()), *accessor.get("max", ())]), place)
+
+
+def _bad_numbers(numbers: Iterable[float]) -> int:
+    return sum(not abs(number) < MAX_FLOAT32 for number in numbers)
+
+
+def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
+    """The accessors whose numbers place points, each with the mesh whose vertices they are."""
+    found: dict[int, str | None] = {}
+    for number, mesh in enumerate(document.get("meshes", [])):
+        for primitive in mesh["primitives"]:
+            for attributes in (primitive["attributes"], *primitive.get("targets", ())):
+                if "POSITION" in attributes:
+                    found[attributes["POSITION"]] = mesh.get("name") or str(number)
+    others = [skin.get("inverseBindMatrices") for skin in document.get("skins", [])]
+    for animation in document.get("animations", []):
+        others += [sampler[key] for sampler in animation["samplers"] for key in ("input", "output")]
+    for node in document.get("nodes", []):
+        others += node.get("extensions", {}).get("EXT_mesh_gpu_instancing", {}).get("attributes", {}).values()
+    return found | {number: None for number in others if number is not None and number not in found}
+
+
+def _bad_in_accessor(buffers: Buffers, accessor: dict[str, Any]) -> tuple[int, int]:
+    if accessor["componentType"] != _GLTF_FLOAT:
+        return 0, 0
+    sparse = accessor.get("sparse")
+    found = (
+        [(accessor["bufferView"], accessor.get("byteOffset", 0), accessor["count"])] if "bufferView" in accessor else []
+    )
+    if sparse:
+        found.append((sparse["values"]["bufferView"], sparse["values"].get("byteOffset", 0), sparse["count"]))
+    width = _GLTF_WIDTHS[accessor["type"]]
+    bad = [bad_in_table(table) for table in (buffers.table(*one, width) for one in found) if table is not None]
+    return sum(count for count, _ in bad), min((first for count, first in bad if count), default=0)
+
+
+def unquote(uri: str) -> str:
+    """Replace %20 and the like in a glTF's reference by the characters that they stand for."""
+    data = re.sub(rb"%([0-9a-fA-F]{2})", lambda match: bytes.fromhex(match[1].decode()), uri.encode())
+    return data.decode("utf-8", "surrogateescape")
+
+
+class Buffers:
+    """The document of a glTF file, and its buffers, those in other files too."""
+
+    def __init__(self, data: Data, path: str) -> None:
+        self.folder = os.path.dirname(path)
+        self.binary: tuple[Data, int] | None = None
+        self.opened: dict[int, tuple[Data, int]] = {}
+        text = data
+        if data[:4] == b"glTF":  # chunks of the text and of the first buffer, each behind its length and type
+            end = 20 + struct.unpack_from("<I", data, 12)[0]
+            text = data[20:end]
+            self.binary = (data, end + 8)
+        self.document = json.loads(text[:])
+
+    def table(self, view_number: int, offset: int, count: int, width: int) -> NDArray[np.float32] | None:
+        """Rows of numbers; None where only an extension knows how to unpack them."""
+        view = self.document["bufferViews"][view_number]
+        if "EXT_meshopt_compression" in view.get("extensions", {}):
+            return None
+        data, start = self._buffer(view["buffer"])
+        start += view.get("byteOffset", 0) + offset
+        return np.ndarray((count, width), "<f4", data, start, (view.get("byteStride", 4 * width), 4))
+
+    def _buffer(self, number: int) -> tuple[Data, int]:
+        """A buffer's bytes, and where in them it begins. Raises FileError where it is missing or too short."""
+        if number not in self.opened:
+            buffer = self.document["buffers"][number]
+            self.opened[number] = self._open(buffer, buffer["byteLength"])
+        return self.opened[number]
+
+    def _open(self, buffer: dict[str, Any], size: int) -> tuple[Data, int]:
+        uri = buffer.get("uri")
+        if uri is None:
+            name = "BIN"
+            if self.binary is None:
+                raise FileError("gltf_buffer_missing", buffer=name)
+            data, start = self.binary
+        elif uri.startswith("data:"):
+            name, data, start = "data:", base64.b64decode(uri.partition(",")[2]), 0
+        else:
+            name = unquote(uri)
+            try:
+                data, start = mapped(os.path.join(self.folder, name)), 0
+            except (OSError, ValueError) as error:  # ValueError: it is empty
+                raise FileError("gltf_buffer_missing", buffer=name) from error
+        if len(data) - start < size:
+            raise FileError("gltf_buffer_short", buffer=name, size=len(data) - start, expected=size)
+        return data, start

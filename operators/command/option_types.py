@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The values that options of the command line take, and what is said of others. Standard library only."""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+from ...core.verdict.finding import finding
+from ..write.documents import FORMATS
+
+# As in the core, which needs numpy: the process that supervises others may have none.
+MAX_ORDER = 30
+MAX_SPLINE_ORDER = 16
+MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
+
+
+def _refuse(code: str, **values: object) -> argparse.ArgumentTypeError:
+    return argparse.ArgumentTypeError(str(finding(code, **values)))
+
+
+def positive(text: str) -> float:
+    """A positive number."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (0.0 < value < math.inf):
+        raise _refuse("usage_not_positive", text=text)
+    return value
+
+
+def count(text: str) -> int:
+    """A positive whole number."""
+    if not (text.isdecimal() and text.isascii() and int(text[:9]) > 0 and len(text) <= 9):
+        raise _refuse("usage_not_positive", text=text)
+    return int(text)
+
+
+def triple(text: str) -> tuple[float, ...]:
+    """Three finite numbers."""
+    try:
+        values = tuple(float(word) for word in text.split(","))
+    except ValueError:
+        values = ()
+    if len(values) != 3 or not all(map(math.isfinite, values)):
+        raise _refuse("usage_not_triple", text=text)
+    return values
+
+
+def spacing(text: str) -> tuple[float, ...]:
+    """Three positive numbers."""
+    values = triple(text)
+    if min(values) <= 0.0:
+        raise _refuse("usage_not_positive_triple", text=text)
+    return values
+
+
+def spline_order(text: str) -> int:
+    """The order of a spline of samples."""
+    if text not in {str(order) for order in range(1, MAX_SPLINE_ORDER + 1)}:
+        raise _refuse("usage_spline_order", text=text, limit=MAX_SPLINE_ORDER)
+    return int(text)
+
+
+def order(text: str) -> int:
+    """The order of moments."""
+    try:
+        value = int(text)
+    except ValueError:
+        value = -1
+    if value < 0:
+        raise _refuse("usage_order", text=text, limit=MAX_ORDER)
+    if value > MAX_ORDER:
+        raise _refuse("usage_order_too_high", text=text, limit=MAX_ORDER)
+    return value
+
+
+def frequencies(text: str) -> int:
+    """How many frequencies a grid has along an axis."""
+    try:
+        value = int(text)
+    except ValueError:
+        value = 0
+    if not 2 <= value <= MAX_GRID:
+        raise _refuse("usage_frequency_count", text=text, limit=MAX_GRID)
+    return value
+
+
+def format_name(text: str) -> str:
+    """The name of a format of results."""
+    if text not in FORMATS:
+        raise _refuse("usage_format_unknown", text=text, formats=", ".join(FORMATS))
+    return text
+
+
+def file_range(text: str) -> tuple[int, int | None]:
+    """A:B, the files from number A on and before number B, counted from 0; either may be left out."""
+    begin, colon, end = text.partition(":")
+    if not colon or not all(part.isascii() and (part.isdecimal() or not part) for part in (begin, end)):
+        raise _refuse("usage_range", text=text)
+    first, last = int(begin or 0), int(end) if end else None
+    if last is not None and last < first:
+        raise _refuse("usage_range", text=text)
+    return first, last

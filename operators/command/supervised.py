@@ -1,0 +1,300 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`measure` over files: children measure them, this process gathers what they answer, and opens none.
+
+Standard library only: it runs in Blender, in a Python with the bpy module, and in any other with --blender PATH.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import pkgutil
+import shutil
+import sys
+import tempfile
+import tomllib
+from argparse import Namespace
+from collections.abc import Iterator
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...core.verdict.finding import MeasureError, finding
+from ..supervisor import listing, processes
+from ..supervisor.journal import Journal, is_journal
+from ..supervisor.pool import ChildError, Limits, Outcome, Pool, SetupError
+from ..supervisor.progress import Progress
+from ..write.documents import FORMATS, ROBOT_FORMATS, failed_document
+from ..write.file_lock import Busy, beside, locked
+from ..write.terminal import PROGRAM, tell
+from . import interruption, output, results, targets
+from .arguments import DEFAULT_TIMEOUT, as_record, fail, of_numbers
+
+_ROOT = (__package__ or "").removesuffix(".operators.command")
+_MEMORY_SHARE = 0.8  # of the machine's, for all children together
+_STEP = 0.2  # seconds
+_OLD = ".old"
+
+
+def measure(options: Namespace, channel: int, opened: str | None) -> int:
+    """Measure the files, and return the exit code. opened: a file that this process has open, and only keeps.
+
+    Raises SystemExit where the options are wrong, and KeyboardInterrupt.
+    """
+    with interruption.stopped_by_signals():
+        targets.check_places(options)
+        paths = _paths(options)
+        command = processes.child_command(_blender(options))
+        if command is None:
+            fail(finding("usage_no_blender"))
+        replaced = targets.files_to_replace(options, [path for path in (*paths, opened, options.q) if path])
+        with ExitStack() as ends:
+            places = _Places(options, ends)
+            run = _Supervised(options, paths, command, places)
+            try:
+                if replaced:
+                    targets.check_dependencies(replaced, run.dependencies())
+                return run.measure(channel)
+            except SetupError as error:
+                sys.stderr.write(error.text)
+                raise SystemExit(2) from error
+            except ChildError as error:
+                tell(finding("children_failed", reason=error.reason))
+                return 2
+            except KeyboardInterrupt:
+                if places.journal_is_kept:
+                    tell(finding("interrupted_resumable", done=run.done, total=len(run.tasks)))
+                else:
+                    tell(finding("interrupted"))
+                return 3
+
+
+def _paths(options: Namespace) -> list[str]:
+    try:
+        paths = [*listing.expand(options.files)]
+        if options.manifest is not None:
+            paths += listing.read(options.manifest)
+    except MeasureError as error:
+        fail(error)
+    if options.range is not None:
+        paths = paths[slice(*options.range)]
+    if options.fourier is not None and len(paths) != 1:
+        fail(finding("usage_fourier_one_object"))
+    if options.format in ROBOT_FORMATS and len(paths) != 1:
+        fail(finding("robot_one_file", count=len(paths)))
+    return paths
+
+
+def _blender(options: Namespace) -> str | None:
+    """The Blender to start: what was named, or the one that this process is."""
+    bpy = sys.modules.get("bpy")
+    if options.blender is not None or bpy is None or bpy.app.module:
+        return options.blender
+    return bpy.app.binary_path
+
+
+class _Places:
+    """Where a run keeps what it has so far: beside its output, which is its alone until `ends`.
+
+    work: a folder that is not there yet. journal_is_kept: whether the journal stays when the run is interrupted.
+    """
+
+    def __init__(self, options: Namespace, ends: ExitStack) -> None:
+        self._replaced: list[Path] = []
+        target = options.output
+        self.journal_is_kept = not (target is None or output.is_stdout(target) or _is_device(target))
+        if not self.journal_is_kept:
+            folder = Path(tempfile.mkdtemp(prefix="body_moments_"))
+            ends.callback(shutil.rmtree, folder, ignore_errors=True)
+            self.work, self.journal = folder / "work", folder / "journal"
+            return
+        target = target.resolve()
+        self.work, self.journal = beside(target, "body_moments.work"), target.with_name(target.name + ".journal")
+        try:
+            ends.enter_context(locked(self.journal, 0.0))
+        except Busy:
+            fail(finding("usage_busy", path=str(target)))
+        except OSError as error:
+            fail(finding("usage_path", path=str(target), error=error.strerror or str(error)))
+        shutil.rmtree(self.work, ignore_errors=True)  # of a run that was killed
+        _check_ours(self.journal, options.force)
+        if not options.resume:
+            forced = [path.resolve() for path in options.forced]
+            self._replaced = [path for path in (target, self.journal) if path not in forced]
+            for path in self._replaced:
+                _check_ours(path.with_name(path.name + _OLD), options.force)
+
+    def set_aside(self) -> None:
+        """Keep what is there of an earlier run as .old. Raises OSError."""
+        for path in self._replaced:
+            if path.exists() and not results.is_empty(path):
+                os.replace(path, path.with_name(path.name + _OLD))
+
+
+def _is_device(path: Path) -> bool:
+    return path.exists() and not path.is_file()
+
+
+def _check_ours(path: Path, force: bool) -> None:
+    """End with a message where a file that this run is to replace is no journal or result."""
+    if force or not os.path.lexists(path):
+        return
+    if not path.is_file() or not (is_journal(path) or results.replaceable(path, "output")):
+        fail(finding("usage_old_foreign", path=str(path)))
+
+
+class _Supervised:
+    """One run. tasks: the files, each once. done: how many of them are recorded."""
+
+    def __init__(self, options: Namespace, paths: list[str], command: list[str], places: _Places) -> None:
+        self._options, self._paths, self._command, self._places = options, paths, command, places
+        self.tasks = [*dict.fromkeys(paths)]
+        self.done = 0
+        self._faults = 0
+        cores = processes.cores()
+        self._count = max(1, min(options.jobs or cores, len(self.tasks)))
+        self._limits = Limits(options.timeout or DEFAULT_TIMEOUT, self._memory())
+        self._setup = {"options": as_record(options), "threads": max(1, cores // self._count)}
+
+    def _memory(self) -> int | None:
+        if self._options.memory_mb is not None:
+            return int(self._options.memory_mb * 1e6)
+        machine = processes.memory_of_machine()
+        return None if machine is None else int(_MEMORY_SHARE * machine / self._count)
+
+    def dependencies(self) -> Iterator[str]:
+        """The files that are read with those that are named, as far as children find out."""
+        with self._pool("reads") as pool:
+            pool.add(self.tasks)
+            while not pool.is_done:
+                for outcome in pool.step(_STEP):
+                    yield from outcome.head.get("reads", ())
+
+    def _pool(self, verb: str = "measure") -> Pool:
+        return Pool(self._command, self._count, self._setup, self._limits, self._places.work, verb)
+
+    def measure(self, channel: int) -> int:
+        """Measure what no journal has, write the result, and return the exit code."""
+        with ExitStack() as ends:
+            pool = ends.enter_context(self._pool())
+            if not self._options.resume:
+                pool.add(self.tasks)
+            if self.tasks:
+                pool.wait_until_ready()
+            self._places.set_aside()
+            with Journal(self._places.journal) as journal:
+                if self.tasks:
+                    self._measure(pool, journal)
+                is_written = self._write(journal, channel)
+                failed = any(journal.entries[path].status != "ok" for path in self.tasks)
+        if len(self._paths) == 1 and is_written:
+            self._places.journal.unlink()  # there is nothing to go on with
+        if self._faults:
+            return 70
+        return 1 if failed or not is_written else 0
+
+    def _measure(self, pool: Pool, journal: Journal) -> None:
+        blender = pool.about["blender"]
+        common = {"options": _digest(self._options), "addon": _version(), "blender": blender}
+        limits = {"seconds": self._limits.seconds, "memory": self._limits.memory}
+        if self._options.resume:
+            missing = [path for path in self.tasks if not _is_recorded(journal, path, common, limits)]
+            self.done = len(self.tasks) - len(missing)
+            pool.add(missing)
+        progress = Progress(len(self.tasks), self.done)
+        while not pool.is_done:
+            for outcome in pool.step(_STEP):
+                status, document = self._document(outcome, blender)
+                key = {"path": outcome.task, **_state(outcome), **common}
+                journal.append(key, status, outcome.attempts, outcome.seconds, limits, json.dumps(document).encode())
+                self.done += 1
+                progress.add(status)
+                self._tell(progress, outcome, document)
+            for file, note in pool.notes:
+                progress.clear()
+                tell(file, note)
+            pool.notes.clear()
+            progress.show()
+        progress.finish()
+
+    def _document(self, outcome: Outcome, blender: str) -> tuple[str, dict[str, Any]]:
+        """What is recorded of a file: its document, also where there was no answer."""
+        if outcome.status == "answered":
+            with suppress(ValueError, KeyError, TypeError):
+                document = json.loads(outcome.data)
+                return document["status"], document
+            outcome.status, outcome.how = "crashed", "no answer"
+        if outcome.status == "timeout":
+            reason = finding("file_timed_out", seconds=self._limits.seconds)
+        elif outcome.status == "memory":
+            reason = finding("file_took_memory", megabytes=(self._limits.memory or 0) / 1e6)
+        else:
+            reason = finding("file_crashed", how=outcome.how, count=outcome.attempts)
+        frame = self._options.frame
+        return outcome.status, failed_document(outcome.task, str(reason), outcome.status, blender=blender, frame=frame)
+
+    def _tell(self, progress: Progress, outcome: Outcome, document: dict[str, Any]) -> None:
+        """Pass on what was said of a file; where a child failed at it, all that this child has printed."""
+        faults = outcome.head.get("faults", 0)
+        self._faults += faults
+        if outcome.status != "answered":
+            progress.clear()
+            tell(outcome.task, document["errors"][0]["reason"])
+            return
+        lines = outcome.said.splitlines(keepends=True)
+        told = "".join(line for line in lines if faults or line.startswith(PROGRAM + ": "))
+        if told:
+            progress.clear()
+            sys.stderr.write(told)
+
+    def _write(self, journal: Journal, channel: int) -> bool:
+        """Whether the result could be written."""
+        options = self._options
+        documents = _Documents(journal, self._paths)
+        check = results.guard("output", options.output in options.forced)
+        return output.written(FORMATS[options.format](documents), options.output, channel, check)
+
+
+@dataclass
+class _Documents:
+    """Those of the files in their order, read again each time, so that never all of them are in memory."""
+
+    journal: Journal
+    paths: list[str]
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        return map(self.journal.document, self.paths)
+
+
+def _is_recorded(journal: Journal, path: str, common: dict[str, Any], limits: dict[str, Any]) -> bool:
+    entry = journal.entries.get(path)
+    return entry is not None and entry.serves({"path": path, **_stat(path), **common}, limits)
+
+
+def _state(outcome: Outcome) -> dict[str, int | None]:
+    """Size and time of the file as the child left it, which may have saved it."""
+    head = outcome.head
+    return {name: head[name] for name in ("size", "mtime_ns")} if "size" in head else _stat(outcome.task)
+
+
+def _stat(path: str) -> dict[str, int | None]:
+    try:
+        status = os.stat(path)
+    except (OSError, ValueError):
+        return {"size": None, "mtime_ns": None}
+    return {"size": status.st_size, "mtime_ns": status.st_mtime_ns}
+
+
+def _digest(options: Namespace) -> str:
+    """Of whatever changes the numbers besides the file."""
+    text = json.dumps([of_numbers(options), os.environ.get("BODY_MOMENTS_LIMITS", "")], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _version() -> str:
+    """That of the add-on."""
+    manifest = pkgutil.get_data(_ROOT, "blender_manifest.toml")
+    return tomllib.loads(manifest.decode())["version"] if manifest else ""

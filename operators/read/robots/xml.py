@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""XML from strangers: elements with their places in the file. Document types, and with them entities, are refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from xml.parsers import expat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.verdict.finding import FileError
+from .limits import MAX_DEPTH, MAX_ELEMENTS
+
+
+@dataclass(eq=False)
+class Node:
+    """One element. start, end: of its bytes in the file."""
+
+    tag: str
+    attributes: dict[str, str]
+    start: int
+    end: int = 0
+    text: str = ""
+    children: list[Node] = field(default_factory=list)
+
+    def find(self, *path: str) -> Node | None:
+        """Return the first element along a path of tags."""
+        node: Node | None = self
+        for tag in path:
+            node = next((child for child in node.children if child.tag == tag), None) if node else None
+        return node
+
+    def all(self, tag: str) -> list[Node]:
+        """Return the children with a tag."""
+        return [child for child in self.children if child.tag == tag]
+
+    def walk(self) -> Iterator[Node]:
+        """Yield it and everything below."""
+        waiting = [self]
+        while waiting:
+            node = waiting.pop()
+            yield node
+            waiting.extend(reversed(node.children))
+
+    def get(self, name: str, default: str = "") -> str:
+        """Return an attribute."""
+        return self.attributes.get(name, default)
+
+
+class _Builder:
+    def __init__(self, data: bytes) -> None:
+        self.data = data
+        self.open: list[Node] = []
+        self.root: Node | None = None
+        self.count = 0
+        self.parser = expat.ParserCreate()
+        self.parser.buffer_text = True
+        self.parser.StartElementHandler = self._start
+        self.parser.EndElementHandler = self._end
+        self.parser.CharacterDataHandler = self._text
+        self.parser.StartDoctypeDeclHandler = self._refuse
+        self.parser.EntityDeclHandler = self._refuse
+
+    def _refuse(self, *_: object) -> None:
+        raise FileError("xml_entities")
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        self.count += 1
+        if self.count > MAX_ELEMENTS or len(self.open) >= MAX_DEPTH:
+            raise FileError("xml_too_large", elements=MAX_ELEMENTS, depth=MAX_DEPTH)
+        node = Node(tag, attributes, self.parser.CurrentByteIndex)
+        if self.open:
+            self.open[-1].children.append(node)
+        else:
+            self.root = node
+        self.open.append(node)
+
+    def _end(self, _tag: str) -> None:
+        node = self.open.pop()
+        node.end = _end_of_tag(self.data, self.parser.CurrentByteIndex)
+
+    def _text(self, text: str) -> None:
+        if self.open:
+            self.open[-1].text += text
+
+
+def _end_of_tag(data: bytes, start: int) -> int:
+    """Behind the tag that begins there; attributes may hold its end mark."""
+    quote = 0
+    for index in range(start, len(data)):
+        character = data[index]
+        if quote:
+            quote = 0 if character == quote else quote
+        elif character in b"\"'":
+            quote = character
+        elif character == 0x3E:  # >
+            return index + 1
+    return len(data)
+
+
+def parse(data: bytes) -> Node:
+    """Return the root of a document. Raises FileError where it is none, or is refused."""
+    builder = _Builder(data)
+    try:
+        builder.parser.Parse(data, True)
+    except (expat.ExpatError, ValueError, LookupError) as error:
+        raise FileError("xml_invalid", error=" ".join(str(error).split())) from error
+    if builder.root is None:
+        raise FileError("xml_invalid", error="")
+    return builder.root
+
+
+def numbers(text: str, count: int, default: Sequence[float]) -> NDArray[np.float64]:
+    """Return so many numbers of a text, the defaults where there are none. Raises ValueError for other counts."""
+    words = text.split()
+    if not words:
+        return np.array(default, np.float64)
+    values = np.array([float(word) for word in words])
+    if len(values) != count:
+        raise ValueError(text)
+    return values

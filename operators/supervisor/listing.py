@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which files a run is about: those that are named, those in folders, those of a list (a manifest).
+
+A manifest is a text of JSON lines: {"schema": "body-moments-manifest/1", "files": N}, then {"path": "…"} for each
+file. A name may hold any character, a line break too.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from pathlib import Path
+
+from ...core.verdict.finding import QueryError
+
+SCHEMA = "body-moments-manifest/1"
+SUFFIXES = (
+    *(".blend", ".stl", ".obj", ".ply", ".fbx", ".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz"),
+    *(".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz"),
+)
+_RAW = re.compile(r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE)  # others are data files of headers
+
+
+def expand(names: Iterable[str]) -> Iterator[str]:
+    """The names, with what can be measured in the place of folders, sorted. Raises QueryError where that is nothing."""
+    for name in names:
+        if not os.path.isdir(name):
+            yield name
+            continue
+        count = 0
+        for path in _walk(name):
+            count += 1
+            yield path
+        if not count:
+            raise QueryError("folder_without_files", folder=name)
+
+
+def _walk(top: str) -> Iterator[str]:
+    """What can be measured in a folder and the folders in it. Each folder counts once, so that links in a circle end.
+    Hidden entries are left out, and so are folders that may not be read.
+    """
+    known: set[tuple[int, int]] = set()
+    waiting = [iter([top])]
+    while waiting:
+        path = next(waiting[-1], None)
+        if path is None:
+            waiting.pop()
+        elif not os.path.isdir(path):
+            if path.lower().endswith(SUFFIXES) or _RAW.search(path):
+                yield path
+        else:
+            with suppress(OSError):
+                status = os.stat(path)
+                if (status.st_dev, status.st_ino) not in known:
+                    known.add((status.st_dev, status.st_ino))
+                    names = sorted(name for name in os.listdir(path) if not name.startswith("."))
+                    waiting.append(os.path.join(path, name) for name in names)
+
+
+def write_lines(paths: Iterable[str]) -> Iterator[str]:
+    """The text of a manifest of these files, in pieces."""
+    paths = list(paths)
+    yield json.dumps({"schema": SCHEMA, "files": len(paths)}) + "\n"
+    for path in paths:
+        yield json.dumps({"path": path}) + "\n"
+
+
+def read(path: Path) -> list[str]:
+    """The files that a manifest lists; relative names are meant from its folder. Raises QueryError."""
+    try:
+        with open(path, "rb") as file:
+            lines = [json.loads(line) for line in file if line.strip()]
+        if lines[0]["schema"] != SCHEMA:
+            raise ValueError(path)
+        names = [line["path"] for line in lines[1:]]
+        if len(names) != lines[0]["files"] or not all(isinstance(name, str) for name in names):
+            raise ValueError(path)
+    except OSError as error:
+        raise QueryError("manifest_unreadable", file=str(path), error=error.strerror or str(error)) from error
+    except (ValueError, KeyError, TypeError, IndexError, RecursionError) as error:
+        raise QueryError("manifest_malformed", file=str(path)) from error
+    return [os.path.join(path.parent, name) for name in names]

@@ -1,0 +1,335 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Children that measure files, one file in flight in each: so a death, a hang or too much memory blames exactly one."""
+
+from __future__ import annotations
+
+import json
+import os
+import queue
+import shutil
+import subprocess
+import sys
+import time
+from collections import deque
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from . import processes
+from .lifeline import MARK
+
+ATTEMPTS = 2  # of a file that ends its child: the second one in a fresh child
+GROWTH = 256 << 20  # bytes that a child may keep of the files that it has measured before another one takes its place
+START_LIMIT = 300.0  # seconds in which a child must be ready
+MAX_FAILED_STARTS = 3  # in a row
+_WATCH = 0.05 if sys.platform.startswith("linux") else 1.0  # seconds between looks at the memory of children
+_GROWTH_PERIOD = 16  # files of a child between looks at its growth
+_END = 10.0  # seconds in which a child must end that has nothing more to do
+_LOG_TAIL = 1 << 16  # bytes of what a child has said
+
+
+class ChildError(Exception):
+    """No child can be started: `reason` is what it said."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
+
+
+class SetupError(Exception):
+    """Children refuse what was asked of them: `text` is their message, which is complete."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self.text = text
+
+
+@dataclass(frozen=True)
+class Limits:
+    """seconds: that one file may take. memory: bytes that it may take, None for any."""
+
+    seconds: float
+    memory: int | None = None
+
+
+@dataclass
+class Outcome:
+    """What became of a task.
+
+    status: "answered", "crashed", "timeout" or "memory". head, data: the answer. how: the signal or exit code of a
+    crash. attempts, seconds: of all attempts. said: what the child has written on its standard error.
+    """
+
+    task: str
+    status: str
+    attempts: int
+    seconds: float
+    head: dict[str, Any] = field(default_factory=dict)
+    data: bytes = b""
+    how: str = ""
+    said: str = ""
+
+
+@dataclass(eq=False)
+class _Child:
+    """A process. task: what it is at work on. base: its memory when it was ready. measured: how many files it was
+    given. doomed: why it was ended by us.
+    """
+
+    process: subprocess.Popen[bytes]
+    kept: int | None
+    folder: Path
+    log: Path
+    deadline: float
+    ready: bool = False
+    task: str | None = None
+    started: float = 0.0
+    base: int = 0
+    measured: int = 0
+    doomed: str = ""
+
+
+class Pool:
+    """Children at work on tasks, which are names of files.
+
+    command: what starts a child. count: how many there are at most. setup: the first message to each. verb: what a
+    message asks them to do with a file. work: a folder for all that they write, which must not exist, and is removed in
+    the end. Use it as a context manager; its end kills the children.
+    """
+
+    def __init__(
+        self,
+        command: Sequence[str],
+        count: int,
+        setup: dict[str, Any],
+        limits: Limits,
+        work: Path,
+        verb: str = "measure",
+    ) -> None:
+        self._command, self._count, self._setup, self._limits = command, count, setup, limits
+        self._work, self._verb = work, verb
+        self._tasks: deque[str] = deque()
+        self._again: deque[str] = deque()  # what ended its child, for a fresh one
+        self._attempts: dict[str, tuple[int, float]] = {}
+        self._children: list[_Child] = []
+        self._ending: list[tuple[_Child, float]] = []
+        self._events: queue.SimpleQueue[tuple[_Child, dict[str, Any] | None, bytes]] = queue.SimpleQueue()
+        self._readers = ThreadPoolExecutor(max_workers=4 * count + 8)
+        self._started = self._failed_starts = 0
+        self._watched = 0.0
+        self.about: dict[str, Any] = {}  # what the children say of themselves when they are ready
+        self.notes: list[tuple[str, str]] = []  # file and sentence: what children say while they work
+
+    def __enter__(self) -> Pool:
+        self._work.mkdir(parents=True)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        children = [*self._children, *(child for child, _ in self._ending)]
+        processes.kill([child.process for child in children], gently=True)
+        for child in children:
+            self._close(child)
+        self._readers.shutdown(wait=True)
+        shutil.rmtree(self._work, ignore_errors=True)
+
+    def add(self, tasks: Iterable[str]) -> None:
+        """More to do, each task once."""
+        self._tasks.extend(tasks)
+
+    @property
+    def is_done(self) -> bool:
+        """Whether nothing is left to do."""
+        return not self._tasks and not self._again and all(child.task is None for child in self._children)
+
+    def wait_until_ready(self) -> None:
+        """Start the children and wait for the first. Raises ChildError and SetupError."""
+        while not self.about:
+            self.step(1.0)
+
+    def step(self, wait: float) -> list[Outcome]:
+        """Give tasks to whoever has none, and return what has ended, waiting so many seconds for that.
+
+        Raises ChildError and SetupError.
+        """
+        self._refill()
+        outcomes: list[Outcome] = []
+        with suppress(queue.Empty):
+            event = self._events.get(timeout=self._pause(wait)) if wait else self._events.get_nowait()
+            while True:
+                outcomes += self._receive(*event)
+                event = self._events.get_nowait()
+        self._watch()
+        return outcomes
+
+    def _pause(self, wait: float) -> float:
+        now = time.monotonic()
+        deadlines = [child.deadline - now for child in self._children if not child.doomed]
+        watch = [_WATCH] if self._limits.memory and any(child.task is not None for child in self._children) else []
+        return max(0.001, min([wait, *deadlines, *watch]))
+
+    def _refill(self) -> None:
+        idle = [child for child in self._children if child.task is None and not child.doomed]
+        fresh = sum(not child.measured for child in idle)
+        missing = max(len(self._tasks) + len(self._again) - len(idle), len(self._again) - fresh)
+        if not self.about:
+            missing = max(missing, 1 - len(self._children))
+        for _ in range(min(missing, self._count - len(self._children))):
+            self._start()
+        for child in idle:
+            if child.ready:
+                self._give(child)
+
+    def _start(self) -> None:
+        name = self._work / str(self._started)
+        self._started += 1
+        log = name.with_suffix(".log")
+        try:
+            process, kept = processes.start(self._command, name, log)
+        except OSError as error:
+            raise ChildError("{}: {}".format(self._command[0], error.strerror or error)) from error
+        child = _Child(process, kept, name, log, time.monotonic() + START_LIMIT)
+        self._children.append(child)
+        self._readers.submit(self._read, child)
+        self._send(child, {**self._setup, "seconds": self._limits.seconds})
+
+    def _send(self, child: _Child, message: dict[str, Any]) -> None:
+        with suppress(OSError):  # it has died, which its reader finds out
+            child.process.stdin.write(json.dumps(message).encode() + b"\n")
+            child.process.stdin.flush()
+
+    def _read(self, child: _Child) -> None:
+        """In a thread: put what a child answers among the events, and at last that it has ended."""
+        stream: BinaryIO = child.process.stdout
+        try:
+            while line := stream.readline():
+                if not line.startswith(MARK):
+                    continue
+                head = json.loads(line[len(MARK) :])
+                data = stream.read(head["bytes"]) if "bytes" in head else b""
+                if len(data) < head.get("bytes", 0):
+                    break
+                self._events.put((child, head, data))
+        except (ValueError, TypeError, AttributeError, OSError):
+            child.process.kill()  # what has lost its mind is as good as dead
+        self._events.put((child, None, b""))
+
+    def _receive(self, child: _Child, head: dict[str, Any] | None, data: bytes) -> list[Outcome]:
+        if child not in self._children:
+            return []
+        if head is None:
+            return self._ended(child)
+        if child.doomed:  # it was late
+            return []
+        if "usage" in head:
+            raise SetupError(head["usage"])
+        if "note" in head:
+            self.notes.append((child.task or "", head["note"]))
+            return []
+        if "ready" in head:
+            self.about = head["ready"]
+            child.ready, self._failed_starts = True, 0
+            child.base = processes.memory_of(child.process.pid) or 0
+            self._give(child)
+            return []
+        task, child.task = child.task, None
+        if task is None:
+            return []
+        attempts, seconds = self._attempts.pop(task, (0, 0.0))
+        seconds += time.monotonic() - child.started
+        said = self._said(child)
+        if self._tasks and self._has_grown(child):
+            self._retire(child)
+        else:
+            self._give(child)
+        return [Outcome(task, "answered", attempts + 1, seconds, head, data, said=said)]
+
+    def _give(self, child: _Child) -> None:
+        """The next task, where there is one."""
+        child.deadline = float("inf")
+        tasks = self._again if self._again and not child.measured else self._tasks
+        if tasks:
+            child.task = tasks.popleft()
+            child.measured += 1
+            child.started = time.monotonic()
+            child.deadline = child.started + self._limits.seconds
+            self._send(child, {self._verb: child.task})
+
+    def _has_grown(self, child: _Child) -> bool:
+        if child.measured % _GROWTH_PERIOD:
+            return False
+        return (processes.memory_of(child.process.pid) or 0) > child.base + GROWTH
+
+    def _retire(self, child: _Child) -> None:
+        """Let a child end by itself, and another one take its place."""
+        self._children.remove(child)
+        with suppress(OSError):
+            child.process.stdin.close()
+        self._ending.append((child, time.monotonic() + _END))
+
+    def _ended(self, child: _Child) -> list[Outcome]:
+        processes.kill([child.process])  # and whatever it has left behind
+        self._children.remove(child)
+        said = self._said(child)
+        self._close(child)
+        if not child.ready:
+            self._failed_starts += 1
+            if not self.about or self._failed_starts >= MAX_FAILED_STARTS:
+                raise ChildError(" ".join(said.split()) or processes.how_it_ended(child.process.returncode))
+            return []
+        if child.task is None:
+            return []
+        attempts, seconds = self._attempts.get(child.task, (0, 0.0))
+        attempts, seconds = attempts + 1, seconds + time.monotonic() - child.started
+        if attempts < ATTEMPTS:
+            self._attempts[child.task] = attempts, seconds
+            self._again.append(child.task)
+            return []
+        self._attempts.pop(child.task, None)
+        how = processes.how_it_ended(child.process.returncode)
+        return [Outcome(child.task, child.doomed or "crashed", attempts, seconds, how=how, said=said)]
+
+    def _watch(self) -> None:
+        """End children that are late or too large, and those that have nothing more to do and do not end."""
+        now = time.monotonic()
+        for child in self._children:
+            if now >= child.deadline and not child.doomed:
+                child.doomed = "timeout"
+                processes.kill([child.process], gently=True)
+        if self._limits.memory and now >= self._watched + _WATCH:
+            self._watched = now
+            for child in self._children:
+                at_work = child.task is not None and not child.doomed
+                if at_work and (processes.memory_of(child.process.pid) or 0) > self._limits.memory:
+                    child.doomed = "memory"
+                    processes.kill([child.process])
+        for child, limit in [*self._ending]:
+            if now >= limit:
+                processes.kill([child.process])
+            if child.process.poll() is not None:
+                self._ending.remove((child, limit))
+                self._close(child)
+
+    def _said(self, child: _Child) -> str:
+        """The end of what a child has written on its standard error about its file."""
+        try:
+            with open(child.log, "rb") as file:
+                file.seek(max(0, os.fstat(file.fileno()).st_size - _LOG_TAIL))
+                return file.read().decode("utf-8", "replace")
+        except OSError:
+            return ""
+
+    def _close(self, child: _Child) -> None:
+        """Let go of a child that has ended, and of its files."""
+        for stream in (child.process.stdin, child.process.stdout):
+            with suppress(OSError):
+                stream.close()
+        if child.kept is not None:
+            os.close(child.kept)
+            child.kept = None
+        with suppress(OSError):
+            child.log.unlink()
+        shutil.rmtree(child.folder, ignore_errors=True)

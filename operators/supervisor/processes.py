@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Child processes: how they are started, what memory they take, how they end."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+
+_WINDOWS = os.name == "nt"
+_END = 5.0  # seconds that a killed process may take to be gone
+_GRACE = 0.4  # seconds to clean up in, for a child that is asked to end
+# Blender without a window, of factory settings, that runs no script of a file and reaches no network.
+_SWITCHES = ("-b", "--factory-startup", "--disable-autoexec", "--offline-mode", "-q", "--python-exit-code", "70")
+_WORD = "child"  # the command that serves a supervisor
+
+
+def child_command(blender: str | None) -> list[str] | None:
+    """What starts a child: a Blender, or without one this Python, which must have the bpy module (else None)."""
+    batch = importlib.util.find_spec("..batch", __package__)
+    script = str(Path(batch.origin or "").resolve()) if batch else ""
+    if blender is not None:
+        return [blender, *_SWITCHES, "--python", script, "--", _WORD]
+    if importlib.util.find_spec("bpy") is None:
+        return None
+    return [sys.executable, script, _WORD]
+
+
+def start(command: Sequence[str], folder: Path, log: Path) -> tuple[subprocess.Popen[bytes], int | None]:
+    """Start a child whose temporary and user files are in `folder`, and which writes what it says to `log`. Messages go
+    to its standard input, answers come from its standard output. With it comes the descriptor that it watches: it ends
+    when that is closed, by whatever. Raises OSError.
+    """
+    folder.mkdir(parents=True)
+    watched, kept = (None, None) if _WINDOWS else os.pipe()
+    temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
+    environment = {**os.environ, **temporary, "BLENDER_USER_RESOURCES": str(folder / "user")}
+    # A terminal's Ctrl+C is for the supervisor alone.
+    options = {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP} if _WINDOWS else {"start_new_session": True}
+    passed = () if watched is None else (watched,)
+    try:
+        with open(log, "ab") as errors:
+            process = subprocess.Popen(
+                [*command, *map(str, passed)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=errors,
+                env=environment,
+                pass_fds=passed,
+                **options,
+            )
+    except OSError:
+        if kept is not None:
+            os.close(kept)
+        raise
+    finally:
+        if watched is not None:
+            os.close(watched)
+    return process, kept
+
+
+def kill(processes: Sequence[subprocess.Popen[bytes]], *, gently: bool = False) -> None:
+    """End processes and whatever they have started. gently: they may remove what they are writing first."""
+    if gently and not _WINDOWS:
+        for process in processes:
+            _signal(process, signal.SIGTERM)
+        for process in processes:
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(_GRACE)
+    for process in processes:
+        if _WINDOWS:
+            with suppress(OSError):
+                process.kill()
+        else:
+            _signal(process, signal.SIGKILL)
+    for process in processes:
+        with suppress(subprocess.TimeoutExpired):  # where the system itself hangs on it
+            process.wait(_END)
+
+
+def _signal(process: subprocess.Popen[bytes], number: int) -> None:
+    """To the group that a child leads, while the child has not been waited for."""
+    if process.returncode is None:
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, number)
+
+
+def how_it_ended(code: int | None) -> str:
+    """The name of the signal that a process has died of, or its exit code."""
+    if code is None:
+        return "no answer"
+    try:
+        return signal.Signals(-code).name
+    except ValueError:
+        return "exit code {:#x}".format(code & 0xFFFFFFFF) if code > 255 else "exit code {}".format(code)
+
+
+def memory_of(pid: int) -> int | None:
+    """The bytes of memory that a process takes for itself, without the files that it has mapped; None where that is not
+    known.
+    """
+    try:
+        with open("/proc/{}/status".format(pid), "rb") as file:
+            status = file.read()
+    except OSError:
+        return None if sys.platform.startswith("linux") else _memory_by_tool(pid)
+    total, known = 0, False
+    for line in status.splitlines():
+        if line.startswith((b"RssAnon:", b"RssShmem:", b"VmSwap:")):
+            total, known = total + 1024 * int(line.split()[1]), True
+    return total if known else None
+
+
+def _memory_by_tool(pid: int) -> int | None:
+    """As the system's own tool says it: all that is resident."""
+    words = (
+        ["tasklist", "/fo", "csv", "/nh", "/fi", "PID eq {}".format(pid)] if _WINDOWS else ["ps", "-o", "rss=", "-p"]
+    )
+    words += [] if _WINDOWS else [str(pid)]
+    try:
+        told = subprocess.run(words, capture_output=True, timeout=5, check=True, stdin=subprocess.DEVNULL).stdout
+    except (OSError, subprocess.SubprocessError):
+        return None
+    digits = bytes(byte for byte in (told.rsplit(b'","', 1)[-1] if _WINDOWS else told) if 48 <= byte < 58)
+    return 1024 * int(digits) if digits else None
+
+
+def memory_of_machine() -> int | None:
+    """Bytes of physical memory, None where that is not known."""
+    try:
+        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return None
+
+
+def cores() -> int:
+    """How many processors this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:
+        return os.cpu_count() or 1

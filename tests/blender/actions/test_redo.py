@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the redo panel can change after the fact: by default nothing, else that alone."""
+
+import bpy
+import pytest
+
+from tests.blender.actions.setup.test_remedy_buttons import boxes
+from tests.blender.objects import add, mesh_body, only
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def test_measure_changes_settings_only_where_it_is_told_to():
+    obj = add(boxes(2.0, 1.0))
+    before = {name: getattr(obj.body_moments, name) for name in ("kind", "overlap", "density", "material")}
+    bpy.ops.object.body_moments_measure()
+    assert {name: getattr(obj.body_moments, name) for name in before} == before
+    assert not obj.body_moments.is_property_set("density")
+    bpy.ops.object.body_moments_measure(material="Copper", overlap="UNION")
+    assert obj.body_moments.material == "Copper" and close(obj["body_mass"], 8.0 * 8960.0, rel=1e-6)
+    bpy.ops.object.body_moments_measure(kind="SHELL")
+    assert obj["body_method"] == "shell" and obj.body_moments.material == "Copper"
+
+
+def test_only_the_chosen_kinds_of_defects_are_selected():
+    import bmesh
+
+    mesh = boxes(2.0, reverse=[0])
+    obj = add(mesh)
+    bpy.ops.object.body_moments_select_faults(kinds={"boundary_edges"})
+    assert bpy.context.mode == "OBJECT"
+    bpy.ops.object.body_moments_select_faults(kinds={"flipped_faces"})
+    assert bpy.context.mode == "EDIT_MESH"
+    selected = [face.index for face in bmesh.from_edit_mesh(obj.data).faces if face.select]
+    assert selected == [0]
+
+
+def test_only_the_chosen_results_are_cleared():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    bpy.ops.object.body_moments_find_symmetry()
+    assert bpy.ops.object.body_moments_clear(kinds={"SYMMETRY"}) == {"FINISHED"}
+    assert "body_mass" in obj and not obj.is_property_set("body_moments_symmetry")
+    assert bpy.ops.object.body_moments_clear(kinds={"SECTION"}) == {"CANCELLED"}
+    assert bpy.ops.object.body_moments_clear() == {"FINISHED"} and "body_mass" not in obj
+
+
+def test_an_empty_has_the_form_and_size_that_were_asked_for():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_add_empty()
+    plain = bpy.data.objects["Body Principal Frame"]
+    assert plain.empty_display_type == "ARROWS"
+    size = plain.empty_display_size
+    bpy.data.objects.remove(plain)
+    only(obj)
+    bpy.ops.object.body_moments_add_empty(display="SPHERE", size=0.5)
+    made = bpy.data.objects["Body Principal Frame"]
+    assert made.empty_display_type == "SPHERE" and close(made.empty_display_size, 0.5 * size, rel=1e-6)

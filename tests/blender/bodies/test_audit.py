@@ -1,0 +1,318 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Generated robots with planted mistakes: each is found, named and repaired, and right ones are left alone."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+pytest.importorskip("bpy")
+import numpy as np
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.numerics.rotations import rotation_matrix
+from body_moments.core.robots.model import Inertial, Link, Pose, Robot, Shape
+from body_moments.core.verdict.finding import Severity
+from body_moments.operators.bodies.audit import Auditor
+from body_moments.operators.read.robots.descriptions import read_description
+from body_moments.operators.read.robots.paths import Roots
+from body_moments.operators.write.messages import severity
+from body_moments.operators.write.robots import mjcf, sdf, urdf, usd
+from body_moments.operators.write.robots.repair import repaired_copy
+from body_moments.operators.write.robots.stl import to_stl
+
+from tests.core.bodies import box, joined
+from tests.robots.links import inertial, rotation
+
+
+def body(rng):
+    """A random body without any symmetry, with its center away from the origin: two sheared boxes in one mesh."""
+    points, triangles = joined(
+        box((0, 0, 0), rng.uniform(0.5, 2.0, 3)), box((-1, -1.5, -2), rng.uniform(-0.9, -0.2, 3))
+    )
+    stretch = rotation(rng) @ (np.eye(3) + np.triu(rng.uniform(-0.4, 0.4, (3, 3)), 1)) * rng.uniform(0.05, 0.3)
+    return points @ stretch.T + rng.uniform(0.1, 0.4, 3), triangles
+
+
+def robot(folder, seed, links=3):
+    """A robot whose links are filled evenly, their meshes written beside it."""
+    rng = np.random.default_rng(seed)
+    result = []
+    (folder / "meshes").mkdir(exist_ok=True)
+    for index in range(links):
+        points, triangles = body(rng)
+        file = "meshes/link_{}_{}.stl".format(seed, index)
+        (folder / file).write_bytes(to_stl(Surface.from_triangles(points, triangles)))
+        density = rng.uniform(500.0, 8000.0)
+        shape = Shape("mesh", file=file)
+        result.append(Link("link {}".format(index), inertial(points, triangles, density), shapes=(shape,)))
+    return Robot("robot", tuple(result))
+
+
+def rounded(value):
+    return float("{:.6g}".format(value))
+
+
+def with_tensor(true, tensor, **changes):
+    """An inertial that states another tensor; its principal pair is not looked at."""
+    return replace(true, inertia=tensor, **changes)
+
+
+def plant(true, kind, rng):
+    """A mistake: what is stated, the codes that may name it, whether the tensor is in a rotated frame."""
+    m, c, tensor = true.mass, true.center, true.inertia
+    shift = m * (c @ c * np.eye(3) - np.outer(c, c))
+    signs = np.array([[1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
+    order = [0, 2, 1]
+    planted = {
+        "inertia unit": (with_tensor(true, tensor * 1000.0), {"audit_inertia_unit"}),
+        "inertia small": (with_tensor(true, tensor * 1e-6), {"audit_inertia_unit"}),
+        "mass unit": (replace(true, mass=m * 1000.0), {"audit_mass_unit"}),
+        "both units": (with_tensor(true, tensor * 1000.0, mass=m * 1000.0), {"audit_mass_and_inertia_unit"}),
+        "center unit": (replace(true, center=c * 1000.0), {"audit_center_unit"}),
+        "length unit": (with_tensor(true, tensor * 1e6, center=c * 1000.0), {"audit_length_unit"}),
+        "products": (with_tensor(true, tensor * signs), {"audit_products_sign"}),
+        "swapped": (
+            with_tensor(true, tensor[np.ix_(order, order)]),
+            {"audit_axes_swapped", "audit_tensor_turned"},
+        ),
+        "transposed": (
+            with_tensor(true, true.axes.T @ (true.moments[:, None] * true.axes)),
+            {"audit_axes_transposed"},
+        ),
+        "about origin": (with_tensor(true, tensor + shift), {"audit_inertia_about_origin"}),
+    }
+    return planted[kind]
+
+
+KINDS = (
+    *("inertia unit", "inertia small", "mass unit", "both units", "center unit"),
+    *("length unit", "products", "swapped", "transposed", "about origin"),
+)
+
+
+def text_of(links, degrees=None):
+    """URDF of links whose tensors are as stated, to six digits as files have them."""
+    lines = ['<?xml version="1.0"?>', '<robot name="planted">']
+    for index, link in enumerate(links):
+        true = link.inertial
+        angles = "0 0 0" if degrees is None or index else " ".join(map(repr, degrees))
+        tensor = true.inertia
+        values = " ".join(
+            'i{}{}="{!r}"'.format("xyz"[i], "xyz"[j], rounded(tensor[i, j])) for i in range(3) for j in range(i, 3)
+        )
+        lines += [
+            '  <link name="{}">'.format(link.name),
+            "    <!-- an inertial follows -->",
+            "    <inertial>",
+            '      <origin xyz="{}" rpy="{}"/>'.format(" ".join(repr(rounded(x)) for x in true.center), angles),
+            '      <mass value="{!r}"/>'.format(rounded(true.mass)),
+            "      <inertia {}/>".format(values),
+            "    </inertial>",
+            '    <visual><geometry><mesh filename="{}"/></geometry></visual>'.format(link.shapes[0].file),
+            "  </link>",
+        ]
+    return "\n".join([*lines, "</robot>", ""])
+
+
+def audit(path):
+    description = read_description(path)
+    return Auditor(Roots.of(path)).audit(description)
+
+
+def faults(found):
+    """Codes of all links but notes."""
+    return [[one.code for one in link.findings if severity(one) != Severity.NOTE] for link in found.links]
+
+
+def near(found, truth, rel=1e-4):
+    return np.abs(np.asarray(found) - truth).max() <= rel * np.abs(truth).max()
+
+
+def check_repair(path, found, truth):
+    """What the repaired copy states, and that it is all that has changed."""
+    (index,) = [index for index, link in enumerate(found.links) if link.repaired is not None]
+    pairs = [(link.link, link.repaired) for link in found.links if link.repaired is not None]
+    copy = path.with_name("repaired_" + path.name)
+    copy.write_bytes(repaired_copy(found.description, pairs))
+    again = audit(copy)
+    assert not [code for codes in faults(again) for code in codes], (path, faults(again))
+    stated, true = again.links[index].link.inertial, truth[index]
+    assert near(stated.mass, true.mass) and near(stated.center, true.center) and near(stated.inertia, true.inertia)
+    assert copy.read_bytes().replace(b" ", b"").startswith(path.read_bytes().replace(b" ", b"")[:60])
+
+
+@pytest.mark.parametrize("seed", range(100))
+def test_a_planted_mistake_is_found_and_nothing_else(tmp_path, seed):
+    """100 robots of three links, one of which is wrong; the others stay as they are."""
+    rng = np.random.default_rng(1000 + seed)
+    right = robot(tmp_path, seed)
+    kind, index = KINDS[seed % len(KINDS)], int(rng.integers(3))
+    stated, codes = plant(right.links[index].inertial, kind, rng)
+    links = [replace(link, inertial=stated) if link is right.links[index] else link for link in right.links]
+    path = tmp_path / "robot.urdf"
+    path.write_text(text_of(links), encoding="utf-8")
+    found = audit(path)
+    told = faults(found)
+    assert all(not told[other] for other in range(3) if other != index), told
+    changes = [code for code in told[index] if code.startswith("audit_")]
+    assert len(changes) == 1 and changes[0] in codes, (kind, told)
+    check_repair(path, found, [link.inertial for link in right.links])
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_degrees_for_radians_in_the_inertial_and_in_the_mesh(tmp_path, seed):
+    rng = np.random.default_rng(seed)
+    right = robot(tmp_path, seed, links=2)
+    angles = rng.uniform(-90, 90, 3).round(2)
+    frame = read_angles(np.radians(angles))
+    true = right.links[0].inertial
+    stated = replace(true, inertia=frame.T @ true.inertia @ frame)
+    links = [replace(right.links[0], inertial=stated), right.links[1]]
+    path = tmp_path / "robot.urdf"
+    path.write_text(text_of(links, angles.tolist()), encoding="utf-8")
+    found = audit(path)
+    told = faults(found)
+    assert [code for code in told[0] if code.startswith("audit_")] == ["audit_angles_in_degrees"] and not told[1]
+    check_repair(path, found, [link.inertial for link in right.links])
+    # and the same angles for the mesh, whose inertial is right
+    turned = true.place(Pose(np.zeros(3), frame))
+    text = text_of([replace(right.links[0], inertial=turned)])
+    path.write_text(
+        text.replace("<visual>", '<visual><origin rpy="{}"/>'.format(" ".join(map(repr, angles.tolist())))),
+        encoding="utf-8",
+    )
+    told = faults(audit(path))
+    assert [code for code in told[0] if code.startswith("audit_")] == ["audit_shape_angles_in_degrees"]
+
+
+def read_angles(angles):
+    (cr, cp, cy), (sr, sp, sy) = np.cos(angles), np.sin(angles)
+    x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
+    y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
+    return np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]]) @ y @ x
+
+
+@pytest.mark.parametrize("name, writer", [("urdf", urdf), ("sdf", sdf), ("mjcf", mjcf)])
+def test_what_we_write_is_right(tmp_path, name, writer):
+    for seed in range(5):
+        path = tmp_path / ("robot." + name)
+        path.write_text(writer.write(robot(tmp_path, seed)), encoding="utf-8")
+        found = audit(path)
+        assert not [code for codes in faults(found) for code in codes]
+        assert len([link for link in found.links if link.link.inertial]) == 3
+        assert all(not link.findings for link in found.links)
+
+
+@pytest.mark.parametrize("name, writer", [("sdf", sdf), ("mjcf", mjcf), ("usd", usd)])
+def test_other_formats_are_repaired_where_they_stand(tmp_path, name, writer):
+    right = robot(tmp_path, 7)
+    true = right.links[1].inertial
+    wrong = Inertial(true.mass, true.center, true.inertia * 1000, true.moments * 1000, true.axes)
+    links = [replace(link, inertial=wrong) if link is right.links[1] else link for link in right.links]
+    path = tmp_path / ("robot." + name)
+    text = writer.write(Robot("robot", tuple(links)))
+    if name == "usd":
+        text = with_meshes(text, tmp_path, right)
+    path.write_text(text, encoding="utf-8")
+    found = audit(path)
+    told = faults(found)
+    assert [code for code in told[1] if code.startswith("audit_")] == ["audit_inertia_unit"], told
+    assert not told[0] and not told[2]
+    check_repair(path, found, [link.inertial for link in right.links])
+
+
+def with_meshes(text, folder, right):
+    """Put each link's mesh into its prim."""
+    for link in right.links:
+        start = text.index('def Xform "{}"'.format(usd.identifier(link.name)))
+        place = text.index("xformOpOrder", start)
+        end = text.index("\n", place)
+        data = np.frombuffer(
+            (folder / link.shapes[0].file).read_bytes()[84:],
+            np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]),
+        )["corners"].reshape(-1, 3)
+        points = ", ".join("({!r}, {!r}, {!r})".format(*map(float, point)) for point in data)
+        mesh = '\n        def Mesh "m"\n        {{\n            point3f[] points = [{}]\n'.format(points)
+        mesh += "            int[] faceVertexCounts = [{}]\n".format(", ".join(["3"] * (len(data) // 3)))
+        mesh += "            int[] faceVertexIndices = [{}]\n        }}".format(", ".join(map(str, range(len(data)))))
+        text = text[:end] + mesh + text[end:]
+    return text
+
+
+def test_mujoco_reads_a_body_as_we_do(tmp_path):
+    """Defaults, classes, Euler angles in degrees, axes and quaternions."""
+    text = """<mujoco><compiler angle="degree" eulerseq="zyx"/>
+    <default><geom type="box" size=".1 .2 .3"/><default class="thin"><geom size=".1 .2 .01"/></default></default>
+    <worldbody>
+      <body name="a" euler="10 20 30"><freejoint/><geom class="thin" euler="10 20 30" pos="1 2 3"/>
+        <inertial pos=".1 .2 .3" euler="40 50 60" mass="2" diaginertia=".02 .03 .04"/></body>
+      <body name="b"><freejoint/><inertial pos="0 0 0" axisangle="1 2 3 40" mass="1" diaginertia=".02 .03 .04"/></body>
+      <body name="c"><freejoint/><inertial pos="0 0 0" mass="1" fullinertia=".02 .03 .04 .001 .002 -.003"/></body>
+      <body name="d"><freejoint/><inertial pos="0 0 0" xyaxes="1 1 0 0 1 1" mass="1" diaginertia=".02 .03 .04"/></body>
+      <body name="e"><freejoint/><inertial pos="0 0 0" zaxis="1 2 -3" mass="1" diaginertia=".02 .03 .04"/></body>
+    </worldbody></mujoco>"""
+    path = tmp_path / "model.xml"
+    path.write_text(text, encoding="utf-8")
+    # xx, yy, zz, xy, xz, yz as MuJoCo 4.0.0 has them
+    truth = {
+        "a": (0.0348017858339, 0.0300335152765, 0.0251646988896, -0.00558114025244, 0.00650414484361, 0.0018242175549),
+        "b": (0.0254230741933, 0.0270393570758, 0.0375375687309, -0.0045773623995, 0.00590520932069, 0.000954964383256),
+        "c": (0.02, 0.03, 0.04, 0.001, 0.002, -0.003),
+        "d": (0.0283333333333, 0.0283333333333, 0.0333333333333, -0.00833333333333, 0.00333333333333, -0.003333333333),
+        "e": (0.0266228507795, 0.0276628635062, 0.0357142857143, 0.00603856665606, -0.000433338636129, -0.006211902110),
+    }
+    links = read_description(path).links
+    for link in links:
+        inertia = link.inertial.inertia
+        found = [inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+        assert near(found, np.array(truth[link.name]), 1e-10)
+    (shape,) = links[0].shapes
+    turn = rotation_matrix([0.951548524644, 0.239298337745, 0.189307857412, 0.038134576475])
+    assert near(turn, shape.shape.pose.rotation, 1e-10) and shape.shape.size == (0.2, 0.4, 0.02)
+
+
+def test_what_is_impossible_is_an_error_and_what_is_only_otherwise_is_a_note(tmp_path):
+    text = """<robot name="r">{}</robot>"""
+    link = (
+        '<link name="{}"><inertial><origin xyz="{}"/><mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}" ixy="0" '
+        'ixz="0" iyz="0"/></inertial><collision><geometry><box size="2 2 2"/></geometry></collision></link>'
+    )
+    cases = {
+        "hollow": ("0 0 0", 1000, 1000, 1000, 1000, ["audit_not_uniform"]),
+        "heavy end": ("0.9 0 0", 1000, 100, 100, 100, ["audit_not_uniform"]),
+        "uniform": ("0 0 0", 8000, 5333.3333, 5333.3333, 5333.3333, []),
+        "outside": ("1.2 0 0", 1000, 100, 100, 100, ["inertial_center_outside"]),
+        "too wide": ("0 0 0", 1000, 3000, 3000, 3000, ["inertial_spread_outside"]),
+        "negative": ("0 0 0", 1000, -1, 10, 10, ["inertial_not_positive"]),
+        "triangle": ("0 0 0", 1000, 1, 10, 20, ["inertial_triangle"]),
+        "rounded": ("0 0 0", 1000, 100, 100, 200.1, ["inertial_triangle_slightly"]),
+        "weightless": ("0 0 0", 0, 1, 1, 1, ["inertial_mass_not_positive"]),
+        "nan": ("0 0 0", "nan", 1, 1, 1, ["inertial_not_finite"]),
+    }
+    path = tmp_path / "r.urdf"
+    path.write_text(text.format("".join(link.format(name, *values[:-1]) for name, values in cases.items())))
+    for found, (name, values) in zip(audit(path).links, cases.items()):
+        assert found.link.name == name and [one.code for one in found.findings][: len(values[-1])] == values[-1], name
+        assert bool(values[-1]) or not found.findings
+
+
+def test_a_missing_inertial_matters_where_something_could_move(tmp_path):
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        '<robot name="r"><link name="frame"/><link name="arm"><visual><geometry><sphere radius="1"/>'
+        "</geometry></visual></link></robot>"
+    )
+    assert faults(audit(path)) == [[], ["inertial_missing"]]
+
+
+def test_density_tells_the_mesh_from_the_inertial(tmp_path):
+    """A mesh in millimeters without its scale: with the inertial's lengths in doubt, the density decides."""
+    right = robot(tmp_path, 3, links=1)
+    link = right.links[0]
+    path = tmp_path / "robot.urdf"
+    text = text_of(right.links).replace('.stl"', '.stl" scale="1000 1000 1000"')
+    path.write_text(text, encoding="utf-8")
+    (found,) = audit(path).links
+    changes = {one.code: one.values for one in found.findings if one.code.startswith("audit_")}
+    assert math.isclose(changes["audit_mesh_unit"]["factor"], 1e-3, rel_tol=1e-12) and link.inertial.mass > 0
