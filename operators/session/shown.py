@@ -8,7 +8,6 @@ A viewport is drawn at every movement of the mouse, so the answer is kept until 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 import bpy
 import numpy as np
@@ -16,27 +15,9 @@ from bpy.types import Object, Scene
 from numpy.typing import NDArray
 
 from ...core.numerics.float32 import shortest_decimal
-from ...core.verdict.finding import Severity
-from ...core.verdict.method import Method, Verdict
-from ..write import properties
-from ..write.messages import severity
-from . import handlers, live, results, staleness
+from . import handlers, results
 from .cache import SessionCache
-
-REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
-# Warnings that say how the surface was closed: those of a repaired body.
-REPAIRS = frozenset(
-    {"vertices_welded", "duplicate_faces_ignored", "flipped_faces", "inverted_components", "holes_capped"}
-)
-
-
-class Trust(StrEnum):
-    """How far shown numbers are to be trusted."""
-
-    EXACT = "exact"
-    REPAIRED = "repaired"
-    DOUBTFUL = "doubtful"
-    OUT_OF_DATE = "out of date"
+from .trust import Trust, trust
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,41 +72,9 @@ def shown_body(obj: Object, scene: Scene | None = None) -> ShownBody | None:
 
 def _shown_now(obj: Object, scene: Scene) -> ShownBody | None:
     stored = results.in_world(obj, scene)
-    if stored is None:
+    if stored is None or not stored.body.mass > 0.0:
         return None
     body, unit = stored.body, shortest_decimal(scene.unit_settings.scale_length)
     return ShownBody(
         body.center / unit, body.principal.axes, body.radii_of_gyration / unit, body.mass, trust(obj, scene)
     )
-
-
-def trust(obj: Object, scene: Scene) -> Trust:
-    """Return how far the object's numbers, live or stored, are to be trusted.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object with numbers.
-    scene : bpy.types.Scene
-        Whose unit scale counts.
-
-    Returns
-    -------
-    Trust
-    """
-    now = live.current_numbers(obj)
-    if now is not None and now.measurement is not None:
-        if live.is_pending(obj) or live.is_stale(obj, scene):
-            return Trust.OUT_OF_DATE
-        method, findings = now.measurement.method, now.measurement.findings
-    elif staleness.stale_reason(obj, scene):
-        return Trust.OUT_OF_DATE
-    else:
-        method, findings = properties.method(obj), properties.findings(obj)
-    return _trust_of(method, [found.code for found in findings if severity(found) != Severity.NOTE])
-
-
-def _trust_of(method: Method | None, warnings: list[str]) -> Trust:
-    if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
-        return Trust.DOUBTFUL
-    return Trust.REPAIRED if warnings or method.verdict in REPAIRED else Trust.EXACT
