@@ -16,6 +16,7 @@ PARTS = (
     "settings.properties",
     "settings.assembly",
     "settings.reference",
+    "settings.bone",
     *(
         "session.handlers",
         "session.updates",
@@ -23,6 +24,7 @@ PARTS = (
         "session.walls",
         "session.live",
         "session.assembly",
+        "session.rig",
         "session.outcome",
     ),
     *(
@@ -47,8 +49,9 @@ PARTS = (
         "actions.snap." + name
         for name in ("origin", "principal_axes", "align", "empty", "cursor", "orientation", "rigid_body", "balance")
     ),
-    *("actions.statics." + name for name in ("stability", "rest_on_ground")),
+    *("actions.statics." + name for name in ("stability", "rest_on_ground", "balance_group")),
     "actions.export.robot",
+    *("actions.rig." + name for name in ("measure", "physics", "center")),
     *("actions.shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",
     "session.staleness",

@@ -25,6 +25,7 @@ MODULES = (
         "stability",
         "selection",
         "assembly",
+        "bones",
         "advanced",
     ),  # sub-panels; their order is `places.ORDER`
     *("moments", "section", "shape"),  # sub-panels of the advanced one

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..inertia.axial_harmonics import AxialHarmonics, axis_last, turn_by_harmonics
 from ..inertia.canonical_frame import NOISE_LEVEL
 from ..inertia.principal_frame import equivalent_frames
 from ..moments.moments import Moments
@@ -40,7 +41,7 @@ class Symmetry:
     revolution_axes : array
         (1, 3) the axis about which every rotation is one; (0, 3) none, (3, 3) all directions.
     order : int
-        Of the moments it was found from.
+        Of the moments it was found from, or of harmonics about an axis.
     tolerance : float or None
         That the geometry was compared with, None where it was not.
     """
@@ -88,7 +89,9 @@ class Symmetry:
         return bool((np.abs(self.operations + np.eye(3)).max(axis=(1, 2)) < EQUAL_OPERATION_ATOL).any())
 
 
-def symmetry(moments: Moments, noise: float = NOISE_LEVEL) -> Symmetry:
+def symmetry(
+    moments: Moments, noise: float = NOISE_LEVEL, axial: Callable[[NDArray], AxialHarmonics] | None = None
+) -> Symmetry:
     """Find the symmetries that moments allow.
 
     Parameters
@@ -97,6 +100,9 @@ def symmetry(moments: Moments, noise: float = NOISE_LEVEL) -> Symmetry:
         To third order at least.
     noise : float
         As for `equivalent_frames`.
+    axial : callable, optional
+        Returns the harmonics about the third axis of a (3, 3) frame; called where the moments are those of a body of
+        revolution, about its axis.
 
     Returns
     -------
@@ -114,6 +120,14 @@ def symmetry(moments: Moments, noise: float = NOISE_LEVEL) -> Symmetry:
     """
     central = moments.about_center()
     alike, mirrored = equivalent_frames(central, noise), equivalent_frames(invert_through_point(central), noise)
+    order = moments.order
+    if axial is not None and len(alike.revolution_axes) == 1:
+        harmonics = axial(axis_last(alike))
+        order = harmonics.order
+        alike, mirrored = (
+            turn_by_harmonics(alike, harmonics, noise),
+            turn_by_harmonics(mirrored, harmonics.inverted(), noise),
+        )
     first = alike.frames[0]
     operations = [frame @ first.T for frame in alike.frames]
     if len(alike.values) == len(mirrored.values) and (np.abs(alike.values - mirrored.values) <= alike.noise).all():
@@ -124,7 +138,7 @@ def symmetry(moments: Moments, noise: float = NOISE_LEVEL) -> Symmetry:
         operations = _finite_operations(operations, axes[0])
     elif len(axes) == 3:
         operations = np.array([np.eye(3)])
-    return Symmetry(distinct_arrays(operations, EQUAL_OPERATION_ATOL), axes, moments.order)
+    return Symmetry(distinct_arrays(operations, EQUAL_OPERATION_ATOL), axes, order)
 
 
 def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:

@@ -22,8 +22,6 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.numerics.rotations import rotation_matrix
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ...core.verdict.health import MeshReport
-from ...core.verdict.method import Method, Verdict
 from ..read.assembly import Member, MemberKind, Root, members_of, settings_of
 from ..read.fingerprint import digest, fingerprint, matrix_hash
 from ..read.objects import locate
@@ -33,7 +31,8 @@ from ..settings.density import unset_density
 from ..settings.given import GivenPart
 from ..settings.options import AS_SET, MeasureOptions
 from .body import KNOWN_ORDER
-from .given import given_moments, properties_of
+from .combined import combined_measurement
+from .given import given_moments
 from .instances import merge_health
 from .measure_object import Measured, measure_body
 
@@ -165,51 +164,27 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
     if isinstance(data, bpy.types.Object):
         at = locate(data, depsgraph)
         rotation, location, place = at.rotation, at.location * unit, matrix_hash(data)
-    properties = properties_of(mass, rotation)
-    volume, area = (
-        Moments(np.r_[total, np.zeros(19)], mass.about, measure)
-        for total, measure in ((whole.volume, Measure.VOLUME), (whole.area, Measure.AREA))
-    )
-    rounding, moved = properties.rounding_error, properties.input_error
     measured = [part.measured.measurement for part in whole.walk() if part.measured is not None]
     inputs = [measurement.error_bound["input"] for measurement in measured]
-    return Measurement(
+    given = settings_of(data).mass_from == "MASS"
+    return combined_measurement(
         name=data.name,
         type="COLLECTION" if isinstance(data, bpy.types.Collection) else data.type,
         kind="assembly",
-        method=Method(Verdict.ASSEMBLY),
-        density=mass.total / whole.volume if whole.volume > 0.0 else 0.0,
-        thickness=0.0,
-        volume=whole.volume,
-        area=whole.area,
-        mass_properties=properties,
-        volume_moments=volume,
-        area_moments=area,
-        mass_moments=(mass, 1.0),
-        health=merge_health((measurement.health, 1, measurement.area) for measurement in measured)
-        if measured
-        else MeshReport(closed=False, components=0),
-        findings=tuple(findings_of(whole, depsgraph.scene)),
+        mass=mass,
+        volume=(whole.volume, whole.volume_error),
+        area=(whole.area, whole.area_error),
+        inputs=(sum(bound["volume"] for bound in inputs), sum(bound["area"] for bound in inputs)),
         rotation=rotation,
         location=location,
-        error_bound={
-            "volume": whole.volume_error,
-            "area": whole.area_error,
-            "center_of_mass": rounding["center"],
-            "inertia": rounding["inertia"],
-            "input": {
-                "volume": sum(bound["volume"] for bound in inputs),
-                "area": sum(bound["area"] for bound in inputs),
-                "center_of_mass": moved["center"],
-                "inertia": moved["inertia"],
-            },
-        },
         fingerprint=fingerprint(
-            members_key(whole.member, _fingerprints(whole)).encode(),
-            place,
-            structure_hash(whole.member),
+            members_key(whole.member, _fingerprints(whole)).encode(), place, structure_hash(whole.member)
         ),
-        density_from=DENSITY_FROM_MASS if settings_of(data).mass_from == "MASS" else finding("density_from_members"),
+        findings=tuple(findings_of(whole, depsgraph.scene)),
+        density_from=DENSITY_FROM_MASS if given else finding("density_from_members"),
+        health=merge_health((measurement.health, 1, measurement.area) for measurement in measured)
+        if measured
+        else None,
     )
 
 
@@ -221,7 +196,7 @@ def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
             settings = member.data.body_moments
             keys.append(GivenPart.of(settings, 1.0).key + repr(settings.mass) + matrix_hash(member.data))
         elif member.is_measured:
-            keys.append(fingerprints.get(member.data, ""))
+            keys.append(fingerprints.get(member.data, "") + matrix_hash(member.data))  # which moving leaves as they are
     return "\n".join(keys)
 
 

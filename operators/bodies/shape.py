@@ -19,8 +19,9 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
+from ...core.inertia.axial_harmonics import axial_harmonics, axis_last, turn_by_harmonics
 from ...core.inertia.canonical_frame import MAX_ORDER
-from ...core.inertia.principal_frame import pose_matrix
+from ...core.inertia.principal_frame import equivalent_frames, nearest_frame, pose_matrix
 from ...core.measurement import Measurement
 from ...core.mesh.point_triangle import triangle_distances
 from ...core.mesh.surface import Surface, join_surfaces
@@ -88,10 +89,21 @@ class Shape:
 
     def pose(self) -> dict[str, Any]:
         """The pose for a record: see DESIGN.md. Where the density varies, third moments of the mass alone are known,
-        which cannot tell a symmetry."""
+        which cannot tell a symmetry. An axis of revolution is looked at to order 30: where it is none, the body decides
+        how it is turned about it."""
         body = self.measurement.mass_properties
-        pose = {"matrix": pose_matrix(body.center, body.principal.axes), "unique": body.principal.is_unique}
-        return {**pose, "symmetry": None if self.body.mass is not None else symmetry(self.moments).group}
+        axes, unique = body.principal.axes, body.principal.is_unique
+        pose: dict[str, Any] = {"symmetry": None, "symmetry_order": None}
+        if self.body.mass is None:
+            alike, axial = equivalent_frames(self.moments), None
+            if len(alike.revolution_axes) == 1 and self.has_surface and not is_display_mesh(self.measurement):
+                harmonics = axial_harmonics(self.pieces(), self.center, axis_last(alike), area=self._sheets)
+                alike, axial = turn_by_harmonics(alike, harmonics), harmonics.in_frame
+                if not alike.revolution_axes:
+                    axes, unique = nearest_frame(alike, axes), len(alike.frames) == 1
+            found = symmetry(self.moments, axial=axial)
+            pose = {"symmetry": found.group, "symmetry_order": found.order}
+        return {"matrix": pose_matrix(body.center, axes), "unique": unique, **pose}
 
     @property
     def has_surface(self) -> bool:

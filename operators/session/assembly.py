@@ -16,7 +16,6 @@ from bpy.types import Context, Object
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, Severity
-from ...core.verdict.method import Verdict
 from ..bodies.assembly import Assembly, MemberBody, assembly_measurement, members_key, structure_hash
 from ..read.assembly import MemberKind, Root, members_of, settings_of
 from ..read.fingerprint import VERSION, digest, matrix_hash
@@ -152,8 +151,8 @@ def _row_findings(part: MemberBody) -> list[Finding]:
 
 
 def register() -> None:
-    staleness.reasons_by_method[Verdict.ASSEMBLY] = stale_reason
+    staleness.reasons_by_type["EMPTY"] = stale_reason
 
 
 def unregister() -> None:
-    del staleness.reasons_by_method[Verdict.ASSEMBLY]
+    del staleness.reasons_by_type["EMPTY"]

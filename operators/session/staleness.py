@@ -24,27 +24,32 @@ before undo, and before the file is saved.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from types import MappingProxyType
 
 import bpy
 from bpy.types import Context, Depsgraph, Object, Scene
 
+from ...core.verdict.method import Verdict
 from ..read.fingerprint import VERSION, has_transform, matrix_hash, scale_hash, settings_hash, shape_digest
 from ..read.quiet import paused
 from . import handlers, marks, updates
 from .cache import SessionCache
 
+NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
 _edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
 _shapes: dict[str, bytes] = {}  # mark → digest of what was shown when it was stored: copies of an object share both
 _resolved: dict[int, int] = {}  # session uid → up to which update is noted what it means
-# of what is no object's own body, by method: what compares its results with an object
-reasons_by_method: dict[str, Callable[[Object], str | None]] = {}
+# of what is no object's own body, by the type of its object: what compares its results with what it is now
+reasons_by_type: dict[str, Callable[[Object], str | None]] = {}
 
 
 # ---------------------------------------------------------------- What was stored just now
 
 
-def mark_up_to_date(context: Context, objects: list[Object]) -> None:
+def mark_up_to_date(
+    context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
+) -> None:
     """Take objects as up to date, after results were stored; evaluates what storing itself has tagged.
 
     Parameters
@@ -53,12 +58,19 @@ def mark_up_to_date(context: Context, objects: list[Object]) -> None:
         Its view layer has the objects.
     objects : list of bpy.types.Object
         Those whose results were stored or removed.
+    shapes : mapping of bpy.types.Object to bytes or None
+        Of objects that have just been read, the `surface_digest` of what they show.
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
         note_edits(obj)  # of its other marks
         mark_object(obj)
-        _remember_shape(obj, marks.of_results(obj), depsgraph)
+        mark = marks.of_results(obj)
+        shape = shapes.get(obj)
+        if shape is not None and obj.mode == "OBJECT" and not _varies(obj):
+            _shapes[mark] = shape
+        else:
+            _remember_shape(obj, mark, depsgraph)
 
 
 def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) -> None:
@@ -162,9 +174,8 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
     mark = marks.parse(marks.of_results(obj))
     if mark is None or mark.version != VERSION:
         return "stale_fingerprint" if "body_mass" in obj else None
-    reason_of = reasons_by_method.get(str(obj.get("body_method", "")))
-    if reason_of is not None:
-        return reason_of(obj)
+    if obj.get("body_method") == Verdict.ASSEMBLY and obj.type in reasons_by_type:
+        return reasons_by_type[obj.type](obj)
     if mark.settings != settings_hash(obj, scene):
         return "stale_settings"
     if _has_new_geometry(obj, mark):
@@ -266,9 +277,12 @@ def _remember_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
 
 def _shape(obj: Object, depsgraph: Depsgraph | None) -> bytes | None:
     """A digest of all that the numbers come from beside settings and transform; None where there is none."""
-    if depsgraph is None or obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}:
-        return None
-    return shape_digest(obj, depsgraph)
+    return None if depsgraph is None or _varies(obj) else shape_digest(obj, depsgraph)
+
+
+def _varies(obj: Object) -> bool:
+    """Whether the numbers may come from more than that."""
+    return obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
 
 
 def _note_all_edits() -> None:

@@ -163,7 +163,7 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
         powers = entry.get("moments", {}).get(name, {})
         row |= {f"{name}_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
     if entry.get("pose"):
-        row |= {f"pose_{name}": entry["pose"][name] for name in ("unique", "symmetry")}
+        row |= {f"pose_{name}": entry["pose"][name] for name in ("unique", "symmetry", "symmetry_order")}
         row |= {
             f"pose_matrix_{i + 1}{j + 1}": value
             for i, line in enumerate(entry["pose"]["matrix"])

@@ -1296,6 +1296,44 @@ MESSAGES: dict[str, Message] = {
     "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ Rigs
+    "no_active_armature": _error("The active object is not an armature. Select one."),
+    "armature_in_edit_mode": _error("The armature is in Edit Mode. Leave it."),
+    "armature_not_editable": _error("The armature cannot be put into its rest pose. Make it local."),
+    "no_deforming_bones": _error("No bone deforms meshes. Make those that do deforming bones."),
+    "bone_missing": _error("Its parent bone “{bone}” does not exist. Choose another one."),
+    "rig_without_parts": _error(
+        "The armature deforms no mesh that can be measured, and nothing is parented to its bones. Add an Armature "
+        "modifier to the mesh."
+    ),
+    "bone_part_impossible": _error("No body has the moments of the bone's part: {cause} Check weights and normals."),
+    "bone_parts_impossible": _warning(
+        "{count} bone has a part whose moments no body has: {names}. Check weights and normals.",
+        "{count} bones have parts whose moments no body has: {names}. Check weights and normals.",
+    ),
+    "unweighted_vertices": _warning(
+        "{count} of {total} vertices has no weight on a deforming bone; faces with such vertices alone go with the "
+        "nearest bone. Assign weights.",
+        "{count} of {total} vertices have no weight on a deforming bone; faces with such vertices alone go with the "
+        "nearest bone. Assign weights.",
+    ),
+    "rig_open_mesh": _warning(
+        "The mesh cannot be closed; each bone's part is closed at its own cuts. Repair the mesh."
+    ),
+    "rig_wall_thin": _note("The wall counts as a thin sheet: area times thickness."),
+    "rig_mean_density": _warning("The density varies; every bone's part has the mean density of the mesh."),
+    "bones_measured": _note(
+        "{armature}: {mass:.7g} kg in the parts of {count} bone",
+        "{armature}: {mass:.7g} kg in the parts of {count} bones",
+    ),
+    "physics_rig_created": _note(
+        "Created {count} rigid body and {joints} joints", "Created {count} rigid bodies and {joints} joints"
+    ),
+    "physics_rig_too_light": _error(
+        "Rigid bodies weigh {limit:.3g} kg at least, and these parts less: {names}. Scale the character, or set masses."
+    ),
+    "rig_center_added": _note("Added the center of mass of “{armature}”, which follows its pose"),
+    "stale_rig": _warning("Bones, settings or objects changed"),
     # ------------------------------------------------------------------ References
     "axis_points_coincide": _error("The two points of the axis are too near to each other. Move one of them."),
     "axis_needs_two_points": _error("{count} points are selected. Select two vertices, or two objects."),
@@ -1558,6 +1596,22 @@ MESSAGES: dict[str, Message] = {
     "objects_tip": _warning("{names} tips over", "{names} tip over"),
     "laid_on_ground": _note("Laid {count} object on the ground", "Laid {count} objects on the ground"),
     "already_on_ground": _note("already on the ground"),
+    "poll_object_or_pose_mode": _note("Switch to Object Mode or Pose Mode"),
+    "progress_balance": _note("Following the center of mass: {share:percent}. Esc to cancel"),
+    "canceled_balance": _warning("Canceled: nothing was changed"),
+    "no_such_collection": _error("There is no collection “{collection}”. Choose another one."),
+    "balance_group_without_contacts": _error("“{collection}” has no object with a surface. Choose another collection."),
+    "balance_group_empty_group": _error(
+        "Nothing to follow. Select objects with a surface, or an armature that deforms some."
+    ),
+    "balance_group_without_mass": _error("Together the objects have no mass. Set their densities."),
+    "balance_group_made": _note(
+        "“{empty}” has {count} key of the center of mass; objects: {objects_count}",
+        "“{empty}” has {count} keys of the center of mass; objects: {objects_count}",
+    ),
+    "balance_group_inside": _note(
+        "It is over the support polygon at {count} of {total} frames",
+    ),
     "panel_stability_unknown": _note("Stability has not been computed."),
     "panel_stability_stale": _note("The geometry has changed. Check again."),
     # ------------------------------------------------------------------ Robots: what a format cannot say

@@ -54,6 +54,26 @@ def test_copies_have_one_pose_and_the_matrix_lays_them_on_each_other():
     assert np.linalg.det(np.array(poses[0]["matrix"])) == pytest.approx(1.0)
 
 
+@pytest.mark.parametrize("sides, group, order", [(6, "D6h", 6), (8, "D8h", 30), (12, "D12h", 30), (32, "D∞h", 30)])
+def test_turned_copies_of_a_prism_have_one_pose_and_its_own_group(sides, group, order):
+    turns = (0.0, 0.0, 0.0), (0.0, 0.0, 0.2), (1.3, 2.4, -0.5)
+    for turn in turns:
+        bpy.ops.mesh.primitive_cylinder_add(vertices=sides, depth=3.0, location=(1, 2, 3), rotation=turn)
+    prisms = bpy.context.scene.objects[-3:]
+    entries = document("--pose")["objects"]
+    poses = {entry["name"]: entry["pose"] for entry in entries}
+    laid = []
+    for prism in prisms:
+        pose = poses[prism.name]
+        assert (pose["symmetry"], pose["symmetry_order"], pose["unique"]) == (group, order, False)
+        matrix = np.array(pose["matrix"])
+        laid.append(corners(prism) @ matrix[:3, :3].T + matrix[:3, 3])
+    apart = [np.linalg.norm(other[:, None] - laid[0], axis=2).min(axis=1).max() for other in laid[1:]]
+    assert max(apart) < 1e-5
+    for entry in entries[:2] if group != "D6h" else ():  # what is stored stays near to the object's own axes
+        assert abs(abs(entry["principal_axes"][2][0]) - 1.0) < 1e-5
+
+
 @pytest.mark.parametrize("frame", ["world", "object"])
 def test_the_pose_is_of_the_world_and_agrees_with_the_principal_axes(frame):
     add_box()

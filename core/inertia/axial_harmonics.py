@@ -1,0 +1,172 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What turns a body about its axis, where its moments to sixth order are those of a body of revolution: a prism of
+seven sides and more.
+
+The harmonics ∫ (x+iy)^m and ∫ (x+iy)^m z about the axis are moments of order m and m + 1, of which no others are
+needed. They are powers of linear forms, whose mean over a triangle is a complete homogeneous polynomial of the corners'
+values,
+
+    E[w^m] = 2 m! / (m+2)! h_m(w_a, w_b, w_c),
+
+found by the recursion that `any_order` takes too; the factor z comes with the derivative by ε of (w + ε z)^(m+1). The
+first one that is more than noise turns the frame: there it is to be positive. The others decide between the m turns
+for which it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface
+from ..numerics.vectors import cross, dot
+from .canonical_frame import MAX_ORDER, NOISE_LEVEL, EquivalentFrames, _lexicographic_maximum
+
+MAX_AXIAL_ORDER = 30
+TRIANGLES_PER_BLOCK = 1 << 13
+
+
+@dataclass(frozen=True, eq=False)
+class AxialHarmonics:
+    """Harmonics about an axis, each as a share of the largest that a body of that radius and height can have.
+
+    Attributes
+    ----------
+    frame : (3, 3) array
+        The axes x, y, z as columns, a rotation; z is the axis.
+    values : (2, n + 1) complex array
+        ∫ (x+iy)^m z^k for k = 0 and 1 and m from 0 to n.
+    """
+
+    frame: NDArray[np.float64]
+    values: NDArray[np.complex128]
+
+    @property
+    def order(self) -> int:
+        """The largest m."""
+        return self.values.shape[1] - 1
+
+    def in_frame(self, frame: NDArray[np.float64]) -> AxialHarmonics:
+        """Return the same about the same axis, or about the opposite one, from another frame."""
+        values, base = self.values, self.frame
+        if frame[:, 2] @ base[:, 2] < 0.0:  # half a turn about x
+            base = base * (1.0, -1.0, -1.0)
+            values = values.conj() * [[1.0], [-1.0]]
+        turn = np.arctan2(frame[:, 0] @ base[:, 1], frame[:, 0] @ base[:, 0])
+        return AxialHarmonics(frame, values * np.exp(-1j * turn * np.arange(values.shape[1])))
+
+    def inverted(self) -> AxialHarmonics:
+        """Return those of the body's image in its center."""
+        m = np.arange(self.values.shape[1])
+        return replace(self, values=self.values * np.stack([(-1.0) ** m, (-1.0) ** (m + 1)]))
+
+
+def axial_harmonics(
+    surfaces: Iterable[Surface], center: NDArray, frame: NDArray, *, area: bool, order: int = MAX_AXIAL_ORDER
+) -> AxialHarmonics:
+    """Find the harmonics of what surfaces bound, or of the surfaces themselves.
+
+    Parameters
+    ----------
+    surfaces : iterable of Surface
+        Closed, outward; in the same coordinates.
+    center : (3,) array
+        A point of the axis.
+    frame : (3, 3) array
+        As in `AxialHarmonics`.
+    area : bool
+        Whether the surfaces themselves are meant.
+    order : int
+        The largest m.
+
+    Returns
+    -------
+    AxialHarmonics
+    """
+    pieces = [((piece.points.astype(np.float64) - center) @ frame, piece.all_triangles()[0]) for piece in surfaces]
+    reach = max(float(np.hypot(points[:, 0], points[:, 1]).max()) for points, _ in pieces)
+    height = max(float(np.abs(points[:, 2]).max()) for points, _ in pieces)
+    scale = np.array([reach, reach, height])
+    sums, total = np.zeros((2, order + 1), np.complex128), 0.0
+    for points, triangles in pieces:
+        for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
+            corners = points[triangles[start : start + TRIANGLES_PER_BLOCK]].transpose(1, 2, 0)  # (3, 3, k)
+            normal = np.array(cross(corners[1] - corners[0], corners[2] - corners[0]))
+            weight = np.sqrt(dot(normal, normal)) if area else dot(corners[0], normal)
+            total += float(weight.sum())
+            sums += _means(corners / scale[:, None], order) @ weight
+    if not area:  # a cone over a triangle, of a function of degree n, is its mean over the triangle by 2n + 6
+        degree = np.arange(order + 1) + np.array([[0], [1]])
+        sums *= 3.0 / (degree + 3.0)
+    return AxialHarmonics(np.asarray(frame, np.float64), sums / total)
+
+
+def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
+    """(2, order + 1, k) the means of w^m and w^m z over triangles. corners: (3, 3, k), x, y, z of each corner."""
+    w, z = corners[:, 0] + 1j * corners[:, 1], corners[:, 2]
+    power, slope = [np.ones(w.shape[1], np.complex128)] * 3, [np.zeros(w.shape[1], np.complex128)] * 3
+    means = np.empty((2, order + 1, w.shape[1]), np.complex128)
+    means[0, 0] = 1.0
+    for m in range(1, order + 2):
+        lower_power = lower_slope = 0.0
+        for i in range(3):  # of the first corner, of the first two, of all three
+            lower_slope = lower_slope + z[i] * power[i] + w[i] * slope[i]
+            lower_power = lower_power + w[i] * power[i]
+            power[i], slope[i] = lower_power, lower_slope
+        if m <= order:
+            means[0, m] = power[2] * (2.0 / ((m + 1.0) * (m + 2.0)))
+        means[1, m - 1] = slope[2] * (2.0 / ((m + 1.0) * (m + 2.0) * m))
+    return means
+
+
+def axis_last(alike: EquivalentFrames) -> NDArray[np.float64]:
+    """Return a (3, 3) frame whose third axis is the axis of revolution."""
+    (axis,) = alike.revolution_axes
+    return alike.frames[0][:, np.roll([0, 1, 2], 2 - axis)]
+
+
+def turn_by_harmonics(
+    alike: EquivalentFrames, harmonics: AxialHarmonics, noise: float = NOISE_LEVEL
+) -> EquivalentFrames:
+    """Turn the frames of a body of revolution, as it seemed, as its harmonics ask.
+
+    Parameters
+    ----------
+    alike : EquivalentFrames
+        With one axis of revolution.
+    harmonics : AxialHarmonics
+        About that axis.
+    noise : float
+        Harmonics below this are noise.
+
+    Returns
+    -------
+    EquivalentFrames
+        In which the body is the same, to the harmonics' order; what was given where none of them is more than noise.
+    """
+    (axis,) = alike.revolution_axes
+    order = np.roll([0, 1, 2], 2 - axis)
+    bases = [harmonics.in_frame(frame[:, order]) for frame in alike.frames]
+    m, k = np.meshgrid(np.arange(harmonics.order + 1), [0, 1])
+    candidates = np.argwhere((np.abs(harmonics.values) > 2.0 * noise) & (m + k > MAX_ORDER))
+    if not len(candidates):
+        return alike
+    k, m = candidates[np.argmin(candidates.sum(axis=1))]
+    frames, values = [], []
+    for base in bases:
+        angles = (np.angle(base.values[k, m]) + 2.0 * np.pi * np.arange(m)) / m
+        for angle in angles:
+            cos, sin = np.cos(angle), np.sin(angle)
+            turned = base.in_frame(base.frame @ np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]))
+            frames.append(turned.frame[:, np.argsort(order)])
+            values.append(np.concatenate([turned.values.real.ravel(), turned.values.imag.ravel()]))
+    least = np.full(len(values[0]), 2.0 * noise)
+    frames, known, least = _lexicographic_maximum(np.array(frames), np.array(values), least)
+    tilt = noise / (float(m) * float(np.abs(harmonics.values[k, m])))
+    return EquivalentFrames(
+        frames, np.concatenate([alike.values, known]), np.concatenate([alike.noise, least]), (), alike.tilt + tilt
+    )

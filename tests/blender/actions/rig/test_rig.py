@@ -1,0 +1,278 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bones of skinned characters: what each part weighs, in rest pose and the bone's rest frame, however it is posed."""
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.bodies.rig import measure_rig
+from body_moments.operators.session import rig as session
+from body_moments.operators.write import properties
+
+from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.characters import PARENTS, armature_of, pose, skin_of
+from tests.blender.objects import only
+from tests.close import close
+from tests.core import characters as made
+
+pytestmark = pytest.mark.usefixtures("registered", "scene")
+
+
+def character(shape=None, density=1000.0):
+    shape = shape or made.box_skeleton()
+    armature = armature_of(shape, parents=PARENTS if shape.names == made.NAMES else None)
+    skin = skin_of(shape, armature, density=density)
+    only(armature)
+    return armature, skin
+
+
+def measured(armature):
+    return measure_rig(bpy.context, armature)
+
+
+def codes(rig):
+    return {found.code for found in rig.measurement.findings}
+
+
+def test_each_bone_carries_its_box_in_its_own_rest_frame_whatever_the_pose():
+    armature, _ = character()
+    armature.location, armature.rotation_euler = (3, 2, 1), (0.1, 0.2, 0.3)
+    pose(armature)
+    before = [list(row) for row in armature.pose.bones["arm.L"].matrix]
+    assert bpy.ops.object.body_moments_measure_bones() == {"FINISHED"}
+    assert armature.data.pose_position == "POSE"
+    assert [list(row) for row in armature.pose.bones["arm.L"].matrix] == before
+    for name, (low, high) in zip(made.NAMES, made.BOXES):
+        bone = armature.pose.bones[name]
+        size, center = np.subtract(high, low).astype(float), np.add(high, low) / 2.0
+        mass = 1000.0 * size.prod()
+        assert close(bone["body_mass"], mass, 2e-6)  # the armature's matrix is float32
+        rest = np.array(bone.bone.matrix_local, np.float64)
+        local = rest[:3, :3].T @ (center - rest[:3, 3])
+        assert np.abs(np.array(bone["body_center_of_mass"].to_list()) - local).max() < 1e-5
+        tensor = rest[:3, :3].T @ np.diag((size @ size - size * size) * mass / 12.0) @ rest[:3, :3]
+        xx, yy, zz, xy, xz, yz = bone["body_inertia"].to_list()
+        found = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        assert np.abs(found - tensor).max() < 1e-5 * tensor.max()
+        assert bone["body_method"] == "exact" and set(properties.LENGTHS) <= set(bone.keys())
+    assert close(armature["body_mass"], 1000.0 * sum(np.prod(np.subtract(h, low)) for low, h in made.BOXES), 2e-6)
+    assert session.stale_reason(armature, bpy.context.scene) is None
+    bpy.ops.object.body_moments_clear_bones()
+    assert not any("body_mass" in owner for owner in (armature, *armature.pose.bones))
+
+
+@pytest.mark.parametrize("name", made.characters())
+def test_the_parts_add_up_to_what_measure_gives_for_the_skin(name):
+    armature, skin = character(made.characters()[name])
+    rig = measured(armature)
+    whole = measure_object(skin, bpy.context.evaluated_depsgraph_get())
+    moments, factor = whole.mass_moments
+    truth = moments * factor
+    mass = rig.measurement.mass_moments[0].about_point(truth.about)
+    reach = np.ptp(np.array([vertex.co for vertex in skin.data.vertices]), axis=0).max()
+    for n, part in ((0, slice(0, 1)), (1, slice(1, 4)), (2, slice(4, 10)), (3, slice(10, 20))):
+        assert np.abs(mass.raw - truth.raw)[part].max() <= 1e-12 * truth.raw[0] * reach**n
+    assert ("unweighted_vertices" in codes(rig)) == (name == "unweighted")
+    assert close(rig.measurement.area, whole.area, 1e-6)
+
+
+def test_left_and_right_weigh_the_same():
+    armature, _ = character(made.humanoid(bent=False))
+    parts = {part.name: part.measurement.mass_properties for part in measured(armature).parts}
+    for side in ("arm", "leg"):
+        left, right = parts[side + ".L"], parts[side + ".R"]
+        assert close(left.mass, right.mass, 1e-12)
+        assert np.abs(left.center * [-1, 1, 1] - right.center).max() < 1e-12 * 6
+        flip = np.diag([-1.0, 1.0, 1.0])
+        assert np.abs(flip @ left.inertia @ flip - right.inertia).max() <= 1e-12 * left.inertia.max()
+
+
+def test_clothes_and_what_hangs_on_bones_count():
+    armature, _ = character()
+    coat = made.box_skeleton()
+    coat.points = coat.points * 1.0
+    shirt = skin_of(coat, armature, "Shirt")
+    shirt.body_moments.kind, shirt.body_moments.thickness, shirt.body_moments.density = "SHELL", 0.001, 500.0
+    sword = bpy.data.objects.new("Sword", box_mesh(1, 2, 4))
+    bpy.context.scene.collection.objects.link(sword)
+    sword.parent, sword.parent_type, sword.parent_bone = armature, "BONE", "arm.L"
+    sword.body_moments.density = 7850.0
+    plume = bpy.data.objects.new("Plume", box_mesh(1, 1, 1))
+    bpy.context.scene.collection.objects.link(plume)
+    plume.parent, plume.location = sword, (0, 0, 5)
+    plume.body_moments.density = 100.0
+    pose(armature)
+    parts = {part.name: part for part in measured(armature).parts}
+    area = 2 * (4 * 2 + 4 * 1) + 2  # of the arm's box without the side at the chest
+    assert close(parts["arm.L"].mass.total, 8000 + 0.5 * area + 8 * 7850 + 100, 2e-6)
+    assert parts["arm.L"].sources == ("Shirt", "Skin", "Sword", "Plume")
+    assert close(parts["arm.R"].mass.total, 8000 + 0.5 * area, 2e-6)
+    # in the bone's frame a part that hangs on it is where it hangs, whatever the pose
+    bone = armature.data.bones["arm.L"]
+    without = measured(armature)
+    center = {part.name: part.measurement.in_object_frame().center for part in without.parts}["arm.L"]
+    for one in armature.pose.bones:
+        one.rotation_euler = (0, 0, 0)
+    bpy.context.view_layer.update()
+    again = {part.name: part.measurement.in_object_frame().center for part in measured(armature).parts}["arm.L"]
+    assert np.abs(center - again).max() < 1e-5 and bone.length > 0.0
+
+
+def test_an_open_skin_is_capped_as_measure_does():
+    shape = made.box_skeleton()
+    foot = (shape.points[shape.quads][:, :, 2] == -5).all(axis=1)
+    shape.quads = shape.quads[~foot]
+    armature, skin = character(shape)
+    rig = measured(armature)
+    assert "holes_capped" in codes(rig)
+    parts = {part.name: part.measurement for part in rig.parts}
+    assert close(parts["leg.L"].volume, 10.0, 1e-6) and str(parts["leg.L"].method) == "capped"
+
+
+def test_bones_have_densities_and_masses_of_their_own():
+    armature, _ = character()
+    armature.pose.bones["head"].body_moments.mass_from = "DENSITY"
+    armature.pose.bones["head"].body_moments.density = 500.0
+    armature.pose.bones["leg.L"].body_moments.mass_from = "MASS"
+    armature.pose.bones["leg.L"].body_moments.mass = 3.0
+    parts = {part.name: part for part in measured(armature).parts}
+    assert close(parts["head"].mass.total, 4000.0, 1e-6) and close(parts["leg.L"].mass.total, 3.0, 1e-9)
+    assert close(parts["leg.R"].mass.total, 10000.0, 1e-6)
+
+
+def test_a_mass_that_is_given_for_the_skin_is_shared_by_volume():
+    armature, skin = character()
+    skin.body_moments.mass_from, skin.body_moments.mass = "MASS", 70.0
+    rig = measured(armature)
+    assert close(rig.measurement.mass_properties.mass, 70.0, 1e-12)
+
+
+def test_a_part_that_no_body_can_have_is_a_finding():
+    shape = made.box_skeleton()
+    inner, quads = made.boxes_skin([((0, 0, 3), (1, 1, 4))])
+    inner = inner * 0.5 + (-0.25, -0.25, 1.5)
+    count = len(shape.points)
+    shape.points = np.concatenate([shape.points, inner])
+    shape.quads = np.concatenate([shape.quads, quads[:, ::-1] + count])  # a cavity in the chest
+    shape.names, shape.bones = (*shape.names, "hole"), np.concatenate([shape.bones, [[(0, 0, 3), (0, 0, 4)]]])
+    extra = np.arange(count, len(shape.points))
+    shape.weights = type(shape.weights)(
+        np.concatenate([shape.weights.vertex, extra]),
+        np.concatenate([shape.weights.bone, np.full(len(extra), 7)]),
+        np.concatenate([shape.weights.weight, np.ones(len(extra))]),
+    )
+    armature = armature_of(shape)
+    skin_of(shape, armature)
+    only(armature)
+    rig = measured(armature)
+    assert "bone_parts_impossible" in codes(rig)
+    assert {part.name for part in rig.parts if part.refusal} == {"hole"}
+    bpy.ops.object.body_moments_measure_bones()
+    assert "body_mass" not in armature.pose.bones["hole"] and "body_mass" in armature.pose.bones["chest"]
+
+
+def test_posing_is_no_edit_and_sculpting_and_settings_are():
+    armature, skin = character()
+    bpy.ops.object.body_moments_measure_bones()
+    pose(armature, 2)
+    assert session.stale_reason(armature, bpy.context.scene) is None
+    skin.body_moments.density = 2.0
+    bpy.context.view_layer.update()
+    assert session.stale_reason(armature, bpy.context.scene) is not None
+    bpy.ops.object.body_moments_measure_bones()
+    assert session.stale_reason(armature, bpy.context.scene) is None
+    skin.data.vertices[0].co.x += 1.0
+    skin.data.update()
+    bpy.context.view_layer.update()
+    assert session.stale_reason(armature, bpy.context.scene) == "stale_geometry"
+
+
+def test_modifiers_after_the_armature_count():
+    armature, skin = character()
+    skin.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    rig = measured(armature)
+    whole = measure_object(skin, bpy.context.evaluated_depsgraph_get())
+    assert close(rig.measurement.mass_properties.mass, whole.mass_properties.mass, 1e-12)
+    assert len(rig.parts) == 7
+
+
+def test_refusals_say_why():
+    empty = armature_of(made.box_skeleton(), "Nothing")
+    only(empty)
+    with pytest.raises(RuntimeError, match="deforms no mesh"):
+        bpy.ops.object.body_moments_measure_bones()
+    armature, _ = character()
+    for bone in armature.data.bones:
+        bone.use_deform = False
+    with pytest.raises(RuntimeError, match="No bone deforms"):
+        bpy.ops.object.body_moments_measure_bones()
+
+
+def test_a_physics_rig_has_exact_masses_and_joints_at_the_bones():
+    armature, _ = character()
+    armature.pose.bones["arm.L"].use_ik_limit_x = True
+    armature.pose.bones["arm.L"].ik_min_x = -0.5
+    for _ in range(2):
+        assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
+    (collection,) = [one for one in bpy.data.collections if one.name.startswith("Rig Physics Rig")]
+    bodies = {obj.name.removeprefix("Rig "): obj for obj in collection.objects if obj.type == "MESH"}
+    joints = [obj for obj in collection.objects if obj.rigid_body_constraint]
+    assert bodies.keys() == set(made.NAMES) and len(joints) == 6
+    for name, (low, high) in zip(made.NAMES, made.BOXES):
+        body = bodies[name]
+        mass = 1000.0 * float(np.prod(np.subtract(high, low)))
+        assert close(body.rigid_body.mass, mass, 1e-6)
+        assert np.abs(np.array(body.location) - np.add(high, low) / 2.0).max() < 1e-6
+        measurement = measure_object(body, bpy.context.evaluated_depsgraph_get())
+        local = measurement.in_object_frame()
+        assert np.abs(local.center).max() < 1e-6
+        assert np.abs(local.inertia - np.diag(np.diag(local.inertia))).max() < 1e-6 * local.inertia.max()
+    joint = next(obj for obj in joints if "arm.L" in obj.name)
+    constraint = joint.rigid_body_constraint
+    assert (constraint.object1, constraint.object2) == (bodies["chest"], bodies["arm.L"])
+    assert np.abs(np.array(joint.location) - (2, 0, 4.5)).max() < 1e-6
+    assert constraint.use_limit_ang_x and close(constraint.limit_ang_x_lower, -0.5, 1e-6)
+    assert not constraint.use_limit_ang_y
+
+
+def test_the_center_of_mass_follows_the_pose_by_constraints_alone():
+    armature, _ = character()
+    armature.location, armature.rotation_euler = (3, 2, 1), (0.1, 0.2, 0.3)
+    bpy.context.view_layer.update()
+    rest = {
+        part.name: (part.mass.total, part.measurement.in_object_frame().center) for part in measured(armature).parts
+    }
+    for _ in range(2):
+        assert bpy.ops.object.body_moments_rig_center() == {"FINISHED"}
+    pose(armature, 5)
+    (center,) = [obj for obj in bpy.data.objects if obj.name.startswith("Rig Center of Mass")]
+    total = sum(mass for mass, _ in rest.values())
+    truth = sum(
+        mass * np.array(armature.matrix_world @ armature.pose.bones[name].matrix, np.float64) @ [*local, 1.0]
+        for name, (mass, local) in rest.items()
+    )[:3]
+    found = np.array(center.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation)
+    assert np.abs(found - truth / total).max() < 2e-5
+
+
+def test_results_of_bones_drive():
+    armature, _ = character()
+    bpy.ops.object.body_moments_measure_bones()
+    bpy.context.view_layer.update()
+    driven = bpy.data.objects.new("Driven", None)
+    bpy.context.scene.collection.objects.link(driven)
+    driver = driven.driver_add("location", 0).driver
+    variable = driver.variables.new()
+    variable.type, variable.name = "SINGLE_PROP", "mass"
+    variable.targets[0].id, variable.targets[0].data_path = armature, 'pose.bones["head"]["body_mass"]'
+    driver.expression = "mass"
+
+    def location():
+        bpy.context.view_layer.update()
+        return driven.evaluated_get(bpy.context.evaluated_depsgraph_get()).location[0]
+
+    assert close(location(), 8000.0, 1e-6)
+    bpy.data.objects["Skin"].body_moments.density = 1.0
+    bpy.ops.object.body_moments_measure_bones()
+    assert close(location(), 8.0, 1e-6)
