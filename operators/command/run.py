@@ -36,7 +36,7 @@ from ..settings.density import unset_density
 from ..settings.options import MeasureOptions
 from ..write import record
 from ..write.documents import document
-from ..write.properties import store
+from ..write.properties import require_storable, store
 from ..write.terminal import tell
 from . import fourier, robots
 from .files import BLEND, UNITLESS, file_suffix, open_file
@@ -317,8 +317,10 @@ class Run:
             raise FileError("scene_never_saved")
         for label, obj, one in measured:
             try:
-                store(obj, one)
+                require_storable(obj)
+                # First: what is stored already follows its settings.
                 settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
+                store(obj, one)
             except MeasureError as refusal:
                 yield failure(label, refusal.finding)
             except Exception as error:

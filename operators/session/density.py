@@ -55,6 +55,11 @@ def follow_density(obj: Object, scene: Scene) -> None:
         settings_hash_with(obj, scene, None, mass),
     ):
         return
+    now, findings = settings_hash(obj, scene), _findings(obj, scene)
+    if now == mark.settings:  # a measured density may have more digits than the setting holds
+        if findings != list(properties.findings(obj)):
+            properties.store_findings(obj, findings)
+        return
     settings = obj.body_moments
     is_mass_given = settings.mass_from == "MASS"
     density = shortest_decimal(settings.mass) / extent if is_mass_given else given_density(obj, scene)
@@ -64,8 +69,8 @@ def follow_density(obj: Object, scene: Scene) -> None:
         obj,
         0.0 if settings.kind == "WIRE" else density,
         density * extent,
-        _findings(obj, scene),
-        ":".join(mark._replace(settings=settings_hash(obj, scene))),
+        findings,
+        ":".join(mark._replace(settings=now)),
     )
     staleness.replace_mark(obj, ":".join(mark))
     reference.follow(obj, scene, reference.stored_choice(obj))
