@@ -1296,6 +1296,11 @@ MESSAGES: dict[str, Message] = {
     "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ Rigid bodies
+    "rigid_bodies_made": _note(
+        "{count} rigid body of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
+        "{count} rigid bodies of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
+    ),
     # ------------------------------------------------------------------ Rigs
     "no_active_armature": _error("The active object is not an armature. Select one."),
     "armature_in_edit_mode": _error("The armature is in Edit Mode. Leave it."),
@@ -1655,6 +1660,8 @@ MESSAGES: dict[str, Message] = {
     "robot_geometry_not_written": _error("Blender's exporter failed: {error}."),
     "robot_not_written": _error("The file cannot be written: {error}."),
     "robot_copied": _note("Inertial of {count} link copied.", "Inertials of {count} links copied."),
+    "primitives_added": _note("{count} shape added", "{count} shapes added"),
+    "primitive_has_parent": _error("It has a parent, or is linked. Clear the parent to simulate it."),
     "robot_meshes_written": _note("{count} mesh written to {folder}.", "{count} meshes written to {folder}."),
     "robot_meshes_not_written": _error("The meshes cannot be written: {error}."),
     "mjcf_inertia_too_small": _warning(
@@ -1692,8 +1699,8 @@ MESSAGES: dict[str, Message] = {
     "usage_repair_folder": _error("--repair: {path} is no folder"),
     "usage_repair_same": _error("--repair: {path} is the folder of a file that is read. Choose another one"),
     "audit_copies_alike": _error("Two files have one name: {name}. Audit them one at a time, or choose other folders."),
+    "audit_text": _note("See the text “{text}” in the Text Editor"),
     "audit_not_written": _error("The file cannot be written: {error}."),
-    "audit_copy_not_replaced": _error("{path} exists and is no copy of ours. Choose another folder."),
     # ------------------------------------------------------------------ Audit: what no body can have
     "inertial_missing": _warning("No inertial. Readers differ: some take 1 kg, some none. Add mass and inertia."),
     "inertial_not_finite": _error("Mass, center or inertia is not a number."),
