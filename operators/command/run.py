@@ -29,6 +29,7 @@ from ...core.verdict.method import Source
 from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
 from ..bodies.shape import NoShapeError, shape_of
+from ..read.quiet import paused
 from ..read.total_caveats import boolean_operands, open_body_caveats, total_caveats
 from ..session.staleness import mark_up_to_date
 from ..settings import properties as settings
@@ -36,7 +37,7 @@ from ..settings.density import unset_density
 from ..settings.options import MeasureOptions
 from ..write import record
 from ..write.documents import document
-from ..write.properties import require_storable, store
+from ..write.properties import store
 from ..write.terminal import tell
 from . import fourier, robots
 from .files import BLEND, UNITLESS, file_suffix, open_file
@@ -317,10 +318,9 @@ class Run:
             raise FileError("scene_never_saved")
         for label, obj, one in measured:
             try:
-                require_storable(obj)
-                # First: what is stored already follows its settings.
-                settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
                 store(obj, one)
+                with paused():  # what is stored is already that of these settings
+                    settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
             except MeasureError as refusal:
                 yield failure(label, refusal.finding)
             except Exception as error:

@@ -17,6 +17,7 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ..read.fingerprint import VERSION, given_density, settings_hash, settings_hash_with
+from ..read.quiet import paused
 from ..settings import hooks
 from ..settings.density import default_density
 from ..write import properties
@@ -99,7 +100,7 @@ def _findings(obj: Object, scene: Scene) -> list[Finding]:
 
 
 def _on_density(settings: PropertyGroup, context: Context) -> None:
-    if isinstance(settings.id_data, Object) and context.scene is not None:
+    if isinstance(settings.id_data, Object) and context.scene is not None and not paused.depth:
         follow_density(settings.id_data, context.scene)
 
 
