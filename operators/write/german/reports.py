@@ -144,7 +144,6 @@ MESSAGES = {
     "poll_active_surface": ("Ein Objekt mit einer Oberfläche aktivieren",),
     "poll_active_selected": ("Ein Objekt aktivieren und auswählen",),
     "poll_active_mesh": ("Ein Netzobjekt aktivieren",),
-    "poll_nurbs_only": ("Mitlaufende Zahlen gibt es nur für NURBS-Flächen",),
     "poll_match_selection": ("Die zu bewegenden Objekte auswählen, dann das Ziel",),
     "poll_edit_vertices": ("In den Bearbeitungsmodus wechseln und die Punkte auswählen, die sich bewegen dürfen",),
     "poll_vertices_or_group": (
@@ -160,6 +159,16 @@ MESSAGES = {
     "panel_density_mean": ("Mittlere Dichte, aus: {cause}",),
     "panel_no_material_slots": ("Keine Materialplätze",),
     "panel_unit_question": ("{length} lang und {mass}: ist eine Einheit dieser Szene ein Millimeter?",),
+    "panel_live_first_order": (
+        "Live: Masse, Volumen und Schwerpunkt dieses Bildes; das Trägheitsmoment folgt, wenn es anhält "
+        "({milliseconds:.0f} ms)",
+    ),
+    "panel_live_behind": (
+        "Live hängt nach: Messen dauert {milliseconds:.0f} ms und wartet, bis die Bearbeitung endet",
+    ),
+    "panel_posed": ("Summe von {count} Mesh der Armatur", "Summe von {count} Meshes der Armatur"),
+    "panel_posed_missing": ("Nicht gemessen: {objects}",),
+    "panel_posed_stale": ("Veraltet: {objects}",),
     "panel_live": ("Live ({milliseconds:.0f} ms). Zum Speichern Messen drücken",),
     "panel_orders_copied": ("Ordnungen {first} bis {last} sind nur in der Kopie.",),
     "panel_symmetry_tolerance": ("Die Oberfläche deckt sich mit ihren Bildern auf {share:.2g} des Trägheitsradius",),
