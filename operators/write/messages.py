@@ -1613,6 +1613,7 @@ MESSAGES: dict[str, Message] = {
         "{count} object without mass is no link: {links}.", "{count} objects without mass are no links: {links}."
     ),
     "robot_without_links": _error("There is no link. Measure objects with mass."),
+    "robot_without_bones": _error("There is no link. Select an armature with what it moves."),
     "robot_one_file": _error("A robot is one file. Name one FILE for this format, not {count}."),
     "robot_base_added": _note(
         "{count} objects have no parent. They are fixed to an added link without mass, {name}. Parent them to one of "
