@@ -29,7 +29,16 @@ PARTS = (
     ),
     *(
         "actions.setup." + name
-        for name in ("presets", "import_scan", "remedies", "node_group", "assembly", "assembly_snap", "bill")
+        for name in (
+            "presets",
+            "import_scan",
+            "remedies",
+            "node_group",
+            "assembly",
+            "assembly_snap",
+            "bill",
+            "rigid_bodies",
+        )
     ),
     *(
         "actions.measure." + name

@@ -1296,6 +1296,11 @@ MESSAGES: dict[str, Message] = {
     "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ Rigid bodies
+    "rigid_bodies_made": _note(
+        "{count} rigid body of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
+        "{count} rigid bodies of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
+    ),
     # ------------------------------------------------------------------ Rigs
     "no_active_armature": _error("The active object is not an armature. Select one."),
     "armature_in_edit_mode": _error("The armature is in Edit Mode. Leave it."),
