@@ -17,13 +17,13 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.robots.model import Robot
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...bodies.assembly import measure_assembly
-from ...bodies.measure_object import measure_object
+from ...bodies.many import measured_in_turn
 from ...bodies.rig import measure_rig
 from ...read import measurable
 from ...read.links import bone_freedom, bone_parents, link_entry, link_surface, object_entry
 from ...read.rig import pose_bone_of
-from ...write import record, reports
-from ...write.robots.from_records import robot_of_records
+from ...write import reports
+from ...write.robots.from_records import brief_record, robot_of_records
 from .. import selection
 
 
@@ -77,9 +77,10 @@ def object_links(context: Context, name: str, objects: list[Object]) -> SceneLin
     depsgraph = context.evaluated_depsgraph_get()
     chosen = [obj for obj in objects if measurable(obj)]
     measured: dict[Object, Measurement] = {}
+    in_turn = measured_in_turn(chosen, depsgraph)
 
     def measure(obj: Object) -> bool:
-        measured[obj] = measure_object(obj, depsgraph)
+        measured[obj] = in_turn(obj).measurement
         return True
 
     _, failures = selection.apply_to_all(chosen, measure)
@@ -88,8 +89,7 @@ def object_links(context: Context, name: str, objects: list[Object]) -> SceneLin
     labels = {obj: obj.name_full for obj in measured}
     records = []
     for obj, measurement in measured.items():
-        entry = record.record(measurement, "object")
-        records.append({**entry, "name": labels[obj], "link": object_entry(obj, measurement, labels)})
+        records.append(brief_record(labels[obj], measurement, object_entry(obj, measurement, labels)))
     robot, findings = robot_of_records(name, records)
     members = {label: [obj] for obj, label in labels.items()}
     return SceneLinks(robot, [*findings, *left_out(failures, len(chosen))], members)
@@ -110,7 +110,7 @@ def collection_links(context: Context, name: str, root: Collection, objects: lis
             continue
         held = {*collection.all_objects}
         members[label] = [obj for obj in objects if obj in held and measurable(obj)]
-        records.append({**record.record(measurement, "object"), "name": label, "link": link_entry(measurement)})
+        records.append(brief_record(label, measurement, link_entry(measurement)))
     if not records:
         raise EditRefusedError(failures[0])
     robot, findings = robot_of_records(name, records)
@@ -136,7 +136,7 @@ def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks
                 continue
             bone, label = pose_bone_of(armature, part.name), labels[part.name]
             entry = link_entry(part.measurement, bone_parents(bone, labels), free=bone_freedom(bone))
-            records.append({**record.record(part.measurement, "object"), "name": label, "link": entry})
+            records.append(brief_record(label, part.measurement, entry))
             pieces[label] = part.surfaces
     if not records:
         raise EditRefusedError("robot_without_bones")
