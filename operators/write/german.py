@@ -69,6 +69,11 @@ TEXTS = {
     "Faults": "Fehler",
     "Support Polygon": "Standfläche",
     "Path of Balance Groups": "Bahn der Balancegruppen",
+    "All Objects": "Alle Objekte",
+    "Total": "Summe",
+    "Support": "Standfläche",
+    "Paths": "Bahnen",
+    "Probability": "Wahrscheinlichkeit",
     # stability
     "Balance Group": "Balancegruppe",
     "Balance Group...": "Balancegruppe...",
