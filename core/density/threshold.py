@@ -17,7 +17,7 @@ or no axis serves, it is cut in eight. What they differ by, summed up, is the es
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -38,7 +38,7 @@ CELLS_PER_SLAB = 1 << 21  # cells of the grid that are looked at at a time
 
 @dataclass(frozen=True, eq=False)
 class ThresholdBody:
-    """The body where a density is at least a threshold, in the grid's coordinates: sample (i, j, k) stands there.
+    """The body where a density is at least a threshold.
 
     Parameters
     ----------
@@ -65,6 +65,7 @@ def threshold_body(
     samples: ArrayLike,
     threshold: float,
     order: int = 3,
+    matrix: ArrayLike | None = None,
     background: float | None = None,
     with_density: bool = False,
     preview: bool = False,
@@ -74,10 +75,12 @@ def threshold_body(
     Parameters
     ----------
     samples : (nx, ny, nz) array_like
-        Densities at the integer points (i, j, k), a memory map if larger than memory.
+        Densities, a memory map if larger than memory.
     threshold : float
     order : int
         Of the moments.
+    matrix : (4, 4) array_like, optional
+        Affine: the sample (i, j, k) stands at matrix @ (i, j, k, 1); by default at (i, j, k).
     background : float, optional
         The density beyond the grid: a layer of it is added on every side. Without it, nothing is beyond.
     with_density : bool
@@ -92,7 +95,7 @@ def threshold_body(
     Raises
     ------
     MeasureError
-        If a sample is not finite.
+        If a sample is not finite, or the matrix flattens the grid or is not finite.
     ValueError
         If the grid has no cells.
 
@@ -113,8 +116,13 @@ def threshold_body(
     shape = np.array(samples.shape) + 2 * margin
     if (shape < 2).any():
         raise ValueError("two samples per axis")
+    matrix = np.eye(4) if matrix is None else np.asarray(matrix, np.float64)
+    linear = matrix[:3, :3]
+    if not np.isfinite(matrix).all() or not np.linalg.det(linear):
+        raise MeasureError("grid_transform_singular")
+    cofactors = np.linalg.det(linear) * np.linalg.inv(linear)  # take the normals of pieces of surface along
     about = (shape - 1) // 2 - margin
-    sums = _Sums(order, with_density, preview)
+    sums = _Sums(order, with_density, preview, cofactors @ cofactors.T)
     clipped, cut = False, []
     for first, values in _slabs(samples, background):
         if not np.isfinite(values).all():
@@ -131,10 +139,13 @@ def threshold_body(
     count = len(cells.size)
     sums.add_cut_cells(cells, threshold)
     about = about.astype(np.float64)
+    volume = Moments(sums.volume, about, Measure.VOLUME, sums.volume_error).transform(matrix)
+    area = Moments(sums.area, about, Measure.MASS, sums.area_error).transform(matrix)  # its scale is in the sums
+    mass = Moments(sums.mass, about, Measure.VOLUME, sums.mass_error).transform(matrix) if with_density else None
     return ThresholdBody(
-        Moments(sums.volume, about, Measure.VOLUME, sums.volume_error),
-        Moments(sums.area, about, Measure.AREA, sums.area_error),
-        Moments(sums.mass, about, Measure.MASS, sums.mass_error) if with_density else None,
+        volume,
+        replace(area, measure=Measure.AREA),
+        None if mass is None else replace(mass, measure=Measure.MASS),
         count,
         bool(clipped),
     )
@@ -173,8 +184,9 @@ def _corner_counts(inside: NDArray[np.bool_]) -> NDArray[np.int8]:
 class _Sums:
     """The moments so far, about the middle of the grid, and bounds of their errors."""
 
-    def __init__(self, order: int, with_density: bool, preview: bool) -> None:
-        self.order, self.with_density, self.preview = order, with_density, preview
+    def __init__(self, order: int, with_density: bool, preview: bool, metric: NDArray) -> None:
+        self.order, self.with_density, self.preview, self.metric = order, with_density, preview, metric
+        self.face = np.sqrt(np.trace(metric) / 3.0)  # the area of a cell's face, about
         self.powers = monomials(order)
         self.volume, self.area, self.mass, self.volume_size, self.area_size, self.mass_size = np.zeros(
             (6, len(self.powers))
@@ -258,8 +270,8 @@ class _Sums:
             for rules in RULES:
                 if not len(left.size):
                     break
-                columns, estimates = compare_rules(left, turn, rules[:1] if self.preview else rules)
-                good = (estimates[0] <= allowed) & (estimates[1] <= AREA_TOLERANCE)
+                columns, estimates = compare_rules(left, turn, rules[:1] if self.preview else rules, self.metric)
+                good = (estimates[0] <= allowed) & (estimates[1] <= AREA_TOLERANCE * self.face)
                 self._add_columns(columns, good, left, turn, threshold)
                 self._add_estimate(left[good], threshold, *estimates[:, good])
                 self._add_sizes(left[good], threshold, amounts_of(columns, left)[1, good])
@@ -344,7 +356,7 @@ class _Sums:
                 self.mass[number] += (
                     threshold * cells.size**3 / 2.0 * tables[0][p] * tables[1][q] * tables[2][r]
                 ).sum()
-        self._add_estimate(cells, threshold, cells.size**3, 6.0 * cells.size**2)
+        self._add_estimate(cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2)
 
     def _add_estimate(self, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray) -> None:
         """Note by how much volume and area of each cell may be off."""

@@ -89,8 +89,11 @@ class Columns:
     growth: NDArray[np.float64]
 
 
-def columns_of(corners: NDArray, points: int) -> Columns:
-    """The columns along z of Gauss's rule between all places where the surface enters or leaves a cell."""
+def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
+    """The columns along z of Gauss's rule between all places where the surface enters or leaves a cell.
+
+    metric: (3, 3) what the area of a piece of surface is measured by: √(n·metric·n) for its normal n.
+    """
     nodes, weights = gauss_legendre(points)
     near, step = corners[:, 0], corners[:, 1] - corners[:, 0]  # by y and z: at x = 0, and along x
     cell, start, length = _smooth_intervals(near.reshape(-1, 4), corners[:, 1].reshape(-1, 4))
@@ -111,7 +114,7 @@ def columns_of(corners: NDArray, points: int) -> Columns:
     growth = ceiling - floor
     with np.errstate(divide="ignore", invalid="ignore"):
         level = -floor / growth
-    level = np.where(growth == 0.0, np.where(floor >= 0.0, -1.0, 2.0), level)
+    level = np.where(growth == 0.0, np.where(floor >= 0.0, 2.0, -1.0), level)
     crossed = (level >= 0.0) & (level <= 1.0)
     level = np.clip(level, 0.0, 1.0)
     rises = growth > 0.0
@@ -119,9 +122,15 @@ def columns_of(corners: NDArray, points: int) -> Columns:
     slope_x = floor_x + level * (ceiling_x - floor_x)
     slope_y = along_y[:, 0] + level * (along_y[:, 1] - along_y[:, 0])
     with np.errstate(divide="ignore", invalid="ignore"):
-        slope = np.where(crossed, np.sqrt(slope_x**2 + slope_y**2 + growth**2) / np.abs(growth), 0.0)
+        slope = np.where(crossed, np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(growth), 0.0)
     low, high = np.where(rises, level, 0.0), np.where(rises, 1.0, level)
     return Columns(cell, x, y, weight, low, high, level, slope, floor, growth)
+
+
+def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> NDArray[np.float64]:
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = metric
+    square = xx * x * x + yy * y * y + zz * z * z
+    return square if not (xy or xz or yz) else square + 2.0 * (xy * x * y + xz * x * z + yz * y * z)
 
 
 def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[NDArray[np.intp], NDArray, NDArray]:
@@ -144,10 +153,13 @@ def amounts_of(columns: Columns, cells: Cells) -> NDArray[np.float64]:
     return np.stack([volumes * cells.size**3, areas * cells.size**2])
 
 
-def compare_rules(cells: Cells, turn: tuple, rules: Sequence[int]) -> tuple[Columns, NDArray[np.float64]]:
+def compare_rules(
+    cells: Cells, turn: tuple, rules: Sequence[int], metric: NDArray
+) -> tuple[Columns, NDArray[np.float64]]:
     """The columns by the last rule, and (2, n) how far volume and area in each cell are from those by the first."""
+    metric = metric[np.ix_(turn, turn)]
     turned = cells.corners.transpose(0, *(1 + np.array(turn)))
-    columns = [columns_of(turned, points) for points in rules]
+    columns = [columns_of(turned, points, metric) for points in rules]
     amounts = [amounts_of(each, cells) for each in columns]
     return columns[-1], np.abs(amounts[-1] - amounts[0])
 

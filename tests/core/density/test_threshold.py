@@ -190,6 +190,25 @@ def test_turned_and_mirrored_samples_give_turned_and_mirrored_bodies():
         assert close(other.center, (6.0 - z, x, y), rel=1e-8)
 
 
+def test_a_sheared_grid_gives_the_area_and_the_moments_of_the_sheared_body():
+    """A plane's piece in the image of the grid, whose corners are known; a volume and a center under the map."""
+    matrix = np.array(
+        [[0.02, 0.003, 0.0, 5.0], [0.0, -0.05, 0.01, 6.0], [0.004, 0.0, 0.003, -7.0], [0.0, 0.0, 0.0, 1.0]]
+    )
+    x, y, z = np.meshgrid(*[np.arange(8.0)] * 3, indexing="ij")
+    samples = -(x + 2 * y + 3 * z)
+    plain, mapped = threshold_body(samples, -5.3), threshold_body(samples, -5.3, matrix=matrix, with_density=True)
+    corners = (matrix @ np.array([[5.3, 0, 0, 1], [0, 2.65, 0, 1], [0, 0, 5.3 / 3.0, 1]]).T).T[:, :3]
+    area = np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0])) / 2.0
+    assert close(mapped.area.total, area, rel=1e-10)
+    assert close(mapped.area.center, corners.mean(axis=0), rel=1e-10)
+    assert close(mapped.volume.total, plain.volume.total * abs(np.linalg.det(matrix[:3, :3])), rel=1e-12)
+    assert close(mapped.volume.center, matrix[:3, :3] @ plain.volume.center + matrix[:3, 3], rel=1e-13)
+    assert mapped.mass.total < 0.0  # these densities are negative
+    with pytest.raises(MeasureError):
+        threshold_body(samples, -5.3, matrix=np.diag([1.0, 1.0, 0.0, 1.0]))
+
+
 def test_beyond_the_grid_is_nothing_or_the_background():
     samples = np.full((2, 2, 2), 3.0)
     alone = threshold_body(samples, 1.0)
