@@ -41,7 +41,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
     bl_options = {"REGISTER", "UNDO"}
     PROGRESS = finding("progress_balance")
     CANCELED = finding("canceled_balance")
-    _assembly: bpy.types.Collection | None = None  # where its mass is given
+    _assembly = None  # the collection, where its mass is given
     _is_interactive = False  # whether it was called from the window, and not from a script
 
     collection: StringProperty(
