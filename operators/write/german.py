@@ -269,5 +269,15 @@ MESSAGES = {
     "measured_one": ("{object} gemessen",),
     "measured_one_with_warnings": ("{object} gemessen, mit Warnungen",),
     "measured_several": ("{count} von {total} Objekten gemessen",),
+    "panel_live_first_order": (
+        "Live: Masse, Volumen und Schwerpunkt dieses Bildes; das Trägheitsmoment folgt, wenn es anhält "
+        "({milliseconds:.0f} ms)",
+    ),
+    "panel_live_behind": (
+        "Live hängt nach: Messen dauert {milliseconds:.0f} ms und wartet, bis die Bearbeitung endet",
+    ),
+    "panel_posed": ("Summe von {count} Mesh der Armatur", "Summe von {count} Meshes der Armatur"),
+    "panel_posed_missing": ("Nicht gemessen: {objects}",),
+    "panel_posed_stale": ("Veraltet: {objects}",),
     "panel_live": ("Live ({milliseconds:.0f} ms). Zum Speichern Messen drücken",),
 }

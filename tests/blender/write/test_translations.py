@@ -87,7 +87,7 @@ def test_the_panel_speaks_german_and_what_is_stored_english():
     assert "Warnungen (1) Löcher geschlossen: 1 (1 eben" in shown and "Holes" not in shown
     assert obj["body_method"] == "capped" and obj["body_warnings"].startswith("Holes capped: 1")
     assert json.loads(obj["body_findings"])[0]["code"] == "holes_capped"
-    obj.location.x = 3.0
+    obj.scale.x = 3.0
     bpy.context.view_layer.update()
     assert "Veraltet: Transformation geändert" in " ".join(labels(drawn()))
 
