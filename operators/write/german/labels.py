@@ -260,4 +260,13 @@ TEXTS = {
     "Set Units to Millimeters": "Einheiten auf Millimeter setzen",
     "Measure Again": "Neu messen",
     "Cursor to Center of Assembly": "Cursor auf Mittelpunkt der Baugruppe",
+    "Rotate to Principal Axes": "Auf Hauptachsen drehen",
+    "Align the 3D cursor with the principal axes": "Den 3D-Cursor entlang der Hauptträgheitsachsen ausrichten",
+    "Cursor to Center of Mass": "Cursor auf Massenmittelpunkt",
+    "Dismiss": "Ausblenden",
+    "Set Material Density": "Materialdichte setzen",
+    "Export glTF with Rigid Bodies": "glTF mit Starrkörpern exportieren",
+    "Selected Objects": "Ausgewählte Objekte",
+    "Links": "Glieder",
+    "What is one rigid body": "Was ein Starrkörper ist",
 }
