@@ -735,6 +735,23 @@ MESSAGES: dict[str, Message] = {
     "density_grid_too_fine": _error(
         "The grid “{grid}” of “{object}” has too many voxels around the object, {samples:size}. Use a coarser grid."
     ),
+    "threshold_measured": _note(
+        "The body where the grid “{grid}” is at least {threshold}, by its interpolant. Its surface passes through "
+        "{cells} cells."
+    ),
+    "threshold_clipped": _warning(
+        "The body reaches the edge of the grid “{grid}” and is cut off there. Raise Threshold, or enlarge the grid."
+    ),
+    "threshold_not_reached": _error(
+        "No value of the grid “{grid}” reaches the threshold {threshold}; the largest is {largest}. Lower Threshold."
+    ),
+    "threshold_needs_factor": _error(
+        "Within a threshold, values become densities by a factor alone. Set Values to Factor, or Filled With to "
+        "Material."
+    ),
+    "threshold_too_large": _error(
+        "The grid “{grid}” spans too many voxels, {samples}, for a threshold. Resample it, or crop it."
+    ),
     "grid_as_shell": _error("A grid of voxels cannot be a shell. Set Kind to Solid."),
     "open_surface_of_grid": _error("The surface is open, so the inside of the grid is undefined. Close the mesh."),
     "object_without_grid": _error("The Volume object shows no grid. Choose another one."),
