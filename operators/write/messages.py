@@ -1320,6 +1320,7 @@ MESSAGES: dict[str, Message] = {
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
     # ------------------------------------------------------------------ Rigid bodies
+    "joint_not_added": _error("Blender did not make the joint. Check that the scene has a rigid body world."),
     "rigid_bodies_made": _note(
         "{count} rigid body of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
         "{count} rigid bodies of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
